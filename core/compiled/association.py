@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import cython
 import numpy as np
+from cython import Py_ssize_t, double
 from cython.cimports.libc.math import isfinite, log
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import require_array
+from carpus.core.compiled.palm import as_array
 
 Array = NDArray[np.float64]
 
@@ -46,14 +47,14 @@ def compute_log_odds(
     tuple of numpy.ndarray
         The odds (M, D), and whether the blob's depth is believed (M, D).
     """
-    markers: cython.Py_ssize_t = len(predicted)
-    blobs: cython.Py_ssize_t = len(measured)
-    at: cython.const[cython.double][:, ::1] = require_array(predicted, "what is predicted", (markers, 3))
-    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "its covariance", (markers, 3, 3))
-    blob: cython.const[cython.double][:, ::1] = require_array(measured, "what is measured", (blobs, 3))
-    noise: cython.const[cython.double][:, ::1] = require_array(noise_variance, "its variance", (blobs, 3))
+    markers: Py_ssize_t = len(predicted)
+    blobs: Py_ssize_t = len(measured)
+    at: cython.const[double][:, ::1] = as_array(predicted, "what is predicted", (markers, 3))
+    wide: cython.const[double][:, :, ::1] = as_array(covariance, "its covariance", (markers, 3, 3))
+    blob: cython.const[double][:, ::1] = as_array(measured, "what is measured", (blobs, 3))
+    noise: cython.const[double][:, ::1] = as_array(noise_variance, "its variance", (blobs, 3))
     out, believed = np.empty((markers, blobs)), np.empty((markers, blobs), dtype=np.uint8)
-    value: cython.double[:, ::1] = out
+    value: double[:, ::1] = out
     with_depth: cython.uchar[:, ::1] = believed
     fill_log_odds(at, wide, blob, noise, densities[0], densities[1], densities[2], gate2, impossible, value, with_depth)
     return out, believed.view(np.bool_)
@@ -63,21 +64,21 @@ def compute_log_odds(
 @cython.nogil
 @cython.exceptval(check=False)
 def fill_log_odds(
-    at: cython.const[cython.double][:, ::1],
-    wide: cython.const[cython.double][:, :, ::1],
-    blob: cython.const[cython.double][:, ::1],
-    noise: cython.const[cython.double][:, ::1],
-    prior: cython.double,
-    by_depth: cython.double,
-    by_outlier: cython.double,
-    gate2: cython.double,
-    impossible: cython.double,
-    value: cython.double[:, ::1],
+    at: cython.const[double][:, ::1],
+    wide: cython.const[double][:, :, ::1],
+    blob: cython.const[double][:, ::1],
+    noise: cython.const[double][:, ::1],
+    prior: double,
+    by_depth: double,
+    by_outlier: double,
+    gate2: double,
+    impossible: double,
+    value: double[:, ::1],
     with_depth: cython.uchar[:, ::1],
 ) -> cython.void:
     """Fill in what :func:`compute_log_odds` returns."""
-    j: cython.Py_ssize_t
-    i: cython.Py_ssize_t
+    j: Py_ssize_t
+    i: Py_ssize_t
     for j in range(at.shape[0]):
         for i in range(blob.shape[0]):
             # S = L D L': innovations u, v, z and their variances, each given those before it.
@@ -114,16 +115,16 @@ def find_likeliest(odds: Array) -> NDArray[np.int64] | None:
     numpy.ndarray or None
         Blob (M,) of every marker, -1 where no odds are above zero; None where two take the same.
     """
-    markers: cython.Py_ssize_t = odds.shape[0]
-    blobs: cython.Py_ssize_t = odds.shape[1]
-    value: cython.const[cython.double][:, ::1] = require_array(odds, "odds", (markers, blobs))
+    markers: Py_ssize_t = odds.shape[0]
+    blobs: Py_ssize_t = odds.shape[1]
+    value: cython.const[double][:, ::1] = as_array(odds, "odds", (markers, blobs))
     out = np.full(markers, -1, dtype=np.int64)
     taken: cython.longlong[::1] = out
     is_used: cython.uchar[::1] = np.zeros(blobs, dtype=np.uint8)
-    j: cython.Py_ssize_t
-    i: cython.Py_ssize_t
+    j: Py_ssize_t
+    i: Py_ssize_t
     for j in range(markers):
-        best: cython.double = 0.0
+        best: double = 0.0
         for i in range(blobs):
             if value[j, i] > best:
                 best = value[j, i]

@@ -11,6 +11,7 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython import Py_ssize_t, double
 from cython.cimports.libc.math import INFINITY, M_PI, NAN, atan2, cos, fabs, hypot, rint, sin, sqrt
 from numpy.typing import NDArray
 
@@ -53,7 +54,7 @@ FREE = cython.declare(cython.int, 2)  # of no blob
 
 
 def mask_paper(
-    hsv: cython.const[cython.uchar][:, :, ::1], is_paper: cython.const[cython.uchar][::1], darkest: cython.double
+    hsv: cython.const[cython.uchar][:, :, ::1], is_paper: cython.const[cython.uchar][::1], darkest: double
 ) -> NDArray[np.uint8]:
     """Mask (H, W) the pixels of ``hsv`` (H, W, 3) that look like paper and are lit.
 
@@ -72,8 +73,8 @@ def mask_paper(
 def find_blobs(
     mask: cython.const[cython.uchar][:, :],
     radius_at: Callable[[NDArray[np.float64]], NDArray[np.float64]],
-    min_share: cython.double,
-    max_share: cython.double,
+    min_share: double,
+    max_share: double,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Find the blobs of a mask that are about as large as a disc, touching discs taken apart.
 
@@ -120,15 +121,15 @@ def find_blobs(
         for u in range(left, right):
             label[v, u] = k + 1
     facts = np.empty((count * MAX_PARTS, 4))
-    fact: cython.double[:, ::1] = facts  # u, v, area, radius
+    fact: double[:, ::1] = facts  # u, v, area, radius
     for k in range(count):
         fact[k, 2] = total[k, 0]
         fact[k, 0], fact[k, 1] = total[k, 1] / fact[k, 2], total[k, 2] / fact[k, 2]
     facts[:count, 3] = radius_at(facts[:count, :2])
 
     sums: cython.longlong[:, ::1] = np.empty((MAX_PARTS, 6), dtype=np.int64)
-    long_side: cython.double = LONG_SIDE_RADII
-    blurred: cython.double = BLURRED_EDGE_PX
+    long_side: double = LONG_SIDE_RADII
+    blurred: double = BLURRED_EDGE_PX
     for k in range(count):
         left_px, top_px, right_px, bottom_px = total[k, 3], total[k, 4], total[k, 5], total[k, 6]
         if max(right_px - left_px, bottom_px - top_px) > long_side * (fact[k, 3] + blurred):
@@ -199,7 +200,7 @@ def split_blob(
     labels: cython.int[:, :],
     label: cython.int,
     following: cython.int,
-    radius_px: cython.double,
+    radius_px: double,
     pixels: cython.int[:, ::1],
     sums: cython.longlong[:, ::1],
 ) -> cython.int:
@@ -218,17 +219,17 @@ def split_blob(
                 u[count], v[count] = i, j
                 count += 1
     sum_parts(u, v, part, sums[:1])
-    n: cython.double = sums[0, 0]
+    n: double = sums[0, 0]
     mean_u, mean_v = sums[0, 1] / n, sums[0, 2] / n
     xx, yy = sums[0, 3] / n - mean_u * mean_u, sums[0, 4] / n - mean_v * mean_v
     xy = sums[0, 5] / n - mean_u * mean_v
-    long_axis: cython.double = LONG_AXIS_RADII * (radius_px + BLURRED_EDGE_PX)
+    long_axis: double = LONG_AXIS_RADII * (radius_px + BLURRED_EDGE_PX)
     if sqrt(0.5 * (xx + yy) + hypot(0.5 * (xx - yy), xy)) <= long_axis:
         return 0
     tilt = 0.5 * atan2(2.0 * xy, xx - yy)
     across, down = cos(tilt), sin(tilt)
-    low: cython.double = INFINITY
-    high: cython.double = -INFINITY
+    low: double = INFINITY
+    high: double = -INFINITY
     for p in range(count):
         along = u[p] * across + v[p] * down
         low, high = min(low, along), max(high, along)
@@ -239,14 +240,14 @@ def split_blob(
     if not length <= most + 1:
         return 0
     longest: cython.int = max(2, cython.cast(cython.int, length))
-    least: cython.double = INFINITY
+    least: double = INFINITY
     found: cython.int = 0
     for parts in range(max(2, longest - 1), min(longest, most) + 1):
         if parts == 2:  # the line between two discs crosses the main axis in the middle of the blob
             for p in range(count):
                 part[p] = u[p] * across + v[p] * down > 0.5 * (high + low)
         else:
-            middle: cython.double[:, ::1] = np.empty((parts, 5))
+            middle: double[:, ::1] = np.empty((parts, 5))
             gap = (high - low - 2.0 * radius_px) / (parts - 1)
             for k in range(parts):
                 along = low + radius_px - (mean_u * across + mean_v * down) + gap * k
@@ -267,9 +268,7 @@ def split_blob(
 
 
 @cython.cfunc
-def assign_pixels(
-    u: cython.int[::1], v: cython.int[::1], part: cython.int[::1], middle: cython.double[:, ::1]
-) -> cython.bint:
+def assign_pixels(u: cython.int[::1], v: cython.int[::1], part: cython.int[::1], middle: double[:, ::1]) -> cython.bint:
     """Give each pixel to the nearest of N middles, and move these to their pixels, until no pixel changes.
 
     ``middle`` (N, 5) u and v, and room for sums of 1, u and v. False where a middle would have no pixel.
@@ -280,7 +279,7 @@ def assign_pixels(
         middle[:, 2:] = 0.0
         for p in range(part.shape[0]):
             nearest: cython.int = 0
-            least: cython.double = INFINITY
+            least: double = INFINITY
             for k in range(middle.shape[0]):
                 x, y = u[p] - middle[k, 0], v[p] - middle[k, 1]
                 apart = sqrt(x * x + y * y)
@@ -317,13 +316,13 @@ def sum_parts(u: cython.int[::1], v: cython.int[::1], part: cython.int[::1], out
 
 @cython.cfunc
 @cython.exceptval(check=False)
-def mean_elongation(sums: cython.longlong[:, :]) -> cython.double:
+def mean_elongation(sums: cython.longlong[:, :]) -> double:
     """Mean of (a - b) / (a + b) over the parts, with second moments a and b along their axes: 0 for discs."""
-    total: cython.double = 0.0
+    total: double = 0.0
     for k in range(sums.shape[0]):
-        n: cython.double = sums[k, 0]
-        u: cython.double = sums[k, 1]
-        v: cython.double = sums[k, 2]
+        n: double = sums[k, 0]
+        u: double = sums[k, 1]
+        v: double = sums[k, 2]
         uu, vv, uv = sums[k, 3] - u * u / n, sums[k, 4] - v * v / n, sums[k, 5] - u * v / n
         total += hypot(uu - vv, 2.0 * uv) / max(uu + vv, 1e-12)
     return total / sums.shape[0]
@@ -355,7 +354,7 @@ class BlobWindows:
     def __init__(self, blobs: Any, stencil: Any) -> None:
         labels: cython.const[cython.int][:, :] = blobs.labels
         own: cython.const[cython.int][:] = blobs.label
-        centre_px: cython.const[cython.double][:, :] = blobs.centre_px
+        centre_px: cython.const[double][:, :] = blobs.centre_px
         self.stencil, self.offset = stencil, stencil.offset
         self.core, self.rim_from, self.rim_to = stencil.core.stop, stencil.rim.start, stencil.rim.stop
         self.height, self.width = labels.shape[0], labels.shape[1]
@@ -393,18 +392,18 @@ class BlobWindows:
         """
         cell: cython.const[cython.uchar][::1] = table.cell
         is_skin: cython.const[cython.uchar][::1] = table.is_skin
-        reference: cython.const[cython.double][::1] = table.root_of_share
+        reference: cython.const[double][::1] = table.root_of_share
         self.check_picture(hsv.shape[0], hsv.shape[1])
         if hsv.shape[2] != 3 or cell.shape[0] != 65536 or is_skin.shape[0] != 65536 or reference.shape[0] != 256:
             raise ValueError("a picture of three channels is wanted, and tables of 65536 colours in 256 cells")
         found = np.zeros((2, self.count))
-        out: cython.double[:, ::1] = found
-        counts: cython.double[::1] = np.empty(256)
+        out: double[:, ::1] = found
+        counts: double[::1] = np.empty(256)
         for b in range(self.count):
             counts[:] = 0.0
             area: cython.int = 0
-            skin: cython.double = 0.0
-            rim: cython.double = 0.0
+            skin: double = 0.0
+            rim: double = 0.0
             for p in range(self.offset.shape[0]):
                 if self.whose[b, p] == OWN or (self.whose[b, p] == FREE and self.rim_from <= p < self.rim_to):
                     v, u = self.middle[b, 0] + self.offset[p, 0], self.middle[b, 1] + self.offset[p, 1]
@@ -433,7 +432,7 @@ class BlobWindows:
         """
         reach: cython.const[cython.uchar][::1] = self.stencil.reach
         direction: cython.const[cython.uchar][::1] = self.stencil.direction
-        wedge: cython.const[cython.double][:, ::1] = self.stencil.wedge
+        wedge: cython.const[double][:, ::1] = self.stencil.wedge
         pixels = self.offset.shape[0]
         self.check_picture(color.shape[0], color.shape[1])
         if color.shape[2] != 3:
@@ -448,14 +447,14 @@ class BlobWindows:
         core, rim_from, rim_to = self.core, self.rim_from, self.rim_to
         CORE, RIM, BLOB = ways, ways + 1, ways + 2
         # Red, green, blue and 1, summed over the rim in each direction, the core, all of the rim and all of the blob.
-        total: cython.double[:, ::1] = np.empty((4, ways + 3))
-        unmix: cython.double[:, ::1] = np.empty((ways, 4))
-        low: cython.double = PAPER_LOW
-        high: cython.double = PAPER_HIGH
-        min_rim: cython.double = MIN_RIM
-        min_core: cython.double = MIN_CORE
+        total: double[:, ::1] = np.empty((4, ways + 3))
+        unmix: double[:, ::1] = np.empty((ways, 4))
+        low: double = PAPER_LOW
+        high: double = PAPER_HIGH
+        min_rim: double = MIN_RIM
+        min_core: double = MIN_CORE
         found = np.empty((self.count, 3))
-        out: cython.double[:, ::1] = found
+        out: double[:, ::1] = found
         for b in range(self.count):
             v0, u0 = self.middle[b, 0], self.middle[b, 1]
             whose: cython.uchar[::1] = self.whose[b]
@@ -463,9 +462,9 @@ class BlobWindows:
             for p in range(pixels):
                 if whose[p] == OWN or (whose[p] == FREE and rim_from <= p < rim_to):
                     v, u = v0 + offset[p, 0], u0 + offset[p, 1]
-                    red: cython.double = color[v, u, 0]
-                    green: cython.double = color[v, u, 1]
-                    blue: cython.double = color[v, u, 2]
+                    red: double = color[v, u, 0]
+                    green: double = color[v, u, 1]
+                    blue: double = color[v, u, 2]
                     if whose[p] == OWN:
                         add_color(total, BLOB, red, green, blue, 1.0)
                         if p < core:
@@ -483,8 +482,8 @@ class BlobWindows:
             # The share of paper in a colour c is 0 for the ground's g and 1 for the paper's p, then stretched from
             # low..high to 0..1: (p - g) (c - g) / |p - g|^2, for each direction as four factors of c and 1.
             for w in range(ways):
-                square: cython.double = 0.0
-                on_ground: cython.double = 0.0
+                square: double = 0.0
+                on_ground: double = 0.0
                 for k in range(3):
                     unmix[w, k] = total[k, CORE] - total[k, w]
                     square += unmix[w, k] * unmix[w, k]
@@ -492,13 +491,13 @@ class BlobWindows:
                     unmix[w, k] /= (high - low) * max(square, 1.0)
                     on_ground += unmix[w, k] * total[k, w]
                 unmix[w, 3] = -low / (high - low) - on_ground
-            sum_1: cython.double = 0.0
-            sum_u: cython.double = 0.0
-            sum_v: cython.double = 0.0
+            sum_1: double = 0.0
+            sum_u: double = 0.0
+            sum_v: double = 0.0
             for p in range(pixels):
                 if whose[p] == OWN or (whose[p] == FREE and reach[p]):
                     v, u, w = v0 + offset[p, 0], u0 + offset[p, 1], direction[p]
-                    share: cython.double = color[v, u, 0] * unmix[w, 0] + color[v, u, 1] * unmix[w, 1]
+                    share: double = color[v, u, 0] * unmix[w, 0] + color[v, u, 1] * unmix[w, 1]
                     share = min(max(share + color[v, u, 2] * unmix[w, 2] + unmix[w, 3], 0.0), 1.0)
                     sum_1 += share
                     sum_u += share * offset[p, 1]
@@ -508,7 +507,7 @@ class BlobWindows:
         return found[:, :2], found[:, 2]
 
     def read_depths(
-        self, depth_raw: cython.const[cython.ushort][:, :], unit_m: cython.double, sensor: Any
+        self, depth_raw: cython.const[cython.ushort][:, :], unit_m: double, sensor: Any
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Read depths (B,) and their standard deviations (B,) in metres from the cores, NaN where not trusted.
 
@@ -518,20 +517,20 @@ class BlobWindows:
         self.check_picture(depth_raw.shape[0], depth_raw.shape[1])
         if not self.core <= near <= self.offset.shape[0]:
             raise ValueError("a stencil's parts are not within its window")
-        valid_share: cython.double = DEPTH_VALID_SHARE
-        min_readings: cython.double = MIN_READINGS
-        max_iqr: cython.double = DEPTH_IQR_M
-        edge_step: cython.double = EDGE_STEP_M
-        edge_sd: cython.double = EDGE_SD_M
-        slope_share: cython.double = SLOPE_SHARE
-        fixed_m: cython.double = sensor.reading.fixed_m
-        square_per_m: cython.double = sensor.reading.square_per_m
-        patch_px: cython.double = sensor.patch_px
+        valid_share: double = DEPTH_VALID_SHARE
+        min_readings: double = MIN_READINGS
+        max_iqr: double = DEPTH_IQR_M
+        edge_step: double = EDGE_STEP_M
+        edge_sd: double = EDGE_SD_M
+        slope_share: double = SLOPE_SHARE
+        fixed_m: double = sensor.reading.fixed_m
+        square_per_m: double = sensor.reading.square_per_m
+        patch_px: double = sensor.patch_px
         averages: cython.bint = sensor.averages
-        metres: cython.double[::1] = np.empty(near)
-        ordered: cython.double[::1] = np.empty(self.core)
+        metres: double[::1] = np.empty(near)
+        ordered: double[::1] = np.empty(self.core)
         found = np.full((2, self.count), NAN)
-        out: cython.double[:, ::1] = found
+        out: double[:, ::1] = found
         for b in range(self.count):
             own: cython.int = 0
             valid: cython.int = 0
@@ -552,7 +551,7 @@ class BlobWindows:
                 continue
             close: cython.int = 0
             other: cython.int = 0
-            z: cython.double = 0.0
+            z: double = 0.0
             for p in range(self.core):
                 if self.whose[b, p] == OWN and metres[p] > 0.0 and fabs(metres[p] - median) <= max_iqr:
                     z += metres[p]
@@ -570,7 +569,7 @@ class BlobWindows:
         return found[0], found[1]
 
     @cython.cfunc
-    def check_picture(self, height: cython.Py_ssize_t, width: cython.Py_ssize_t) -> cython.bint:
+    def check_picture(self, height: Py_ssize_t, width: Py_ssize_t) -> cython.bint:
         """Refuse a picture of another size than the labels."""
         if height != self.height or width != self.width:
             raise ValueError("a picture is not of the size of its labels")
@@ -581,12 +580,12 @@ class BlobWindows:
 @cython.inline
 @cython.exceptval(check=False)
 def add_color(
-    total: cython.double[:, ::1],
-    column: cython.Py_ssize_t,
-    red: cython.double,
-    green: cython.double,
-    blue: cython.double,
-    weight: cython.double,
+    total: double[:, ::1],
+    column: Py_ssize_t,
+    red: double,
+    green: double,
+    blue: double,
+    weight: double,
 ) -> cython.void:
     """Add a colour and 1, ``weight`` times, to a column of ``total`` (4, N)."""
     total[0, column] += weight * red
@@ -598,7 +597,7 @@ def add_color(
 @cython.cfunc
 @cython.inline
 @cython.exceptval(check=False)
-def insert(ordered: cython.double[::1], count: cython.int, number: cython.double) -> cython.void:
+def insert(ordered: double[::1], count: cython.int, number: double) -> cython.void:
     """Put a number at its place among the first ``count``, which are in order."""
     while count > 0 and ordered[count - 1] > number:
         ordered[count] = ordered[count - 1]

@@ -10,13 +10,14 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.association import fill_log_odds
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
 from cython.cimports.libc.math import acos, cos, exp, expm1, isfinite, log, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.digits import BENT, OTHER, POSE
-from carpus.core.compiled.palm import require_array
+from carpus.core.compiled.palm import as_array
 
 NARROW2 = 1e-10
 """Variance that keeps the covariance of slots that do not move positive definite where joints are read."""
@@ -36,7 +37,7 @@ MIN_FACING = 0.15
 """Tilted discs show no less of themselves."""
 
 Array = NDArray[np.float64]
-_PI = cython.declare(cython.double, np.pi)
+_PI = cython.declare(double, np.pi)
 
 
 def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array, Array, Array, Array, Array]:
@@ -58,52 +59,50 @@ def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array
         Images (5, 9), their slope (5, 9, 21), the covariance (5, 9, 9) of what is not linear, and of all; the discs
         (5, 3, 3), and the derivative (5, 3, 3, 3) of the images by that.
     """
-    disc: cython.const[cython.double][:, :, :, ::1] = require_array(points.disc_m, "discs", (5, 13, 3, 3))
-    unroot: cython.const[cython.double][:, :, ::1] = require_array(points.unroot, "inverse roots", (5, 6, 6))
-    along: cython.const[cython.double][:, :, ::1] = require_array(points.along, "what goes along", (5, 6, 10))
-    by_constants: cython.const[cython.double][:, :, :, ::1] = require_array(
-        points.by_constants, "slopes", (5, 3, 3, 10)
-    )
-    wide: cython.const[cython.double][:, :, ::1] = require_array(points.covariance, "covariances", (5, 21, 21))
-    rotation: cython.const[cython.double][:, ::1] = require_array(view.rotation, "the view's rotation", (3, 3))
-    translation: cython.const[cython.double][::1] = require_array(view.translation_m, "the view's place", (3,))
-    fx: cython.double = view.camera.fx_px
-    fy: cython.double = view.camera.fy_px
-    cx: cython.double = view.camera.cx_px
-    cy: cython.double = view.camera.cy_px
-    mean_middle: cython.double = weights.mean[0]
-    mean_other: cython.double = weights.mean[1]
-    spread_middle: cython.double = weights.covariance[0]
-    spread_other: cython.double = weights.covariance[1]
-    per_step: cython.double = 0.5 / weights.scale
+    disc: cython.const[double][:, :, :, ::1] = as_array(points.disc_m, "discs", (5, 13, 3, 3))
+    unroot: cython.const[double][:, :, ::1] = as_array(points.unroot, "inverse roots", (5, 6, 6))
+    along: cython.const[double][:, :, ::1] = as_array(points.along, "what goes along", (5, 6, 10))
+    by_constants: cython.const[double][:, :, :, ::1] = as_array(points.by_constants, "slopes", (5, 3, 3, 10))
+    wide: cython.const[double][:, :, ::1] = as_array(points.covariance, "covariances", (5, 21, 21))
+    rotation: cython.const[double][:, ::1] = as_array(view.rotation, "the view's rotation", (3, 3))
+    translation: cython.const[double][::1] = as_array(view.translation_m, "the view's place", (3,))
+    fx: double = view.camera.fx_px
+    fy: double = view.camera.fy_px
+    cx: double = view.camera.cx_px
+    cy: double = view.camera.cy_px
+    mean_middle: double = weights.mean[0]
+    mean_other: double = weights.mean[1]
+    spread_middle: double = weights.covariance[0]
+    spread_other: double = weights.covariance[1]
+    per_step: double = 0.5 / weights.scale
     out = (
         np.zeros((5, 9)), np.zeros((5, 9, 21)), np.zeros((5, 9, 9)), np.empty((5, 9, 9)), np.empty((5, 3, 3)),
         np.zeros((5, 3, 3, 3)),
     )  # fmt: skip
-    value: cython.double[:, ::1] = out[0]
-    slope: cython.double[:, :, ::1] = out[1]
-    error: cython.double[:, :, ::1] = out[2]
-    spread: cython.double[:, :, ::1] = out[3]
-    centre: cython.double[:, :, ::1] = out[4]
-    by_place: cython.double[:, :, :, ::1] = out[5]
-    pose: cython.const[cython.Py_ssize_t][::1] = POSE
-    bent: cython.const[cython.Py_ssize_t][::1] = BENT
-    other: cython.const[cython.Py_ssize_t][::1] = OTHER
-    image: cython.double[:, ::1] = np.empty((13, 9))
-    at: cython.double[::1] = np.empty(3)
-    half: cython.double[:, ::1] = np.empty((9, 6))
-    bend: cython.double[:, ::1] = np.empty((7, 9))
-    by_other: cython.double[:, ::1] = np.empty((9, 10))
-    by_bent: cython.double[:, ::1] = np.empty((9, 6))
-    cross: cython.double[:, ::1] = np.empty((9, 21))
-    turned: cython.double[:, ::1] = np.empty((21, 9))
+    value: double[:, ::1] = out[0]
+    slope: double[:, :, ::1] = out[1]
+    error: double[:, :, ::1] = out[2]
+    spread: double[:, :, ::1] = out[3]
+    centre: double[:, :, ::1] = out[4]
+    by_place: double[:, :, :, ::1] = out[5]
+    pose: cython.const[Py_ssize_t][::1] = POSE
+    bent: cython.const[Py_ssize_t][::1] = BENT
+    other: cython.const[Py_ssize_t][::1] = OTHER
+    image: double[:, ::1] = np.empty((13, 9))
+    at: double[::1] = np.empty(3)
+    half: double[:, ::1] = np.empty((9, 6))
+    bend: double[:, ::1] = np.empty((7, 9))
+    by_other: double[:, ::1] = np.empty((9, 10))
+    by_bent: double[:, ::1] = np.empty((9, 6))
+    cross: double[:, ::1] = np.empty((9, 21))
+    turned: double[:, ::1] = np.empty((21, 9))
     r: cython.int
     d: cython.int
     k: cython.int
-    a: cython.Py_ssize_t
-    b: cython.Py_ssize_t
-    i: cython.Py_ssize_t
-    p: cython.Py_ssize_t
+    a: Py_ssize_t
+    b: Py_ssize_t
+    i: Py_ssize_t
+    p: Py_ssize_t
     for r in range(5):
         for p in range(13):
             for d in range(3):
@@ -164,10 +163,10 @@ def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array
 @cython.nogil
 @cython.exceptval(check=False)
 def _place_in_camera(
-    rotation: cython.const[cython.double][:, ::1],
-    translation: cython.const[cython.double][::1],
-    place: cython.const[cython.double][::1],
-    out: cython.double[::1],
+    rotation: cython.const[double][:, ::1],
+    translation: cython.const[double][::1],
+    place: cython.const[double][::1],
+    out: double[::1],
 ) -> cython.void:
     """Fill in R p + t."""
     k: cython.int
@@ -179,7 +178,7 @@ def _place_in_camera(
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def _dot(row: cython.const[cython.double][::1], at: cython.const[cython.double][::1]) -> cython.double:
+def _dot(row: cython.const[double][::1], at: cython.const[double][::1]) -> double:
     return row[0] * at[0] + row[1] * at[1] + row[2] * at[2]
 
 
@@ -201,20 +200,20 @@ def project_discs(points: Any, view: Any, scale: float) -> tuple[Array, Array, A
     tuple of numpy.ndarray
         Pixels (5, 3, 2), their covariance (5, 3, 2, 2), and depths (5, 3).
     """
-    disc: cython.const[cython.double][:, :, :, ::1] = require_array(points.disc_m, "discs", (5, 13, 3, 3))
-    rotation: cython.const[cython.double][:, ::1] = require_array(view.rotation, "the view's rotation", (3, 3))
-    translation: cython.const[cython.double][::1] = require_array(view.translation_m, "the view's place", (3,))
-    fx: cython.double = view.camera.fx_px
-    fy: cython.double = view.camera.fy_px
-    cx: cython.double = view.camera.cx_px
-    cy: cython.double = view.camera.cy_px
-    per_step: cython.double = 0.5 / scale
+    disc: cython.const[double][:, :, :, ::1] = as_array(points.disc_m, "discs", (5, 13, 3, 3))
+    rotation: cython.const[double][:, ::1] = as_array(view.rotation, "the view's rotation", (3, 3))
+    translation: cython.const[double][::1] = as_array(view.translation_m, "the view's place", (3,))
+    fx: double = view.camera.fx_px
+    fy: double = view.camera.fy_px
+    cx: double = view.camera.cx_px
+    cy: double = view.camera.cy_px
+    per_step: double = 0.5 / scale
     out = np.empty((5, 3, 2)), np.zeros((5, 3, 2, 2)), np.empty((5, 3))
-    pixel: cython.double[:, :, ::1] = out[0]
-    spread: cython.double[:, :, :, ::1] = out[1]
-    depth: cython.double[:, ::1] = out[2]
-    at: cython.double[::1] = np.empty(3)
-    image: cython.double[:, ::1] = np.empty((13, 2))
+    pixel: double[:, :, ::1] = out[0]
+    spread: double[:, :, :, ::1] = out[1]
+    depth: double[:, ::1] = out[2]
+    at: double[::1] = np.empty(3)
+    image: double[:, ::1] = np.empty((13, 2))
     r: cython.int
     d: cython.int
     p: cython.int
@@ -251,18 +250,16 @@ def propagate_palm_error(linearised: Any, seat: Any) -> Array:
     numpy.ndarray
         Covariance (5, 9, 9).
     """
-    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
-    by_place: cython.const[cython.double][:, :, :, ::1] = require_array(
-        linearised.by_place, "slopes by place", (5, 3, 3, 3)
-    )
-    origin: cython.const[cython.double][::1] = require_array(seat.view.translation_m, "the seat's place", (3,))
-    wide: cython.const[cython.double][:, ::1] = require_array(seat.pose_covariance, "the seat's covariance", (6, 6))
+    centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
+    by_place: cython.const[double][:, :, :, ::1] = as_array(linearised.by_place, "slopes by place", (5, 3, 3, 3))
+    origin: cython.const[double][::1] = as_array(seat.view.translation_m, "the seat's place", (3,))
+    wide: cython.const[double][:, ::1] = as_array(seat.pose_covariance, "the seat's covariance", (6, 6))
     out = np.zeros((5, 9, 9))
-    found: cython.double[:, :, ::1] = out
-    by_pose: cython.double[:, ::1] = np.empty((9, 6))
-    turned: cython.double[:, ::1] = np.empty((6, 9))
-    cross: cython.double[:, ::1] = np.empty((9, 6))
-    lever: cython.double[::1] = np.empty(3)
+    found: double[:, :, ::1] = out
+    by_pose: double[:, ::1] = np.empty((9, 6))
+    turned: double[:, ::1] = np.empty((6, 9))
+    cross: double[:, ::1] = np.empty((9, 6))
+    lever: double[::1] = np.empty(3)
     r: cython.int
     d: cython.int
     k: cython.int
@@ -288,7 +285,7 @@ def propagate_palm_error(linearised: Any, seat: Any) -> Array:
 @cython.nogil
 @cython.exceptval(check=False)
 def _fill_turn_slope(
-    by_place: cython.const[cython.double][::1], lever: cython.const[cython.double][::1], out: cython.double[::1]
+    by_place: cython.const[double][::1], lever: cython.const[double][::1], out: double[::1]
 ) -> cython.void:
     """Fill in the derivative by a turn about the camera's axes, of what stands off by minus the ``lever``."""
     out[0] = by_place[1] * lever[2] - by_place[2] * lever[1]
@@ -316,18 +313,18 @@ def compute_tilts(normal: Array, covariance: Array, linearised: Any, view: Any) 
     tuple of numpy.ndarray
         Tilt (5, 3) in rad, and its variance (5, 3).
     """
-    facing: cython.const[cython.double][:, :, ::1] = require_array(normal, "normals", (5, 3, 3))
-    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "covariances", (5, 21, 21))
-    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
-    rotation: cython.const[cython.double][:, ::1] = require_array(view.rotation, "the view's rotation", (3, 3))
+    facing: cython.const[double][:, :, ::1] = as_array(normal, "normals", (5, 3, 3))
+    wide: cython.const[double][:, :, ::1] = as_array(covariance, "covariances", (5, 21, 21))
+    centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
+    rotation: cython.const[double][:, ::1] = as_array(view.rotation, "the view's rotation", (3, 3))
     out = np.empty((5, 3)), np.empty((5, 3))
-    tilt: cython.double[:, ::1] = out[0]
-    variance: cython.double[:, ::1] = out[1]
+    tilt: double[:, ::1] = out[0]
+    variance: double[:, ::1] = out[1]
     r: cython.int
     d: cython.int
     k: cython.int
     for r in range(5):
-        total: cython.double = wide[r, 1, 1] if r else 0.0  # a thumb's CMC joint hardly tilts its discs
+        total: double = wide[r, 1, 1] if r else 0.0  # a thumb's CMC joint hardly tilts its discs
         for d in range(3):
             across = 0.0
             for k in range(3):
@@ -367,21 +364,21 @@ def compute_visibility(
     tuple of numpy.ndarray
         Chance (5, 3) now, and pixels (5, 3) for each square metre of a disc.
     """
-    before: cython.const[cython.double][:, ::1] = require_array(visible, "chances", (5, 3))
-    tilted: cython.const[cython.double][:, ::1] = require_array(tilt, "tilts", (5, 3))
-    unsure: cython.const[cython.double][:, ::1] = require_array(variance, "their variances", (5, 3))
-    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
-    fx: cython.double = view.camera.fx_px
-    stays: cython.double = exp(-dt_s / SHOWN_S)
-    comes: cython.double = -expm1(-dt_s / HIDDEN_S)
-    steepest: cython.double = STEEPEST_RAD
-    soft2: cython.double = STEEPEST_SD_RAD**2
-    low: cython.double = MIN_SEEN
-    high: cython.double = MAX_SEEN
-    least: cython.double = MIN_FACING
+    before: cython.const[double][:, ::1] = as_array(visible, "chances", (5, 3))
+    tilted: cython.const[double][:, ::1] = as_array(tilt, "tilts", (5, 3))
+    unsure: cython.const[double][:, ::1] = as_array(variance, "their variances", (5, 3))
+    centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
+    fx: double = view.camera.fx_px
+    stays: double = exp(-dt_s / SHOWN_S)
+    comes: double = -expm1(-dt_s / HIDDEN_S)
+    steepest: double = STEEPEST_RAD
+    soft2: double = STEEPEST_SD_RAD**2
+    low: double = MIN_SEEN
+    high: double = MAX_SEEN
+    least: double = MIN_FACING
     out = np.empty((5, 3)), np.empty((5, 3))
-    chance: cython.double[:, ::1] = out[0]
-    facing: cython.double[:, ::1] = out[1]
+    chance: double[:, ::1] = out[0]
+    facing: double[:, ::1] = out[1]
     r: cython.int
     d: cython.int
     for r in range(5):
@@ -416,28 +413,24 @@ def compute_disc_odds(
         The odds (15, D), ``impossible`` where a blob is not free or a digit has no discs, and whether the blob's depth
         is believed (15, D).
     """
-    blobs: cython.Py_ssize_t = len(scene.free)
-    expected: cython.const[cython.double][:, ::1] = require_array(scene.linearised.value, "images", (5, 9)).reshape(
-        15, 3
-    )
-    spread: cython.const[cython.double][:, :, ::1] = require_array(scene.spread, "their covariance", (5, 9, 9))
-    visible: cython.const[cython.double][:, ::1] = require_array(scene.visible, "chances", (5, 3))
-    value: cython.const[cython.double][:, ::1] = require_array(scene.blobs.value, "the blobs", (blobs, 3))
-    noise: cython.const[cython.double][:, ::1] = require_array(scene.blobs.variance, "the blobs' variances", (blobs, 3))
-    free: cython.const[cython.uchar][::1] = require_array(scene.free, "free blobs", (blobs,)).view(np.uint8)
-    has_discs: cython.const[cython.uchar][::1] = require_array(scene.has_discs, "digits with discs", (5,)).view(
-        np.uint8
-    )
+    blobs: Py_ssize_t = len(scene.free)
+    expected: cython.const[double][:, ::1] = as_array(scene.linearised.value, "images", (5, 9)).reshape(15, 3)
+    spread: cython.const[double][:, :, ::1] = as_array(scene.spread, "their covariance", (5, 9, 9))
+    visible: cython.const[double][:, ::1] = as_array(scene.visible, "chances", (5, 3))
+    value: cython.const[double][:, ::1] = as_array(scene.blobs.value, "the blobs", (blobs, 3))
+    noise: cython.const[double][:, ::1] = as_array(scene.blobs.variance, "the blobs' variances", (blobs, 3))
+    free: cython.const[cython.uchar][::1] = as_array(scene.free, "free blobs", (blobs,)).view(np.uint8)
+    has_discs: cython.const[cython.uchar][::1] = as_array(scene.has_discs, "digits with discs", (5,)).view(np.uint8)
     out, believed = np.empty((15, blobs)), np.empty((15, blobs), dtype=np.uint8)
-    odds: cython.double[:, ::1] = out
+    odds: double[:, ::1] = out
     with_depth: cython.uchar[:, ::1] = believed
-    own: cython.double[:, :, ::1] = np.empty((15, 3, 3))
-    prior: cython.double = assumed
-    never: cython.double = impossible
+    own: double[:, :, ::1] = np.empty((15, 3, 3))
+    prior: double = assumed
+    never: double = impossible
     d: cython.int
     i: cython.int
     j: cython.int
-    b: cython.Py_ssize_t
+    b: Py_ssize_t
     for d in range(15):
         for i in range(3):
             for j in range(3):
@@ -479,42 +472,38 @@ def compute_inherited(covariance: Array, seat: Any, linearised: Any, normal: Arr
     numpy.linalg.LinAlgError
         When a covariance is not positive definite.
     """
-    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "covariances", (5, 21, 21))
-    facing: cython.const[cython.double][:, :, ::1] = require_array(normal, "normals", (5, 3, 3))
-    slope: cython.const[cython.double][:, :, ::1] = require_array(linearised.slope, "slopes", (5, 9, 21))
-    centre: cython.const[cython.double][:, :, ::1] = require_array(linearised.centre_m, "discs", (5, 3, 3))
-    by_place: cython.const[cython.double][:, :, :, ::1] = require_array(
-        linearised.by_place, "slopes by place", (5, 3, 3, 3)
-    )
-    root: cython.const[cython.double][:, ::1] = require_array(seat.palm.disc_m, "the palm's discs", (6, 3))
-    rotation: cython.const[cython.double][:, ::1] = require_array(seat.view.rotation, "the seat's rotation", (3, 3))
-    translation: cython.const[cython.double][::1] = require_array(seat.view.translation_m, "the seat's place", (3,))
-    turning: cython.const[cython.double][:, ::1] = require_array(
-        seat.turn_covariance, "covariance of the seat's turn", (3, 3)
-    )
-    fx: cython.double = seat.view.camera.fx_px
-    fy: cython.double = seat.view.camera.fy_px
-    across_m: cython.double = ACROSS_M
-    stays_m: cython.double = DEPTH_STAYS_M
-    share: cython.double = INHERITED
-    narrow2: cython.double = NARROW2
+    wide: cython.const[double][:, :, ::1] = as_array(covariance, "covariances", (5, 21, 21))
+    facing: cython.const[double][:, :, ::1] = as_array(normal, "normals", (5, 3, 3))
+    slope: cython.const[double][:, :, ::1] = as_array(linearised.slope, "slopes", (5, 9, 21))
+    centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
+    by_place: cython.const[double][:, :, :, ::1] = as_array(linearised.by_place, "slopes by place", (5, 3, 3, 3))
+    root: cython.const[double][:, ::1] = as_array(seat.palm.disc_m, "the palm's discs", (6, 3))
+    rotation: cython.const[double][:, ::1] = as_array(seat.view.rotation, "the seat's rotation", (3, 3))
+    translation: cython.const[double][::1] = as_array(seat.view.translation_m, "the seat's place", (3,))
+    turning: cython.const[double][:, ::1] = as_array(seat.turn_covariance, "covariance of the seat's turn", (3, 3))
+    fx: double = seat.view.camera.fx_px
+    fy: double = seat.view.camera.fy_px
+    across_m: double = ACROSS_M
+    stays_m: double = DEPTH_STAYS_M
+    share: double = INHERITED
+    narrow2: double = NARROW2
     out = np.zeros((5, 5, 5))
-    found: cython.double[:, :, ::1] = out
-    by_slot: cython.double[:, ::1] = np.empty((9, 5))
-    by_error: cython.double[:, ::1] = np.empty((9, 4))  # a turn about each axis, and a depth
-    told: cython.double[:, ::1] = np.empty((5, 6))
-    half: cython.double[:, ::1] = np.empty((5, 6))
-    matrix: cython.double[:, ::1] = np.empty((5, 5))
-    inverse: cython.double[:, ::1] = np.empty((5, 5))
-    root_m: cython.double[::1] = np.empty(3)
-    lever: cython.double[::1] = np.empty(3)
-    moved: cython.double[::1] = np.empty(3)
+    found: double[:, :, ::1] = out
+    by_slot: double[:, ::1] = np.empty((9, 5))
+    by_error: double[:, ::1] = np.empty((9, 4))  # a turn about each axis, and a depth
+    told: double[:, ::1] = np.empty((5, 6))
+    half: double[:, ::1] = np.empty((5, 6))
+    matrix: double[:, ::1] = np.empty((5, 5))
+    inverse: double[:, ::1] = np.empty((5, 5))
+    root_m: double[::1] = np.empty(3)
+    lever: double[::1] = np.empty(3)
+    moved: double[::1] = np.empty(3)
     r: cython.int
     d: cython.int
     k: cython.int
-    a: cython.Py_ssize_t
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
+    a: Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
     for r in range(5):
         _place_in_camera(rotation, translation, root[r + 1], root_m)
         for d in range(3):
@@ -608,41 +597,39 @@ def measure_assigned_discs(
     tuple of numpy.ndarray
         Images (5, 9), NaN where there is none, and their variances (5, 9).
     """
-    blobs: cython.Py_ssize_t = len(scene.area_px)
-    value: cython.const[cython.double][:, ::1] = require_array(scene.blobs.value, "the blobs", (blobs, 3))
-    noise: cython.const[cython.double][:, ::1] = require_array(scene.blobs.variance, "the blobs' variances", (blobs, 3))
-    area: cython.const[cython.double][::1] = require_array(scene.area_px, "the blobs' areas", (blobs,))
-    whole: cython.const[cython.double][:, ::1] = require_array(scene.whole_px, "the discs' areas", (5, 3))
-    disc_m2: cython.const[cython.double][:, ::1] = require_array(scene.disc_m2, "the discs' sizes", (5, 3))
-    visible: cython.const[cython.double][:, ::1] = require_array(scene.visible, "chances", (5, 3))
-    expected: cython.const[cython.double][:, ::1] = require_array(scene.linearised.value, "images", (5, 9))
-    spread: cython.const[cython.double][:, :, ::1] = require_array(scene.spread, "their covariance", (5, 9, 9))
-    factor: cython.const[cython.double][:, ::1] = require_array(scene.noise_factor, "factors", (5, 9))
-    has_discs: cython.const[cython.uchar][::1] = require_array(scene.has_discs, "digits with discs", (5,)).view(
+    blobs: Py_ssize_t = len(scene.area_px)
+    value: cython.const[double][:, ::1] = as_array(scene.blobs.value, "the blobs", (blobs, 3))
+    noise: cython.const[double][:, ::1] = as_array(scene.blobs.variance, "the blobs' variances", (blobs, 3))
+    area: cython.const[double][::1] = as_array(scene.area_px, "the blobs' areas", (blobs,))
+    whole: cython.const[double][:, ::1] = as_array(scene.whole_px, "the discs' areas", (5, 3))
+    disc_m2: cython.const[double][:, ::1] = as_array(scene.disc_m2, "the discs' sizes", (5, 3))
+    visible: cython.const[double][:, ::1] = as_array(scene.visible, "chances", (5, 3))
+    expected: cython.const[double][:, ::1] = as_array(scene.linearised.value, "images", (5, 9))
+    spread: cython.const[double][:, :, ::1] = as_array(scene.spread, "their covariance", (5, 9, 9))
+    factor: cython.const[double][:, ::1] = as_array(scene.noise_factor, "factors", (5, 9))
+    has_discs: cython.const[cython.uchar][::1] = as_array(scene.has_discs, "digits with discs", (5,)).view(np.uint8)
+    assigned: cython.const[cython.longlong][:, ::1] = as_array(names.assigned, "names", (5, 3))
+    with_depth: cython.const[cython.uchar][:, ::1] = as_array(names.with_depth, "depths believed", (5, 3)).view(
         np.uint8
     )
-    assigned: cython.const[cython.longlong][:, ::1] = require_array(names.assigned, "names", (5, 3))
-    with_depth: cython.const[cython.uchar][:, ::1] = require_array(names.with_depth, "depths believed", (5, 3)).view(
-        np.uint8
-    )
-    fx: cython.double = scene.view.camera.fx_px
-    own2: cython.double = own_px2
-    reach: cython.double = crowd[0] * radius_m * fx
-    crowd2: cython.double = crowd[1] * crowd[1]
-    wanders: cython.double = shade[0]
-    whole_from: cython.double = shade[1]
-    was_seen: cython.double = merging[0]
-    merged_from: cython.double = merging[1]
-    merged_share: cython.double = merging[2]
+    fx: double = scene.view.camera.fx_px
+    own2: double = own_px2
+    reach: double = crowd[0] * radius_m * fx
+    crowd2: double = crowd[1] * crowd[1]
+    wanders: double = shade[0]
+    whole_from: double = shade[1]
+    was_seen: double = merging[0]
+    merged_from: double = merging[1]
+    merged_share: double = merging[2]
     out = np.full((5, 9), np.nan), np.ones((5, 9))
-    measured: cython.double[:, ::1] = out[0]
-    variance: cython.double[:, ::1] = out[1]
+    measured: double[:, ::1] = out[0]
+    variance: double[:, ::1] = out[1]
     alone: cython.uchar[::1] = np.empty(3, dtype=np.uint8)
     r: cython.int
     d: cython.int
     k: cython.int
     other: cython.int
-    b: cython.Py_ssize_t
+    b: Py_ssize_t
     for r in range(5):
         for d in range(3):
             b = assigned[r, d]
@@ -680,7 +667,7 @@ def measure_assigned_discs(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _is_near(at: cython.const[cython.double][::1], d: cython.int, e: cython.int, reach: cython.double) -> cython.bint:
+def _is_near(at: cython.const[double][::1], d: cython.int, e: cython.int, reach: double) -> cython.bint:
     """Tell whether the middles of two discs are nearer than ``reach`` over the depth of the further out one."""
     u, v, far = at[3 * e] - at[3 * d], at[3 * e + 1] - at[3 * d + 1], reach / at[3 * e + 2]
     return u * u + v * v < far * far
@@ -692,13 +679,13 @@ def _is_near(at: cython.const[cython.double][::1], d: cython.int, e: cython.int,
 def _split_blob(
     d: cython.int,
     other: cython.int,
-    half: cython.double,
-    share: cython.double,
-    across: cython.double,
-    expected: cython.const[cython.double][::1],
-    spread: cython.const[cython.double][:, ::1],
-    measured: cython.double[::1],
-    variance: cython.double[::1],
+    half: double,
+    share: double,
+    across: double,
+    expected: cython.const[double][::1],
+    spread: cython.const[double][:, ::1],
+    measured: double[::1],
+    variance: double[::1],
 ) -> cython.void:
     """
     Split a blob between its disc ``d`` and the ``other``, which has none (unresolved, Koch and van Keuk 1997).
@@ -710,8 +697,8 @@ def _split_blob(
     k: cython.int
     i: cython.int
     j: cython.int
-    gap2: cython.double = 0.0
-    shift2: cython.double = 0.0
+    gap2: double = 0.0
+    shift2: double = 0.0
     for k in range(2):
         i, j = 3 * d + k, 3 * other + k
         gap2 += (expected[j] - expected[i]) * (expected[j] - expected[i])

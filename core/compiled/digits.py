@@ -14,11 +14,12 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
 from cython.cimports.libc.math import cos, erfc, exp, sin, sqrt
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import require_array
+from carpus.core.compiled.palm import as_array
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
 
 FLOOR = 1e-14
@@ -35,10 +36,10 @@ _FAN = cython.declare(cython.int, 8)
 _ROLL = cython.declare(cython.int, 9)
 _ROOT = cython.declare(cython.int, 10)
 _HEIGHT = cython.declare(cython.int, 13)
-_TO_DIP = cython.declare(cython.double, DIP_PER_PIP)
-_QUARTER = cython.declare(cython.double, 0.5 * np.pi)
-_ROOT_HALF = cython.declare(cython.double, np.sqrt(0.5))
-_ROOT_PI = cython.declare(cython.double, np.sqrt(np.pi))
+_TO_DIP = cython.declare(double, DIP_PER_PIP)
+_QUARTER = cython.declare(double, 0.5 * np.pi)
+_ROOT_HALF = cython.declare(double, np.sqrt(0.5))
+_ROOT_PI = cython.declare(double, np.sqrt(np.pi))
 
 
 @cython.cfunc
@@ -46,8 +47,8 @@ _ROOT_PI = cython.declare(cython.double, np.sqrt(np.pi))
 @cython.nogil
 @cython.exceptval(check=False)
 def _place_axis(
-    x: cython.double, y: cython.double, z: cython.double, azimuth: cython.double, abduction: cython.double,
-    roll: cython.double, out: cython.double[::1],
+    x: double, y: double, z: double, azimuth: double, abduction: double,
+    roll: double, out: double[::1],
 ) -> cython.void:  # fmt: skip
     """Turn a direction of the thumb from its metacarpal's axes (along it, dorsal, that of its flexion) into W."""
     over = cos(roll) * y - sin(roll) * z
@@ -62,7 +63,7 @@ def _place_axis(
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def _place_bone(pitch: cython.double, azimuth: cython.double, out: cython.double[::1]) -> cython.void:
+def _place_bone(pitch: double, azimuth: double, out: double[::1]) -> cython.void:
     """Fill in a direction in W, ``pitch`` under the palm's plane."""
     out[0] = cos(pitch) * cos(azimuth)
     out[1] = cos(pitch) * sin(azimuth)
@@ -74,12 +75,12 @@ def _place_bone(pitch: cython.double, azimuth: cython.double, out: cython.double
 @cython.exceptval(check=False)
 def _place_chain(
     digit: cython.int,
-    s: cython.const[cython.double][::1],
-    root: cython.const[cython.double][::1],
-    bone: cython.double[:, ::1],
-    normal: cython.double[:, ::1],
-    joint: cython.double[:, ::1],
-    disc: cython.double[:, ::1],
+    s: cython.const[double][::1],
+    root: cython.const[double][::1],
+    bone: double[:, ::1],
+    normal: double[:, ::1],
+    joint: double[:, ::1],
+    disc: double[:, ::1],
 ) -> cython.void:
     """Place a digit with pose ``s``: bones, normals and discs, (3, 3) each, and joint centres (4, 3)."""
     d: cython.int
@@ -134,13 +135,13 @@ def place_digits(pose: Array, root_m: Array) -> tuple[Array, Array, Array, Array
         Directions of the bones (5, 3, 3), normals of the discs (5, 3, 3), joint centres (5, 4, 3) from the root's to
         the tip, and discs (5, 3, 3).
     """
-    s: cython.const[cython.double][:, ::1] = require_array(pose, "poses", (5, 16))
-    root: cython.const[cython.double][:, ::1] = require_array(root_m, "roots", (5, 3))
+    s: cython.const[double][:, ::1] = as_array(pose, "poses", (5, 16))
+    root: cython.const[double][:, ::1] = as_array(root_m, "roots", (5, 3))
     out = np.empty((5, 3, 3)), np.empty((5, 3, 3)), np.empty((5, 4, 3)), np.empty((5, 3, 3))
-    bone: cython.double[:, :, ::1] = out[0]
-    normal: cython.double[:, :, ::1] = out[1]
-    joint: cython.double[:, :, ::1] = out[2]
-    disc: cython.double[:, :, ::1] = out[3]
+    bone: double[:, :, ::1] = out[0]
+    normal: double[:, :, ::1] = out[1]
+    joint: double[:, :, ::1] = out[2]
+    disc: double[:, :, ::1] = out[3]
     r: cython.int
     for r in range(5):
         _place_chain(r, s[r], root[r], bone[r], normal[r], joint[r], disc[r])
@@ -149,13 +150,13 @@ def place_digits(pose: Array, root_m: Array) -> tuple[Array, Array, Array, Array
 
 def place_discs(pose: Array, root_m: Array, digits: list[int]) -> Array:
     """Place the discs (R, S, 3, 3) of R ``digits`` in S poses (R, S, 16) of each, under ``root_m`` (R, 3)."""
-    s: cython.const[cython.double][:, :, ::1] = require_array(pose, "poses", (len(digits), pose.shape[1], 16))
-    root: cython.const[cython.double][:, ::1] = require_array(root_m, "roots", (len(digits), 3))
+    s: cython.const[double][:, :, ::1] = as_array(pose, "poses", (len(digits), pose.shape[1], 16))
+    root: cython.const[double][:, ::1] = as_array(root_m, "roots", (len(digits), 3))
     out = np.empty((pose.shape[0], pose.shape[1], 3, 3))
-    disc: cython.double[:, :, :, ::1] = out
-    joint: cython.double[:, :, ::1] = np.empty((3, 4, 3))
-    r: cython.Py_ssize_t
-    i: cython.Py_ssize_t
+    disc: double[:, :, :, ::1] = out
+    joint: double[:, :, ::1] = np.empty((3, 4, 3))
+    r: Py_ssize_t
+    i: Py_ssize_t
     for r in range(s.shape[0]):
         digit: cython.int = digits[r]
         for i in range(s.shape[1]):
@@ -186,31 +187,29 @@ def compute_digit_transition(motion: Any, dt_s: float, scale2: Array, forgetting
     tuple of numpy.ndarray
         F (5, 21, 21) and Q (5, K, 21, 21).
     """
-    modes: cython.Py_ssize_t = scale2.shape[1]
-    density: cython.const[cython.double][:, ::1] = require_array(motion.density, "densities", (5, 5))
-    drift: cython.const[cython.double][:, ::1] = require_array(motion.drift, "drifts", (5, 11))
-    lasting: cython.const[cython.double][:, ::1] = require_array(
-        motion.stationary2, "variances in the long run", (5, 5)
-    )
-    scale: cython.const[cython.double][:, ::1] = require_array(scale2, "scales", (5, modes))
+    modes: Py_ssize_t = scale2.shape[1]
+    density: cython.const[double][:, ::1] = as_array(motion.density, "densities", (5, 5))
+    drift: cython.const[double][:, ::1] = as_array(motion.drift, "drifts", (5, 11))
+    lasting: cython.const[double][:, ::1] = as_array(motion.stationary2, "variances in the long run", (5, 5))
+    scale: cython.const[double][:, ::1] = as_array(scale2, "scales", (5, modes))
     fades: cython.bint = forgetting is not None
-    keep_rate: cython.const[cython.double][:, ::1] = require_array(
+    keep_rate: cython.const[double][:, ::1] = as_array(
         forgetting.keep_rate if fades else motion.density, "shares kept", (5, 5)
     )
-    angle2: cython.const[cython.double][:, ::1] = require_array(
+    angle2: cython.const[double][:, ::1] = as_array(
         forgetting.angle2 if fades else motion.density, "variances of angles", (5, 5)
     )
-    rate2: cython.const[cython.double][:, ::1] = require_array(
+    rate2: cython.const[double][:, ::1] = as_array(
         forgetting.rate2 if fades else motion.density, "variances of rates", (5, 5)
     )
-    dt: cython.double = dt_s
-    settling: cython.double = exp(-dt_s / motion.settles_s)
+    dt: double = dt_s
+    settling: double = exp(-dt_s / motion.settles_s)
     forward, noise = np.zeros((5, 21, 21)), np.zeros((5, modes, 21, 21))
-    f: cython.double[:, :, ::1] = forward
-    q: cython.double[:, :, :, ::1] = noise
+    f: double[:, :, ::1] = forward
+    q: double[:, :, :, ::1] = noise
     r: cython.int
     s: cython.int
-    k: cython.Py_ssize_t
+    k: Py_ssize_t
     for r in range(5):
         for s in range(21):
             f[r, s, s] = 1.0
@@ -261,34 +260,34 @@ def spread_points(
     numpy.linalg.LinAlgError
         When a covariance is not positive definite.
     """
-    state: cython.const[cython.double][:, ::1] = require_array(mean, "states", (5, 21))
-    wide: cython.const[cython.double][:, :, ::1] = require_array(covariance, "covariances", (5, 21, 21))
-    root: cython.const[cython.double][:, ::1] = require_array(root_m, "roots", (5, 3))
+    state: cython.const[double][:, ::1] = as_array(mean, "states", (5, 21))
+    wide: cython.const[double][:, :, ::1] = as_array(covariance, "covariances", (5, 21, 21))
+    root: cython.const[double][:, ::1] = as_array(root_m, "roots", (5, 3))
     out = (
         np.empty((5, 13, 3, 3)), np.empty((5, 6, 6)), np.zeros((5, 6, 10)), np.zeros((5, 3, 3, 10)),
         np.empty((5, 3, 3)),
     )  # fmt: skip
-    disc: cython.double[:, :, :, ::1] = out[0]
-    unroot: cython.double[:, :, ::1] = out[1]
-    along: cython.double[:, :, ::1] = out[2]
-    by_constants: cython.double[:, :, :, ::1] = out[3]
-    normal: cython.double[:, :, ::1] = out[4]
-    pose: cython.const[cython.Py_ssize_t][::1] = POSE
-    bent: cython.const[cython.Py_ssize_t][::1] = BENT
-    other: cython.const[cython.Py_ssize_t][::1] = OTHER
-    s: cython.double[::1] = np.empty(16)
-    moved: cython.double[::1] = np.empty(16)
-    bone: cython.double[:, ::1] = np.empty((3, 3))
-    facing: cython.double[:, ::1] = np.empty((3, 3))
-    joint: cython.double[:, ::1] = np.empty((4, 3))
-    block: cython.double[:, ::1] = np.empty((6, 6))
-    cross: cython.double[:, ::1] = np.empty((6, 10))
-    floor: cython.double = FLOOR
-    step: cython.double = scale
+    disc: double[:, :, :, ::1] = out[0]
+    unroot: double[:, :, ::1] = out[1]
+    along: double[:, :, ::1] = out[2]
+    by_constants: double[:, :, :, ::1] = out[3]
+    normal: double[:, :, ::1] = out[4]
+    pose: cython.const[Py_ssize_t][::1] = POSE
+    bent: cython.const[Py_ssize_t][::1] = BENT
+    other: cython.const[Py_ssize_t][::1] = OTHER
+    s: double[::1] = np.empty(16)
+    moved: double[::1] = np.empty(16)
+    bone: double[:, ::1] = np.empty((3, 3))
+    facing: double[:, ::1] = np.empty((3, 3))
+    joint: double[:, ::1] = np.empty((4, 3))
+    block: double[:, ::1] = np.empty((6, 6))
+    cross: double[:, ::1] = np.empty((6, 10))
+    floor: double = FLOOR
+    step: double = scale
     r: cython.int
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    p: cython.Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
+    p: Py_ssize_t
     for r in range(5):
         for i in range(16):
             s[i] = state[r, pose[i]]
@@ -317,12 +316,12 @@ def spread_points(
 @cython.nogil
 @cython.exceptval(check=False)
 def _fill_slopes(
-    s: cython.const[cython.double][::1],
-    bone: cython.const[cython.double][:, ::1],
-    normal: cython.const[cython.double][:, ::1],
-    joint: cython.const[cython.double][:, ::1],
-    disc: cython.const[cython.double][:, ::1],
-    out: cython.double[:, :, ::1],
+    s: cython.const[double][::1],
+    bone: cython.const[double][:, ::1],
+    normal: cython.const[double][:, ::1],
+    joint: cython.const[double][:, ::1],
+    disc: cython.const[double][:, ::1],
+    out: double[:, :, ::1],
 ) -> cython.void:
     """Fill zeros with the derivative (3 discs, 3, 10) of the discs by the constants but for the roll."""
     d: cython.int
@@ -341,7 +340,7 @@ def _fill_slopes(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def _compute_tail_ratio(z: cython.double) -> cython.double:
+def _compute_tail_ratio(z: double) -> double:
     """
     Compute phi(z) / Phi(z) of the normal density and its integral.
 
@@ -385,31 +384,29 @@ def apply_limits(
     tuple of numpy.ndarray, or None
         Means (5, K, 21) and covariances (5, K, 21, 21); None where no limit is near.
     """
-    modes: cython.Py_ssize_t = mixture.mean.shape[1]
-    mean: cython.const[cython.double][:, :, ::1] = require_array(mixture.mean, "states", (5, modes, 21))
-    wide: cython.const[cython.double][:, :, :, ::1] = require_array(
-        mixture.covariance, "covariances", (5, modes, 21, 21)
-    )
-    limit: cython.const[cython.double][:, :, ::1] = require_array(limits, "limits", (5, 5, 2))
-    turn: cython.const[cython.double][:, :, ::1] = require_array(direction, "directions of angles", (5, 5, 5))
-    soft2: cython.double = soft_rad * soft_rad
-    reach: cython.double = near_sd
-    across: cython.double[:, ::1] = np.empty((5, 21))  # of the angles with all
-    white: cython.double[:, ::1] = np.empty((5, 21))
-    shared: cython.double[:, ::1] = np.empty((5, 5))  # of the angles, S
-    matrix: cython.double[:, ::1] = np.empty((5, 5))
-    inverse: cython.double[:, ::1] = np.empty((5, 5))
-    root: cython.double[::1] = np.empty(5)
-    pull: cython.double[::1] = np.empty(5)
-    told: cython.double[::1] = np.empty(5)
-    out_mean: cython.double[:, :, ::1]
-    out_wide: cython.double[:, :, :, ::1]
+    modes: Py_ssize_t = mixture.mean.shape[1]
+    mean: cython.const[double][:, :, ::1] = as_array(mixture.mean, "states", (5, modes, 21))
+    wide: cython.const[double][:, :, :, ::1] = as_array(mixture.covariance, "covariances", (5, modes, 21, 21))
+    limit: cython.const[double][:, :, ::1] = as_array(limits, "limits", (5, 5, 2))
+    turn: cython.const[double][:, :, ::1] = as_array(direction, "directions of angles", (5, 5, 5))
+    soft2: double = soft_rad * soft_rad
+    reach: double = near_sd
+    across: double[:, ::1] = np.empty((5, 21))  # of the angles with all
+    white: double[:, ::1] = np.empty((5, 21))
+    shared: double[:, ::1] = np.empty((5, 5))  # of the angles, S
+    matrix: double[:, ::1] = np.empty((5, 5))
+    inverse: double[:, ::1] = np.empty((5, 5))
+    root: double[::1] = np.empty(5)
+    pull: double[::1] = np.empty(5)
+    told: double[::1] = np.empty(5)
+    out_mean: double[:, :, ::1]
+    out_wide: double[:, :, :, ::1]
     out = None
-    r: cython.Py_ssize_t
-    k: cython.Py_ssize_t
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    n: cython.Py_ssize_t
+    r: Py_ssize_t
+    k: Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
+    n: Py_ssize_t
     for r in range(5):
         for k in range(modes):
             any_near: cython.bint = False

@@ -1,8 +1,7 @@
 """The palm in every frame: how it moves, what the camera should see of it, and its errors reset after an update.
 
-Symbols of the wrist paper: R rotation, omega angular velocity, P covariance of the error vector (54,), whose numbers
-stand where ``core/tracking/filter/palm_state.py`` says. An error d of the turn means R Exp(d). K modes, J of the soft
-tissue.
+Symbols of the wrist paper: R rotation, omega angular velocity, P covariance of the error vector (54,), in the order of
+``core/tracking/filter/palm_state.py``. An error d of the turn means R Exp(d). K modes, J of the soft tissue.
 """
 
 from __future__ import annotations
@@ -11,26 +10,27 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.small_matrices import add_sparse_product, inverse_root
 from cython.cimports.libc.math import cos, exp, expm1, sin, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.mixture import merge_modes
 
-SIZE = cython.declare(cython.Py_ssize_t, 54)
-POSITION = cython.declare(cython.Py_ssize_t, 0)
-VELOCITY = cython.declare(cython.Py_ssize_t, 3)
-TURN = cython.declare(cython.Py_ssize_t, 6)
-RATE = cython.declare(cython.Py_ssize_t, 9)
-MOVING = cython.declare(cython.Py_ssize_t, 12)
-SHAPE = cython.declare(cython.Py_ssize_t, 12)
-SKIN = cython.declare(cython.Py_ssize_t, 33)
-SOFT = cython.declare(cython.Py_ssize_t, 21)
-DISCS = cython.declare(cython.Py_ssize_t, 6)
-SEEN = cython.declare(cython.Py_ssize_t, 18)
-HOME = cython.declare(cython.Py_ssize_t, 0)
-WRIST = cython.declare(cython.Py_ssize_t, 5)
-FLOOR = cython.declare(cython.double, 1e-14)
+SIZE = cython.declare(Py_ssize_t, 54)
+POSITION = cython.declare(Py_ssize_t, 0)
+VELOCITY = cython.declare(Py_ssize_t, 3)
+TURN = cython.declare(Py_ssize_t, 6)
+RATE = cython.declare(Py_ssize_t, 9)
+MOVING = cython.declare(Py_ssize_t, 12)
+SHAPE = cython.declare(Py_ssize_t, 12)
+SKIN = cython.declare(Py_ssize_t, 33)
+SOFT = cython.declare(Py_ssize_t, 21)
+DISCS = cython.declare(Py_ssize_t, 6)
+SEEN = cython.declare(Py_ssize_t, 18)
+HOME = cython.declare(Py_ssize_t, 0)
+WRIST = cython.declare(Py_ssize_t, 5)
+FLOOR = cython.declare(double, 1e-14)
 _NONE = np.zeros((3, 3))
 
 
@@ -60,24 +60,24 @@ def compute_mode_transition(
         Probability (K, K) from row to column.
     """
     tissue = motion.tissue
-    count: cython.Py_ssize_t = tissue.count
-    rates: cython.const[cython.double][:, ::1] = require_array(tissue.rates, "rates of the tissue", (count, count))
-    omega: cython.const[cython.double][::1] = require_array(rate_rad_s, "the palm's rate", (3,))
+    count: Py_ssize_t = tissue.count
+    rates: cython.const[double][:, ::1] = as_array(tissue.rates, "rates of the tissue", (count, count))
+    omega: cython.const[double][::1] = as_array(rate_rad_s, "the palm's rate", (3,))
     tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
-    modes: cython.Py_ssize_t = motion.modes
-    resting: cython.Py_ssize_t = tissue.resting
-    scales: cython.Py_ssize_t = motion.scales.shape[0]
+    modes: Py_ssize_t = motion.modes
+    resting: Py_ssize_t = tissue.resting
+    scales: Py_ssize_t = motion.scales.shape[0]
     follows: cython.bint = tissue.follows_joints
-    leaving: cython.double = tissue.leaving_per_rad
-    dt: cython.double = dt_s
-    turning: cython.double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
-    fastest: cython.double = max(turning, digits[0], digits[1])
-    pace: cython.double = 0.2 + min(turning / tissue.turning_rad_s, 3.0)
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    between: cython.double[:, ::1] = np.empty((count, count))
+    leaving: double = tissue.leaving_per_rad
+    dt: double = dt_s
+    turning: double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
+    fastest: double = max(turning, digits[0], digits[1])
+    pace: double = 0.2 + min(turning / tissue.turning_rad_s, 3.0)
+    i: Py_ssize_t
+    j: Py_ssize_t
+    between: double[:, ::1] = np.empty((count, count))
     for i in range(count):
-        total: cython.double = 0.0
+        total: double = 0.0
         for j in range(count):
             rate = rates[i, j]
             if follows and i == HOME and j != HOME:
@@ -92,8 +92,8 @@ def compute_mode_transition(
         between[i, i] = 1.0 - leave
 
     out = np.empty((modes, modes))
-    change: cython.double[:, ::1] = out
-    at_rest: cython.Py_ssize_t = scales * resting
+    change: double[:, ::1] = out
+    at_rest: Py_ssize_t = scales * resting
     leave = 1.0 - exp(-dt / motion.dwell_s)
     for i in range(modes):
         for j in range(modes):
@@ -136,34 +136,30 @@ def compute_palm_transition(
         (K, 54); Q of skin and relief (K, 21, 21); the turn (3, 3) of the step.
     """
     noise, tissue = motion.noise, motion.tissue
-    count: cython.Py_ssize_t = tissue.count
-    modes: cython.Py_ssize_t = motion.modes
-    omega: cython.const[cython.double][::1] = require_array(rate_rad_s, "the palm's rate", (3,))
-    lasts: cython.const[cython.double][:, ::1] = require_array(tissue.lasts_s, "how long tissue lasts", (count, SOFT))
-    rest: cython.const[cython.double][:, :, ::1] = require_array(
-        tissue.stationary, "scatter of tissue", (count, SOFT, SOFT)
-    )
-    scale_of: cython.const[cython.double][::1] = require_array(motion.scale_of, "the modes' scales", (modes,))
+    count: Py_ssize_t = tissue.count
+    modes: Py_ssize_t = motion.modes
+    omega: cython.const[double][::1] = as_array(rate_rad_s, "the palm's rate", (3,))
+    lasts: cython.const[double][:, ::1] = as_array(tissue.lasts_s, "how long tissue lasts", (count, SOFT))
+    rest: cython.const[double][:, :, ::1] = as_array(tissue.stationary, "scatter of tissue", (count, SOFT, SOFT))
+    scale_of: cython.const[double][::1] = as_array(motion.scale_of, "the modes' scales", (modes,))
     tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
-    hidden: cython.const[cython.double][:, ::1] = require_array(
-        _NONE if unseen is None else unseen, "turns not seen", (3, 3)
-    )
-    dt: cython.double = dt_s
-    push: cython.double = noise.push
-    turning: cython.double = noise.turning
-    unseen_scale: cython.double = motion.unseen_scale
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    k: cython.Py_ssize_t
+    hidden: cython.const[double][:, ::1] = as_array(_NONE if unseen is None else unseen, "turns not seen", (3, 3))
+    dt: double = dt_s
+    push: double = noise.push
+    turning: double = noise.turning
+    unseen_scale: double = motion.unseen_scale
+    i: Py_ssize_t
+    j: Py_ssize_t
+    k: Py_ssize_t
 
     moving, turns = np.eye(MOVING), np.empty((5, 3, 3))
-    forward: cython.double[:, ::1] = moving
-    each: cython.double[:, :, ::1] = turns
-    turn: cython.double[:, ::1] = each[0]
-    jacobian: cython.double[:, ::1] = each[1]
-    square: cython.double[:, ::1] = each[2]
-    along: cython.double[:, ::1] = each[3]
-    along_square: cython.double[:, ::1] = each[4]
+    forward: double[:, ::1] = moving
+    each: double[:, :, ::1] = turns
+    turn: double[:, ::1] = each[0]
+    jacobian: double[:, ::1] = each[1]
+    square: double[:, ::1] = each[2]
+    along: double[:, ::1] = each[3]
+    along_square: double[:, ::1] = each[4]
     fill_rotation(omega[0] * dt, omega[1] * dt, omega[2] * dt, turn)
     fill_right_jacobian(omega[0] * dt, omega[1] * dt, omega[2] * dt, jacobian)
     for i in range(3):
@@ -177,7 +173,7 @@ def compute_palm_transition(
     multiply(jacobian, hidden, along)
     multiply_transposed(along, along, along_square)
     driven = np.zeros((modes, MOVING, MOVING))
-    pushed: cython.double[:, :, ::1] = driven
+    pushed: double[:, :, ::1] = driven
     for k in range(modes):
         by = scale_of[k] * scale_of[k]
         # How briskly a hand moves is told by what is seen of it, and says nothing of turns that are not.
@@ -192,13 +188,13 @@ def compute_palm_transition(
                 pushed[k, TURN + i, RATE + j] = pushed[k, RATE + j, TURN + i] = across
                 pushed[k, RATE + i, RATE + j] = turning * dt * ((by if i == j else 0.0) + more * hidden[i, j])
 
-    palm: cython.double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
-    thumb: cython.double = digits[0]
-    fingers: cython.double = digits[1]
-    per_rad: cython.double = dt / tissue.lasts_rad if tissue.follows_joints else 0.0
+    palm: double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
+    thumb: double = digits[0]
+    fingers: double = digits[1]
+    per_rad: double = dt / tissue.lasts_rad if tissue.follows_joints else 0.0
     left, relaxing = np.ones((modes, SIZE)), np.empty((modes, SOFT, SOFT))
-    kept: cython.double[:, ::1] = left
-    relaxed: cython.double[:, :, ::1] = relaxing
+    kept: double[:, ::1] = left
+    relaxed: double[:, :, ::1] = relaxing
     for k in range(modes):
         for i in range(SOFT):
             # The wrist's disc, the thumb's, the knuckles', and the relief over all of them.
@@ -236,59 +232,53 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
         covariance (1, 18, 18) of what that misses; of each disc the mean over all modes (6, 3) and its covariance
         (6, 3, 3).
     """
-    modes: cython.Py_ssize_t = mixture.mean.shape[1]
-    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
-    spread: cython.const[cython.double][:, ::1] = require_array(
-        estimate.covariance, "the palm's covariance", (SIZE, SIZE)
-    )
-    rotation: cython.const[cython.double][:, ::1] = require_array(
-        estimate.rotation_w2_w0, "the palm's rotation", (3, 3)
-    )
-    mean: cython.const[cython.double][:, :, ::1] = require_array(mixture.mean, "means of the modes", (1, modes, SIZE))
-    weight: cython.const[cython.double][:, ::1] = require_array(
-        mixture.probability, "the modes' probability", (1, modes)
-    )
-    palm: cython.const[cython.double][:, ::1] = require_array(view.palm_m, "places of the discs", (DISCS, 3))
-    hidden: cython.const[cython.double][:, ::1] = require_array(view.hidden, "what calibration hides", (DISCS, SEEN))
-    w0_cam: cython.const[cython.double][:, ::1] = require_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
-    at: cython.const[cython.double][::1] = require_array(view.translation_w0_cam_m, "the camera's place", (3,))
-    numbers: cython.const[cython.double][::1] = require_array(weights.numbers, "weights of the sigma points", (5,))
-    of_middle: cython.double = numbers[0]
-    of_others: cython.double = numbers[1]
-    scatter_of_middle: cython.double = numbers[2]
-    scatter_of_others: cython.double = numbers[3]
-    scale: cython.double = numbers[4]
+    modes: Py_ssize_t = mixture.mean.shape[1]
+    state: cython.const[double][::1] = as_array(estimate.value, "the palm's state", (SIZE,))
+    spread: cython.const[double][:, ::1] = as_array(estimate.covariance, "the palm's covariance", (SIZE, SIZE))
+    rotation: cython.const[double][:, ::1] = as_array(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
+    mean: cython.const[double][:, :, ::1] = as_array(mixture.mean, "means of the modes", (1, modes, SIZE))
+    weight: cython.const[double][:, ::1] = as_array(mixture.probability, "the modes' probability", (1, modes))
+    palm: cython.const[double][:, ::1] = as_array(view.palm_m, "places of the discs", (DISCS, 3))
+    hidden: cython.const[double][:, ::1] = as_array(view.hidden, "what calibration hides", (DISCS, SEEN))
+    w0_cam: cython.const[double][:, ::1] = as_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
+    at: cython.const[double][::1] = as_array(view.translation_w0_cam_m, "the camera's place", (3,))
+    numbers: cython.const[double][::1] = as_array(weights.numbers, "weights of the sigma points", (5,))
+    of_middle: double = numbers[0]
+    of_others: double = numbers[1]
+    scatter_of_middle: double = numbers[2]
+    scatter_of_others: double = numbers[3]
+    scale: double = numbers[4]
     camera = view.camera
-    fx: cython.double = camera.fx_px
-    fy: cython.double = camera.fy_px
-    cx: cython.double = camera.cx_px
-    cy: cython.double = camera.cy_px
-    a: cython.Py_ssize_t
-    b: cython.Py_ssize_t
-    d: cython.Py_ssize_t
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    p: cython.Py_ssize_t
+    fx: double = camera.fx_px
+    fy: double = camera.fy_px
+    cx: double = camera.cx_px
+    cy: double = camera.cy_px
+    a: Py_ssize_t
+    b: Py_ssize_t
+    d: Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
+    p: Py_ssize_t
     # Room to work in, few arrays cut up: to make one costs as much as to fill it.
-    roots: cython.double[:, :, ::1] = np.empty((2, 6, 6))
-    root: cython.double[:, ::1] = roots[0]
-    unroot: cython.double[:, ::1] = roots[1]
-    turns: cython.double[:, :, ::1] = np.empty((3, 3, 3))
-    turned: cython.double[:, ::1] = turns[0]
-    there: cython.double[:, ::1] = turns[1]
-    in_camera: cython.double[:, ::1] = turns[2]
-    threes: cython.double[:, ::1] = np.empty((DISCS + 2, 3))
-    place: cython.double[:, ::1] = threes[:DISCS]
-    shift: cython.double[::1] = threes[DISCS]
-    turn: cython.double[::1] = threes[DISCS + 1]
-    images: cython.double[:, ::1] = np.empty((25, SEEN))
-    sigma: cython.double[:, ::1] = images[:13]
-    half: cython.double[:, ::1] = images[13:19]
-    bend: cython.double[:, ::1] = images[19:]
-    wide: cython.double[:, ::1] = np.zeros((SEEN + 2, SIZE))
-    cross: cython.double[:, ::1] = wide[:SEEN]
-    middle: cython.double[::1] = wide[SEEN]
-    unknown: cython.double[::1] = wide[SEEN + 1]
+    roots: double[:, :, ::1] = np.empty((2, 6, 6))
+    root: double[:, ::1] = roots[0]
+    unroot: double[:, ::1] = roots[1]
+    turns: double[:, :, ::1] = np.empty((3, 3, 3))
+    turned: double[:, ::1] = turns[0]
+    there: double[:, ::1] = turns[1]
+    in_camera: double[:, ::1] = turns[2]
+    threes: double[:, ::1] = np.empty((DISCS + 2, 3))
+    place: double[:, ::1] = threes[:DISCS]
+    shift: double[::1] = threes[DISCS]
+    turn: double[::1] = threes[DISCS + 1]
+    images: double[:, ::1] = np.empty((25, SEEN))
+    sigma: double[:, ::1] = images[:13]
+    half: double[:, ::1] = images[13:19]
+    bend: double[:, ::1] = images[19:]
+    wide: double[:, ::1] = np.zeros((SEEN + 2, SIZE))
+    cross: double[:, ::1] = wide[:SEEN]
+    middle: double[::1] = wide[SEEN]
+    unknown: double[::1] = wide[SEEN + 1]
     for i in range(6):
         for j in range(6):
             root[i, j] = spread[find_pose_row(i), find_pose_row(j)]
@@ -326,9 +316,9 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
             sigma[p, 3 * d + 1] = cy + fy * sigma[p, 3 * d + 1] / z
 
     value, slope, error = np.empty((1, SEEN)), np.zeros((1, SEEN, SIZE)), np.empty((1, SEEN, SEEN))
-    line: cython.double[::1] = value[0]
-    h: cython.double[:, ::1] = slope[0]
-    missed: cython.double[:, ::1] = error[0]
+    line: double[::1] = value[0]
+    h: double[:, ::1] = slope[0]
+    missed: double[:, ::1] = error[0]
     for a in range(SEEN):
         line[a] = of_middle * sigma[0, a]
         for p in range(1, 13):
@@ -360,8 +350,8 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
 
     # h is linear now: what it makes of the whole mixture's covariance is that of what it makes of the modes.
     expected, own = np.empty((DISCS, 3)), np.empty((DISCS, 3, 3))
-    out_mean: cython.double[:, ::1] = expected
-    out_covariance: cython.double[:, :, ::1] = own
+    out_mean: double[:, ::1] = expected
+    out_covariance: double[:, :, ::1] = own
     add_sparse_product(h, spread, cross)
     # Zeros, or NaN where any number is: the product passes over what h does not ask for.
     for i in range(SIZE):
@@ -402,19 +392,19 @@ def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
     tuple of numpy.ndarray
         The estimate's rotation (3, 3), value (54,) and covariance (54, 54); mean (1, K, 54) of the modes' errors.
     """
-    modes: cython.Py_ssize_t = mixture.mean.shape[1]
-    mean: cython.const[cython.double][:, :, ::1] = require_array(mixture.mean, "means of the modes", (1, modes, SIZE))
-    state: cython.const[cython.double][::1] = require_array(nominal.value, "the palm's state", (SIZE,))
-    rotation: cython.const[cython.double][:, ::1] = require_array(nominal.rotation_w2_w0, "the palm's rotation", (3, 3))
+    modes: Py_ssize_t = mixture.mean.shape[1]
+    mean: cython.const[double][:, :, ::1] = as_array(mixture.mean, "means of the modes", (1, modes, SIZE))
+    state: cython.const[double][::1] = as_array(nominal.value, "the palm's state", (SIZE,))
+    rotation: cython.const[double][:, ::1] = as_array(nominal.rotation_w2_w0, "the palm's rotation", (3, 3))
     whole_mean, whole = merge_modes(mixture)
-    middle: cython.const[cython.double][::1] = whole_mean[0]
+    middle: cython.const[double][::1] = whole_mean[0]
     turned, value, apart = np.empty((3, 3)), np.empty(SIZE), np.empty((1, modes, SIZE))
-    there: cython.double[:, ::1] = turned
-    out_value: cython.double[::1] = value
-    off: cython.double[:, :, ::1] = apart
-    by: cython.double[:, ::1] = np.empty((3, 3))
-    k: cython.Py_ssize_t
-    i: cython.Py_ssize_t
+    there: double[:, ::1] = turned
+    out_value: double[::1] = value
+    off: double[:, :, ::1] = apart
+    by: double[:, ::1] = np.empty((3, 3))
+    k: Py_ssize_t
+    i: Py_ssize_t
     x, y, z = middle[TURN], middle[TURN + 1], middle[TURN + 2]
     for k in range(modes):
         for i in range(SIZE):
@@ -434,7 +424,7 @@ def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
 @cython.inline
 @cython.nogil
 @cython.exceptval(check=False)
-def find_pose_row(i: cython.Py_ssize_t) -> cython.Py_ssize_t:
+def find_pose_row(i: Py_ssize_t) -> Py_ssize_t:
     """Where a number of the pose stands: those of the position, then those of the turn."""
     return POSITION + i if i < 3 else TURN + i - 3
 
@@ -442,11 +432,11 @@ def find_pose_row(i: cython.Py_ssize_t) -> cython.Py_ssize_t:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def fill_rotation(x: cython.double, y: cython.double, z: cython.double, out: cython.double[:, ::1]) -> cython.void:
+def fill_rotation(x: double, y: double, z: double, out: double[:, ::1]) -> cython.void:
     """Exp (3, 3) of one turn by Rodrigues' formula; its series near no turn."""
     angle2 = x * x + y * y + z * z
-    a: cython.double = 1.0 - angle2 / 6.0
-    b: cython.double = 0.5 - angle2 / 24.0
+    a: double = 1.0 - angle2 / 6.0
+    b: double = 0.5 - angle2 / 24.0
     if not angle2 < 1e-8:
         a, b = sin(sqrt(angle2)) / sqrt(angle2), (1.0 - cos(sqrt(angle2))) / angle2
     c = 1.0 - b * angle2
@@ -458,13 +448,11 @@ def fill_rotation(x: cython.double, y: cython.double, z: cython.double, out: cyt
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def fill_right_jacobian(
-    x: cython.double, y: cython.double, z: cython.double, out: cython.double[:, ::1]
-) -> cython.void:
+def fill_right_jacobian(x: double, y: double, z: double, out: double[:, ::1]) -> cython.void:
     """Jr (3, 3) of one turn, with Exp(t + d) = Exp(t) Exp(Jr d) to first order."""
     angle2 = x * x + y * y + z * z
-    b: cython.double = 0.5 - angle2 / 24.0
-    c: cython.double = 1.0 / 6.0 - angle2 / 120.0
+    b: double = 0.5 - angle2 / 24.0
+    c: double = 1.0 / 6.0 - angle2 / 120.0
     if not angle2 < 1e-6:
         angle = sqrt(angle2)
         b, c = (1.0 - cos(angle)) / angle2, (angle - sin(angle)) / (angle2 * angle)
@@ -477,12 +465,10 @@ def fill_right_jacobian(
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def multiply(
-    a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
-) -> cython.void:
+def multiply(a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]) -> cython.void:
     """``out`` = A B of matrices (3, 3)."""
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
@@ -492,17 +478,17 @@ def multiply(
 @cython.nogil
 @cython.exceptval(check=False)
 def multiply_transposed(
-    a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
+    a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]
 ) -> cython.void:
     """``out`` = A B' of matrices (3, 3)."""
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[j, 0] + a[i, 1] * b[j, 1] + a[i, 2] * b[j, 2]
 
 
-def require_array(array: NDArray[np.float64], name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
+def as_array(array: NDArray[np.float64], name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
     """The array stored row by row, refused where it has another shape; of another type it is by the view of it."""
     if array.shape != shape:
         raise ValueError(f"{name}: {array.shape} where {shape} is read")

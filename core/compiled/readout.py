@@ -9,22 +9,23 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.palm import fill_rotation, multiply, multiply_transposed
 from cython.cimports.libc.math import asin, atan2, cos, fabs, hypot, sin, sqrt
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import require_array
+from carpus.core.compiled.palm import as_array
 
 # Where the numbers stand in the palm's error vector.
-SIZE = cython.declare(cython.Py_ssize_t, 54)
-POSITION = cython.declare(cython.Py_ssize_t, 0)
-TURN = cython.declare(cython.Py_ssize_t, 6)
-RATE = cython.declare(cython.Py_ssize_t, 9)
-SHAPE = cython.declare(cython.Py_ssize_t, 12)
-SKIN = cython.declare(cython.Py_ssize_t, 33)
-DISCS = cython.declare(cython.Py_ssize_t, 6)
-SHAPES = cython.declare(cython.Py_ssize_t, 18)
-READ = cython.declare(cython.Py_ssize_t, 24)
+SIZE = cython.declare(Py_ssize_t, 54)
+POSITION = cython.declare(Py_ssize_t, 0)
+TURN = cython.declare(Py_ssize_t, 6)
+RATE = cython.declare(Py_ssize_t, 9)
+SHAPE = cython.declare(Py_ssize_t, 12)
+SKIN = cython.declare(Py_ssize_t, 33)
+DISCS = cython.declare(Py_ssize_t, 6)
+SHAPES = cython.declare(Py_ssize_t, 18)
+READ = cython.declare(Py_ssize_t, 24)
 
 Array = NDArray[np.float64]
 
@@ -68,28 +69,24 @@ def read_wrist(
         Axes (3, 3) as they are now; rotation (3, 3) as shown; place of the WRIST disc, rate, angles, their standard
         deviations and ZYZ angles, each (3,).
     """
-    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
-    rotation: cython.const[cython.double][:, ::1] = require_array(
-        estimate.rotation_w2_w0, "the palm's rotation", (3, 3)
-    )
-    covariance: cython.const[cython.double][:, ::1] = require_array(
-        estimate.covariance, "the palm's covariance", (SIZE, SIZE)
-    )
-    disc: cython.const[cython.double][:, ::1] = require_array(disc_m, "places of the discs", (DISCS, 3))
-    by_shape: cython.const[cython.double][:, ::1] = require_array(known.sensitivity, "turns by the shape", (3, SHAPES))
+    state: cython.const[double][::1] = as_array(estimate.value, "the palm's state", (SIZE,))
+    rotation: cython.const[double][:, ::1] = as_array(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
+    covariance: cython.const[double][:, ::1] = as_array(estimate.covariance, "the palm's covariance", (SIZE, SIZE))
+    disc: cython.const[double][:, ::1] = as_array(disc_m, "places of the discs", (DISCS, 3))
+    by_shape: cython.const[double][:, ::1] = as_array(known.sensitivity, "turns by the shape", (3, SHAPES))
     vectors, matrices = np.empty((5, 3)), np.empty((8, 3, 3))
-    vector: cython.double[:, ::1] = vectors
-    matrix: cython.double[:, :, ::1] = matrices
-    axes: cython.double[:, ::1] = matrix[0]
-    shown: cython.double[:, ::1] = matrix[1]
-    back: cython.double[:, ::1] = matrix[2]
-    own: cython.double[:, ::1] = matrix[3]
-    spread: cython.double[:, ::1] = matrix[4]
-    half: cython.double[:, ::1] = matrix[5]
-    left: cython.double[:, ::1] = matrix[6]
-    by_turn: cython.double[:, ::1] = matrix[7]
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
+    vector: double[:, ::1] = vectors
+    matrix: double[:, :, ::1] = matrices
+    axes: double[:, ::1] = matrix[0]
+    shown: double[:, ::1] = matrix[1]
+    back: double[:, ::1] = matrix[2]
+    own: double[:, ::1] = matrix[3]
+    spread: double[:, ::1] = matrix[4]
+    half: double[:, ::1] = matrix[5]
+    left: double[:, ::1] = matrix[6]
+    by_turn: double[:, ::1] = matrix[7]
+    i: Py_ssize_t
+    j: Py_ssize_t
     turn_axes(known.axes, by_shape, known.shape_m, state, half, axes)
     for i in range(3):
         vector[0, i] = state[POSITION + i]
@@ -105,7 +102,7 @@ def read_wrist(
             left[i, j] = (1.0 if i == j else 0.0) - own[j, i]
     fill_turn_covariance(back, left, by_shape, covariance, spread)
     if stays is not None:
-        further: cython.const[cython.double][:, ::1] = require_array(stays, "what stays of the turn", (3, 3))
+        further: cython.const[double][:, ::1] = as_array(stays, "what stays of the turn", (3, 3))
         multiply(back, further, half)
         multiply(half, axes, left)
         for i in range(3):
@@ -113,10 +110,10 @@ def read_wrist(
                 spread[i, j] += left[i, j]
     shown[:] = own
     if start is not None:
-        neutral: cython.const[cython.double][:, ::1] = require_array(start, "the neutral pose", (3, 3))
+        neutral: cython.const[double][:, ::1] = as_array(start, "the neutral pose", (3, 3))
         multiply(neutral, own, shown)
 
-    s: cython.double = sign
+    s: double = sign
     theta = asin(min(max(-shown[2, 0], -1.0), 1.0))
     phi = atan2(shown[2, 1], shown[2, 2])
     vector[2, 0], vector[2, 1], vector[2, 2] = s * atan2(shown[1, 0], shown[0, 0]), theta + 0.0, s * phi
@@ -166,40 +163,35 @@ def compute_finger_base(
     -------
     tuple of numpy.ndarray
         Axes (3, 3), origin (3,), discs (6, 3), flexion (5,) of the metacarpals and its standard deviation (5,) of a
-        ``PalmGeometry``; from there into camera axes rotation (3, 3) and translation (3,); in camera axes the
-        covariances
+        ``PalmInBody``; from there into camera axes rotation (3, 3) and translation (3,); in camera axes the covariances
         of the body's place and turn (6, 6) and of the turn of the axes (3, 3).
     """
-    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
-    rotation: cython.const[cython.double][:, ::1] = require_array(
-        estimate.rotation_w2_w0, "the palm's rotation", (3, 3)
-    )
-    covariance: cython.const[cython.double][:, ::1] = require_array(
-        estimate.covariance, "the palm's covariance", (SIZE, SIZE)
-    )
-    disc: cython.const[cython.double][:, ::1] = require_array(disc_m, "places of the discs", (DISCS, 3))
-    by_shape: cython.const[cython.double][:, ::1] = require_array(known.sensitivity, "turns by the shape", (3, SHAPES))
-    w0_cam: cython.const[cython.double][:, ::1] = require_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
-    at: cython.const[cython.double][::1] = require_array(view.translation_w0_cam_m, "the camera's place", (3,))
+    state: cython.const[double][::1] = as_array(estimate.value, "the palm's state", (SIZE,))
+    rotation: cython.const[double][:, ::1] = as_array(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
+    covariance: cython.const[double][:, ::1] = as_array(estimate.covariance, "the palm's covariance", (SIZE, SIZE))
+    disc: cython.const[double][:, ::1] = as_array(disc_m, "places of the discs", (DISCS, 3))
+    by_shape: cython.const[double][:, ::1] = as_array(known.sensitivity, "turns by the shape", (3, SHAPES))
+    w0_cam: cython.const[double][:, ::1] = as_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
+    at: cython.const[double][::1] = as_array(view.translation_w0_cam_m, "the camera's place", (3,))
     matrices, places, cups, pose = np.empty((7, 3, 3)), np.empty((2 * DISCS + 1, 3)), np.zeros((2, 5)), np.zeros((6, 6))
-    matrix: cython.double[:, :, ::1] = matrices
-    axes: cython.double[:, ::1] = matrix[0]
-    body_cam: cython.double[:, ::1] = matrix[1]
-    to_camera: cython.double[:, ::1] = matrix[2]
-    turned: cython.double[:, ::1] = matrix[3]
-    spread: cython.double[:, ::1] = matrix[4]
-    half: cython.double[:, ::1] = matrix[5]
-    still: cython.double[:, ::1] = matrix[6]
-    place: cython.double[:, ::1] = places
-    cup: cython.double[:, ::1] = cups
-    of_pose: cython.double[:, ::1] = pose
-    d: cython.Py_ssize_t
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    a: cython.Py_ssize_t
-    b: cython.Py_ssize_t
-    p: cython.Py_ssize_t
-    q: cython.Py_ssize_t
+    matrix: double[:, :, ::1] = matrices
+    axes: double[:, ::1] = matrix[0]
+    body_cam: double[:, ::1] = matrix[1]
+    to_camera: double[:, ::1] = matrix[2]
+    turned: double[:, ::1] = matrix[3]
+    spread: double[:, ::1] = matrix[4]
+    half: double[:, ::1] = matrix[5]
+    still: double[:, ::1] = matrix[6]
+    place: double[:, ::1] = places
+    cup: double[:, ::1] = cups
+    of_pose: double[:, ::1] = pose
+    d: Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
+    a: Py_ssize_t
+    b: Py_ssize_t
+    p: Py_ssize_t
+    q: Py_ssize_t
     turn_axes(known.axes, by_shape, known.shape_m, state, half, axes)
     for i in range(3):
         for j in range(3):
@@ -247,19 +239,19 @@ def compute_finger_base(
 @cython.cfunc
 def turn_axes(
     axes_known: object,
-    by_shape: cython.const[cython.double][:, ::1],
+    by_shape: cython.const[double][:, ::1],
     shape_known: object,
-    state: cython.const[cython.double][::1],
-    turn: cython.double[:, ::1],
-    out: cython.double[:, ::1],
+    state: cython.const[double][::1],
+    turn: double[:, ::1],
+    out: double[:, ::1],
 ) -> cython.void:
     """``out`` = axes Exp(S s) for a shape that has moved by s since they were worked out."""
-    axes: cython.const[cython.double][:, ::1] = require_array(axes_known, "the wrist's axes", (3, 3))
-    about: cython.const[cython.double][::1] = require_array(shape_known, "the shape of the axes", (SHAPES,))
-    x: cython.double = 0.0
-    y: cython.double = 0.0
-    z: cython.double = 0.0
-    i: cython.Py_ssize_t
+    axes: cython.const[double][:, ::1] = as_array(axes_known, "the wrist's axes", (3, 3))
+    about: cython.const[double][::1] = as_array(shape_known, "the shape of the axes", (SHAPES,))
+    x: double = 0.0
+    y: double = 0.0
+    z: double = 0.0
+    i: Py_ssize_t
     for i in range(SHAPES):
         moved = state[SHAPE + i] - about[i]
         x += by_shape[0, i] * moved
@@ -271,18 +263,18 @@ def turn_axes(
 
 @cython.cfunc
 def fill_turn_covariance(
-    by_turn: cython.double[:, ::1],
-    by_axes: cython.double[:, ::1],
-    by_shape: cython.const[cython.double][:, ::1],
-    covariance: cython.const[cython.double][:, ::1],
-    out: cython.double[:, ::1],
+    by_turn: double[:, ::1],
+    by_axes: double[:, ::1],
+    by_shape: cython.const[double][:, ::1],
+    covariance: cython.const[double][:, ::1],
+    out: double[:, ::1],
 ) -> cython.void:
     """``out`` = E P E' for a turn that is E d = ``by_turn`` d + ``by_axes`` S s, of errors d of the turn and s of the
     shape."""
-    errors: cython.double[:, ::1] = np.zeros((6, READ))
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    k: cython.Py_ssize_t
+    errors: double[:, ::1] = np.zeros((6, READ))
+    i: Py_ssize_t
+    j: Py_ssize_t
+    k: Py_ssize_t
     for i in range(3):
         for j in range(3):
             errors[i, j] = by_turn[i, j]

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import cython
 import numpy as np
+from cython import double
 from cython.cimports.libc.math import INFINITY, atan2, ceil, fabs, floor, hypot
 from numpy.typing import NDArray
 
 
 def sample_outline(
     raw: cython.const[cython.ushort][:, :],
-    unit_m: cython.double,
-    corner_px: cython.const[cython.double][:, :],
-    wider: cython.double,
-    margin_px: cython.double,
+    unit_m: double,
+    corner_px: cython.const[double][:, :],
+    wider: double,
+    margin_px: double,
     step: cython.int,
     max_readings: cython.int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
@@ -28,8 +29,8 @@ def sample_outline(
     """
     check_request(corner_px, step, max_readings)
     corners = corner_px.shape[0]
-    middle_u: cython.double = 0.0
-    middle_v: cython.double = 0.0
+    middle_u: double = 0.0
+    middle_v: double = 0.0
     for i in range(corners):
         middle_u += corner_px[i, 0]
         middle_v += corner_px[i, 1]
@@ -39,12 +40,12 @@ def sample_outline(
         u_px, v_px = middle_u + wider * (corner_px[i, 0] - middle_u), middle_v + wider * (corner_px[i, 1] - middle_v)
         places.append((atan2(v_px - middle_v, u_px - middle_u), u_px, v_px))
     places.sort()
-    outline: cython.double[:, :] = np.array(places)[:, 1:]
+    outline: double[:, :] = np.array(places)[:, 1:]
     found = find_readings(raw, outline, margin_px, step, False)
     if found is None:
         return None
     # Twice the area of the triangle of an edge and a pixel is negative outside; by the margin it may be.
-    edge: cython.double[:, ::1] = np.empty((corners, 3))
+    edge: double[:, ::1] = np.empty((corners, 3))
     for i in range(corners):
         following = i + 1 if i + 1 < corners else 0
         edge[i, 0], edge[i, 1] = outline[following, 0] - outline[i, 0], outline[following, 1] - outline[i, 1]
@@ -62,7 +63,7 @@ def sample_outline(
             place[count, 0], place[count, 1] = u, v
             count += 1
     if count > max_readings:
-        apart: cython.double = (count - 1) / max(max_readings - 1.0, 1.0)
+        apart: double = (count - 1) / max(max_readings - 1.0, 1.0)
         for k in range(max_readings):
             at: cython.int = cython.cast(cython.int, k * apart) if k < max_readings - 1 else count - 1
             place[k, 0], place[k, 1] = place[at, 0], place[at, 1]
@@ -71,9 +72,9 @@ def sample_outline(
 
 def sample_discs(
     raw: cython.const[cython.ushort][:, :],
-    unit_m: cython.double,
-    disc_px: cython.const[cython.double][:, :],
-    margin_px: cython.double,
+    unit_m: double,
+    disc_px: cython.const[double][:, :],
+    margin_px: double,
     step: cython.int,
     max_readings: cython.int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
@@ -90,11 +91,11 @@ def sample_discs(
     count: cython.int = place.shape[0]
     if count > max_readings:
         away = np.full(count, INFINITY)
-        nearest: cython.double[::1] = away
+        nearest: double[::1] = away
         for k in range(count):
             for i in range(disc_px.shape[0]):
                 nearest[k] = min(nearest[k], fabs(place[k, 0] - disc_px[i, 0]) + fabs(place[k, 1] - disc_px[i, 1]))
-        farthest: cython.double = np.partition(away, max_readings - 1)[max_readings - 1]
+        farthest: double = np.partition(away, max_readings - 1)[max_readings - 1]
         count = 0
         for k in range(place.shape[0]):
             if nearest[k] <= farthest and count < max_readings:
@@ -104,9 +105,7 @@ def sample_discs(
 
 
 @cython.cfunc
-def check_request(
-    place_px: cython.const[cython.double][:, :], step: cython.int, max_readings: cython.int
-) -> cython.bint:
+def check_request(place_px: cython.const[double][:, :], step: cython.int, max_readings: cython.int) -> cython.bint:
     """Refuse what is no request for readings."""
     if place_px.shape[0] == 0 or place_px.shape[1] != 2:
         raise ValueError("places in the picture are wanted, u and v of each")
@@ -118,8 +117,8 @@ def check_request(
 @cython.cfunc
 def find_readings(
     raw: cython.const[cython.ushort][:, :],
-    place_px: cython.const[cython.double][:, :],
-    margin_px: cython.double,
+    place_px: cython.const[double][:, :],
+    margin_px: double,
     step: cython.int,
     is_outward: cython.bint,
 ) -> NDArray[np.int32] | None:
@@ -129,8 +128,8 @@ def find_readings(
     """
     first, size = [0, 0], [0, 0]
     for axis in range(2):
-        low: cython.double = INFINITY
-        high: cython.double = -INFINITY
+        low: double = INFINITY
+        high: double = -INFINITY
         for i in range(place_px.shape[0]):
             if not fabs(place_px[i, axis]) < INFINITY:
                 return None
@@ -159,12 +158,12 @@ def find_readings(
 
 @cython.cfunc
 def get_readings(
-    raw: cython.const[cython.ushort][:, :], unit_m: cython.double, place: cython.int[:, :]
+    raw: cython.const[cython.ushort][:, :], unit_m: double, place: cython.int[:, :]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Get depths in single precision, as they are stored: tracked again from there they are the same."""
     pixel, depth = np.empty((place.shape[0], 2)), np.empty(place.shape[0])
-    pixel_px: cython.double[:, ::1] = pixel
-    depth_m: cython.double[::1] = depth
+    pixel_px: double[:, ::1] = pixel
+    depth_m: double[::1] = depth
     for k in range(place.shape[0]):
         u, v = place[k, 0], place[k, 1]
         pixel_px[k, 0], pixel_px[k, 1] = u, v

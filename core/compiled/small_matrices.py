@@ -4,24 +4,23 @@ Each writes into an array that its caller gives; ``small_matrices.pxd`` says whi
 """
 
 import cython
+from cython import Py_ssize_t, double
 from cython.cimports.libc.math import sqrt
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def add_product(
-    a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
-) -> cython.void:
+def add_product(a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]) -> cython.void:
     """
     Add A B to ``out``.
 
     Two rows of A meet four of B at a time, so that each number is fetched less often; where all eight numbers of A are
     zero they are left out, also where those of B are not finite (:func:`zero_times`).
     """
-    rows: cython.Py_ssize_t = a.shape[0]
-    columns: cython.Py_ssize_t = b.shape[1]
-    last: cython.Py_ssize_t = a.shape[1] - a.shape[1] % 4
+    rows: Py_ssize_t = a.shape[0]
+    columns: Py_ssize_t = b.shape[1]
+    last: Py_ssize_t = a.shape[1] - a.shape[1] % 4
     for i in range(0, rows - 1, 2):
         for k in range(0, last, 4):
             w, x, y, z = a[i, k], a[i, k + 1], a[i, k + 2], a[i, k + 3]
@@ -49,40 +48,45 @@ def add_product(
 @cython.nogil
 @cython.exceptval(check=False)
 def add_sparse_product(
-    a: cython.const[cython.double][:, ::1], b: cython.const[cython.double][:, ::1], out: cython.double[:, ::1]
+    a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]
 ) -> cython.void:
-    """Add A B to ``out``, of an A that is mostly zeros: the rows of B that the others meet, two at a time."""
-    last: cython.Py_ssize_t = a.shape[1] - 1
+    """Add A B to ``out``, of an A that is mostly zeros: the rows of B that the others meet, four at a time."""
+    last: Py_ssize_t = a.shape[1] - 1
     for i in range(a.shape[0]):
-        k: cython.Py_ssize_t = 0
-        while k <= last:
-            while k <= last and a[i, k] == 0.0:
-                k += 1
-            first = k
-            k += 1
-            while k <= last and a[i, k] == 0.0:
-                k += 1
-            if first <= last:
-                second = min(k, last)
-                w, x = a[i, first], a[i, k] if k <= last else 0.0
+        p: Py_ssize_t = 0
+        q: Py_ssize_t = 0
+        r: Py_ssize_t = 0
+        s: Py_ssize_t = 0
+        w: double = 0.0
+        x: double = 0.0
+        y: double = 0.0
+        z: double = 0.0
+        waiting: cython.int = 0
+        for k in range(last + 1):
+            if a[i, k] != 0.0:
+                p, q, r, s = q, r, s, k
+                w, x, y, z = x, y, z, a[i, k]
+                waiting += 1
+            if waiting == 4 or (waiting > 0 and k == last):
                 for j in range(b.shape[1]):
-                    out[i, j] += w * b[first, j] + x * b[second, j]
-            k += 1
+                    out[i, j] += w * b[p, j] + x * b[q, j] + y * b[r, j] + z * b[s, j]
+                w = x = y = z = 0.0
+                waiting = 0
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def zero_times(a: cython.const[cython.double][:, ::1]) -> cython.double:
+def zero_times(a: cython.const[double][:, ::1]) -> double:
     """0, or NaN where any number of A is not finite: what a product that leaves out zeros must begin with, so that
     nothing unknown is passed over. Only the lower half of what is square is looked at."""
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
     # Four sums: one would wait for itself.
-    w: cython.double = 0.0
-    x: cython.double = 0.0
-    y: cython.double = 0.0
-    z: cython.double = 0.0
+    w: double = 0.0
+    x: double = 0.0
+    y: double = 0.0
+    z: double = 0.0
     for i in range(a.shape[0]):
         j = 0
         while j + 3 <= i:
@@ -100,12 +104,12 @@ def zero_times(a: cython.const[cython.double][:, ::1]) -> cython.double:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def inverse_root(root: cython.double[:, ::1], inverse: cython.double[:, ::1]) -> cython.bint:
+def inverse_root(root: double[:, ::1], inverse: double[:, ::1]) -> cython.bint:
     """L^-1 of a matrix L L', whose upper triangle is changed; False where it is not positive definite (Cholesky)."""
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    k: cython.Py_ssize_t
-    n: cython.Py_ssize_t = root.shape[0]
+    i: Py_ssize_t
+    j: Py_ssize_t
+    k: Py_ssize_t
+    n: Py_ssize_t = root.shape[0]
     for i in range(n):
         for j in range(n):
             inverse[i, j] = 0.0

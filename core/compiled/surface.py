@@ -6,17 +6,18 @@ from typing import Any
 
 import cython
 import numpy as np
+from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.palm import fill_rotation, multiply
 from cython.cimports.libc.math import fabs
 
-from carpus.core.compiled.palm import require_array
+from carpus.core.compiled.palm import as_array
 
 # Where the numbers stand in the palm's error vector.
-SIZE = cython.declare(cython.Py_ssize_t, 54)
-POSITION = cython.declare(cython.Py_ssize_t, 0)
-TURN = cython.declare(cython.Py_ssize_t, 6)
-BACK = cython.declare(cython.Py_ssize_t, 30)
-RELIEF = cython.declare(cython.Py_ssize_t, 51)
+SIZE = cython.declare(Py_ssize_t, 54)
+POSITION = cython.declare(Py_ssize_t, 0)
+TURN = cython.declare(Py_ssize_t, 6)
+BACK = cython.declare(Py_ssize_t, 30)
+RELIEF = cython.declare(Py_ssize_t, 51)
 
 
 def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settings: Any) -> tuple[Any, ...] | None:
@@ -47,36 +48,36 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
         Turns in rad and height in metres that the estimate is wrong by (3,), their covariance (3, 3), their slope
         (3, 54) by the palm's error vector, and how many readings were used; None where these are too few.
     """
-    count: cython.Py_ssize_t = len(samples.depth_m)
-    rows: cython.Py_ssize_t = surface.height_m.shape[0]
-    columns: cython.Py_ssize_t = surface.height_m.shape[1]
-    pixel: cython.const[cython.double][:, ::1] = require_array(samples.pixel, "the readings' pixels", (count, 2))
-    depth: cython.const[cython.double][::1] = require_array(samples.depth_m, "the readings' depths", (count,))
-    state: cython.const[cython.double][::1] = require_array(estimate.value, "the palm's state", (SIZE,))
-    started: cython.const[cython.double][:, ::1] = require_array(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
-    in_w0: cython.const[cython.double][:, ::1] = require_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
-    origin: cython.const[cython.double][::1] = require_array(view.translation_w0_cam_m, "the camera's place", (3,))
+    count: Py_ssize_t = len(samples.depth_m)
+    rows: Py_ssize_t = surface.height_m.shape[0]
+    columns: Py_ssize_t = surface.height_m.shape[1]
+    pixel: cython.const[double][:, ::1] = as_array(samples.pixel, "the readings' pixels", (count, 2))
+    depth: cython.const[double][::1] = as_array(samples.depth_m, "the readings' depths", (count,))
+    state: cython.const[double][::1] = as_array(estimate.value, "the palm's state", (SIZE,))
+    started: cython.const[double][:, ::1] = as_array(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))
+    in_w0: cython.const[double][:, ::1] = as_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
+    origin: cython.const[double][::1] = as_array(view.translation_w0_cam_m, "the camera's place", (3,))
     nodes = (rows + 2) * (columns + 2)
-    plane: cython.const[cython.double][:, ::1] = require_array(surface.plane, "the planes of the surface", (nodes, 4))
-    node: cython.const[cython.double][:, ::1] = require_array(surface.to_node, "the grid of the surface", (4, 2))
-    middle: cython.const[cython.double][::1] = require_array(surface.middle_m, "the middle of the surface", (3,))
+    plane: cython.const[double][:, ::1] = as_array(surface.plane, "the planes of the surface", (nodes, 4))
+    node: cython.const[double][:, ::1] = as_array(surface.to_node, "the grid of the surface", (4, 2))
+    middle: cython.const[double][::1] = as_array(surface.middle_m, "the middle of the surface", (3,))
     camera, sensor = view.camera, view.camera.sensor
-    fx: cython.double = camera.fx_px
-    fy: cython.double = camera.fy_px
-    cx: cython.double = camera.cx_px
-    cy: cython.double = camera.cy_px
-    huber: cython.double = settings.huber_m
-    most: cython.double = settings.most_m
+    fx: double = camera.fx_px
+    fy: double = camera.fy_px
+    cx: double = camera.cx_px
+    cy: double = camera.cy_px
+    huber: double = settings.huber_m
+    most: double = settings.most_m
 
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
-    k: cython.Py_ssize_t
-    a: cython.Py_ssize_t
-    b: cython.Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
+    k: Py_ssize_t
+    a: Py_ssize_t
+    b: Py_ssize_t
     # Of each reading its place in W0, height and weight, and by how much turns and shifts bring it off its plane.
-    place: cython.double[:, ::1] = np.empty((count, 3))
-    height: cython.double[:, ::1] = np.empty((count, 2))
-    by_pose: cython.double[:, ::1] = np.empty((count, 6))
+    place: double[:, ::1] = np.empty((count, 3))
+    height: double[:, ::1] = np.empty((count, 2))
+    by_pose: double[:, ::1] = np.empty((count, 6))
     for i in range(count):
         x = (pixel[i, 0] - cx) / fx * depth[i] - origin[0]
         y = (pixel[i, 1] - cy) / fy * depth[i] - origin[1]
@@ -84,21 +85,21 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
         for k in range(3):
             place[i, k] = x * in_w0[0, k] + y * in_w0[1, k] + z * in_w0[2, k]
 
-    small: cython.double[:, :, ::1] = np.zeros((5, 3, 3))
-    rotation: cython.double[:, ::1] = small[0]
-    square: cython.double[:, ::1] = small[1]
-    inverse: cython.double[:, ::1] = small[2]
-    turn: cython.double[:, ::1] = small[3]
-    before: cython.double[:, ::1] = small[4]
-    vectors: cython.double[:, ::1] = np.zeros((5, 3))
-    position: cython.double[::1] = vectors[0]
-    side: cython.double[::1] = vectors[1]
-    row: cython.double[::1] = vectors[2]
-    turned: cython.double[::1] = vectors[3]
-    shifted: cython.double[::1] = vectors[4]
+    small: double[:, :, ::1] = np.zeros((5, 3, 3))
+    rotation: double[:, ::1] = small[0]
+    square: double[:, ::1] = small[1]
+    inverse: double[:, ::1] = small[2]
+    turn: double[:, ::1] = small[3]
+    before: double[:, ::1] = small[4]
+    vectors: double[:, ::1] = np.zeros((5, 3))
+    position: double[::1] = vectors[0]
+    side: double[::1] = vectors[1]
+    row: double[::1] = vectors[2]
+    turned: double[::1] = vectors[3]
+    shifted: double[::1] = vectors[4]
     rotation[:] = started
     position[:] = state[POSITION : POSITION + 3]
-    used: cython.Py_ssize_t = 0
+    used: Py_ssize_t = 0
     for _ in range(settings.steps):
         square[:] = 0.0
         side[:] = 0.0
@@ -141,14 +142,14 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
 
     # Of those used, J' W times turns and shifts of the whole pose, and J' W E W J for errors E of unit variance, of
     # which two readings share a part as far as their patches, as wide as one, overlap.
-    patch: cython.double = sensor.patch_px
-    shared: cython.double = 1.0 if sensor.averages else settings.shared
-    near: cython.double[:, ::1] = np.empty((used, 5))  # u and v in patches, and the row of W J
-    of_pose: cython.double[:, ::1] = np.zeros((3, 6))
-    alike: cython.double[:, ::1] = square
+    patch: double = sensor.patch_px
+    shared: double = 1.0 if sensor.averages else settings.shared
+    near: double[:, ::1] = np.empty((used, 5))  # u and v in patches, and the row of W J
+    of_pose: double[:, ::1] = np.zeros((3, 6))
+    alike: double[:, ::1] = square
     alike[:] = 0.0
-    square_sum: cython.double = 0.0
-    weights: cython.double = 0.0
+    square_sum: double = 0.0
+    weights: double = 0.0
     j = 0
     for i in range(count):
         h, w = height[i, 0], height[i, 1]
@@ -174,20 +175,20 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
                 alike[a, b] += near[i, 2 + a] * side[b] + side[a] * near[i, 2 + b]
 
     value, covariance, slope = np.empty(3), np.empty((3, 3)), np.zeros((3, SIZE))
-    wrong: cython.double[::1] = value
-    spread: cython.double[:, ::1] = covariance
-    out: cython.double[:, ::1] = slope
-    ordered: cython.double[::1] = np.sort(samples.depth_m)
+    wrong: double[::1] = value
+    spread: double[:, ::1] = covariance
+    out: double[:, ::1] = slope
+    ordered: double[::1] = np.sort(samples.depth_m)
     depth_m = 0.5 * (ordered[(count - 1) // 2] + ordered[count // 2])
-    reading_m: cython.double = sensor.reading.fixed_m + sensor.reading.square_per_m * depth_m * depth_m
+    reading_m: double = sensor.reading.fixed_m + sensor.reading.square_per_m * depth_m * depth_m
     reading_m = max(settings.reading_per_m * depth_m * depth_m, reading_m)
-    scatter2: cython.double = settings.goes_on * max(square_sum / weights, reading_m * reading_m)
+    scatter2: double = settings.goes_on * max(square_sum / weights, reading_m * reading_m)
     # What stays and changes slowly over the picture tilts and lifts the surface as a whole.
-    stays_px: cython.double = sensor.stays_px
-    up_m: cython.double = sensor.stays.fixed_m + sensor.stays.square_per_m * depth_m * depth_m if stays_px else 0.0
+    stays_px: double = sensor.stays_px
+    up_m: double = sensor.stays.fixed_m + sensor.stays.square_per_m * depth_m * depth_m if stays_px else 0.0
     turn_rad = up_m * fx / (max(stays_px, 1.0) * depth_m)
-    turn_sd: cython.double = settings.turn_sd_rad
-    up_sd: cython.double = settings.up_sd_m
+    turn_sd: double = settings.turn_sd_rad
+    up_sd: double = settings.up_sd_m
     multiply(inverse, alike, before)
     multiply(before, inverse, spread)
     for a in range(3):
@@ -195,7 +196,7 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
             spread[a, b] *= scatter2
         spread[a, a] += turn_sd * turn_sd + turn_rad * turn_rad if a < 2 else up_sd * up_sd + up_m * up_m
     # Of the whole pose: a shift along the surface and a turn about its normal also move what is read.
-    by_turn: cython.double[:, ::1] = turn
+    by_turn: double[:, ::1] = turn
     for a in range(3):
         for k in range(3):
             by_turn[a, k] = (
@@ -218,17 +219,17 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
 @cython.cfunc
 @cython.inline
 @cython.exceptval(check=False)
-def round_to_index(x: cython.double, most: cython.Py_ssize_t) -> cython.Py_ssize_t:
+def round_to_index(x: double, most: Py_ssize_t) -> Py_ssize_t:
     """Whole number from 0 to ``most`` nearest to x; 0 where that is unknown."""
-    return cython.cast(cython.Py_ssize_t, min(x, most) + 0.5) if x > 0.0 else 0
+    return cython.cast(Py_ssize_t, min(x, most) + 0.5) if x > 0.0 else 0
 
 
 @cython.cfunc
 @cython.exceptval(check=True)
-def invert(matrix: cython.double[:, ::1], inverse: cython.double[:, ::1]) -> cython.void:
+def invert(matrix: double[:, ::1], inverse: double[:, ::1]) -> cython.void:
     """Inverse (3, 3) by cofactors."""
-    i: cython.Py_ssize_t
-    j: cython.Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
     for i in range(3):
         for j in range(3):
             a, b, c, d = (i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3

@@ -14,7 +14,6 @@ from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,
     Transition,
-    mix_modes,
     mode_transition_matrix,
     partial_update_shares,
     predict_mixture,
@@ -78,7 +77,6 @@ def test_steps_ahead_of_any_size_are_the_oracles(size: tuple[int, ...]) -> None:
     rng = np.random.default_rng(12)
     chains, modes, n, _ = size
     mixture, switch = mixture_of(rng, chains, modes, n), mode_transition_matrix(modes, 0.5, 0.03)
-    assert_same(mix_modes(mixture, switch), oracle.mixed(mixture, switch))
     forward, noise = rng.normal(size=(chains, n, n)), covariances(rng, chains, modes, n)
     forward[rng.uniform(size=forward.shape) < 0.6] = 0.0
     assert_same(predict_mixture(mixture, forward, noise, switch), oracle.predicted(mixture, forward, noise, switch))
@@ -133,9 +131,10 @@ def test_arrays_stored_otherwise_give_the_same(layout: Callable[[np.ndarray], np
     )
     other = laid_out(mixture, layout)
     assert_same(compiled.merge_modes(other), oracle.merged(mixture))
-    assert_same(mix_modes(other, layout(switch)), oracle.mixed(mixture, switch))
-    assert_same(predict_mixture(other, layout(forward), layout(noise)), oracle.predicted(mixture, forward, noise))
-    assert_same(propagate_mixture(other, laid_out(step, layout), nominal), oracle.transitioned(mixture, step, nominal))
+    found = predict_mixture(other, layout(forward), layout(noise), layout(switch))
+    assert_same(found, oracle.predicted(mixture, forward, noise, switch))
+    found = propagate_mixture(other, laid_out(step, layout), nominal, layout(switch))
+    assert_same(found, oracle.transitioned(mixture, step, nominal, switch))
     found = update_mixture(other, laid_out(line, layout), layout(measured), layout(variance))
     assert_same(found, oracle.corrected(mixture, line, measured, variance))
 
@@ -175,7 +174,7 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
     with pytest.raises(ValueError, match="size"):
         predict_mixture(mixture, square[:1], covariances(np.random.default_rng(1), 2, 3, 5))
     with pytest.raises(ValueError, match="row"):
-        mix_modes(mixture, np.ones((2, 2)))
+        predict_mixture(mixture, square, covariances(np.random.default_rng(1), 2, 3, 5), np.ones((2, 2)))
     step = step_of(np.random.default_rng(2), 3, 5)
     wide = np.ones((3, 9, 9))
     for wrong_step in (

@@ -10,7 +10,6 @@ from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,
     Transition,
-    mix_modes,
     mode_transition_matrix,
     partial_update_shares,
     predict_mixture,
@@ -134,7 +133,9 @@ def test_residuals_are_standard_normal_where_the_model_is_right() -> None:
 
 def test_modes_mix_from_row_to_column() -> None:
     mixture, switch = any_mixture(2), np.array([[0.9, 0.1], [0.4, 0.6]])
-    blend = mix_modes(mixture, switch)
+    size = mixture.mean.shape[2]
+    still, no_noise = np.tile(np.eye(size), (CHAINS, 1, 1)), np.zeros((CHAINS, MODES, size, size))
+    blend = predict_mixture(mixture, still, no_noise, switch)
     for c in range(CHAINS):
         for to in range(MODES):
             share = switch[:, to] * mixture.probability[c]

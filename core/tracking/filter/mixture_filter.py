@@ -53,18 +53,14 @@ def mode_transition_matrix(modes: int, dwell_s: float, dt_s: float) -> FloatArra
     return out
 
 
-def mix_modes(mixture: ModeMixture, switch: FloatArray) -> ModeMixture:
-    """Each mode's start from all that may have switched to it; ``switch`` (K, K) from row to column."""
-    return mixture if switch.shape[0] == 1 else ModeMixture(*compiled.mix_modes(mixture, switch))
-
-
 def predict_mixture(
     mixture: ModeMixture, forward: FloatArray, noise: FloatArray, switch: FloatArray | None = None
 ) -> ModeMixture:
-    """P <- F P F' + Q with ``forward`` (C, n, n) and ``noise`` (C, K, n, n), the modes :func:`mix_modes` before
-    where there is a ``switch``."""
-    mixture = mixture if switch is None else mix_modes(mixture, switch)
-    return ModeMixture(*compiled.predict_modes(mixture, forward, noise), mixture.probability)
+    """Predict F m and F P F' + Q, ``forward`` F (C, n, n) and ``noise`` Q (C, K, n, n).
+
+    Each mode is mixed before of all that may have gone over to it by the ``switch`` (K, K) from row to column.
+    """
+    return ModeMixture(*compiled.predict_modes(mixture, forward, noise, switch))
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +79,7 @@ def propagate_mixture(
     mixture: ModeMixture, step: Transition, nominal: FloatArray, switch: FloatArray | None = None
 ) -> ModeMixture:
     """The mixture after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
-    what of that a mode does not keep is an error of the mode. Its modes are :func:`mix_modes` before where there is a
-    ``switch``."""
+    what of that a mode does not keep is an error of the mode. Its modes are mixed before by the ``switch``."""
     return ModeMixture(*compiled.predict_palm_modes(mixture, step, nominal, switch))
 
 
@@ -139,8 +134,8 @@ def update_mixture(
     differ by
     orders of magnitude.
     """
-    found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial)
-    return Update(ModeMixture(*found[:3]), *found[3:])
+    found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial, measured.shape[1])
+    return Update(ModeMixture(*found[:3]), *found[3:6])
 
 
 def rts_step(
