@@ -10,4 +10,4 @@ from carpus.core.model.types import TrackedFrame
 
 def with_moment(frame: TrackedFrame, **values: Any) -> TrackedFrame:
     """The frame with some values of its moment replaced."""
-    return replace(frame, moment=replace(frame.kinematics, **values))
+    return replace(frame, kinematics=replace(frame.kinematics, **values))

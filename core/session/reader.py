@@ -143,7 +143,7 @@ class ReadingProcess:
             self._child = None
         if self._child is None or not self._child.is_alive:
             self._end()
-            work = "carpus.core.session.reading_process:segment"
+            work = "carpus.core.session.reading_process:run"
             self._child, self._owner = ChildProcess(work, name="reading", is_forked=_can_fork()), os.getpid()
         return self._child.link
 

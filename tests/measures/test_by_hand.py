@@ -61,7 +61,7 @@ def test_the_last_entry_of_a_day_counts_and_what_it_replaced_stays_readable() ->
     assert superseded_entries(entries, flexion(0.0).key, DAY) == [flexion(40.0)]
     assert value_on_day(entries, flexion(0.0).key, DAY) == flexion(45.0)
     assert previous_value(entries, flexion(0.0).key, DAY) == flexion(30.0, DAY - timedelta(days=7))
-    taken_back = [*entries, replace(flexion(0.0), tries=())]
+    taken_back = [*entries, replace(flexion(0.0), trials=())]
     assert value_on_day(taken_back, flexion(0.0).key, DAY) is None
     assert [one.value for one in value_history(taken_back, flexion(0.0).key)] == [30.0]
 
@@ -94,7 +94,7 @@ def test_the_store_keeps_every_entry_in_order_and_says_what_it_knows(tmp_path: P
             add_manual_measurements(house.store, "nobody", [flexion(1.0)])
     with opened(tmp_path) as house:
         found = read_manual_measurements(house.store, linden)
-        assert [replace(one, entered=None) for one in found] == [flexion(40.0), size, flexion(45.0)]
+        assert [replace(one, entered_at=None) for one in found] == [flexion(40.0), size, flexion(45.0)]
         assert all(one.entered_at is not None and one.entered_at.tzinfo is not None for one in found)
         house.store.execute_local(
             update(MANUAL_MEASUREMENT).where(MANUAL_MEASUREMENT.c.measure == "WRIST_ROUND").values(measure="NOSE")

@@ -119,7 +119,7 @@ def test_it_is_said_in_words(made: CameraCalibration) -> None:
 
 
 def shifted(view: BoardView, pixel: FloatArray) -> BoardView:
-    return replace(view, found=replace(view.detected, pixel=pixel))
+    return replace(view, detected=replace(view.detected, pixel=pixel))
 
 
 def bent(view: BoardView) -> BoardView:

@@ -59,7 +59,9 @@ def test_a_turned_sign_is_no_shift_of_half_a_repetition() -> None:
 def test_one_turned_sign_of_two_is_seen_all_the_same() -> None:
     one, other = curves(hand, 0.4), curves(hand, 0.4, sign=-1.0)
     both = replace(
-        one, mine=np.hstack((one.values, other.values)), other=np.hstack((one.reference_values, other.reference_values))
+        one,
+        values=np.hstack((one.values, other.values)),
+        reference_values=np.hstack((one.reference_values, other.reference_values)),
     )
     assert find_shift(both, 10.0).lag_s == pytest.approx(0.4, abs=0.01)
 
@@ -77,8 +79,8 @@ def test_drift_and_a_turned_sign_do_not_hide_behind_a_shift() -> None:
     one, other = (curves(sine, 0.2, length_s=30.0, drift=0.01, sign=sign) for sign in (1.0, -1.0))
     both = replace(
         one,
-        mine=np.hstack((other.values, 0.2 * one.values)),
-        other=np.hstack((other.reference_values, 0.2 * one.reference_values)),
+        values=np.hstack((other.values, 0.2 * one.values)),
+        reference_values=np.hstack((other.reference_values, 0.2 * one.reference_values)),
     )
     for each in (one, other, both):
         found = with_residual_drift(each, find_shift(each, 10.0))

@@ -290,7 +290,7 @@ def test_drift_over_minutes_is_no_other_movement() -> None:
     shift = find_shift(curves, 10.0)
     assert abs(shift.match) < MIN_MATCH
     _check_match(Reference(Path("x.mot"), "angles"), curves, with_residual_drift(curves, shift))
-    noise = replace(curves, other=np.random.default_rng(0).normal(size=curves.reference_values.shape))
+    noise = replace(curves, reference_values=np.random.default_rng(0).normal(size=curves.reference_values.shape))
     with pytest.raises(ReferenceUnsuited):
         _check_match(Reference(Path("x.mot"), "angles"), noise, with_residual_drift(noise, find_shift(noise, 10.0)))
 
