@@ -231,7 +231,7 @@ def test_other_devices_and_other_systems(tmp_path: Path) -> None:
 
 
 def seen(**changes: bool) -> UsbCamera:
-    values = {"may_open": True, "is_claimed": False, **changes}
+    values = {"can_open": True, "is_claimed": False, **changes}
     return UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), 480, **values)
 
 
@@ -239,7 +239,7 @@ def seen(**changes: bool) -> UsbCamera:
     ("cameras", "reason", "fault"),
     [
         ([], "no devices found", CameraMissing),
-        ([seen(may_open=False)], "Failed to open the USB device!", CameraPermission),
+        ([seen(can_open=False)], "Failed to open the USB device!", CameraPermission),
         ([seen(is_claimed=True)], "Error!", CameraBusy),
         ([seen()], 'Could not open "1d27/0601@3/4": Failed to set USB interface!', CameraBusy),
         ([seen()], "USB transfer timeout!", DriverFailed),
@@ -252,7 +252,7 @@ def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str,
 
 @pytest.mark.parametrize(
     ("cameras", "fault"),
-    [([], CameraMissing), ([seen(may_open=False)], CameraPermission), ([seen()], DriverFailed)],
+    [([], CameraMissing), ([seen(can_open=False)], CameraPermission), ([seen()], DriverFailed)],
 )
 def test_why_the_driver_lists_no_camera(cameras: list[UsbCamera], fault: type[CarpusFault]) -> None:
     assert camera_unlisted_error(cameras).fault is fault
@@ -272,8 +272,8 @@ def test_the_modes_of_an_xtion() -> None:
 def test_slots_of_pictures_before_the_opening_are_given_back(monkeypatch: pytest.MonkeyPatch) -> None:
     early, opened = ImageArrived(Sensor.DEPTH, 3, 1, 0), DeviceOpened({}, {}, None, {})
     reports, freed = deque([Heartbeat(), early, opened]), list[ImageArrived]()
-    monkeypatch.setattr(CaptureProcess, "report", lambda *_: reports.popleft())
-    monkeypatch.setattr(CaptureProcess, "free", lambda _, arrived: freed.append(arrived))
+    monkeypatch.setattr(CaptureProcess, "receive_report", lambda *_: reports.popleft())
+    monkeypatch.setattr(CaptureProcess, "release_slot", lambda _, arrived: freed.append(arrived))
     process = object.__new__(CaptureProcess)
     assert process.receive_opened(threading.Event(), 1.0) is opened
     assert freed == [early]

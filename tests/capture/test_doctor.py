@@ -107,11 +107,11 @@ def test_rules_of_the_system(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("speed", "may_open", "claimed", "state"),
+    ("speed", "can_open", "claimed", "state"),
     [(480, True, False, "good"), (480, False, False, "bad"), (480, True, True, "warning"), (12, True, False, "bad")],
 )
-def test_the_camera_on_the_bus(speed: int, may_open: bool, claimed: bool, state: str) -> None:
-    camera = UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), speed, may_open, claimed)
+def test_the_camera_on_the_bus(speed: int, can_open: bool, claimed: bool, state: str) -> None:
+    camera = UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), speed, can_open, claimed)
     finding = doctor.check_camera(openni2_camera.KIND, camera)
     assert finding.state == state
     assert "1d27:0601" in finding.observation
@@ -173,10 +173,10 @@ def test_a_camera_of_one_kind_excuses_what_another_lacks(monkeypatch: pytest.Mon
 
     there = UsbCamera("Intel RealSense D435", "8086", "0b07", Path("/dev/bus/usb/002/003"), 480, True, False)
     without = replace(openni2_camera.KIND, check_driver=lacking)
-    monkeypatch.setattr(CameraKind, "seen", lambda kind: [there] if kind is realsense.KIND else [])
-    monkeypatch.setattr(doctor, "_kinds", lambda: [without, realsense.KIND])
+    monkeypatch.setattr(CameraKind, "find_connected", lambda kind: [there] if kind is realsense.KIND else [])
+    monkeypatch.setattr(doctor, "_camera_kinds", lambda: [without, realsense.KIND])
     assert [each.state for each in doctor.check_drivers(loads_library=False)] == ["warning", "good"]
-    monkeypatch.setattr(doctor, "_kinds", lambda: [without])
+    monkeypatch.setattr(doctor, "_camera_kinds", lambda: [without])
     assert [each.state for each in doctor.check_drivers(loads_library=False)] == ["bad"]
     slow = doctor.check_camera(realsense.KIND, there)
     assert (slow.state, "USB 3" in slow.remedy) == ("warning", True)

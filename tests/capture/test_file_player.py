@@ -50,7 +50,7 @@ def test_a_player_that_is_closed_while_its_process_is_made_leaves_none(monkeypat
         def __init__(self, *_: object) -> None:
             player.close()
 
-        def wait_open(self, closing: threading.Event, _open_s: float) -> None:
+        def receive_opened(self, closing: threading.Event, _open_s: float) -> None:
             assert closing.is_set()
 
         def close(self, *, gently: bool) -> None:
@@ -70,7 +70,7 @@ def test_a_library_that_dies_or_hangs_is_a_fault(
     frames = source.frames()
     next(frames)
     with monkeypatch.context() as patience:
-        patience.setattr(realsense_recording, "ANSWER_S", 0.5)
+        patience.setattr(realsense_recording, "REPORT_TIMEOUT_S", 0.5)
         os.kill(source.pid, blow)
         with pytest.raises(DriverFailed) as caught:
             list(frames)

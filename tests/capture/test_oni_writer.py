@@ -71,7 +71,7 @@ def test_the_librarys_own_recorder_agrees(tmp_path: Path) -> None:
 import ctypes, sys, time
 from carpus.core.capture.devices.openni2 import *
 with Context() as library:
-    c = library.c
+    c = library.api
     device = library.open(sys.argv[1])
     device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0)
     device.set_float(DeviceProperty.PLAYBACK_SPEED, -1.0)
@@ -83,8 +83,8 @@ with Context() as library:
     c.oniRecorderStart(recorder)
     for stream in streams:
         stream.start()
-    while (ready := library.wait(streams, 500)) is not None:
-        with streams[ready].read():
+    while (ready := library.poll_streams(streams, 500)) is not None:
+        with streams[ready].read_frame():
             time.sleep(0.03)  # its recorder has one place for the picture to come: let it write
     time.sleep(0.3)
     c.oniRecorderStop(recorder)

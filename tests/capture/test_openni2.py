@@ -57,11 +57,11 @@ def test_another_library_of_that_name_is_a_fault(monkeypatch: pytest.MonkeyPatch
 def test_no_camera_and_no_file() -> None:
     body = """
 with Context() as library:
-    result = [len(library.devices())]
+    result = [len(library.list_devices())]
     for name in ("", "/nowhere/none.oni"):
         try:
             library.open(name)
-        except CallFailed as failure:
+        except OpenNI2Error as failure:
             result.append([failure.call, failure.status, failure.reason])
 """
     devices, default, missing = in_process(body)
@@ -87,7 +87,7 @@ def test_a_recording_in_lockstep(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 4)
     body = """
 with Context() as library:
-    library.watch(lambda uri: None)
+    library.register_disconnect_handler(lambda uri: None)
     device = library.open(sys.argv[1])
     assert device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0)
     assert device.set_float(DeviceProperty.PLAYBACK_SPEED, -1.0)
@@ -95,12 +95,12 @@ with Context() as library:
     for stream in streams:
         stream.start()
     seen = []
-    while (ready := library.wait(streams, 300)) is not None:
-        with streams[ready].read() as picture:
+    while (ready := library.poll_streams(streams, 300)) is not None:
+        with streams[ready].read_frame() as picture:
             seen.append([picture.sensor, picture.index, picture.timestamp_us, picture.width_px, picture.size_bytes])
-    mode = streams[0].mode()
+    mode = streams[0].read_mode()
     result = [seen, [mode.pixel_format, mode.width_px, mode.height_px, mode.fps],
-              device.can_register(), streams[1].get_float(StreamProperty.HORIZONTAL_FOV),
+              device.can_register_depth(), streams[1].get_float(StreamProperty.HORIZONTAL_FOV),
               streams[1].get_int(StreamProperty.NUMBER_OF_FRAMES), streams[1].set_int(StreamProperty.MIRRORING, 0)]
     device.close()
 """
@@ -125,8 +125,8 @@ with Context() as library:
         for stream in streams:
             stream.start()
         for _ in range(2):
-            ready = library.wait(streams, 2000)
-            with streams[ready].read() as picture:
+            ready = library.poll_streams(streams, 2000)
+            with streams[ready].read_frame() as picture:
                 result += picture.size_bytes > 0
         device.close()
 """

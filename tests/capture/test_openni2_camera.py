@@ -125,7 +125,7 @@ def test_what_a_slow_reader_misses_is_counted_and_closing_ends_the_frames_of_ano
 def test_a_lost_camera_comes_back(
     camera: ProcessCamera, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.devices.process_camera.ANSWER_S", 2.0)
+    monkeypatch.setattr("carpus.core.capture.devices.process_camera.REPORT_TIMEOUT_S", 2.0)
     frames = []
     for frame in camera.frames():
         frames.append(frame)
@@ -171,7 +171,7 @@ def test_a_camera_that_only_crashes_is_given_up_and_one_without_a_library_not_ev
             raise fault
             yield
 
-        monkeypatch.setattr(camera, "_run", crash)
+        monkeypatch.setattr(camera, "_read_frames", crash)
         monkeypatch.setattr(camera, "_reconnect", lambda lost, waited=waited: waited.append(lost) or 0.0)
         with pytest.raises(type(fault)):
             list(camera.frames())

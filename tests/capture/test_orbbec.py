@@ -123,7 +123,7 @@ def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
-    assert check_driver(wanted=False) is None
+    assert check_driver(is_needed=False) is None
     assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
     monkeypatch.setattr(orbbec, "find_spec", lambda _: None)
     with pytest.raises(DriverMissing) as told:
@@ -214,7 +214,7 @@ def test_exposure_and_white_balance_are_held_as_they_look() -> None:
     assert lock.start() is None
     for _ in range(120):
         lock.add_frame(device._picture())
-    assert [each.done for each in sent] == [True]
+    assert [each.is_locked for each in sent] == [True]
     after = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
     assert after == pytest.approx(before, rel=0.05)
     device._lacks = "EXPOSURE"

@@ -163,13 +163,13 @@ def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
 
 
 def test_why_a_camera_named_by_its_serial_number_is_not_opened() -> None:
-    def seen(name: str, *, may_open: bool = True, is_claimed: bool = False) -> UsbCamera:
-        return UsbCamera(name, "8086", "0b07", Path("/dev/bus/usb/001/007"), 5000, may_open, is_claimed)
+    def seen(name: str, *, can_open: bool = True, is_claimed: bool = False) -> UsbCamera:
+        return UsbCamera(name, "8086", "0b07", Path("/dev/bus/usb/001/007"), 5000, can_open, is_claimed)
 
     wanted, other = seen("D435"), "D435 815412070124"
     assert camera_unlisted_error([], []).fault is CameraMissing
     assert camera_unlisted_error([wanted], [other]).fault is CameraMismatch
-    assert camera_unlisted_error([wanted, seen("D435", may_open=False)], [other]).fault is CameraPermission
+    assert camera_unlisted_error([wanted, seen("D435", can_open=False)], [other]).fault is CameraPermission
     assert camera_unlisted_error([wanted, seen("D435", is_claimed=True)], [other]).fault is CameraBusy
     assert camera_unlisted_error([wanted], []).fault is DriverFailed
     assert camera_open_error("errno=16 Last Error: Device or resource busy", [wanted]).fault is CameraBusy
@@ -240,7 +240,7 @@ def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
-    assert check_driver(wanted=False) is None, "no obstacle, and nothing to tick"
-    told = check_driver(wanted=True)
+    assert check_driver(is_needed=False) is None, "no obstacle, and nothing to tick"
+    told = check_driver(is_needed=True)
     assert told is not None
     assert (told.state, told.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")

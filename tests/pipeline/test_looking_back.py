@@ -181,8 +181,8 @@ def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made
     ("blow", "limit", "said"),
     [
         (signal.SIGKILL, {}, "SIGKILL"),
-        (signal.SIGSTOP, {"END_S": 0.2}, "0.2 s"),
-        (signal.SIGSTOP, {"MOST_WAITING": 50}, "50 frames behind"),
+        (signal.SIGSTOP, {"FINISH_TIMEOUT_S": 0.2}, "0.2 s"),
+        (signal.SIGSTOP, {"MAX_WAITING": 50}, "50 frames behind"),
     ],
     ids=["killed", "does not answer", "too much waits"],
 )

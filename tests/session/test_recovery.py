@@ -127,7 +127,7 @@ def test_recording_that_runs_is_left_alone_by_other_programs(tmp_path: Path) -> 
         import sys
         from pathlib import Path
         from carpus.core.records.recordings import recover_recordings
-        print(*recover_recordings(Path(sys.argv[1])).busy)
+        print(*recover_recordings(Path(sys.argv[1])).in_progress)
     """
     command = [sys.executable, "-c", program, str(tmp_path)]
     elsewhere = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
