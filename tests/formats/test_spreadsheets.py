@@ -54,7 +54,7 @@ def test_a_spreadsheet_counts_the_forearm_as_clinics_do_and_calls_it_so(
     start_deg = math.degrees(session.calibration.start_angles_rad[2])
     take = take_of(session, "s")
     write(take, tmp_path / "plain")
-    write(replace(take, form=regional_table_form("en_GB")), tmp_path / "sheet")
+    write(replace(take, dialect=regional_table_form("en_GB")), tmp_path / "sheet")
     plain = cells(tmp_path / "plain" / "s.wrist.for-programs.csv", MACHINE_DIALECT)
     sheet = cells(tmp_path / "sheet" / "s.wrist.csv", regional_table_form("en_GB"))
     column = plain[0].index("filter_pronosupination_deg")
@@ -73,7 +73,7 @@ def test_a_spreadsheet_of_a_region_finds_the_same_numbers(region: str, tmp_path:
     for path in plain:
         wanted = cells(path, MACHINE_DIALECT)[:200]
         if not (tmp_path / region).exists():
-            write(replace(take, form=form), tmp_path / region)
+            write(replace(take, dialect=form), tmp_path / region)
         found = cells(tmp_path / region / path.name.replace(".for-programs", ""), form)[:200]
         kept = [k for k, name in enumerate(wanted[0]) if "pronosupination" not in name]  # counted otherwise there
         wanted, found = ([[row[k] for k in kept] for row in rows] for rows in (wanted, found))

@@ -149,8 +149,8 @@ def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionResults,
     unfair = {
         "forearm_moved": {"quality": replace(quality, forearm_movement_mm=25.0)},
         "doubtful": {"findings": (CalibrationFinding("swapped", ("MCP2", "MCP3")),)},
-        "not_counted": {"not_counted": True},
-        "simulated": {"simulated": True},
+        "not_counted": {"is_excluded": True},
+        "simulated": {"is_simulated": True},
         "distance": {"quality": replace(quality, distance_m=quality.distance_m + 0.2)},
     }[reason]
     before, after = figures, days_ago(with_ranges(figures, lambda row: {"mean": row.mean + 30}), -1)
@@ -170,9 +170,9 @@ def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figur
 
 
 def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionResults) -> None:
-    sessions = [days_ago(figures, day, simulated=True) for day in (9, 6, 3, 0)]
+    sessions = [days_ago(figures, day, is_simulated=True) for day in (9, 6, 3, 0)]
     assert all(point.is_comparable for point in compute_progress(sessions).points)
-    sessions[2] = replace(sessions[2], simulated=False)
+    sessions[2] = replace(sessions[2], is_simulated=False)
     course = compute_progress(sessions)
     assert [point.is_comparable for point in course.points] == [False, False, True, False]
     assert course.reference is sessions[2]
@@ -202,7 +202,7 @@ def test_previous_and_other_hand_are_the_last_of_their_kind_that_count(figures: 
     history = [days_ago(figures, days) for days in (9, 5, -1)]
     history += [days_ago(figures, days, side="left") for days in (3, 2)] + [figures]
     assert (find_previous(history, figures).session_id, find_other_hand(history, figures).session_id) == ("5", "2")
-    assert find_previous([history[0], replace(history[1], not_counted=True)], figures) is history[0]
+    assert find_previous([history[0], replace(history[1], is_excluded=True)], figures) is history[0]
 
 
 def test_pain_and_notes_come_from_the_events() -> None:
@@ -276,7 +276,7 @@ def test_a_session_of_few_frames_a_second_has_its_figures(fps: float) -> None:
 
 
 @pytest.mark.parametrize(
-    "broken", ["further_measures.held_tremor", "figures.measure_still_angles", "figures.quality_of"]
+    "broken", ["task_measures.measure_tremor", "session_results.measure_still_angles", "session_results.assess_quality"]
 )
 def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
     broken: str, figures: SessionResults, monkeypatch: pytest.MonkeyPatch

@@ -148,7 +148,7 @@ def test_an_arc_that_may_have_been_larger_is_a_lower_bound() -> None:
     trained = trained_in([0.0, 1.0, 2.0, 2.5, 3.5, 4.0, 5.0, 5.5, 6.5, 8.0], knots_deg)
     hidden = (trained.measured.time_s > 2.05) & (trained.measured.time_s < 2.45)
     seen = resample_evenly(trained.measured.time_s, trained.measured.value, ~hidden)
-    trained = replace(trained, seen=seen, measure_range=lambda some: motion_range(seen, trained.measured_sd, some))
+    trained = replace(trained, measured=seen, measure_range=lambda some: motion_range(seen, trained.measured_sd, some))
     rows = [one.row for one in measure_repetitions(trained, RepetitionChoices())]
     assert [row.at_least for row in rows] == [True, False]
     assert all(row.counted for row in rows)
@@ -215,7 +215,7 @@ def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() 
     tracked = replace(trained.tracked, value=np.where(np.abs(trained.tracked.time_s - 8.0) < 0.45, np.nan, 0.3))
     whole = Repetition(5.0, 9.0, 0.55)
     piece = Repetition(1.0, 5.0, 1.0, "cut_by_gap", 5.0)
-    trained = replace(trained, tracked=tracked, found=RepetitionAnalysis((whole,), (), (piece,)))
+    trained = replace(trained, tracked=tracked, detected=RepetitionAnalysis((whole,), (), (piece,)))
 
     def reasons(edges_s: dict[int, tuple[float, float]]) -> list[str]:
         return [each.row.reason for each in measure_repetitions(trained, RepetitionChoices({}, edges_s))]

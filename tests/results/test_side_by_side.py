@@ -172,7 +172,7 @@ def test_a_partner_is_the_other_hand_of_the_day_then_the_last_fair_session(
     assert find_partner([figures, before], figures) == before
     assert find_partner([figures, older], older) == figures
     assert find_partner([figures], figures) is None
-    assert find_partner([figures, replace(older, not_counted=True)], figures) is None
+    assert find_partner([figures, replace(older, is_excluded=True)], figures) is None
 
 
 def test_of_the_whole_hand_the_fingers_compare() -> None:

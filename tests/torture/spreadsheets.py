@@ -31,7 +31,7 @@ POINTS = replace(MACHINE_DIALECT, has_bom=True)
 
 def tables(take: ExportItem, form: TableDialect, folder: Path) -> dict[str, Path]:
     """The tables of a form by what they hold."""
-    files = (path for path in write(replace(take, form=form), folder) if path.suffix == ".csv")
+    files = (path for path in write(replace(take, dialect=form), folder) if path.suffix == ".csv")
     return {path.name.split(".")[1]: path for path in files}
 
 

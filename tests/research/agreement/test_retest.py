@@ -270,5 +270,5 @@ def test_few_and_simulated_people_give_no_limits(measured: list[SessionResults])
     people = [one for one in measured if one.subject_id != "P11"]
     assert [one.is_usable for one in analyse_retests(people)] == [True]
     assert [one.is_usable for one in analyse_retests([one for one in people if one.subject_id != "P10"])] == [False]
-    assert [one.is_usable for one in analyse_retests([replace(one, simulated=True) for one in people])] == [False]
+    assert [one.is_usable for one in analyse_retests([replace(one, is_simulated=True) for one in people])] == [False]
     assert [one.is_usable for one in analyse_retests(people[:1])] == [False]
