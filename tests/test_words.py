@@ -52,12 +52,12 @@ def texts() -> list[str]:
 
 def test_every_fault_says_for_itself_what_happened_and_what_to_do() -> None:
     assert set(KINDS) == all_kinds()
-    assert [kind.__name__ for kind in KINDS if not {"happened", "do"} <= vars(kind).keys()] == []
+    assert [kind.__name__ for kind in KINDS if not {"summary", "remedy"} <= vars(kind).keys()] == []
 
 
 def test_every_fault_states_for_itself_whether_the_data_are_safe() -> None:
     assert not hasattr(CarpusFault, "safe")
-    assert [kind.__name__ for kind in KINDS if "safe" not in vars(kind)] == []
+    assert [kind.__name__ for kind in KINDS if "data_safety" not in vars(kind)] == []
     nothing_lost = {kind.__name__ for kind in KINDS if "othing is lost" in kind.data_safety}
     assert nothing_lost <= {
         "ClickOutsidePicture", "ClickOnNoMarker", "MarkerWithoutDepth", "CalibrationImpossible", "CameraUnknown",

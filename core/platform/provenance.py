@@ -20,7 +20,7 @@ HASHED_LISTS = ("rgb.txt", "depth.txt", "camera_info.yaml")
 
 def source_revision() -> str:
     """The source revision of this program, 40 digits; empty where nobody knows."""
-    root = Path(__file__).resolve().parent.parent
+    root = Path(__file__).resolve().parents[2]
     with suppress(OSError, ValueError):
         git = root / ".git"
         if git.is_file():  # a second checkout of the same repository
