@@ -1,1 +1,1 @@
-"""From a picture to blobs: skin region, marker colour, sub-pixel centres, depths (wrist paper III-A)."""
+"""Blobs of a frame: skin region, marker colour, sub-pixel centres, depths (wrist paper III-A)."""

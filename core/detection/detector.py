@@ -1,4 +1,4 @@
-"""The detector: one picture and, where there is one, a predicted region to blobs with centres and depths."""
+"""The detector: one frame and, where there is one, a predicted region to blobs with centres and depths."""
 
 from __future__ import annotations
 
@@ -19,28 +19,24 @@ from carpus.core.detection.stencil import get_stencil
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, DepthImage, Detections, FloatArray, Frame, Region
 
-REGION_SD = 4.0
-"""A disc is looked for within so many standard deviations of where it is expected."""
-MAX_SEARCH_RADIUS_PX = 120.0
-"""However little is known of where a disc is, it is looked for no further away."""
-COARSE_FACTOR = 4
-"""Without a prediction the hand is looked for in a picture so many times smaller."""
-SKIN_LEVEL = 128
-"""Of 255: what is of skin's colour from here on."""
-PAPER_LEVEL = 96
-"""Of 255: what is of paper's colour from here on, in that picture."""
-DEFAULT_DEPTH_M = 0.7
-"""Distance of the hand where none is read."""
+REGION_SD = 4.0  # a disc is searched within so many standard deviations of where it is predicted,
+MAX_SEARCH_RADIUS_PX = 120.0  # but no further away
+COARSE_FACTOR = 4  # without a prediction the hand is searched in an image so many times smaller
+SKIN_LEVEL = 128  # of 255: skin colour from here on
+PAPER_LEVEL = 96  # of 255: paper colour from here on, in that image
+DEFAULT_DEPTH_M = 0.7  # distance of the hand where none is read
 
 _SIMILARITY_BINS = 16
-_MIN_DEPTH_M = 0.2
-"""No hand is held nearer to a camera."""
+_MIN_DEPTH_M = 0.2  # no hand is held nearer to a camera
 
 
 @dataclass(frozen=True, slots=True)
 class ColorTable:
-    """What a pixel's look, its hue + 256 saturation, means: its ``cell`` (65536,) of the coarse histogram, and whether
-    it ``is_skin`` (65536,) rather than paper; ``root_of_share`` (256,) of each cell in the paper's histogram."""
+    """Tables by colour code, hue + 256 saturation.
+
+    Its ``cell`` (65536,) of the coarse histogram, and whether it ``is_skin`` (65536,) rather than paper;
+    ``root_of_share`` (256,) of each cell in the paper's histogram.
+    """
 
     cell: NDArray[np.uint8]
     is_skin: NDArray[np.bool_]
@@ -48,7 +44,7 @@ class ColorTable:
 
 
 class Detector:
-    """Finds blobs of the learnt colour. Keeps no memory between pictures."""
+    """Finds blobs of the learnt colour. Keeps no memory between frames."""
 
     def __init__(self, looks: MarkerAppearance, camera: Camera, settings: DetectionSettings) -> None:
         self._appearance = looks
@@ -59,20 +55,27 @@ class Detector:
         self._max_area = settings.most_area * looks.max_area_share
 
     def compute_search_region(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
-        """Rectangle that holds all predicted discs (M, 2) with their uncertainty (M, 2, 2)."""
+        """Return the rectangle that holds all predicted discs with their uncertainty.
+
+        Parameters
+        ----------
+        pixel : (M, 2)
+            Predicted discs.
+        covariance_px2 : (M, 2, 2)
+            Covariance of that.
+        depth_m : (M,)
+            Predicted depths.
+        """
         disc_px_m, region_sd = self._camera.fx_px * self._settings.marker_radius_m, REGION_SD
         variance = np.maximum(covariance_px2.diagonal(axis1=1, axis2=2), 0.0)
         reach = np.minimum(region_sd * np.sqrt(variance), MAX_SEARCH_RADIUS_PX)
         reach += (2.2 * disc_px_m / np.maximum(depth_m, _MIN_DEPTH_M) + 3.0)[:, None]
-        return self._clip_to_image(*(pixel - reach).min(axis=0).tolist(), *(pixel + reach).max(axis=0).tolist())
-
-    def _clip_to_image(self, left: float, top: float, right: float, bottom: float) -> Region:
-        return Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1).clip(
-            self._camera.width_px, self._camera.height_px
-        )
+        (left, top), (right, bottom) = (pixel - reach).min(axis=0).tolist(), (pixel + reach).max(axis=0).tolist()
+        region = Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1)
+        return region.clip(self._camera.width_px, self._camera.height_px)
 
     def detect(self, frame: Frame, region: Region | None = None) -> Detections:
-        """Blobs inside a region, or in the whole picture when there is none."""
+        """Return the blobs inside a region, or in the whole image when there is none."""
         height, width = frame.color_rgb.shape[:2]
         region = self._find_hand_region(frame.color_rgb) if region is None else region.clip(width, height)
         if region is None or region.is_empty:
@@ -105,7 +108,7 @@ class Detector:
         )
 
     def _estimate_radius(self, raw: DepthImage | None, unit_m: float, centre_px: FloatArray) -> FloatArray:
-        """Radius in pixels (B,) of a disc facing the camera at the depth ``raw`` (H, W) of each place; NaN-free."""
+        """Return the radius in pixels (B,) of a disc facing the camera at the depth of each place."""
         scale = self._camera.fx_px * self._appearance.radius_m
         if raw is None:
             return np.full(len(centre_px), scale / DEFAULT_DEPTH_M)
@@ -114,7 +117,7 @@ class Detector:
         return np.asarray(scale / np.where(depth_m > _MIN_DEPTH_M, depth_m, DEFAULT_DEPTH_M))
 
     def _find_hand_region(self, color_rgb: ByteImage) -> Region | None:
-        """Rectangle about the skin and paper of the largest hand-like region, None when there is no paper."""
+        """Return the rectangle about the paper on skin, None when there is no paper."""
         coarse = COARSE_FACTOR
         small = cv2.resize(color_rgb, None, fx=1 / coarse, fy=1 / coarse, interpolation=cv2.INTER_AREA)
         hsv = appearance.to_hsv(np.asarray(small, dtype=np.uint8))

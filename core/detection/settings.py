@@ -1,4 +1,4 @@
-"""What can be chosen about detection."""
+"""Settings of the detection."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class DetectionSettings:
-    """``marker_radius_m`` of the paper discs; ``skin_share`` of the rim of a blob that must be skin or paper for it to
-    lie on a hand; ``least_area``, ``most_area`` of a blob over that of a disc, relative to those learnt; ``most_blobs``
-    are told of a picture."""
+    """Settings of the detection.
+
+    ``marker_radius_m`` of the paper discs; ``skin_share`` of the rim of a blob that must be skin or paper for it to lie
+    on a hand; ``least_area``, ``most_area`` of a blob over that of a disc, relative to those learnt; ``most_blobs`` are
+    reported of a frame.
+    """
 
     marker_radius_m: float = 0.006
     skin_share: float = 0.25

@@ -1,7 +1,7 @@
-"""Where to look in the window around a blob: which pixels can be its core, its rim, its neighbourhood.
+"""Pixels of a window around a blob: its core, its rim, its neighbourhood.
 
-All of it depends on the disc's radius alone and is worked out once. The pixels of a window are told from its
-middle outwards, so that each of these is a run of them.
+All of it depends on the disc's radius alone and is computed once. The pixels of a window are ordered from its centre
+outwards, so that each of these is a run of them.
 """
 
 from __future__ import annotations
@@ -13,28 +13,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 WEDGES = 8
-
-
-CORE_RADII = 0.62
-"""Up to so many disc radii a window has the paper's own colour."""
-REACH_RADII = 1.35
-"""Up to here pixels may belong to the disc."""
-RIM_INNER_RADII = 1.35
-"""From here on is what surrounds it."""
-RIM_OUTER_RADII = 1.9
-"""Up to here."""
-EDGE_PX = 6
-"""How far about an edge a sensor's readings are of neither side, where none is asked."""
+CORE_RADII = 0.62  # up to so many disc radii a window has the paper's own colour
+REACH_RADII = 1.35  # up to here pixels may belong to the disc
+RIM_INNER_RADII = 1.35  # what surrounds it lies between this
+RIM_OUTER_RADII = 1.9  # and this
+EDGE_PX = 6  # how far about an edge a sensor's readings are of neither side, by default
 
 
 @dataclass(frozen=True, slots=True)
 class Stencil:
-    """A round window of P pixels about a blob, ordered by their distance from its middle.
+    """A round window of P pixels about a blob, ordered by their distance from its centre.
 
-    ``offset`` (P, 2) v and u from the middle; ``core`` and ``near`` the first so many pixels: those of the disc's own
+    ``offset`` (P, 2) v and u from the centre; ``core`` and ``near`` the first so many pixels: those of the disc's own
     colour, those within the sensor's window (at least the core); ``reach`` (P,) those that may belong to the disc;
-    ``rim`` the pixels around it, ``wedge`` (R, WEDGES) 1 for the R pixels of the rim that are seen in each of eight
-    overlapping quarter circles; ``direction`` (P,) the quarter circle in whose middle each pixel lies.
+    ``rim`` the R pixels around it, ``wedge`` (R, WEDGES) 1 for those that are seen in each of eight overlapping quarter
+    circles; ``direction`` (P,) the quarter circle in whose middle each pixel lies.
     """
 
     offset: NDArray[np.int32]
@@ -47,7 +40,10 @@ class Stencil:
 
 
 def get_stencil(radius_px: float, edge_px: int | None = None) -> Stencil:
-    """The stencil of discs of about this radius (to a quarter of a pixel), for a sensor with edges so wide."""
+    """Return the stencil of discs of about this radius (to a quarter of a pixel).
+
+    ``edge_px`` is the width of edges in the sensor's depth images.
+    """
     return _build_stencil(max(4, round(4.0 * radius_px)), EDGE_PX if edge_px is None else edge_px)
 
 

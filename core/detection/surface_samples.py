@@ -1,4 +1,7 @@
-"""Depth readings on the back of the hand, thinned out: thousands lie there, and neighbours share their errors."""
+"""Depth readings on the back of the hand and the fingers, thinned out.
+
+Thousands lie there, and neighbours share their errors.
+"""
 
 from __future__ import annotations
 
@@ -15,22 +18,18 @@ from carpus.core.model.types import (
     SurfaceSamples,
 )
 
-SURFACE_SAMPLE_STEP_PX = 3
-"""Between two readings."""
-OUTLINE_SCALE = 1.2
-"""Readings are taken within so many times the outline of the discs that span the back."""
-OUTLINE_MARGIN_PX = 4.0
-"""And so much about it."""
-MAX_DORSAL_READINGS = MAX_SURFACE_READINGS // 2
-"""On the back of the hand; more only cost time, since neighbours share their errors."""
-FINGER_MARGIN_PX = 12.0
-"""So far about the discs of fingers readings are taken."""
-FINGER_READING_LIMIT = MAX_FINGER_READINGS
-"""About the fingers."""
+SURFACE_SAMPLE_STEP_PX = 3  # between two readings
+OUTLINE_SCALE = 1.2  # readings are taken within so many times the outline of the discs that span the back,
+OUTLINE_MARGIN_PX = 4.0  # and so much about it
+MAX_DORSAL_READINGS = MAX_SURFACE_READINGS // 2  # on the back of the hand; more only cost time
+FINGER_MARGIN_PX = 12.0  # readings are taken so far about the discs of fingers
 
 
 def compute_read_region(region: Region, outline_px: FloatArray, disc_px: FloatArray) -> Region | None:
-    """What of a picture holds ``region`` and all that the two functions below read; None where places are not known."""
+    """Return the region that holds ``region`` and all that the two functions below read.
+
+    None where positions are not known.
+    """
     part = region
     for pixel, wider, margin_px in (
         (outline_px, OUTLINE_SCALE - 1.0, OUTLINE_MARGIN_PX),
@@ -50,7 +49,10 @@ def compute_read_region(region: Region, outline_px: FloatArray, disc_px: FloatAr
 
 
 def sample_surface(frame: Frame, outline_px: FloatArray) -> SurfaceSamples | None:
-    """The readings within discs expected at ``outline_px`` (C, 2); None where there is no depth picture."""
+    """Return the readings within discs expected at ``outline_px`` (C, 2).
+
+    None where there is no depth image.
+    """
     if frame.depth_raw is None:
         return None
     found = sample_outline(
@@ -66,11 +68,13 @@ def sample_surface(frame: Frame, outline_px: FloatArray) -> SurfaceSamples | Non
 
 
 def sample_fingers(frame: Frame, disc_px: FloatArray) -> SurfaceSamples | None:
-    """Readings on a wider lattice about the fingers' discs expected at ``disc_px`` (C, 2); None where there is no
-    depth picture."""
+    """Return readings on a wider lattice about the fingers' discs expected at ``disc_px`` (C, 2).
+
+    None where there is no depth image.
+    """
     if frame.depth_raw is None or not len(disc_px):
         return None
     found = sample_discs(
-        frame.depth_raw, frame.depth_unit_m, disc_px, FINGER_MARGIN_PX, FINGER_SAMPLE_STEP_PX, FINGER_READING_LIMIT
+        frame.depth_raw, frame.depth_unit_m, disc_px, FINGER_MARGIN_PX, FINGER_SAMPLE_STEP_PX, MAX_FINGER_READINGS
     )
     return None if found is None else SurfaceSamples(*found)

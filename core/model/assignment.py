@@ -1,4 +1,4 @@
-"""Who belongs to whom, one to one, nearest overall."""
+"""One-to-one assignment of least total distance."""
 
 from __future__ import annotations
 
@@ -9,8 +9,15 @@ from carpus.core.model.types import FloatArray
 
 
 def assign_nearest(distance: FloatArray, max_distance: FloatArray) -> NDArray[np.int64]:
-    """Column of every row (R,) by distances (R, C), each once and the nearest overall; -1 where none is within the
-    row's ``max_distance`` (R,)."""
+    """Return the column assigned to every row (R,), -1 for none.
+
+    Parameters
+    ----------
+    distance : (R, C)
+        Distance of every row from every column.
+    max_distance : (R,)
+        Assignments that are farther than the row's own are dropped.
+    """
     from scipy.optimize import linear_sum_assignment  # a third of a second to load
 
     far = distance > max_distance[:, None]

@@ -14,15 +14,14 @@ from carpus.core.model.types import FloatArray
 
 DistortionModel = Literal["plumb_bob", "rational_polynomial", "inverse_brown_conrady"]
 
+# Number of coefficients by model; in OpenCV's order k1 k2 p1 p2 k3, then k4 k5 k6.
 DISTORTION_COEFFICIENT_COUNTS: Mapping[DistortionModel, int] = {
     "plumb_bob": 5,
     "rational_polynomial": 8,
     "inverse_brown_conrady": 5,
 }
-"""Of every model that is known, how many there are; in OpenCV's order k1 k2 p1 p2 k3, then k4 k5 k6."""
 
-_MAX_ITERATIONS, _TOLERANCE_PX = 20, 1e-7
-"""OpenCV's own few rounds leave a strong lens unfinished."""
+_MAX_ITERATIONS, _TOLERANCE_PX = 20, 1e-7  # OpenCV's own few iterations leave a strong lens unfinished.
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +30,9 @@ class Camera:
 
     ``distortion_model`` says what ``distortion`` is: plumb_bob (k1, k2, p1, p2, k3); rational_polynomial, with k4, k5,
     k6 of a denominator after them; inverse_brown_conrady (RealSense), the polynomial of plumb_bob that leads the other
-    way, from the real picture to the ideal one.
+    way, from the distorted image to the ideal one. ``origin`` says where the numbers come from: ``file``,
+    ``calibration`` (stored for this camera), ``factory`` (from the camera), ``driver`` (its field of view) or
+    ``default``.
     """
 
     fx_px: float
@@ -42,15 +43,12 @@ class Camera:
     height_px: int = 480
     distortion: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     origin: str = "default"
-    """Where the numbers come from: ``file``, ``calibration`` (kept for this camera), ``factory`` (told by the camera),
-    ``driver`` (its field of view) or ``default``."""
     sensor: DepthSensor = ASSUMED_SENSOR
-    """What its depth is worth."""
     distortion_model: DistortionModel = "plumb_bob"
 
     @property
     def matrix(self) -> FloatArray:
-        """Camera matrix K, shape (3, 3)."""
+        """Camera matrix K (3, 3)."""
         return np.array([[self.fx_px, 0.0, self.cx_px], [0.0, self.fy_px, self.cy_px], [0.0, 0.0, 1.0]])
 
     @property
@@ -58,7 +56,9 @@ class Camera:
         return any(self.distortion)
 
     def project(self, point_cam_m: FloatArray) -> FloatArray:
-        """Undistorted pixels (..., 2) of points (..., 3) in camera axes; eq. (2) of the wrist paper.
+        """Return undistorted pixels (..., 2) of points (..., 3) in camera axes.
+
+        Eq. (2) of the wrist paper.
 
         >>> Camera(525.0, 525.0, 319.5, 239.5).project(np.array([0.0, 0.0, 0.7]))
         array([319.5, 239.5])
@@ -69,13 +69,13 @@ class Camera:
         return out
 
     def backproject(self, pixel: FloatArray, depth_m: FloatArray) -> FloatArray:
-        """Points (..., 3) in camera axes, metres, of undistorted pixels (..., 2) at depths (...)."""
+        """Return points (..., 3) in camera axes of undistorted pixels (..., 2) at depths (...)."""
         x = (pixel[..., 0] - self.cx_px) / self.fx_px
         y = (pixel[..., 1] - self.cy_px) / self.fy_px
         return np.stack((x * depth_m, y * depth_m, depth_m + 0.0 * x), axis=-1)
 
     def undistort(self, pixel: FloatArray) -> FloatArray:
-        """Pixels (D, 2) as an ideal pinhole would see them."""
+        """Return pixels (D, 2) as an ideal pinhole camera would see them."""
         if not self.is_distorted or pixel.size == 0:
             return pixel
         if self.distortion_model == "plumb_bob":
@@ -89,7 +89,7 @@ class Camera:
         )
 
     def distort(self, pixel: FloatArray) -> FloatArray:
-        """Inverse of :meth:`undistort`: where ideal pixels (D, 2) lie in the real picture."""
+        """Return where ideal pixels (D, 2) lie in the distorted image."""
         if not self.is_distorted or pixel.size == 0:
             return pixel
         return (
@@ -99,7 +99,6 @@ class Camera:
         )
 
     def _apply_polynomial(self, pixel: FloatArray) -> FloatArray:
-        """Pixels (D, 2) moved by the polynomial."""
         rays = self.backproject(pixel, np.ones(pixel.shape[:-1]))
         out, _ = cv2.projectPoints(
             rays.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, np.array(self.distortion)
@@ -107,7 +106,7 @@ class Camera:
         return np.asarray(out, dtype=np.float64).reshape(-1, 2)
 
     def _invert_polynomial(self, pixel: FloatArray) -> FloatArray:
-        """Inverse of :meth:`_apply_polynomial`, to the end."""
+        """Invert :meth:`_apply_polynomial` by fixed-point iteration."""
         k = self.matrix
         flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
         out = np.asarray(flat, dtype=np.float64).reshape(-1, 2)
@@ -119,5 +118,5 @@ class Camera:
         return out
 
 
+# Nominal Xtion colour camera (reference values of the TUM RGB-D data set).
 DEFAULT_CAMERA = Camera(525.0, 525.0, 319.5, 239.5)
-"""Nominal Xtion colour camera (reference values of the TUM RGB-D data set)."""

@@ -1,7 +1,7 @@
 """Rotations without angles: exponential and logarithm on SO(3), batched.
 
-A turn is a vector (..., 3) in radians: axis times angle. Perturbations stand on the right, ``R Exp(d)``,
-so ``d`` is in the axes of the moving frame, as the angular velocity of eq. (1) of the wrist paper is.
+A rotation vector (..., 3) is axis times angle in radians. Perturbations stand on the right, ``R Exp(d)``, so ``d`` is
+in the axes of the moving frame, as the angular velocity of eq. (1) of the wrist paper is.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ import numpy as np
 from carpus.core.model.types import FloatArray
 
 _SMALL = 1e-8
-_TINY = 1e-300
-"""Added to a squared angle, so that no turn at all needs no case of its own."""
+_TINY = 1e-300  # added to a squared angle, so that no turn at all needs no case of its own
 
 
 _GENERATORS = np.array(
@@ -27,7 +26,7 @@ _GENERATORS = np.array(
 
 
 def skew(vector: FloatArray) -> FloatArray:
-    """Matrix (..., 3, 3) of the cross product with ``vector`` (..., 3)."""
+    """Return the matrix (..., 3, 3) of the cross product with ``vector`` (..., 3)."""
     if vector.ndim == 1:
         x, y, z = vector.tolist()
         return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
@@ -35,7 +34,9 @@ def skew(vector: FloatArray) -> FloatArray:
 
 
 def exp(rotation_vector: FloatArray) -> FloatArray:
-    """Rotation matrices (..., 3, 3) of turns (..., 3); Rodrigues' formula.
+    """Return the rotation matrices (..., 3, 3) of rotation vectors (..., 3).
+
+    Rodrigues' formula.
 
     >>> exp(np.array([0.0, 0.0, np.pi / 2])).round(6) + 0.0
     array([[ 0., -1.,  0.],
@@ -55,7 +56,7 @@ def exp(rotation_vector: FloatArray) -> FloatArray:
 
 
 def _exp_one(x: float, y: float, z: float) -> FloatArray:
-    """One rotation without the cost of array calls."""
+    """Return one rotation, without the cost of array calls."""
     angle2 = x * x + y * y + z * z
     if angle2 < _SMALL:
         a, b = 1.0 - angle2 / 6.0, 0.5 - angle2 / 24.0
@@ -73,7 +74,7 @@ def _exp_one(x: float, y: float, z: float) -> FloatArray:
 
 
 def log(rotation: FloatArray) -> FloatArray:
-    """Turns (..., 3) of rotation matrices (..., 3, 3), length at most pi."""
+    """Return the rotation vectors (..., 3) of matrices (..., 3, 3), length at most pi."""
     if rotation.ndim == 2:
         turn = _log_one(rotation)
         if turn is not None:
@@ -100,7 +101,7 @@ def log(rotation: FloatArray) -> FloatArray:
 
 
 def _log_one(rotation: FloatArray) -> FloatArray | None:
-    """Turn (3,) of one rotation (3, 3) without the cost of array calls; None near half a turn."""
+    """Return one rotation vector without the cost of array calls; None near half a turn."""
     (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation.tolist()
     x, y, z = 0.5 * (r21 - r12), 0.5 * (r02 - r20), 0.5 * (r10 - r01)
     sine, cosine = math.sqrt(x * x + y * y + z * z), 0.5 * (r00 + r11 + r22 - 1.0)
@@ -111,7 +112,7 @@ def _log_one(rotation: FloatArray) -> FloatArray | None:
 
 
 def project_to_rotation(matrix: FloatArray) -> FloatArray:
-    """Rotation matrices (..., 3, 3) nearest to ``matrix`` in the least-squares sense."""
+    """Return the rotations nearest to matrices (..., 3, 3) in the least-squares sense."""
     u, _, vt = np.linalg.svd(matrix)
     sign = np.linalg.det(u @ vt)
     u = u.copy()
@@ -120,17 +121,20 @@ def project_to_rotation(matrix: FloatArray) -> FloatArray:
 
 
 def fit_rigid_transform(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rotation (3, 3) and shift (3,) that bring points (P, 3) nearest to others (Kabsch, without a mirror)."""
+    """Return rotation (3, 3) and shift (3,) that bring points (P, 3) nearest to others.
+
+    Kabsch's solution, without a mirror.
+    """
     a, b = source.mean(axis=0), target.mean(axis=0)
     turn = project_to_rotation((target - b).T @ (source - a))
     return turn, b - turn @ a
 
 
 def mean_rotation(rotation: FloatArray, weight: FloatArray) -> FloatArray:
-    """Weighted mean on the manifold of rotations (N, 3, 3) with weights (N,) summing to 1.
+    """Return the weighted mean of rotations (N, 3, 3), weights (N,) summing to 1.
 
-    Gauss-Newton on the tangent space, started at the first rotation; weights may be negative
-    (unscented transform) as long as the rotations lie within a quarter turn of each other.
+    Gauss-Newton on the tangent space, started at the first rotation; weights may be negative (unscented transform) as
+    long as the rotations lie within a quarter turn of each other.
     """
     mean = rotation[0]
     for _ in range(8):

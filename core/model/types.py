@@ -1,8 +1,8 @@
 """Values that travel between the stages; frozen, arrays read-only.
 
-Frames of reference: ``cam`` is the colour camera (x right, y down, z forward), ``w0`` the wrist frame
-at the neutral pose (origin WRIST disc, X to MCP3, Z out of the back of the hand, Y = Z x X),
-``w2`` the moving wrist frame. ``rotation_a_b`` maps vectors of a into b.
+Frames of reference: ``cam`` is the colour camera (x right, y down, z forward), ``w0`` the wrist frame at the neutral
+pose (origin WRIST marker, X to MCP3, Z out of the back of the hand, Y = Z x X), ``w2`` the moving wrist frame.
+``rotation_a_b`` maps vectors of a into b.
 """
 
 from __future__ import annotations
@@ -22,23 +22,21 @@ BoolArray = NDArray[np.bool_]
 
 Side = Literal["right", "left"]
 
-SIMULATED = "simulated"
-"""The setting, "yes", of a source whose pictures show a simulated hand; absent for every other."""
+SIMULATED = "simulated"  # The setting, "yes", of a source whose frames show a simulated hand; absent for every other.
 
 
 class TrackStatus(IntEnum):
-    """State of one tracked frame, as stored in ``/frames/status``."""
+    """Status of the track in one frame, as stored in ``/frames/status``."""
 
     TRACKED = 0
     PREDICTED = 1
     LOST = 2
-    DOUBTFUL = 3
-    """Measured, but what is seen contradicts what is stated; the standard deviations are widened accordingly."""
+    DOUBTFUL = 3  # measured, but contradicted by what is seen; the standard deviations are widened
 
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Rectangle of the picture, pixels; ``right`` and ``bottom`` are just outside."""
+    """A rectangle of the image in pixels; ``right`` and ``bottom`` are just outside."""
 
     left: int
     top: int
@@ -55,11 +53,11 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One colour picture and the depth picture that belongs to it.
+    """One colour image and the depth image that belongs to it.
 
-    ``color_rgb`` (H, W, 3) uint8; ``depth_raw`` (H, W) uint16 registered to colour, 0 = no reading,
-    None when no depth picture was near enough in time; ``depth_unit_m`` metres per count;
-    ``dropped_before`` frames missing between the previous one and this one.
+    ``color_rgb`` (H, W, 3) uint8; ``depth_raw`` (H, W) uint16 registered to colour, 0 = no reading, None when no depth
+    image was near enough in time; ``depth_unit_m`` metres per count; ``dropped_before`` frames missing between the
+    previous one and this one.
     """
 
     index: int
@@ -70,19 +68,18 @@ class Frame:
     dropped_before: int = 0
 
     def decode(self, _region: Region | None) -> Frame:
-        """The frame for who looks at a part of its pictures alone, None for all of them."""
+        """Return the frame with at least ``_region`` decoded (all of it if None)."""
         return self
 
 
+# The most depth readings that a frame keeps on the back of the hand, and about the fingers.
 MAX_SURFACE_READINGS, MAX_FINGER_READINGS = 224, 352
-"""Most readings on the back of the hand, and about the fingers, that a frame keeps."""
-FINGER_SAMPLE_STEP_PX = 4
-"""Between two readings about the fingers."""
+FINGER_SAMPLE_STEP_PX = 4  # between two readings about the fingers
 
 
 @dataclass(frozen=True, slots=True)
 class SurfaceSamples:
-    """Depth readings on the back of the hand: ``pixel`` (S, 2), u right, v down, and ``depth_m`` (S,)."""
+    """Depth readings: ``pixel`` (S, 2), u right, v down, and ``depth_m`` (S,)."""
 
     pixel: FloatArray
     depth_m: FloatArray
@@ -90,12 +87,12 @@ class SurfaceSamples:
 
 @dataclass(frozen=True, slots=True)
 class Detections:
-    """Blobs of one frame, D of them, in no particular order.
+    """The D blobs of one frame, in no particular order.
 
-    ``pixel`` (D, 2) centre, u right, v down; ``depth_m`` (D,) along the camera's z, NaN when unknown;
-    ``depth_sd_m`` (D,) its standard deviation; ``area_px`` (D,); ``similarity`` (D,) Bhattacharyya
-    coefficient to the reference colour, 0 to 1. ``surface`` and ``fingers`` depth readings on the back of the hand and
-    about the fingers, None where none were taken.
+    ``pixel`` (D, 2) centre, u right, v down; ``depth_m`` (D,) along the camera's z, NaN when unknown; ``depth_sd_m``
+    (D,) its standard deviation; ``area_px`` (D,); ``similarity`` (D,) Bhattacharyya coefficient to the reference
+    colour, 0 to 1. ``surface`` and ``fingers`` are depth readings on the back of the hand and about the fingers, None
+    where none were taken.
     """
 
     pixel: FloatArray
@@ -107,7 +104,7 @@ class Detections:
     fingers: SurfaceSamples | None = None
 
     def subset(self, is_kept: NDArray[np.bool_]) -> Detections:
-        """The blobs ``is_kept`` (D,) alone."""
+        """Return the blobs of the mask ``is_kept`` (D,)."""
         if is_kept.all():
             return self
         return Detections(
@@ -121,7 +118,7 @@ class Detections:
         )
 
     def with_readings(self, surface: SurfaceSamples | None, fingers: SurfaceSamples | None) -> Detections:
-        """The blobs with depth readings."""
+        """Return the blobs with depth readings."""
         return Detections(self.pixel, self.depth_m, self.depth_sd_m, self.area_px, self.similarity, surface, fingers)
 
     def __len__(self) -> int:
@@ -129,20 +126,20 @@ class Detections:
 
     @staticmethod
     def none() -> Detections:
-        """No blob at all."""
+        """Return detections without a blob."""
         empty = np.empty(0)
         return Detections(np.empty((0, 2)), empty, empty, empty, empty)
 
 
 @dataclass(frozen=True, slots=True)
 class KinematicState:
-    """Wrist and joints at one moment; NaN where not known. A field here is a line of the schema's ``MOTION_FIELDS``.
+    """Wrist and joints at one moment; NaN where not known.
 
-    ``position_m`` and ``velocity_m_s`` (3,) of W2's origin, the WRIST disc, in W0 as calibrated; ``rotation_w2_w0``
-    (3, 3) in W0 as refined by then, which ``w0_turn_rad`` (3,), a rotation vector, turns into W0 as calibrated;
-    ``angular_velocity_rad_s`` (3,) in W2; ``angles_rad`` and ``angles_sd_rad`` (3,) deviation,
-    flexion, pronosupination with clinical signs; ``angles_zyz_rad`` (3,).
-    ``joint_*`` (J,), J = 0 where the protocol has no fingers; ``joint_position_m`` (M, 3) in W0, else (0, 3).
+    ``position_m`` and ``velocity_m_s`` (3,) of W2's origin, the WRIST marker, in W0 as calibrated; ``rotation_w2_w0``
+    (3, 3) in W0 as refined by then, which the rotation vector ``w0_turn_rad`` (3,) turns into W0 as calibrated;
+    ``angular_velocity_rad_s`` (3,) in W2; ``angles_rad`` and ``angles_sd_rad`` (3,) deviation, flexion, pronosupination
+    with clinical signs; ``angles_zyz_rad`` (3,). ``joint_*`` (J,), J = 0 where the protocol has no fingers;
+    ``joint_position_m`` (M, 3) in W0, else (0, 3). A field here is a line of the schema's ``MOTION_FIELDS``.
     """
 
     position_m: FloatArray
@@ -161,17 +158,14 @@ class KinematicState:
 
 @dataclass(frozen=True, slots=True)
 class TrackedFrame:
-    """What Carpus knows about one frame; the row of every dataset of the session file.
+    """The result of one frame; the row of every dataset of the session file.
 
-    M markers of the protocol. Unknown is NaN. ``kinematics`` wrist and joints;
-    ``marker_position_cam_m`` (M, 3); ``marker_predicted_px`` (M, 2) before the update, with its
-    covariance ``marker_predicted_cov_px2`` (M, 2, 2); ``marker_measured_px`` (M, 2) and
-    ``marker_measured_depth_m`` (M,) the blob taken for the marker.
-    ``measured_share`` (3,) or (J,) share of direct measurement in the last second; ``nis`` normalised
-    innovation squared and ``nis_dof`` its degrees of freedom.
-    ``doubted`` (M,) whether what is seen contradicts what is stated of the marker; none when not given.
-    ``is_rejected`` (D,) detections that a person said are no disc, and that were not used; none when not given; not
-    stored.
+    M markers of the protocol; unknown is NaN. ``marker_position_cam_m`` (M, 3); ``marker_predicted_px`` (M, 2) before
+    the update, with its covariance ``marker_predicted_cov_px2`` (M, 2, 2); ``marker_measured_px`` (M, 2) and
+    ``marker_measured_depth_m`` (M,) of the blob associated with the marker. ``measured_share`` (3,) or (J,) is the
+    share of direct measurement in the last second; ``nis`` the normalised innovation squared with ``nis_dof`` degrees
+    of freedom. ``doubted`` (M,) markers whose measurements contradict the estimate; ``is_rejected`` (D,) detections
+    that a person said are no marker (not used, not stored). Both default to none.
     """
 
     index: int
@@ -198,14 +192,17 @@ class TrackedFrame:
             object.__setattr__(self, "is_rejected", np.zeros(len(self.detections), dtype=np.bool_))
 
 
+# The event of a session in which a person said which blob is a marker, or that one is none.
 OPERATOR_LABEL = "spot_said"
-"""The event of a session in which a person said which blue spot is a marker, or that one is none."""
 
 
 @dataclass(frozen=True, slots=True)
 class MarkerLabel:
-    """``marker`` is the spot at ``pixel`` (u, v), None for none of those asked about; the spots at ``rejected_px`` are
-    not it. All as they lie in picture ``frame_index``."""
+    """A person's answer: ``marker`` is the blob at ``pixel``.
+
+    ``pixel`` (u, v) is None when it is none of those asked about; the blobs at ``rejected_px`` are not it. All as they
+    lie in frame ``frame_index``.
+    """
 
     frame_index: int
     marker: str
@@ -213,7 +210,7 @@ class MarkerLabel:
     rejected_px: tuple[tuple[float, float], ...] = ()
 
     def to_json(self) -> str:
-        """For the session's events."""
+        """Return the answer as the text of a session's event."""
         told: dict[str, object] = {"marker": self.marker}
         told["at"] = None if self.pixel is None else _round_pixel(self.pixel)
         told["not"] = [_round_pixel(place) for place in self.rejected_px]
@@ -221,7 +218,7 @@ class MarkerLabel:
 
     @staticmethod
     def from_json(text: str, index: int) -> MarkerLabel | None:
-        """What the event of a session says of picture ``frame_index``; None where it cannot be read."""
+        """Return the answer in an event's text; None where it cannot be read."""
         try:
             told = json.loads(text)
             at = told["at"]

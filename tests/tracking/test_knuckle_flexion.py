@@ -87,7 +87,7 @@ def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
 def test_what_is_said_is_never_surer_than_frames_that_err_alike(monkeypatch: pytest.MonkeyPatch) -> None:
     alike, least_sd_rad = knuckle_flexion.CORRELATED_FRAMES, knuckle_flexion.MIN_SD_RAD
     found = bends(readings(50.0))
-    monkeypatch.setattr(knuckle_flexion, "ALIKE", 1.0)
+    monkeypatch.setattr(knuckle_flexion, "CORRELATED_FRAMES", 1.0)
     monkeypatch.setattr(knuckle_flexion, "MIN_SD_RAD", 0.0)
     single = bends(readings(50.0))
     assert found.variance_rad2[INDEX] >= 0.99 * alike * least_sd_rad**2

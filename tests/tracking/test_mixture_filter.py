@@ -199,18 +199,18 @@ class LinearTrajectory:
     def __len__(self) -> int:
         return len(self._estimates)
 
-    def filtered(self, frame: int) -> tuple[FloatArray, FloatArray]:
+    def get_estimate(self, frame: int) -> tuple[FloatArray, FloatArray]:
         return self._estimates[frame]
 
-    def seconds_on(self, frame: int) -> float | None:
+    def seconds_to_next(self, frame: int) -> float | None:
         return self._seconds[frame]
 
-    def passage(
+    def compute_transition(
         self, frame: int, now: tuple[FloatArray, FloatArray], later: tuple[FloatArray, FloatArray], dt_s: float
     ) -> SmootherTransition:
         return SmootherTransition(now[1], self._forward, self._noise, later[0] - now[0] @ self._forward[0].T, later[1])
 
-    def moved(
+    def apply_correction(
         self, now: tuple[FloatArray, FloatArray], correction: FloatArray, covariance: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         return now[0] + correction, covariance

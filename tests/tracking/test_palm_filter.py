@@ -364,7 +364,7 @@ def test_resting_tissue_is_averaged_away_by_no_number_of_pictures() -> None:
     """What displaced tissue has wrong comes again in every picture: looking back states more than if all were new, in
     the same proportion everywhere, never more than live, and reads the same angles."""
     steps = [FilterStep(k / 30.0, moving(1), RESTING.initial_probability, k > 0) for k in range(30)]
-    as_new = replace(RESTING, tissue=replace(RESTING.tissue, widens=1.0))
+    as_new = replace(RESTING, tissue=replace(RESTING.tissue, variance_factor=1.0))
     live = float(np.trace(moving(1).covariance[TURN, TURN]))
     for found, bold in zip(smooth_palm(steps, RESTING)[:-1], smooth_palm(steps, as_new)[:-1], strict=True):
         assert found is not None

@@ -86,7 +86,7 @@ def test_a_blob_of_one_disc_measures_that_disc_alone() -> None:
 def test_no_size_is_learnt_of_discs_that_may_be_two() -> None:
     trial, _ = weighed(1e-4, (0.0, 0.0))
     scene, names, _ = scene_of(6.0, DIP)
-    named = replace(trial.update, names=names)
+    named = replace(trial.update, assignment=names)
     learnt = compute_disc_areas(named, scene.area_px, np.zeros((5, 3)), np.full((5, 3), 5e5))
     assert np.isnan(learnt[CHAIN]).all()
     assert np.isfinite(learnt[1]).all()

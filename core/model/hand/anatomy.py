@@ -1,7 +1,8 @@
-"""One subject's hand: lengths, fan directions, skin offsets, joint limits (clinical reference 2, 3.3, 4.1).
+"""One subject's hand: lengths, fan directions, skin offsets, joint limits.
 
-Everything is written for a RIGHT hand in the wrist frame W (origin WRIST disc, X to the MCP3 disc, Z out of the
-back of the hand, Y radial); a left hand is the mirror image diag(1, -1, 1), so angles keep their clinical sign.
+Clinical reference 2, 3.3 and 4.1. Everything is written for a RIGHT hand in the wrist frame W (origin WRIST marker, X
+to the MCP3 marker, Z out of the back of the hand, Y radial); a left hand is the mirror image diag(1, -1, 1), so angles
+keep their clinical sign.
 """
 
 from __future__ import annotations
@@ -15,11 +16,9 @@ from carpus.core.model.hand.clinical_angles import wrist_axes
 from carpus.core.model.hand.protocols import PALM_SITES, SITES
 from carpus.core.model.types import FloatArray, Side
 
-BREADTH_SHARE = 0.45
-"""Hand breadth over hand length where only the length is known (reference 3.3)."""
+BREADTH_SHARE = 0.45  # hand breadth over hand length where only the length is known (reference 3.3)
 
-REFERENCE_LENGTH_M = 0.180
-"""Hand length for which the offsets and the arch of the reference are given."""
+REFERENCE_LENGTH_M = 0.180  # hand length for which the offsets and the arch of the reference are given
 
 # Buchholz 1992 (reference 3.3): shares of hand length, the lateral place a share of hand breadth.
 _PALM_X_SHARE = np.array([0.0, 0.073, 0.447, 0.446, 0.409, 0.368])  # WRIST CMC1 MCP2 MCP3 MCP4 MCP5
@@ -36,9 +35,10 @@ _FINGER_OFFSET_M = np.array([0.0075, 0.0055, 0.005])  # PIP DIP TIP
 _FAN_RAD = np.radians([30.0, 5.0, 0.0, -5.0, -10.0])
 _THUMB_ROLL_RAD = math.radians(60.0)
 
+# Of an extended finger to either side; shrinks with the cosine of MCP flexion (reference 3.2).
 ABDUCTION_LIMIT_RAD = math.radians(30.0)
-"""Abduction of an extended long finger to either side; shrinks with the cosine of MCP flexion (reference 3.2)."""
 
+# Limits of the model by joint angle, generous so that hypermobility is not cut (reference 4.1).
 HARD_LIMITS_RAD: dict[str, tuple[float, float]] = {
     name: (math.radians(low), math.radians(high))
     for name, low, high in (
@@ -53,7 +53,6 @@ HARD_LIMITS_RAD: dict[str, tuple[float, float]] = {
         *((f"DIP{k}_flexion", -15.0, 100.0) for k in (2, 3, 4, 5)),
     )
 }
-"""Limits of the model, generous so that hypermobility is not cut (reference 4.1), by joint angle name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,11 +111,11 @@ def anatomy_from_size(
     skin_offsets: bool = True,
     nail_discs: bool = False,
 ) -> HandAnatomy:
-    """The average hand of that size (Buchholz 1992, reference 3.3).
+    """Return the average hand of that size (Buchholz 1992, reference 3.3).
 
-    ``arch`` scales the typical height of the palm's arch (0: all palm discs in one plane). ``skin_offsets=False``
-    is the papers' chain, discs in the joints. The last segment ends at the finger tip, as in the worked example of
-    the reference (3.4); with ``nail_discs`` it ends under a disc on the nail, 0.7 of DP (thumb 0.8, reference 2).
+    ``arch`` scales the typical height of the palm's arch (0: all palm discs in one plane). ``skin_offsets=False`` is
+    the papers' chain, discs in the joints. The last segment ends at the finger tip, as in the worked example of the
+    reference (3.4); with ``nail_discs`` it ends under a disc on the nail, 0.7 of DP (thumb 0.8, reference 2).
 
     >>> anatomy_from_size(0.180, 0.080, arch=0.0, skin_offsets=False).palm_disc_m[2].round(4)
     array([0.0805, 0.0201, 0.    ])
@@ -147,7 +146,7 @@ def anatomy_from_size(
 
 
 def palm_axes(palm_disc_m: FloatArray, side: Side) -> FloatArray:
-    """Axes X, Y, Z of W as columns (3, 3) for palm discs (6, 3) in any frame, Z by the side of the hand."""
+    """Return the axes of W as columns (3, 3) for palm discs (6, 3) in any frame."""
     wrist, _, mcp2, mcp3, _, mcp5 = palm_disc_m
     dorsal = np.cross(mcp3 - wrist, mcp2 - mcp5)
     return wrist_axes(palm_disc_m, dorsal_direction=dorsal if side == "right" else -dorsal)

@@ -1,4 +1,4 @@
-"""What is known of a hand before it is measured, and one digit (thumb or long finger) fitted to measured discs with it.
+"""The prior of a hand's anatomy, and one digit fitted to measured discs with it.
 
 Means from the anatomical table (clinical reference 2 and 3.3). A digit has 11 constants and 4 angles in each pose
 (thumb 5). Gauss-Newton over all of them at once, with a Gaussian prior on the constants and one on the angles of each
@@ -18,15 +18,16 @@ from carpus.core.model.hand.kinematics import DIP_PER_PIP, finger_discs, thumb_d
 from carpus.core.model.hand.protocols import PALM_SITES
 from carpus.core.model.types import FloatArray, Side
 
+# Bones (PP MP DP; thumb MC1 PP1 DP1), direction in the palm, roll (thumb only), the first joint centre from the disc
+# over it (MCP or CMC1; along X, along Y, downwards), heights of the three discs over their joint centres. Metres,
+# radians.
 DIGIT_CONSTANTS = (
     "length_1", "length_2", "length_3", "fan", "roll", "start_ahead", "start_aside", "start_depth",
     "height_1", "height_2", "height_3",
 )  # fmt: skip
-"""Bones (PP MP DP; thumb MC1 PP1 DP1), direction in the palm, roll (thumb only), the first joint centre from the disc
-over it (MCP or CMC1; along X, along Y, downwards), heights of the three discs over their joint centres. Metres, rad."""
 
+# Constants (..., 11) and angles (..., 4 or 5) to the digit's three discs (..., 3, 3) in W.
 DigitModel = Callable[[FloatArray, FloatArray], FloatArray]
-"""Constants (..., 11) and angles (..., 4 or 5) to the digit's three discs (..., 3, 3) in W."""
 
 _DOWN = np.array([1.0, 1.0, -1.0])
 _MAX_ITERATIONS = 30
@@ -36,7 +37,7 @@ _DIFFERENCE_STEP = 1e-5  # metres and radians alike
 
 @dataclass(frozen=True, slots=True)
 class Gaussian:
-    """What is known of some numbers: ``mean`` (..., P) and ``covariance`` (..., P, P)."""
+    """A Gaussian: ``mean`` (..., P) and ``covariance`` (..., P, P)."""
 
     mean: FloatArray
     covariance: FloatArray
@@ -44,9 +45,11 @@ class Gaussian:
 
 @dataclass(frozen=True, slots=True)
 class DigitFit:
-    """Result: ``constants`` (11) and ``angles`` (F, 4 or 5) a posteriori, ``cross`` (F, 4 or 5, 11) the covariance
-    between the two; ``residual_m`` (F, 3, 3) model minus measurement in W; ``cost`` sum of squares in standard
-    deviations, priors included."""
+    """Posterior of a digit: ``constants`` (11) and ``angles`` (F, 4 or 5).
+
+    ``cross`` (F, 4 or 5, 11) covariance between the two; ``residual_m`` (F, 3, 3) model minus measurement in W;
+    ``cost`` sum of squares in standard deviations, priors included.
+    """
 
     constants: Gaussian
     angles: Gaussian
@@ -56,7 +59,7 @@ class DigitFit:
 
 
 def finger_model(mcp_disc_m: FloatArray) -> DigitModel:
-    """Model of a long finger whose MCP disc lies there (3,)."""
+    """Return the model of a long finger whose MCP disc lies at ``mcp_disc_m`` (3,)."""
 
     def discs(constants: FloatArray, angles_rad: FloatArray) -> FloatArray:
         knuckle = mcp_disc_m + constants[..., 5:8] * _DOWN
@@ -66,7 +69,7 @@ def finger_model(mcp_disc_m: FloatArray) -> DigitModel:
 
 
 def thumb_model(cmc_disc_m: FloatArray) -> DigitModel:
-    """Model of a thumb whose CMC1 disc lies there (3,)."""
+    """Return the model of a thumb whose CMC1 disc lies at ``cmc_disc_m`` (3,)."""
 
     def discs(constants: FloatArray, angles_rad: FloatArray) -> FloatArray:
         cmc = cmc_disc_m + constants[..., 5:8] * _DOWN
@@ -82,9 +85,16 @@ def fit_digit(
 ) -> DigitFit:
     """Fit the constants and the angles of F poses.
 
-    ``constants`` and ``angles`` are the priors, (11) and (F, 4 or 5); the search starts at their means.
-    ``disc_m`` (F, 3, 3) measured discs in W, ``information_m2`` (F, 3, 3, 3) inverse covariances in 1/m2, zero where
-    a disc (or its depth) is not known.
+    Parameters
+    ----------
+    model : DigitModel
+        Finger or thumb.
+    constants, angles : Gaussian
+        The priors, (11) and (F, 4 or 5); the search starts at their means.
+    disc_m : (F, 3, 3)
+        Measured discs in W.
+    information_m2 : (F, 3, 3, 3)
+        Inverse covariances in 1/m2, zero where a disc (or its depth) is not known.
     """
     problem = _Problem(
         model,
@@ -103,7 +113,7 @@ def fit_digit(
 
 @dataclass(frozen=True, slots=True)
 class _Problem:
-    """Least squares of one digit: priors as mean and information, discs with the root of their information."""
+    """Least squares of one digit: priors as mean and information, discs with the root of theirs."""
 
     model: DigitModel
     constants: FloatArray
@@ -114,19 +124,19 @@ class _Problem:
     root: FloatArray
 
     def residual(self, c: FloatArray, q: FloatArray) -> FloatArray:
-        """Discs, model minus measured, in standard deviations, (..., F, 9)."""
+        """Return discs, model minus measured, in standard deviations, (..., F, 9)."""
         off = (self.root @ (self.model(c[..., None, :], q) - self.disc_m)[..., None])[..., 0]
         return np.asarray(off.reshape(*off.shape[:-2], 9))
 
     def cost(self, c: FloatArray, q: FloatArray) -> float:
-        """Sum of squares in standard deviations, priors included."""
+        """Return the sum of squares in standard deviations, priors included."""
         dc, dq = c - self.constants, q - self.angles
         prior = dc @ self.constants_information @ dc + np.einsum("fi,fij,fj", dq, self.angles_information, dq)
         return float(np.sum(self.residual(c, q) ** 2) + prior)
 
 
 def _minimise(problem: _Problem, c: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Levenberg-Marquardt from constants (11,) and angles (F, m)."""
+    """Minimise the cost from constants (11,) and angles (F, m) by Levenberg-Marquardt."""
     now, damping = problem.cost(c, q), 1e-4
     normal = _NormalEquations.from_problem(problem, c, q)
     for _ in range(_MAX_ITERATIONS):
@@ -145,7 +155,7 @@ def _minimise(problem: _Problem, c: FloatArray, q: FloatArray) -> tuple[FloatArr
 
 @dataclass(frozen=True, slots=True)
 class _NormalEquations:
-    """Hessian: constants ``cc`` (11, 11), angles ``qq`` (F, m, m), between them ``cq`` (F, 11, m); and gradients."""
+    """Hessian of constants ``cc`` (11, 11), angles ``qq`` (F, m, m), mixed ``cq`` (F, 11, m); gradients."""
 
     cc: FloatArray
     cq: FloatArray
@@ -174,7 +184,7 @@ class _NormalEquations:
         )
 
     def step(self, damping: float) -> tuple[FloatArray, FloatArray]:
-        """Levenberg-Marquardt step of constants (11,) and angles (F, m)."""
+        """Return the Levenberg-Marquardt step of constants (11,) and angles (F, m)."""
         cc = self.cc + damping * np.diag(np.diag(self.cc))
         qq = self.qq * (1.0 + damping * np.eye(self.qq.shape[1]))
         carried = np.linalg.solve(qq, np.swapaxes(self.cq, 1, 2))  # (F, m, 11)
@@ -184,8 +194,10 @@ class _NormalEquations:
         return step_c, -drawn - carried @ step_c
 
     def covariances(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Posterior covariances of the constants (11, 11), of the angles of each pose (F, m, m), and between the
-        angles and the constants (F, m, 11)."""
+        """Return the posterior covariances.
+
+        Of the constants (11, 11), of the angles of each pose (F, m, m), and between angles and constants (F, m, 11).
+        """
         carried = np.linalg.solve(self.qq, np.swapaxes(self.cq, 1, 2))
         covariance = _invert_symmetric(self.cc - np.einsum("fij,fjk->ik", self.cq, carried))
         cross = -carried @ covariance
@@ -193,47 +205,48 @@ class _NormalEquations:
 
 
 def _invert_symmetric(matrix: FloatArray) -> FloatArray:
-    """Inverse of symmetric matrices (..., n, n), symmetric to the last digit."""
+    """Invert symmetric matrices (..., n, n), the result symmetric to the last digit."""
     inverse = np.linalg.inv(matrix)
     return np.asarray(0.5 * (inverse + np.swapaxes(inverse, -1, -2)), dtype=np.float64)
 
 
 def _compute_square_root(information: FloatArray) -> FloatArray:
-    """S with S'S = information, also where it is singular."""
+    """Return S with S'S = information, also where it is singular."""
     value, vector = np.linalg.eigh(information)
     return np.asarray(np.sqrt(np.maximum(value, 0.0))[..., None] * np.swapaxes(vector, -1, -2))
 
 
+# places in ``hand21`` of the three moving discs of thumb and fingers
 DIGIT_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
-"""Places in ``hand21`` of the three moving discs of the thumb and of fingers 2 to 5."""
-
 _PALM = list(PALM_SITES)
-
 _FIXED_SD = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
 class AnatomyPrior:
-    """How far a hand may differ from the average one of its size; standard deviations.
+    """Standard deviations of a hand about the average one of its size.
 
     ``bone_share`` of a bone's length, for which the reference's two tables lie 7 to 15 % apart; ``last_bone_share`` of
     the last one, which ends under a disc whose place on the nail varies; ``thumb_roll_rad`` of an estimate that other
     sources put 20 degrees off; ``height_scale`` common to all offsets of a digit, besides the scatter of each in the
-    table; ``finger_start_m`` and ``thumb_start_m``, ahead and aside, of the first joint centre (MCP, CMC1) from the
-    place under its disc: people stick a disc up to 5 mm off its place, that of CMC1 anywhere on the slope over it.
-    ``depth_stays_m``: error of a disc's depth that stays over a recording. To the camera it is height, at the neutral
-    pose and after, so it is part of what is not known of the heights.
-    ``stuck_off_m``: how far a disc on a finger is stuck beside the middle of its joint.
-    ``finger_depth_m`` of each disc's height over its joint centre by itself (MCP, PIP, DIP, TIP), ``thumb_depth_m``
-    (CMC1, MCP1, IP1, TIP1): with ``height_scale`` somewhat more than a quarter of the ranges of reference 2, as hands
-    after an injury are swollen; of the thumb half, as it shows a camera above its side, where skin slopes.
+    table; ``finger_start_m`` and ``thumb_start_m``, along X and Y, of the first joint centre (MCP, CMC1) from the place
+    under its disc: people stick a disc up to 5 mm off its place, that of CMC1 anywhere on the slope over it.
+
+    ``depth_stays_m``: constant error of a disc's depth over a recording. To the camera it is height, at the neutral
+    pose and after, so it is part of what is not known of the heights. ``stuck_off_m``: how far a disc on a finger is
+    stuck beside the middle of its joint. ``finger_depth_m`` of each disc's height over its joint centre by itself (MCP,
+    PIP, DIP, TIP), ``thumb_depth_m`` (CMC1, MCP1, IP1, TIP1): with ``height_scale`` somewhat more than a quarter of the
+    ranges of reference 2, as hands after an injury are swollen; of the thumb half, as it shows a camera above its side,
+    where skin slopes.
+
     ``neutral_*`` of the angles at the neutral pose, about a hand that lies relaxed: joints bent by
     ``relaxed_flexion_rad``, the thumb a little out, ``relaxed_thumb_rad`` CMC extension and abduction.
     ``straight_rad``: how straight a finger lies of which a person says that it does, each joint by itself;
-    ``straight_thumb_rad`` a thumb, which nobody aligns. ``bent_rad``: flexion of a finger that cannot, or whose discs
-    lie ``evidently_sd`` standard deviations from where a straight one's would.
-    ``dip_free_rad``: how far an end joint is from 2/3 of the middle one; ``dip_slack_rad`` one that should follow it.
-    A neutral digit that costs more than ``absurd_cost`` (sum of squares in standard deviations) may have an absurd
+    ``straight_thumb_rad`` a thumb, which nobody aligns. ``bent_rad``: flexion of a finger that cannot be straightened,
+    or whose discs lie ``evidently_sd`` standard deviations from where a straight one's would. ``dip_free_rad``: how far
+    DIP flexion is from 2/3 of PIP flexion; ``dip_slack_rad`` where it should follow it.
+
+    A neutral digit that costs more than ``absurd_cost`` (sum of squares in standard deviations) may have an outlier of
     depth: one that lies farther than ``absurd_m`` from where the others say, and that costs ``absurd_gain``. Less than
     that is flesh, or a disc stuck askew.
     """
@@ -267,7 +280,7 @@ class AnatomyPrior:
 
 
 def average_hand(disc_m: FloatArray, side: Side, skin_offsets: bool) -> HandAnatomy:
-    """The average hand of the size seen, with the palm's discs as measured (canonical right hand)."""
+    """Return the average hand of the size seen, with the palm discs of ``disc_m`` (21, 3) in W."""
     unit = anatomy_from_size(1.0, 1.0, arch=0.0, skin_offsets=False)
     palm = disc_m[_PALM]
     flat = disc_m[..., :2]
@@ -292,7 +305,7 @@ def average_hand(disc_m: FloatArray, side: Side, skin_offsets: bool) -> HandAnat
 def constants_prior(
     average: HandAnatomy, prior: AnatomyPrior, lateral_sd_m: FloatArray, depth_sd_m: FloatArray
 ) -> Gaussian:
-    """Constants of the five digits of the average hand, (5, 11), with the scatter between people.
+    """Return the prior (5, 11) of the digits' constants, with the scatter between people.
 
     ``lateral_sd_m`` and ``depth_sd_m`` (5,) tell how well the discs CMC1 and MCP2 to MCP5, from which the digits start,
     were measured: an error there stays in the joint centres below them.
@@ -320,7 +333,7 @@ def constants_prior(
 
 
 def constants_from_anatomy(hand: HandAnatomy) -> FloatArray:
-    """The constants (5, 11) of a hand's digits, in the order of ``DIGIT_CONSTANTS``."""
+    """Return the constants (5, 11) of a hand's digits, in the order of ``DIGIT_CONSTANTS``."""
     constants = np.zeros((5, 11))
     constants[:, :3] = np.vstack((hand.thumb_length_m, hand.finger_length_m))
     constants[:, 3] = hand.fan_rad
@@ -331,7 +344,7 @@ def constants_from_anatomy(hand: HandAnatomy) -> FloatArray:
 
 
 def with_constants(hand: HandAnatomy, constants: FloatArray) -> HandAnatomy:
-    """The hand with these constants (5, 11) of its digits."""
+    """Return the hand with these constants (5, 11) of its digits."""
     joints = hand.palm_joint_m.copy()
     joints[1:] = hand.palm_disc_m[1:] + constants[:, 5:8] * _DOWN
     return replace(
@@ -346,13 +359,15 @@ def with_constants(hand: HandAnatomy, constants: FloatArray) -> HandAnatomy:
     )
 
 
+# Columns of the flexions of the thumb, and of a finger (whose DIP follows), that are zero when it is straight.
 FLEXIONS = ((2, 4), (1, 2))
-"""Which angles of the thumb, and of a finger, are flexions that a straight finger has not; a finger's end follows."""
 
 
 def angles_prior(chain: int, prior: AnatomyPrior, dip_free: bool, is_straight: bool | None = None) -> Gaussian:
-    """Angles of one digit at the neutral pose, (1, 4 or 5): a relaxed hand on average; where a person said whether the
-    finger lies straight, with that."""
+    """Return the prior (1, 4 or 5) of a digit's angles at the neutral pose.
+
+    A relaxed hand on average; ``is_straight`` is what a person said of the finger, None for nothing.
+    """
     bent = prior.relaxed_flexion_rad
     if chain == 0:
         sd = np.full(5, prior.neutral_thumb_rad)
@@ -371,18 +386,10 @@ def angles_prior(chain: int, prior: AnatomyPrior, dip_free: bool, is_straight: b
             sd[flexions] = np.sqrt(share) * straight
         else:
             sd[flexions] = np.hypot(sd[flexions], prior.bent_rad)
-    if chain:
-        mean[3] = DIP_PER_PIP * mean[2]
-    covariance = angles_covariance(sd, chain, prior.dip_free_rad if dip_free else prior.dip_slack_rad)
-    return Gaussian(mean[None], covariance[None])
-
-
-def angles_covariance(sd_rad: FloatArray, chain: int, dip_sd_rad: float) -> FloatArray:
-    """Covariance of one digit's angles where DIP is 2/3 PIP give or take ``dip_sd_rad``."""
     if chain == 0:
-        return np.diag(sd_rad**2)
-    follow = np.eye(4)
+        return Gaussian(mean[None], np.diag(sd**2)[None])
+    mean[3] = DIP_PER_PIP * mean[2]
+    sd[3] = prior.dip_free_rad if dip_free else prior.dip_slack_rad
+    follow = np.eye(4)  # DIP is 2/3 PIP give or take
     follow[3, 2] = DIP_PER_PIP
-    own = sd_rad.copy()
-    own[3] = dip_sd_rad
-    return np.asarray(follow @ np.diag(own**2) @ follow.T)
+    return Gaussian(mean[None], (follow @ np.diag(sd**2) @ follow.T)[None])

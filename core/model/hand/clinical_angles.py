@@ -1,6 +1,6 @@
-"""The wrist frame W of the palm's discs, and its rotation as clinical angles (clinical reference 1.1 to 1.4).
+"""The wrist frame W of the palm's discs, and its rotation as clinical angles.
 
-``sign`` is +1 for a right hand and -1 for a left one. All angles in radians.
+Clinical reference 1.1 to 1.4. ``sign`` is +1 for a right hand and -1 for a left one. All angles in radians.
 """
 
 from __future__ import annotations
@@ -16,10 +16,17 @@ _PLANE = [WRIST, MCP2, MCP3, MCP4, MCP5]
 
 
 def wrist_axes(palm_m: FloatArray, dorsal_direction: FloatArray) -> FloatArray:
-    """Axes of W as columns (..., 3, 3), in the frame in which the six palm discs (..., 6, 3) are given.
+    """Return the axes of W as columns (..., 3, 3), in the frame of the given discs.
 
-    X from WRIST to MCP3; Z the normal of the least-squares plane through WRIST and MCP2..MCP5, made
-    perpendicular to X and turned to the side of the direction ``dorsal_direction`` (3,); Y = Z x X.
+    X from WRIST to MCP3; Z the normal of the least-squares plane through WRIST and MCP2..MCP5, made perpendicular to X;
+    Y = Z x X.
+
+    Parameters
+    ----------
+    palm_m : (..., 6, 3)
+        Palm discs.
+    dorsal_direction : (3,)
+        Z is turned to this side.
     """
     x = palm_m[..., MCP3, :] - palm_m[..., WRIST, :]
     x = x / np.linalg.norm(x, axis=-1, keepdims=True)
@@ -35,7 +42,7 @@ def wrist_axes(palm_m: FloatArray, dorsal_direction: FloatArray) -> FloatArray:
 
 
 def wrist_axes_sensitivity(palm_m: FloatArray, dorsal_direction: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Axes (3, 3) and the turn of those axes per metre of each disc coordinate, (3, 18), in W."""
+    """Return the axes (3, 3) and their turn per metre of each disc coordinate (3, 18), in W."""
     step_m = 1e-5
     moved = np.broadcast_to(palm_m, (19, 6, 3)).reshape(19, 18).copy()
     moved[np.arange(1, 19), np.arange(18)] += step_m
@@ -47,19 +54,17 @@ def wrist_axes_sensitivity(palm_m: FloatArray, dorsal_direction: FloatArray) -> 
     return axes[0], vee / step_m
 
 
-ZYZ_MIN_BETA_RAD = math.radians(3.0)
-"""Below this beta only alpha + gamma is defined (reference 1.4)."""
-ZYZ_MAX_SD_RAD = math.radians(30.0)
-"""An alpha or gamma known worse than this is not given."""
+ZYZ_MIN_BETA_RAD = math.radians(3.0)  # below this beta only alpha + gamma is defined (reference 1.4)
+ZYZ_MAX_SD_RAD = math.radians(30.0)  # an alpha or gamma known worse than this is not given
 
 
 def side_sign(side: Side) -> float:
-    """+1 for the right hand, -1 for the left."""
+    """Return +1 for the right hand, -1 for the left."""
     return 1.0 if side == "right" else -1.0
 
 
 def angles_from_rotation(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
-    """Deviation (+ radial), flexion (+ flexion), pro/supination (+ supination), shape (..., 3).
+    """Return deviation (+ radial), flexion (+), pro/supination (+ supination), (..., 3).
 
     ZYX Euler angles psi, theta, phi of R = Rz(psi) Ry(theta) Rx(phi) with clinical signs.
 
@@ -75,7 +80,7 @@ def angles_from_rotation(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
 
 
 def rotation_from_angles(angles_rad: FloatArray, side: Side) -> FloatArray:
-    """Inverse of :func:`angles_from_rotation`; angles (..., 3) to R (..., 3, 3)."""
+    """Return R (..., 3, 3) of angles (..., 3); inverse of :func:`angles_from_rotation`."""
     s = side_sign(side)
     psi, theta, phi = s * angles_rad[..., 0], angles_rad[..., 1], s * angles_rad[..., 2]
     cz, sz, cy, sy, cx, sx = np.cos(psi), np.sin(psi), np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
@@ -88,7 +93,7 @@ def rotation_from_angles(angles_rad: FloatArray, side: Side) -> FloatArray:
 
 
 def angle_rates_matrix(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
-    """Derivative of the clinical angles for a small turn delta in W2, R Exp(delta); shape (..., 3, 3).
+    """Return the derivative (..., 3, 3) of the clinical angles for a small turn d in W2, R Exp(d).
 
     Grows without bound as flexion nears 90 degrees (noise gain 1/cos theta, reference 1.2).
     """
@@ -111,7 +116,7 @@ def angle_rates_matrix(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
 
 
 def isb_from_rotation(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
-    """Deviation (+ radial), flexion, pro/supination (+ supination) in the order of the ISB, shape (..., 3).
+    """Return deviation, flexion, pro/supination (..., 3) in the order of the ISB.
 
     Flexion about the forearm's axis first, deviation about the floating axis, turning about the hand's (reference 1.3;
     Wu 2005). Not to be mixed with :func:`angles_from_rotation` between sessions.
@@ -131,11 +136,11 @@ def isb_from_rotation(rotation_w2_w0: FloatArray, side: Side) -> FloatArray:
 def zyz_with_sd(
     rotation_w2_w0: FloatArray, angles_sd_rad: FloatArray, side: Side
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """ZYZ angles (..., 3) wherever they mean anything, their standard deviations (..., 3), and alpha + gamma (...,).
+    """Return ZYZ angles (..., 3) where defined, their sds (..., 3), and alpha + gamma (...,).
 
     ``angles_sd_rad`` (..., 3) of the clinical angles, taken as independent. Near the neutral pose alpha and gamma drown
-    in the uncertainty of the pose while beta and their sum stay known: they are NaN where their sd passes 30 degrees,
-    and the sds say how well they are known elsewhere. Beta has no sign: within its sd of zero it is too large.
+    in the uncertainty of the pose while beta and their sum stay known: they are NaN where their sd passes 30 degrees.
+    Beta has no sign: within its sd of zero it is too large.
     """
     r = rotation_w2_w0
     sine = np.hypot(r[..., 0, 2], r[..., 1, 2])
@@ -166,7 +171,7 @@ def zyz_with_sd(
 
 
 def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:
-    """ZYZ angles alpha, beta, gamma of the wrist paper, shape (..., 3); NaN where beta < 3 degrees."""
+    """Return ZYZ angles alpha, beta, gamma (..., 3) of the wrist paper; NaN where beta < 3 degrees."""
     r = rotation_w2_w0
     beta = np.arctan2(np.hypot(r[..., 0, 2], r[..., 1, 2]), r[..., 2, 2])
     alpha = np.arctan2(r[..., 1, 2], r[..., 0, 2])
@@ -176,10 +181,9 @@ def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:
 
 
 def compute_wrist_angles(rotation_w2_w0: FloatArray, side: Side) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Clinical angles (3,) of one rotation (3, 3), their derivatives (3, 3) by a small turn, and ZYZ angles (3,).
+    """Return clinical angles (3,), their derivatives (3, 3) by a small turn, and ZYZ angles (3,).
 
-    The three functions above in plain numbers: every frame needs all of them for one rotation, and arrays of one
-    number cost ten times as much.
+    The three functions above for one rotation (3, 3) in plain numbers: arrays of one number cost ten times as much.
     """
     (r00, _, r02), (r10, _, r12), (r20, r21, r22) = rotation_w2_w0.tolist()
     s = side_sign(side)

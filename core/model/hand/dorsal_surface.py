@@ -5,17 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carpus.core.model.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
 class DorsalSurface:
-    """Height and slopes of the skin over the places of a grid in W0.
+    """Height and slopes of the skin over the nodes of a grid in W0.
 
-    ``origin_m`` (2,) x and y of the first node, ``step_m`` between nodes; ``height_m``, ``slope_x``, ``slope_y``
-    (H, W), rows along y; NaN where the surface is not known or not part of the fixed unit. ``middle_m`` (3,) of it.
+    ``origin_m`` (2,) x and y of the first node, ``step_m`` between nodes; ``height_m``, ``slope_x``, ``slope_y`` (H,
+    W), rows along y; NaN where the surface is not known or not part of the fixed unit. ``middle_m`` (3,) of it.
+    Computed once: ``plane`` (nodes, 4) of every node and of a border about the grid, and ``to_node`` (4, 2), which maps
+    a place and 1 to the number of its column and row there.
     """
 
     origin_m: FloatArray
@@ -27,8 +28,6 @@ class DorsalSurface:
 
     plane: FloatArray = field(init=False, repr=False, compare=False)
     to_node: FloatArray = field(init=False, repr=False, compare=False)
-    """Worked out once: the plane of every node and of a border about the grid (nodes, 4), and what makes of a place and
-    1 the number of its column and row there (4, 2)."""
 
     def __post_init__(self) -> None:
         rows, columns = self.height_m.shape
@@ -47,14 +46,17 @@ class DorsalSurface:
         object.__setattr__(self, "to_node", to_node)
 
     def node_positions_m(self) -> FloatArray:
-        """The known nodes (N, 3) in W0."""
+        """Return the known nodes (N, 3) in W0."""
         row, column = np.nonzero(np.isfinite(self.height_m))
         across = self.origin_m + self.step_m * np.column_stack((column, row))
         return np.column_stack((across, self.height_m[row, column]))
 
     def to_table(self) -> FloatArray:
-        """All of it as rows (``TABLE_ROWS``, 5), NaN below: first origin x, y, step, rows and columns of the grid, then
-        the middle, then every known node as row, column, height and slopes."""
+        """Return the surface as rows (``TABLE_ROWS``, 5), NaN below.
+
+        First origin x, y, step, rows and columns of the grid, then the middle, then every known node as row, column,
+        height and slopes.
+        """
         row, column = np.nonzero(np.isfinite(self.height_m))
         table = np.full((TABLE_ROWS, 5), np.nan)
         table[0] = (*self.origin_m, self.step_m, *self.height_m.shape)
@@ -65,7 +67,7 @@ class DorsalSurface:
 
     @staticmethod
     def from_table(table: FloatArray) -> DorsalSurface | None:
-        """Inverse of :meth:`to_table`; None where nothing is known or the rows are no surface."""
+        """Return the surface in a table; None where nothing is known or the rows are no surface."""
         if not np.isfinite(table[0]).all() or not np.isfinite(table[1, :3]).all():
             return None
         rows, columns = int(table[0, 3]), int(table[0, 4])
@@ -80,33 +82,35 @@ class DorsalSurface:
         return DorsalSurface(table[0, :2].copy(), float(table[0, 2]), grid[0], grid[1], grid[2], table[1, :3].copy())
 
 
-_FAR_PLANE = np.array([0.0, 0.0, 0.0, 1e3])
-"""A plane that no place is near."""
-TABLE_ROWS = 1024
-"""Of a surface as a table: twice what the largest hand has."""
+_FAR_PLANE = np.array([0.0, 0.0, 0.0, 1e3])  # a plane that no place is near
+TABLE_ROWS = 1024  # of a surface as a table: twice what the largest hand has
 
 
-STEP_M = 0.002
-"""Between the nodes of the surface."""
-OUTLINE_SCALE = 1.12
-"""The area is so many times the outline of the discs that span it."""
-KERNEL_RADIUS_M = 0.004
-"""How far a reading counts about a node."""
-MIN_WEIGHT = 0.05
-"""A node with less weight of readings is unknown."""
-MIN_POINTS = 12
-"""A node with fewer readings is unknown."""
-MAX_HEIGHT_M = 0.020
-"""Readings farther from the plane of the discs are of something else."""
-MIN_NODES = 60
-"""With fewer known nodes there is no surface."""
+STEP_M = 0.002  # between the nodes of the surface
+OUTLINE_SCALE = 1.12  # the area is so many times the outline of the discs that span it
+KERNEL_RADIUS_M = 0.004  # how far from a node a reading has weight
+MIN_WEIGHT = 0.05  # a node with less weight of readings is unknown
+MIN_POINTS = 12  # a node with fewer readings is unknown
+MAX_HEIGHT_M = 0.020  # readings farther from the plane of the discs are of something else
+MIN_NODES = 60  # with fewer known nodes there is no surface
 
 
 def fit_dorsal_surface(point_m: FloatArray, outline_m: FloatArray) -> DorsalSurface | None:
-    """The surface that points (P, 3) in W0 show within the discs ``outline_m`` (4, 3) WRIST, CMC1, MCP2, MCP3, a little
-    widened; None where too little of it was seen.
+    """Fit the surface through points on the back of the hand.
 
-    Each node's plane is fitted to the points about it, the nearer the weightier.
+    Each node's plane is fitted to the points about it, weighted by distance.
+
+    Parameters
+    ----------
+    point_m : (P, 3)
+        Depth readings in W0.
+    outline_m : (4, 3)
+        Discs WRIST, CMC1, MCP2, MCP3; the surface is fitted within them, a little widened.
+
+    Returns
+    -------
+    DorsalSurface or None
+        None where too little of it was seen.
     """
     middle = outline_m.mean(axis=0)
     outline = middle[:2] + OUTLINE_SCALE * (outline_m[:, :2] - middle[:2])
@@ -118,7 +122,11 @@ def fit_dorsal_surface(point_m: FloatArray, outline_m: FloatArray) -> DorsalSurf
     columns, rows = (np.ceil((high - low) / STEP_M).astype(int) + 1).tolist()
     grid = low + STEP_M * np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1)  # (H, W, 2)
     found = np.full((rows, columns, 3), np.nan)
-    for row, column in np.argwhere(_is_inside(grid, outline)):
+    is_inside = np.ones((rows, columns), dtype=bool)
+    for a, b in zip(outline, np.roll(outline, -1, axis=0), strict=True):  # convex, counter-clockwise
+        edge, to_node = b - a, grid - a
+        is_inside &= edge[0] * to_node[..., 1] - edge[1] * to_node[..., 0] >= 0.0
+    for row, column in np.argwhere(is_inside):
         apart = point[:, :2] - grid[row, column]
         weight = np.exp(-0.5 * (apart * apart).sum(axis=1) / (0.5 * KERNEL_RADIUS_M) ** 2)
         weight[weight < MIN_WEIGHT] = 0.0
@@ -133,12 +141,3 @@ def fit_dorsal_surface(point_m: FloatArray, outline_m: FloatArray) -> DorsalSurf
         return None
     centre = np.append(grid[known].mean(axis=0), found[known][:, 0].mean())
     return DorsalSurface(low, STEP_M, found[..., 0], found[..., 1], found[..., 2], centre)
-
-
-def _is_inside(place: FloatArray, outline: FloatArray) -> NDArray[np.bool_]:
-    """Whether places (..., 2) lie within a convex outline (C, 2), counter-clockwise."""
-    inside = np.ones(place.shape[:-1], dtype=bool)
-    for a, b in zip(outline, np.roll(outline, -1, axis=0), strict=True):
-        edge, to = b - a, place - a
-        inside &= edge[0] * to[..., 1] - edge[1] * to[..., 0] >= 0.0
-    return inside

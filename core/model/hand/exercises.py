@@ -1,4 +1,4 @@
-"""Every exercise: what is asked of the hand (clinical reference 8.2), what is told of it, and its words."""
+"""Every exercise (clinical reference 8.2): what is asked, what is reported, its words."""
 
 from __future__ import annotations
 
@@ -11,20 +11,19 @@ from carpus.core.model.hand import protocols
 from carpus.core.model.hand.protocols import DIGITS, MarkerProtocol
 from carpus.core.model.phrase import Phrase, phrase
 
-DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2
-"""Columns of the wrist angles, as in every file."""
+DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2  # Columns of the wrist angles, as in every file.
 
 Movement = Literal["radial", "ulnar", "flexion", "extension", "supination", "pronation", "arc"]
 
+# Name of the positive and of the negative direction of each angle.
 DIRECTIONS: tuple[tuple[Movement, Movement], ...] = (
     ("radial", "ulnar"), ("flexion", "extension"), ("supination", "pronation"),
 )  # fmt: skip
-"""Name of the positive and of the negative direction of each angle."""
 
 
 @dataclass(frozen=True, slots=True)
 class MovementWords:
-    """A movement in a word, with its noun where that word alone is none, and what is missing to neutral that way."""
+    """A movement's name, its noun where the name is an adjective, and its deficit to neutral."""
 
     name: Phrase
     noun: Phrase
@@ -41,71 +40,66 @@ MOVEMENTS: Mapping[str, MovementWords] = {
     "pronation": MovementWords(phrase("Pronation"), phrase("Forearm pronation"), phrase("Pronation deficit")),
     "arc": MovementWords(_ARC, _ARC, _ARC),
 }
+# The whole arc of each angle, where more than one is shown.
 ARC_NAMES = (phrase("Side arc"), phrase("Bending arc"), phrase("Forearm rotation"))
-"""The whole arc of each angle, where more than one is shown."""
+# Each angle where it should stay still.
 STILL_NAMES = (phrase("Side movement"), phrase("Up and down"), phrase("Rotation from the start"))
-"""Each angle where it should stay still."""
 
 AXIS_TICK_DEG = (40.0, 80.0, 80.0)
-AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)
-"""Outermost tick and end of the fixed axis of each angle on every screen and page."""
+AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)  # Outermost tick and end of the fixed axis of each angle on every screen and page.
 
 
 _RETURN_CUE, _TASK_TITLE = phrase("Come back to the middle"), phrase("Further figures")
 
+# Measures besides ranges: paths of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the
+# thumb moves with the fingers while it is hidden.
 TaskMeasureKind = Literal["reaches", "touches", "spans", "together", "thumb beside"]
-"""What is told beside ranges: ways of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the
-thumb moves with the fingers while it is hidden."""
 
 
 @dataclass(frozen=True, slots=True)
 class Exercise:
-    """One exercise. ``angle`` is the trained column or None (free movement: all three are reported);
-    ``trick_limit_deg`` within which the other angles should stay, NaN for none."""
+    """One exercise, with its words for therapist and patient.
+
+    ``angle`` is the trained column of the wrist angles or None (free movement: all three are reported);
+    ``trick_limit_deg`` within which the other angles should stay, NaN for none; ``is_forearm_fixed``: the WRIST marker
+    must stay within a ball of 15 mm. ``digits`` that move, thumb 1 to little finger 5, need their markers. ``joint`` is
+    the trained joint angle of the whole hand by its name in every file; of a fist MCP, whose markers stay in view
+    longest. ``instruction`` is read by the therapist, ``position`` says how the arm lies before the start,
+    ``visibility_note`` what the camera will not see. ``adult_cues`` and ``child_cues`` are shown to the patient for the
+    positive and the negative direction. ``simulated_motion`` is used for practice. ``has_free_dip``: DIP flexion
+    usually does not follow PIP flexion. ``has_total_motion``: the sum of a finger's flexion is its total active motion.
+    ``is_task``: the task measures come before the ranges.
+    """
 
     id: str
     angle: int | None
     repetitions: int
     trick_limit_deg: float
     is_forearm_fixed: bool
-    """Whether the forearm must lie still (WRIST disc within a ball of 15 mm)."""
     digits: tuple[int, ...] = ()
-    """Thumb (1) to little finger (5): those it moves, which then need their discs; none where the wrist alone does."""
     joint: str = ""
-    """The joint angle of the whole hand that is trained, by its name in every file; empty where ``angle`` counts.
-
-    Of a fist the knuckle: seen from above its discs stay in view longest.
-    """
     _: KW_ONLY
     name: Phrase
     instruction: Phrase
-    """What the patient is asked to do, as the therapist reads it."""
     position: Phrase
-    """How the arm lies before the start."""
     visibility_note: str = ""
-    """What the camera will not see of it, said before it begins; empty where it sees all."""
     adult_cues: tuple[str, str]
     child_cues: tuple[str, str]
-    """What the patient's own screen asks for, in the positive direction and in the negative one."""
     return_cue: Phrase = _RETURN_CUE
     simulated_motion: str
-    """The simulated patient's movement when it is practised."""
     has_free_dip: bool = False
-    """Whether the end joints of the fingers usually do not follow the middle joints in it."""
     has_total_motion: bool = True
-    """Whether the sum of a finger's bending is its total active motion: not where no fist is asked for."""
     task_measures: tuple[TaskMeasureKind, ...] = ()
     task_title: Phrase = _TASK_TITLE
     is_task: bool = False
-    """Whether it is about what is told beside the ranges: that comes first then."""
 
     @property
     def protocol(self) -> MarkerProtocol:
-        """The discs that are put on for it, where nothing else was chosen: the first protocol that allows it."""
+        """The first marker protocol that allows the exercise."""
         return next(protocol for protocol in protocols.PROTOCOLS if self.is_allowed_by(protocol))
 
     def is_allowed_by(self, protocol: MarkerProtocol) -> bool:
-        """Whether a protocol has the discs it needs, and not those of fingers that it does not move."""
+        """Return whether a protocol has the markers it needs, and none of fingers that it does not move."""
         return protocol.has_fingers == bool(self.digits) and set(self.digits) <= set(protocol.digits)
 
     @property
@@ -121,7 +115,8 @@ EXERCISES = (
         name=phrase("Wrist flexion–extension"),
         instruction=phrase("Bend the wrist up, then down, as far as is comfortable. Keep the forearm still."),
         position=phrase("Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed."),
-        adult_cues=(phrase("Bend your hand down"), phrase("Lift your hand up")), child_cues=(phrase("Down"), phrase("Up")),  # noqa: E501
+        adult_cues=(phrase("Bend your hand down"), phrase("Lift your hand up")),
+        child_cues=(phrase("Down"), phrase("Up")),
         simulated_motion="flexion",
     ),
     Exercise(
@@ -206,7 +201,8 @@ EXERCISES = (
         name=phrase("Reach and grasp"),
         instruction=phrase("Reach, take the cup, lift it a little, put it back, return."),
         position=phrase("Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm."),
-        adult_cues=(phrase("Take the cup, lift it a little, put it back"),) * 2, child_cues=(phrase("Take the cup"),) * 2,  # noqa: E501
+        adult_cues=(phrase("Take the cup, lift it a little, put it back"),) * 2,
+        child_cues=(phrase("Take the cup"),) * 2,
         simulated_motion="reach_grasp",
         has_total_motion=False,
         task_measures=("reaches", "thumb beside"), task_title=phrase("Reach and grasp"),
@@ -235,15 +231,15 @@ STILL_RADIUS_MM = 15.0
 
 
 def exercises_for_protocol(protocol: MarkerProtocol) -> tuple[Exercise, ...]:
-    """What can be trained with these discs."""
+    """Return the exercises that can be trained with a protocol's markers."""
     return tuple(exercise for exercise in EXERCISES if exercise.is_allowed_by(protocol))
 
 
 def find_exercise(name: str) -> Exercise | None:
-    """The exercise of that id; None where there is none."""
+    """Return the exercise of that id; None where there is none."""
     return next((exercise for exercise in EXERCISES if exercise.id == name), None)
 
 
 def get_exercise(name: str) -> Exercise:
-    """The exercise of that id; anything unknown is free movement, so every old session can be opened."""
+    """Return the exercise of that id; free movement for an unknown one (an old session)."""
     return find_exercise(name) or EXERCISES[-1]

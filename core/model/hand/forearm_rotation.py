@@ -1,4 +1,4 @@
-"""Where pronation and supination are counted from: the one place that says so, and converts.
+"""The zero of pronation and supination, and the conversion between its two conventions.
 
 Two zeros are in use (clinical reference 1.2), each under a name of its own:
 
@@ -20,12 +20,11 @@ from carpus.core.model.hand.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, PRON
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.types import FloatArray
 
-PALM_DOWN_PRONATION_DEG = 90.0
-"""Pronation, from thumb up, of a palm that lies flat on the table: the hand's plane against the vertical."""
+PALM_DOWN_PRONATION_DEG = 90.0  # Pronation, from thumb up, of a palm that lies flat on the table.
 
 
 def supination_from_thumb_up(pronosupination_rad: FloatArray) -> FloatArray:
-    """Supination (+) and pronation (-) from thumb up, in (-pi, pi], of the angle in the files; both hands alike.
+    """Return supination (+) and pronation (-) from thumb up, in (-pi, pi], of the files' angle.
 
     >>> np.degrees(supination_from_thumb_up(np.radians([0.0, 90.0, 180.0, -180.0]))).round(9) + 0.0
     array([-90.,   0.,  90.,  90.])
@@ -35,24 +34,23 @@ def supination_from_thumb_up(pronosupination_rad: FloatArray) -> FloatArray:
 
 
 def to_clinical_rad(name: str, angle_rad: FloatArray) -> FloatArray:
-    """An angle by its name in every file as a clinician reads it: ``pronosupination`` from thumb up, others as they
-    are."""
+    """Return an angle of the files as a clinician reads it: pronosupination from thumb up."""
     return supination_from_thumb_up(angle_rad) if name == WRIST_ANGLES[PRONOSUPINATION] else angle_rad
 
 
 def pronosupination_from_palm_down(supination_rad: FloatArray) -> FloatArray:
-    """The inverse of :func:`supination_from_thumb_up`: the angle in the files, in (-pi, pi]."""
+    """Return the files' angle, in (-pi, pi]; inverse of :func:`supination_from_thumb_up`."""
     turned = supination_rad + math.radians(PALM_DOWN_PRONATION_DEG)
     return np.asarray(math.pi - np.mod(math.pi - turned, 2.0 * math.pi))
 
 
 def is_counted_from_thumb_up(exercise: Exercise) -> bool:
-    """Whether pronation and supination are read in an exercise: it trains them, or no angle in particular."""
+    """Return whether an exercise trains pronation and supination, or no angle in particular."""
     return exercise.angle == PRONOSUPINATION or (exercise.angle is None and not exercise.joint)
 
 
 def to_clinical_wrist_angles(angles_rad: FloatArray, exercise: Exercise, start_angles_rad: FloatArray) -> FloatArray:
-    """The wrist's angles (..., 3) of a file as a clinician reads them.
+    """Return the wrist's angles (..., 3) of a file as a clinician reads them.
 
     The third is supination from thumb up, or the rotation from the start where it accompanies another movement.
     """
@@ -66,23 +64,21 @@ def to_clinical_wrist_angles(angles_rad: FloatArray, exercise: Exercise, start_a
 
 
 def axis_limits_deg(angle: int, exercise: Exercise) -> tuple[float, float]:
-    """Outermost tick and end of the fixed axis of a wrist angle as it is read in an exercise."""
+    """Return outermost tick and end of the fixed axis of a wrist angle in an exercise."""
     if angle == PRONOSUPINATION and is_counted_from_thumb_up(exercise):
         return PALM_DOWN_PRONATION_DEG, 1.3 * PALM_DOWN_PRONATION_DEG
     return AXIS_TICK_DEG[angle], AXIS_LIMIT_DEG[angle]
 
 
 def to_clinical_targets_deg(stored_deg: tuple[float, float], exercise: Exercise | None) -> tuple[float, float]:
-    """Targets as a clinician reads them, of stored ones, which are counted from the palm down; NaN for none."""
-    return _shift_targets(stored_deg, exercise, -PALM_DOWN_PRONATION_DEG)
+    """Return targets as a clinician reads them, of stored ones (from palm down); NaN for none."""
+    if exercise is None or exercise.angle != PRONOSUPINATION:
+        return stored_deg
+    return stored_deg[0] - PALM_DOWN_PRONATION_DEG, stored_deg[1] - PALM_DOWN_PRONATION_DEG
 
 
 def from_clinical_targets_deg(read_deg: tuple[float, float], exercise: Exercise | None) -> tuple[float, float]:
-    """The inverse of :func:`to_clinical_targets_deg`."""
-    return _shift_targets(read_deg, exercise, PALM_DOWN_PRONATION_DEG)
-
-
-def _shift_targets(deg: tuple[float, float], exercise: Exercise | None, by_deg: float) -> tuple[float, float]:
+    """Return targets as stored; inverse of :func:`to_clinical_targets_deg`."""
     if exercise is None or exercise.angle != PRONOSUPINATION:
-        return deg
-    return deg[0] + by_deg, deg[1] + by_deg
+        return read_deg
+    return read_deg[0] + PALM_DOWN_PRONATION_DEG, read_deg[1] + PALM_DOWN_PRONATION_DEG

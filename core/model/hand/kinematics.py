@@ -1,11 +1,9 @@
-"""Where the joints, finger tips and paper discs are for given joint angles (clinical reference 2 and 3.2).
+"""Joint centres, finger tips and paper discs for given joint angles.
 
-Closed form of the Denavit-Hartenberg chains: a long finger is a direction in the palm plane (abduction) and a
-planar chain below it; the thumb is that with a rolled plane after the metacarpal. All poses at once.
-
-Angles are (..., 17), order of :func:`core.model.hand.protocols.joint_angle_names`, DIP = 2/3 PIP; or (..., 21), DIP
-free.
-Points are (..., 21, 3) in the order of ``hand21``, metres, in the wrist frame W of the anatomy's own side.
+Clinical reference 2 and 3.2. Closed form of the Denavit-Hartenberg chains: a long finger is a direction in the palm
+plane (abduction) and a planar chain below it; the thumb is that with a rolled plane after the metacarpal. All poses at
+once. Angles are (..., 17), order of :func:`core.model.hand.protocols.joint_angle_names`, DIP = 2/3 PIP; or (..., 21),
+DIP free. Points are (..., 21, 3) in the order of ``hand21``, metres, in the wrist frame W of the anatomy's own side.
 """
 
 from __future__ import annotations
@@ -18,8 +16,7 @@ from carpus.core.model.hand.anatomy import HandAnatomy
 from carpus.core.model.hand.protocols import PALM_SITES, SITES
 from carpus.core.model.types import FloatArray
 
-DIP_PER_PIP = 2.0 / 3.0
-"""DIP flexion over PIP flexion of a healthy finger moving freely (hand paper, section 2)."""
+DIP_PER_PIP = 2.0 / 3.0  # DIP flexion over PIP flexion of a healthy finger moving freely (hand paper, section 2)
 
 SEGMENTS = ("palm", "MC1", "PP1", "DP1") + tuple(f"{bone}{k}" for k in (2, 3, 4, 5) for bone in ("PP", "MP", "DP"))
 
@@ -28,8 +25,11 @@ _PALM = list(PALM_SITES)
 
 @dataclass(frozen=True, slots=True)
 class SegmentFrames:
-    """The bones as a renderer needs them, order of ``SEGMENTS``: joint centres ``start_m`` and ``end_m``
-    (..., 16, 3) and the unit ``dorsal_normal`` (..., 16, 3), all in W. The palm runs from WRIST to MCP3."""
+    """The bones as a renderer needs them, in the order of ``SEGMENTS``.
+
+    Joint centres ``start_m`` and ``end_m`` (..., 16, 3) and the unit ``dorsal_normal`` (..., 16, 3), all in W. The palm
+    runs from WRIST to MCP3.
+    """
 
     start_m: FloatArray
     end_m: FloatArray
@@ -37,7 +37,7 @@ class SegmentFrames:
 
 
 def joint_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
-    """Joint centres and tips, (..., 21, 3) in W.
+    """Return joint centres and tips, (..., 21, 3) in W.
 
     >>> from carpus.core.model.hand.anatomy import anatomy_from_size
     >>> straight = joint_centres(anatomy_from_size(0.180, 0.080, arch=0.0, skin_offsets=False), np.zeros(17))
@@ -54,11 +54,11 @@ def joint_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
 
 
 def disc_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
-    """Centres of the paper discs on the skin, (..., 21, 3) in W.
+    """Return centres of the paper discs on the skin, (..., 21, 3) in W.
 
-    The discs of WRIST, CMC1 and MCP2 to MCP5 stay with the palm; MCP1 stays with the first metacarpal as those of
-    the fingers stay with theirs; IP1, PIP and DIP stand on the bisector of the dorsal normals of the two segments
-    that meet there; TIP stands on the normal of the last segment.
+    The discs of WRIST, CMC1 and MCP2 to MCP5 stay with the palm; MCP1 stays with the first metacarpal as those of the
+    fingers stay with theirs; IP1, PIP and DIP stand on the bisector of the dorsal normals of the two segments that meet
+    there; TIP stands on the normal of the last segment.
     """
     hand = anatomy
     out = np.empty((*angles_rad.shape[:-1], 21, 3))
@@ -78,7 +78,7 @@ def disc_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
 
 
 def finger_angles(angles_rad: FloatArray) -> FloatArray:
-    """Abduction, MCP, PIP and DIP flexion of fingers 2 to 5, (..., 4, 4), from all the joint angles."""
+    """Return abduction, MCP, PIP and DIP flexion of fingers 2 to 5, (..., 4, 4)."""
     per_finger = (angles_rad.shape[-1] - 5) // 4
     angles = angles_rad[..., 5:].reshape(*angles_rad.shape[:-1], 4, per_finger)
     if per_finger == 4:
@@ -89,10 +89,10 @@ def finger_angles(angles_rad: FloatArray) -> FloatArray:
 def finger_discs(
     knuckle_m: FloatArray, fan_rad: FloatArray, length_m: FloatArray, offset_m: FloatArray, angles_rad: FloatArray
 ) -> FloatArray:
-    """Discs PIP, DIP, TIP of right long fingers, (..., 3 discs, 3) in W; all leading shapes broadcast.
+    """Return discs PIP, DIP, TIP of right long fingers, (..., 3 discs, 3) in W.
 
-    ``knuckle_m`` (..., 3) MCP joint centre; ``fan_rad`` (...); ``length_m`` (..., 3) PP MP DP; ``offset_m``
-    (..., 3) of the three discs; ``angles_rad`` (..., 4) abduction, MCP, PIP, DIP flexion.
+    All leading shapes broadcast: ``knuckle_m`` (..., 3) MCP joint centre; ``fan_rad`` (...); ``length_m`` (..., 3) PP
+    MP DP; ``offset_m`` (..., 3) of the three discs; ``angles_rad`` (..., 4) abduction, MCP, PIP, DIP flexion.
     """
     finger = _Finger.from_angles(fan_rad, length_m, angles_rad)
     normal_pitch = finger.pitch + 0.0
@@ -110,10 +110,10 @@ def thumb_discs(
     offset_m: FloatArray,
     angles_rad: FloatArray,
 ) -> FloatArray:
-    """Discs MCP1, IP1, TIP1 of a right thumb, (..., 3 discs, 3) in W; all leading shapes broadcast.
+    """Return discs MCP1, IP1, TIP1 of a right thumb, (..., 3 discs, 3) in W.
 
-    ``cmc_m`` (..., 3) CMC joint centre; ``fan_rad`` rho1 and ``roll_rad`` tau (...); ``length_m`` (..., 3) MC PP DP;
-    ``offset_m`` (..., 3) of the three discs; ``angles_rad`` (..., 5).
+    All leading shapes broadcast: ``cmc_m`` (..., 3) CMC joint centre; ``fan_rad`` rho1 and ``roll_rad`` tau (...);
+    ``length_m`` (..., 3) MC PP DP; ``offset_m`` (..., 3) of the three discs; ``angles_rad`` (..., 5).
     """
     thumb = _Thumb.from_angles(fan_rad, roll_rad, length_m, angles_rad)
     half = 0.5 / np.cos(0.5 * angles_rad[..., 4, None])
@@ -124,7 +124,7 @@ def thumb_discs(
 
 
 def segment_frames(anatomy: HandAnatomy, angles_rad: FloatArray) -> SegmentFrames:
-    """Start, end and dorsal normal of the palm and of every bone of the fingers."""
+    """Return start, end and dorsal normal of the palm and of every bone of the fingers."""
     shape = angles_rad.shape[:-1]
     joints = joint_centres(anatomy, angles_rad)
     start, end = np.empty((*shape, 16, 3)), np.empty((*shape, 16, 3))
@@ -166,7 +166,7 @@ class _Finger:
         return _Finger(np.cos(azimuth), np.sin(azimuth), pitch, along, up)
 
     def place_points(self, knuckle_m: FloatArray, along: FloatArray, up: FloatArray) -> FloatArray:
-        """Points (..., 3, 3) in W from their places in the finger's plane."""
+        """Return points (..., 3, 3) in W from their places in the finger's plane."""
         knuckle = knuckle_m[..., None, :]
         x = knuckle[..., 0] + self.cos_azimuth * along
         y = knuckle[..., 1] + self.sin_azimuth * along
@@ -224,7 +224,7 @@ class _Thumb:
 
 
 def _finger_view(points: FloatArray) -> FloatArray:
-    """The points of fingers 2 to 5 as a view (..., 4 fingers, 4 points, 3) into (..., 21, 3)."""
+    """Return the points of fingers 2 to 5 as a view (..., 4 fingers, 4 points, 3)."""
     return points[..., 5:, :].reshape(*points.shape[:-2], 4, 4, 3)
 
 

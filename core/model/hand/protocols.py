@@ -1,7 +1,7 @@
-"""Where a hand can carry discs, the names of angles, and the marker protocols: which of these places have a disc. The
-order here is that of every model and file; nothing outside compares one protocol with another.
+"""Sites of markers on a hand, names of angles, and the marker protocols.
 
-The model of the hand has a place for a disc at each of these sites, whatever discs a marker protocol uses.
+The model of the hand has a place for a marker at each of these sites; a protocol says which of them have one. The order
+here is that of every model and file; nothing outside compares one protocol with another.
 """
 
 from __future__ import annotations
@@ -14,34 +14,33 @@ from carpus.core.model.errors import ProtocolUnknown
 WRIST_ANGLES = ("deviation", "flexion", "pronosupination")
 PALM_MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
-DIGITS = (1, 2, 3, 4, 5)
-"""Thumb to little finger."""
+DIGITS = (1, 2, 3, 4, 5)  # thumb to little finger
+# Sites of each digit from the wrist to the tip.
 CHAIN_NAMES = (
     ("WRIST", "CMC1", "MCP1", "IP1", "TIP1"),
     *(("WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))) for k in DIGITS[1:]),
 )
-"""Sites of each digit from the wrist to the tip."""
 
 SITES = ("WRIST", *(name for chain in CHAIN_NAMES for name in chain[1:]))
+# Rows in SITES of the markers that move with the palm as one body.
 PALM_SITES = tuple(SITES.index(name) for name in PALM_MARKERS)
-"""Rows in :data:`SITES` of what moves with the palm as one body."""
+# Rows in SITES of each digit, from the wrist to the tip.
 SITE_CHAINS = tuple(tuple(SITES.index(name) for name in names) for names in CHAIN_NAMES)
-"""Rows in :data:`SITES` of each digit, from the wrist to the tip."""
 
 _THUMB = ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion")
 
 
 def joint_angle_names(dip_free: bool = False, digits: Sequence[int] = DIGITS) -> tuple[str, ...]:
-    """The angles of some digits in file order: of all five 17, or 21 where the end joints are free."""
+    """Return the angles of some digits in file order: of all five 17, or 21 with free DIP joints."""
     long_finger = ("MCP{}_abduction", "MCP{}_flexion", "PIP{}_flexion") + (("DIP{}_flexion",) if dip_free else ())
     thumb = _THUMB if 1 in digits else ()
     return thumb + tuple(name.format(k) for k in DIGITS[1:] if k in digits for name in long_finger)
 
 
 def markers_at_joint(joint: str) -> tuple[str, str]:
-    """The discs that show a joint angle: the one at its joint and the next one outwards.
+    """Return the markers that show a joint angle: the one at its joint and the next one outwards.
 
-    >>> joint_discs("PIP4_flexion")
+    >>> markers_at_joint("PIP4_flexion")
     ('PIP4', 'DIP4')
     """
     at = SITES.index(joint.split("_")[0])
@@ -50,10 +49,10 @@ def markers_at_joint(joint: str) -> tuple[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class MarkerProtocol:
-    """Which discs are on the hand: those of the palm, and those of whole digits.
+    """The markers on the hand: those of the palm, and those of whole digits.
 
-    ``name`` as in every file; ``markers`` the discs in file order. A digit is tracked where all discs of its chain are
-    there: thumb WRIST CMC1 MCP1 IP1 TIP1, finger k WRIST MCPk PIPk DIPk TIPk.
+    ``name`` as in every file; ``markers`` in file order. A digit is tracked where all markers of its chain are there:
+    thumb WRIST CMC1 MCP1 IP1 TIP1, finger k WRIST MCPk PIPk DIPk TIPk.
     """
 
     name: str
@@ -73,7 +72,7 @@ class MarkerProtocol:
 
     @property
     def digits(self) -> tuple[int, ...]:
-        """Thumb (1) to little finger (5), those that carry discs from root to tip."""
+        """Thumb (1) to little finger (5), those that carry markers from root to tip."""
         return tuple(digit for digit in DIGITS if set(_chain(digit)) <= set(self.markers))
 
     @property
@@ -82,12 +81,11 @@ class MarkerProtocol:
 
     @property
     def is_whole_hand(self) -> bool:
-        """Whether every site has its disc."""
         return self.digits == DIGITS
 
     @property
     def sites(self) -> tuple[int, ...]:
-        """Row in :data:`~carpus.core.model.hand.protocols.SITES` of each marker."""
+        """Row in ``SITES`` of each marker."""
         return tuple(SITES.index(name) for name in self.markers)
 
     @property
@@ -99,7 +97,7 @@ class MarkerProtocol:
         return tuple(self.markers.index(name) for name in names)
 
     def joint_names(self, dip_free: bool = False) -> tuple[str, ...]:
-        """The joint angles that it measures, in file order; none where only the palm has discs."""
+        """Return the joint angles that it measures, in file order; none for the palm alone."""
         return joint_angle_names(dip_free, self.digits)
 
 
@@ -107,20 +105,23 @@ def _chain(digit: int) -> tuple[str, ...]:
     return CHAIN_NAMES[digit - 1]
 
 
-WRIST6 = MarkerProtocol("wrist6", PALM_MARKERS)
-"""The wrist (first paper)."""
-HAND21 = MarkerProtocol("hand21", SITES)
-"""The whole hand: a disc at every site (second paper)."""
+WRIST6 = MarkerProtocol("wrist6", PALM_MARKERS)  # the wrist (first paper)
+HAND21 = MarkerProtocol("hand21", SITES)  # the whole hand: a marker at every site (second paper)
 PROTOCOLS: tuple[MarkerProtocol, ...] = (WRIST6, HAND21)
 
 
 def protocol_names() -> tuple[str, ...]:
-    """Their names, in the order in which they are offered."""
+    """Return the protocols' names, in the order in which they are offered."""
     return tuple(protocol.name for protocol in PROTOCOLS)
 
 
 def get_protocol(name: str) -> MarkerProtocol:
-    """The protocol of that name; raises :class:`ProtocolUnknown`."""
+    """Return the protocol of that name.
+
+    Raises
+    ------
+    ProtocolUnknown
+    """
     for protocol in PROTOCOLS:
         if protocol.name == name:
             return protocol

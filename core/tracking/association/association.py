@@ -1,4 +1,4 @@
-"""Which blob is which marker: eq. (6) to (12) of the wrist paper, resolved jointly.
+"""Association of blobs with markers: eq. (6) to (12) of the wrist paper, resolved jointly.
 
 For every blob i and marker j the posterior p(a_i = j) is proportional to N(y_i; predicted, P) times a prior; for
 clutter it is the density 1/RES (times 1/depth range where depth takes part) times a prior. The paper then takes the
@@ -6,8 +6,8 @@ best j for each blob alone; here the product over all blobs is maximised under t
 is used twice.
 
 The discs are on one hand: where one is decides where the others can be. Judging each marker by itself, as (12) does,
-forgets that, and after a surprise neighbours are taken for each other. Where the easy answer is not jointly compatible,
-the joint posterior of all names is searched: a beam over the markers, each decision narrowing where the rest may be
+forgets that, and after a surprise neighbours are swapped. Where the separate association is not jointly compatible, the
+joint posterior of all associations is searched: a beam over the markers, each decision narrowing where the rest may be
 (Neira and Tardos 2001, weighed by probability instead of a gate alone).
 """
 
@@ -24,18 +24,18 @@ from carpus.core.compiled.association import compute_log_odds, find_likeliest
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.settings import AssociationSettings
 
-LOG_IMPOSSIBLE = -1e9
+LOG_IMPOSSIBLE = -1e9  # log odds of an association outside the gate
 
 
-DEPTH_OUTLIER_PROBABILITY = 1e-4
-"""The chance that a blob's depth is of something else."""
+DEPTH_OUTLIER_PROBABILITY = 1e-4  # that a blob's depth is of something else
 
 
 @dataclass(frozen=True, slots=True)
 class LogOdds:
-    """Log of (12) for marker j over (12) for clutter, (M, D); ``LOG_IMPOSSIBLE`` outside the gate.
+    """Log of (12) for marker j over (12) for clutter, (M, D).
 
-    ``with_depth``: whether the blob's depth is believed; where not, it is the depth of something else.
+    ``LOG_IMPOSSIBLE`` outside the gate. ``with_depth``: whether the blob's depth is used; where not, it is the depth of
+    something else.
     """
 
     value: FloatArray
@@ -46,8 +46,10 @@ class LogOdds:
 def log_densities(
     resolution_px2: float, outlier_probability: float, settings: AssociationSettings
 ) -> tuple[float, float, float]:
-    """Logs of a marker's prior and clutter's density in the picture, of clutter's in depth (both but for those of the
-    normal density), and of the chance that a depth is of something else."""
+    """Return logs of densities: marker prior and clutter in the image, clutter in depth, depth outlier.
+
+    The first two but for those of the normal density.
+    """
     prior = settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi)
     by_depth = settings.depth_range_m / math.sqrt(2.0 * math.pi)
     return math.log(prior), math.log(by_depth), math.log(outlier_probability)
@@ -62,12 +64,24 @@ def log_odds(
     outlier_probability: float,
     settings: AssociationSettings,
 ) -> LogOdds:
-    """Odds of every marker and blob.
+    """Return the odds of every marker and blob, eq. (12).
 
-    ``predicted`` (M, 3) and ``covariance`` (M, 3, 3): pixel u, v and depth m; ``measured`` (D, 3), its depth
-    NaN where unknown (then only the pixel counts, and clutter's density is 1/RES);
-    ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
-    with the chance ``outlier_probability``.
+    Parameters
+    ----------
+    predicted : (M, 3)
+        Predicted pixel u, v and depth in metres.
+    covariance : (M, 3, 3)
+        Covariance of that.
+    measured : (D, 3)
+        Blobs; depth NaN where unknown (then only the pixel counts, and clutter's density is 1/RES).
+    noise_variance : (D, 3)
+        Measurement noise of the blobs.
+    resolution_px2 : float
+        Area of the image, RES.
+    outlier_probability : float
+        That a disc's depth is of something before or behind it.
+    settings : AssociationSettings
+        Priors and gate.
     """
     densities = log_densities(resolution_px2, outlier_probability, settings)
     return LogOdds(
@@ -78,7 +92,7 @@ def log_odds(
 
 
 def association_posterior(odds: FloatArray) -> FloatArray:
-    """p(a_i = j | y_i) of every blob, (D, M + 1), column 0 clutter; rows sum to one: eq. (12)."""
+    """Return p(a_i = j | y_i) of every blob, (D, M + 1), column 0 clutter: eq. (12)."""
     stacked = np.concatenate((np.zeros((1, odds.shape[1])), odds), axis=0).T
     stacked = stacked - stacked.max(axis=1, keepdims=True)
     weight = np.exp(stacked)
@@ -86,9 +100,9 @@ def association_posterior(odds: FloatArray) -> FloatArray:
 
 
 def assign_blobs(odds: FloatArray) -> NDArray[np.int64]:
-    """Blob index of every marker (M,), -1 for none: the joint assignment of greatest posterior.
+    """Return the blob of every marker (M,), -1 for none: the assignment of greatest posterior.
 
-    Leaving a blob to clutter costs nothing, so only positive odds are taken.
+    Leaving a blob to clutter costs nothing, so only positive odds are used.
     """
     likeliest = find_likeliest(odds)
     if likeliest is not None:
@@ -106,10 +120,10 @@ MAX_DOF, MAX_NEWTON_STEPS = 200, 40
 
 @lru_cache(maxsize=4)
 def chi2_quantiles(probability: float) -> tuple[float, ...]:
-    """Quantiles of chi squared by degrees of freedom, by Newton's steps.
+    """Return quantiles of chi squared by degrees of freedom.
 
-    They are taken on the logarithm of what lies above them, which is a finite sum. (SciPy's are the same within 1e-14,
-    and take as long to load as all of NumPy.)
+    Newton's steps on the logarithm of the upper tail, which is a finite sum. (SciPy's are the same within 1e-14, and
+    take as long to load as all of NumPy.)
     """
     if probability >= 1.0:
         return (np.inf,) * MAX_DOF
@@ -131,15 +145,18 @@ def chi2_quantiles(probability: float) -> tuple[float, ...]:
 
 
 def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -> bool:
-    """Whether the innovations of all markers together are what the filter foresaw."""
+    """Return whether the joint NIS of all markers is within its bound."""
     most = chi2_quantiles(settings.consistent)
     return dof == 0 or nis <= most[min(dof, len(most) - 1)]
 
 
 @dataclass(frozen=True, slots=True)
 class JointAssociation:
-    """``assigned`` (M,) blob of every marker or -1, ``with_depth`` (M,) whether its depth was believed;
-    ``log_posterior`` over that of calling every blob clutter."""
+    """An association of all markers.
+
+    ``assigned`` (M,) blob of every marker or -1, ``with_depth`` (M,) whether its depth is used; ``log_posterior`` over
+    that of calling every blob clutter.
+    """
 
     assigned: NDArray[np.int64]
     with_depth: NDArray[np.bool_]
@@ -148,8 +165,11 @@ class JointAssociation:
 
 @dataclass(frozen=True, slots=True)
 class _Branches:
-    """B ways to name the first m markers, side by side: ``assigned`` and ``with_depth`` (B, m), ``score`` (B,), and
-    what they leave of the prediction, ``mean`` (B, 3M) and ``covariance`` (B, 3M, 3M)."""
+    """B associations of the first m markers, side by side.
+
+    ``assigned`` and ``with_depth`` (B, m), ``score`` (B,), and the prediction given them, ``mean`` (B, 3M) and
+    ``covariance`` (B, 3M, 3M).
+    """
 
     assigned: NDArray[np.int64]
     with_depth: NDArray[np.bool_]
@@ -168,10 +188,10 @@ def associate_jointly(
     settings: AssociationSettings,
     beam: int | None = None,
 ) -> JointAssociation:
-    """Most probable names of all blobs together.
+    """Find the most probable association of all blobs together.
 
-    ``mean`` (3M,) and ``covariance`` (3M, 3M) of the predicted pixels and depths of all markers;
-    ``measured`` (D, 3), depth NaN where unknown; ``noise_variance`` (D, 3).
+    ``mean`` (3M,) and ``covariance`` (3M, 3M) of the predicted pixels and depths of all markers; ``measured`` (D, 3),
+    depth NaN where unknown; ``noise_variance`` (D, 3).
     """
     markers = mean.size // 3
     prior = float(np.log(settings.prior_marker) - np.log(settings.prior_clutter))
@@ -214,8 +234,10 @@ def associate_jointly(
 def _log_normal_density(
     difference: FloatArray, covariance: FloatArray, noise_variance: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Squared distance (B, D) in standard deviations and log density of ``difference`` (B, D, k) under covariances
-    (B, k, k) plus each blob's noise (D, k)."""
+    """Return squared distance (B, D) in standard deviations and log density.
+
+    Of ``difference`` (B, D, k) under covariances (B, k, k) plus each blob's noise (D, k).
+    """
     axes = np.arange(difference.shape[-1])
     s = np.repeat(covariance[:, None], len(noise_variance), axis=1)
     s[..., axes, axes] += noise_variance
@@ -232,7 +254,7 @@ def _extend_branches(
     measured: FloatArray,
     noise_variance: FloatArray,
 ) -> _Branches:
-    """The branches ``parent`` with one more name each, all other markers' predictions narrowed by it."""
+    """Extend the branches ``parent`` by one marker each and update the other markers' predictions."""
     blobs = len(measured)
     blob = np.where(way > 0, (way - 1) % max(blobs, 1), -1)
     with_depth = (way > 0) & (way <= blobs)

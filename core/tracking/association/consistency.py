@@ -1,7 +1,7 @@
-"""The consistency test: when what is seen contradicts what is stated. No disc in plain sight is dropped in silence.
+"""The consistency test: measurements that contradict the estimate.
 
-A disc that goes unused although a blob lies at its place, or innovations that stay outside their bounds, make a frame
-doubtful: the stated standard deviations grow, and the screen says which disc it is.
+A marker that goes unused although a blob lies at its place, or innovations that stay outside their bounds, make a frame
+doubtful: the stated standard deviations grow, and the screen says which marker it is.
 """
 
 from __future__ import annotations
@@ -15,21 +15,17 @@ from numpy.typing import NDArray
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import Detections, FloatArray
 
-MAX_UNUSED_S = 0.3
-"""For so long a disc may go unused while a blob lies at its place,"""
+MAX_UNUSED_S = 0.3  # a marker may go unused for so long while a blob lies at its place,
+# within so much across the line of sight and in depth: the most that skin and sensor stray by
 GATE_M, GATE_DEPTH_M = 0.010, 0.015
-"""within so much across the line of sight and in depth: what skin and sensor stray by at most."""
-NIS_AVERAGING_S = 0.3
-"""Over which innovations are averaged,"""
-MAX_MEAN_NIS = 2.5
-"""and how large they may be on average for each component."""
-UNUSED_SD_FACTOR = 1.5
-"""The standard deviations, by this factor."""
+NIS_AVERAGING_S = 0.3  # over which innovations are averaged
+MAX_MEAN_NIS = 2.5  # for each degree of freedom
+UNUSED_SD_FACTOR = 1.5  # on the standard deviations while a marker goes unused
 
 
 @dataclass(frozen=True, slots=True)
 class Inconsistency:
-    """``doubted`` (M,) markers in question; ``sd_factor`` factor on the standard deviations, 1 without doubt."""
+    """``doubted`` (M,) markers in question; ``sd_factor`` on the standard deviations, 1 without doubt."""
 
     doubted: NDArray[np.bool_]
     sd_factor: float
@@ -40,22 +36,33 @@ class Inconsistency:
 
 
 class ConsistencyTest:
-    """Remembers for how long each disc has gone unused, and how large the innovations have been lately."""
+    """Averages the NIS, and counts for how long each marker has gone unused."""
 
     def __init__(self, markers: int) -> None:
         self._unused_s = np.zeros(markers)
         self._mean_nis = 1.0
 
     def reset(self) -> None:
-        """The hand is lost, or begins anew: nothing is contradicted."""
+        """Start again after the track was lost or initiated."""
         self._unused_s[:] = 0.0
         self._mean_nis = 1.0
 
     def update(
         self, dt_s: float, is_unused: NDArray[np.bool_], nis: float, dof: int, worst_marker: int
     ) -> Inconsistency:
-        """The doubt after one more frame. ``is_unused`` (M,) discs passed over while a blob lies there, ``nis`` with
-        ``dof`` of all that was measured, ``worst_marker`` the marker that contributes most."""
+        """Return the inconsistency after one more frame.
+
+        Parameters
+        ----------
+        dt_s : float
+            Time since the last frame.
+        is_unused : (M,)
+            Markers without a blob although one lies there.
+        nis, dof : float, int
+            Normalised innovation squared of all measurements and its degrees of freedom.
+        worst_marker : int
+            The marker that contributes most to the NIS.
+        """
         self._unused_s = np.where(is_unused, self._unused_s + dt_s, 0.0)
         if dof and math.isfinite(nis):
             weight = 1.0 - math.exp(-dt_s / NIS_AVERAGING_S)
@@ -75,9 +82,18 @@ def find_unused_markers(
     blobs: Detections,
     camera: Camera,
 ) -> NDArray[np.bool_]:
-    """Markers (M,) without a blob although one that is nobody's lies at their place ``disc_cam_m`` (M, 3).
+    """Find the markers (M,) without a blob although an unassigned one lies at their place.
 
-    ``assigned`` (M,) of all ``blobs``, as a camera without distortion would see them, that of every marker or -1.
+    Parameters
+    ----------
+    disc_cam_m : (M, 3)
+        Estimated positions in camera axes.
+    assigned : (M,)
+        Blob of every marker or -1.
+    blobs : Detections
+        All blobs, undistorted.
+    camera : Camera
+        The colour camera.
     """
     out = np.zeros(assigned.size, dtype=bool)
     is_named = assigned >= 0

@@ -1,6 +1,6 @@
-"""Which blob is which disc of the palm, and the update by them.
+"""Association of blobs with the discs of the palm, and the update by them.
 
-The easy association first; the joint one where that is not jointly compatible.
+The separate association first; the joint one where that is not jointly compatible.
 """
 
 from __future__ import annotations
@@ -18,16 +18,15 @@ from carpus.core.tracking.filter.mixture_filter import ModeMixture, update_mixtu
 from carpus.core.tracking.filter.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.filter.settings import AssociationSettings, MeasurementNoise, TrackerSettings
 
+# The centre of a partly covered disc may shift by this share of its radius times what is missing of its area below
+# MIN_WHOLE_AREA_SHARE.
 CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE = 0.7, 0.6
-"""So far the centre of a partly covered disc may wander, as a share of its radius times what is missing of its area
-below the second."""
-MAX_OUTLIERS = 3
-"""In a frame, that are given the noise they show."""
+MAX_OUTLIERS = 3  # measurements in a frame that are given the noise they show
 
 
 @dataclass(frozen=True, slots=True)
 class Measurements:
-    """Blobs as measurements (D, 3): pixel u, v and depth (NaN when unknown), with noise variances (D, 3)."""
+    """Blobs as measurements (D, 3) of pixel u, v and depth (NaN when unknown), with variances (D, 3)."""
 
     value: FloatArray
     variance: FloatArray
@@ -38,11 +37,10 @@ class Measurements:
 
 @dataclass(frozen=True, slots=True)
 class UpdatedPalm:
-    """All modes corrected by the blobs as named.
+    """All modes updated by the associated blobs.
 
-    ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``is_measured`` (M, 3) whether
-    each
-    component was, and its ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
+    ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``is_measured`` (M, 3)
+    components, and their ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
     given more noise; both 0 where nothing was measured.
     """
 
@@ -58,10 +56,10 @@ class UpdatedPalm:
 def measurements_from_blobs(
     blobs: Detections, radius_px: float, settings: TrackerSettings, sensor: DepthSensor
 ) -> Measurements:
-    """Blobs with the noise of each: what its picture and its depth are worth.
+    """Return the blobs with the noise of their pixels and depths.
 
-    ``radius_px`` of a disc at the hand's distance: a blob much smaller than it is half hidden, and its centre
-    not the disc's.
+    ``radius_px`` of a disc at the hand's distance: a blob much smaller than it is half hidden, and its centre not the
+    disc's.
     """
     noise = settings.noise
     depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
@@ -88,7 +86,7 @@ def update_palm(
     with_depth: NDArray[np.bool_],
     noise_factor: FloatArray,
 ) -> UpdatedPalm:
-    """Every mode corrected by the named blobs; ``noise_factor`` (M, 3) multiplies the variances."""
+    """Update every mode by the associated blobs; ``noise_factor`` (M, 3) multiplies the variances."""
     used = np.empty((assigned.size, 3), dtype=bool)
     used[:] = (assigned >= 0)[:, None]
     used[:, 2] &= with_depth
@@ -116,10 +114,9 @@ def associate_and_update(
     noise_factor: FloatArray,
     settings: TrackerSettings,
 ) -> UpdatedPalm:
-    """Names by (12), each marker judged by itself; where these are not jointly compatible, all jointly.
+    """Associate by (12), each marker by itself; where not jointly compatible, all jointly.
 
-    Compatible: the joint NIS is credible, and ``min_assigned`` markers are named unless no blob is left that could be
-    one.
+    Compatible: the joint NIS is within its bound, and ``min_assigned`` markers have a blob unless no blob is left.
     """
     mean, covariance = predicted.mean, predicted.covariance
     markers = len(mean)
@@ -157,8 +154,7 @@ def _reject_wrong_depths(
     depth_m: FloatArray,
     settings: AssociationSettings,
 ) -> NDArray[np.int64]:
-    """The names without those of blobs at another depth than the discs' ``depth_m`` (M,), unless enough discs where
-    they should be bear them out.
+    """Drop blobs at another depth than ``depth_m`` (M,), unless enough markers bear them out.
 
     What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc, and far
     before or behind it none is: the depths of a disc's rim and of what is beside it mix only where these lie near.
@@ -176,7 +172,7 @@ def _reject_wrong_depths(
 def _associate_by_mode(
     predicted: PredictedMeasurement, blobs: Measurements, resolution_px2: float, settings: TrackerSettings
 ) -> JointAssociation:
-    """The likeliest joint names over all motion modes.
+    """Find the most probable joint association over all motion modes.
 
     While the hand rests the mixture of the modes is as narrow as the calm one; a start is seen by the lively one.
     """
@@ -204,9 +200,9 @@ def _inflate_outlier_noise(
     noise_factor: FloatArray,
     noise: MeasurementNoise,
 ) -> UpdatedPalm:
-    """The correction again, the worst measurement given the noise that its residual shows, one after the other.
+    """Update again, the worst measurements given the noise that their residuals show, one by one.
 
-    A disc half behind the rim is still that disc, but its middle is not where it seems.
+    A disc half behind the rim is still that disc, but its centre is not where it seems.
     """
     factor = noise_factor
     for _ in range(MAX_OUTLIERS):

@@ -1,4 +1,4 @@
-"""Finding the palm again without any prediction: its constellation of discs in space is its name tag."""
+"""Re-acquisition of the palm without a prediction, by its constellation of discs in space."""
 
 from __future__ import annotations
 
@@ -14,40 +14,24 @@ from carpus.core.model.types import Detections, FloatArray
 from carpus.core.tracking.association.association import chi2_quantiles
 from carpus.core.tracking.filter.palm_state import POSE, PalmView
 
-DISTANCE_TOLERANCE_M = 0.007
-"""Two discs' distance may differ so much from the calibrated one: the depth noise of both."""
-MAX_DISC_GAP_M = 0.008
-"""A disc may lie so far from where the fitted palm puts it."""
-MIN_FOUND_MARKERS = 4
-"""So many discs are a palm."""
-MAX_SEARCHED_BLOBS = 40
-"""The likest ones, that are looked at."""
-MAX_RMS_GAP_M = 0.004
-"""Beyond, root mean square of the discs, it is not this palm;"""
-MISFIT_PROBABILITY = 0.99
-"""nor where chance gives a smaller misfit (chi squared) with this probability."""
-RIVAL_RATIO = 1.25
-"""Other names are rivals when their misfit is below so many times the best one's"""
-RIVAL_MARGIN = 9.0
-"""and this."""
-LATERAL_SD_M = 0.00025
-"""How well a blob's place across its ray is known."""
+DISTANCE_TOLERANCE_M = 0.007  # two discs' distance may differ so much from the calibrated one: the depth noise of both
+MAX_DISC_GAP_M = 0.008  # of a disc from where the fitted palm puts it
+MIN_FOUND_MARKERS = 4  # so many discs are a palm
+MAX_SEARCHED_BLOBS = 40  # the most similar ones
+MAX_RMS_GAP_M = 0.004  # of the discs; beyond it is not this palm,
+MISFIT_PROBABILITY = 0.99  # nor where chance gives a smaller misfit (chi squared) with this probability
+RIVAL_RATIO = 1.25  # another association is a rival when its misfit is below so many times the best one's
+RIVAL_MARGIN = 9.0  # and this
+LATERAL_SD_M = 0.00025  # of a blob across its ray
+# Share of all blobs that a palm of none, one, two ... six discs and the fingers on it must explain.
 MIN_EXPLAINED_SHARE: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0, 0.8, 0.5, 0.0)
-"""Share of all blobs that a palm of none, one, two ... six discs and the fingers on it must explain."""
-DISC_SD_M = 0.003
-"""Of a disc about where the found pose puts it: depth noise of one picture, and the shape."""
-TURN_SD_RAD = 0.05
-"""How well the turn of a found pose is known at best,"""
-POSITION_SD_M = 0.004
-"""its place at best,"""
-TURN_PRIOR_RAD = 0.6
-"""and its turn at worst."""
-VELOCITY_SD_M_S = 0.5
-"""How fast such a hand may move,"""
-RATE_SD_RAD_S = 2.0
-"""and turn."""
-MAX_FITTED_POSES = 24
-"""So many poses are fitted to all blobs."""
+DISC_SD_M = 0.003  # of a disc about where the found pose puts it: depth noise of one frame, and the shape
+TURN_SD_RAD = 0.05  # of a found pose at best,
+POSITION_SD_M = 0.004  # of its position at best,
+TURN_PRIOR_RAD = 0.6  # and of its turn at worst
+VELOCITY_SD_M_S = 0.5  # of a hand just found,
+RATE_SD_RAD_S = 2.0  # and of its turning
+MAX_FITTED_POSES = 24  # that are fitted to all blobs
 
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
@@ -55,19 +39,20 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 # WRIST MCP2, CMC1 MCP4, MCP3 MCP5: a pair with one of the next pair. Any four discs hold one of these six triples.
 _TRIPLES = np.array([(0, 2, 1), (0, 2, 4), (1, 4, 3), (1, 4, 5), (3, 5, 0), (3, 5, 2)])
 
-_FOUR_MARKER_ASSIGNMENTS = np.array(list(permutations(range(6), 4)))
-"""All names that four blobs can have."""
-_LOOSE_M2 = 1.0
-"""Variance of a disc that nothing shows: it takes no part."""
+_FOUR_MARKER_ASSIGNMENTS = np.array(list(permutations(range(6), 4)))  # all associations that four blobs can have
+_LOOSE_M2 = 1.0  # variance of a disc that nothing shows: it takes no part
 
+# Whether points (..., 3) in the body may be discs of thumb or fingers.
 ReachTest = Callable[[FloatArray], NDArray[np.bool_]]
-"""Whether points (..., 3) in the body may be discs of thumb or fingers."""
 
 
 @dataclass(frozen=True, slots=True)
 class TurnLimits:
-    """How a hand that is looked for can have turned: within ``max_rad`` of ``rotation_w2_w0`` (3, 3), or, where every
-    disc of the palm shows it, within ``max_tilt_rad`` of the neutral pose: what was believed before may be wrong."""
+    """How far a hand that is searched can have turned.
+
+    Within ``max_rad`` of ``rotation_w2_w0`` (3, 3), or, where every disc of the palm shows it, within ``max_tilt_rad``
+    of the neutral pose: what was believed before may be wrong.
+    """
 
     rotation_w2_w0: FloatArray
     max_rad: float
@@ -76,7 +61,7 @@ class TurnLimits:
 
 @dataclass(frozen=True, slots=True)
 class _CameraTurnLimits:
-    """The same with the ``expected`` turn and the ``neutral`` one (3, 3) in the axes of the camera."""
+    """:class:`TurnLimits` with the ``expected`` and the ``neutral`` rotation (3, 3) in camera axes."""
 
     expected: FloatArray
     max_rad: float
@@ -86,7 +71,7 @@ class _CameraTurnLimits:
 
 @dataclass(frozen=True, slots=True)
 class FoundPalm:
-    """Pose of the body in W0, ``matched`` (M,) the discs that fix it."""
+    """Pose of the body in W0, and the discs ``matched`` (M,) that determine it."""
 
     position_m: FloatArray
     rotation_w2_w0: FloatArray
@@ -97,7 +82,10 @@ class FoundPalm:
         return int(np.count_nonzero(self.matched))
 
     def pose_covariance(self, palm_m: FloatArray) -> FloatArray:
-        """Covariance (6, 6) of position and turn: discs nearly in a line say little of the turn about that line."""
+        """Return the covariance (6, 6) of position and turn.
+
+        Discs nearly in a line say little of the turn about that line.
+        """
         discs = palm_m[self.matched]
         middle = discs.mean(axis=0)
         lever = so3.skew(discs - middle)
@@ -116,7 +104,7 @@ class FoundPalm:
 
 @dataclass(frozen=True, slots=True)
 class _BlobPoints:
-    """What may be discs: places (B, 3) before the camera, and the standard deviation (B,) of their depths."""
+    """Blobs that may be discs: places (B, 3) in camera axes, and the sd (B,) of their depths."""
 
     point_m: FloatArray
     depth_sd_m: FloatArray
@@ -124,9 +112,11 @@ class _BlobPoints:
 
 @dataclass(frozen=True, slots=True)
 class _PoseFits:
-    """Poses (N, 3, 3), (N, 3) of a palm, the blob ``assigned`` (N, 6) for each disc or -1, the discs' root mean
-    square gap
-    (N,), and blobs explained (N,) by palm and fingers."""
+    """N poses of a palm.
+
+    Rotations (N, 3, 3), translations (N, 3), the blob ``assigned`` (N, 6) to each disc or -1, the discs' root mean
+    square gap (N,), and blobs explained (N,) by palm and fingers.
+    """
 
     rotation: FloatArray
     translation: FloatArray
@@ -139,7 +129,7 @@ class _PoseFits:
         return np.asarray((self.assigned >= 0).sum(axis=1))
 
     def likeness(self) -> FloatArray:
-        """Confirming discs (N,), less by how far they lie from their places."""
+        """Return the number of matched discs (N,), less by how far they lie from their places."""
         return np.asarray(self.count - self.gap_m / MAX_DISC_GAP_M)
 
     def subset(self, rows: NDArray[np.int64]) -> _PoseFits:
@@ -164,16 +154,25 @@ def find_palm(
     turn_limits: TurnLimits,
     is_in_reach: ReachTest | None = None,
 ) -> FoundPalm | None:
-    """Where the palm is, or None.
+    """Find the palm among the blobs, without a prediction.
 
-    Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm wins if it is
-    confirmed by at least four in all and no other names of as many fit about as well. Of just four every naming is
-    asked: knuckles in a row look much like others. ``disc_covariance`` (18, 18): covariance of the discs' places on
-    the palm.
-    Needs depth; the back of the hand must face the camera, turned no further than ``turn_limits`` allows, and the
-    other hand
-    must not explain the discs better.
-    With ``is_in_reach`` the blobs left over must mostly lie where the fingers could be.
+    Triples of discs with the distances of the palm determine a pose; the pose that most other discs confirm wins if it
+    is confirmed by at least four in all and no other association of as many fits about as well. Of just four every
+    association is tried: knuckles in a row look much like others. Needs depth; the back of the hand must face the
+    camera, and the other hand must not explain the discs better.
+
+    Parameters
+    ----------
+    detections : Detections
+        Undistorted blobs.
+    view : PalmView
+        The palm's geometry before the camera.
+    disc_covariance : (18, 18)
+        Covariance of the discs' places on the palm.
+    turn_limits : TurnLimits
+        How far the hand can be turned.
+    is_in_reach : ReachTest, optional
+        The blobs left over must mostly lie where the fingers could be.
     """
     known = np.flatnonzero(np.isfinite(detections.depth_m) & (detections.similarity > 0.0))
     if known.size < MIN_FOUND_MARKERS:
@@ -201,9 +200,11 @@ def find_palm(
 
 
 def is_other_hand(detections: Detections, is_assigned: NDArray[np.bool_], view: PalmView) -> bool:
-    """Whether of the blobs ``is_assigned`` (B,) for discs of this palm some are the other hand's: of the blobs about
-    them
-    its mirror image explains at least five and as many as were named, better than this palm does, however it lies."""
+    """Return whether some of the blobs assigned to this palm are the other hand's.
+
+    Of the blobs about those that are assigned (B,) the mirror image explains at least five and as many as were
+    assigned, better than this palm does, however it lies.
+    """
     palm, least = view.palm_m, max(MIN_FOUND_MARKERS + 1, int(np.count_nonzero(is_assigned)))
     known = np.isfinite(detections.depth_m)
     points, is_assigned = (
@@ -226,15 +227,17 @@ def is_other_hand(detections: Detections, is_assigned: NDArray[np.bool_], view: 
 
 @dataclass(frozen=True, slots=True)
 class _PalmSearch:
-    """A palm whose discs lie as in the ``model`` (6, 3), looked for among ``points`` (B, 3) before the camera, which
-    the fingers on it may ``is_in_reach``."""
+    """The search of a palm whose discs lie as in ``model`` (6, 3) among ``points`` (B, 3).
+
+    ``is_in_reach`` tells which points the fingers on it may be.
+    """
 
     model: FloatArray
     points: FloatArray
     is_in_reach: ReachTest | None = None
 
     def fit_poses(self) -> _PoseFits:
-        """The poses that most points confirm, refitted to all discs that do."""
+        """Return the poses that most points confirm, refitted to all discs that do."""
         triple, blobs = self._match_triples()
         corners, seen = self.model[_TRIPLES], self.points[blobs]
         rotation = _triad_axes(seen) @ np.swapaxes(_triad_axes(corners), -1, -2)[triple]
@@ -254,19 +257,21 @@ class _PalmSearch:
         return self._score_poses(rotation, translation)
 
     def find_likeliest_pose(self) -> _PoseFits:
-        """The pose that most points confirm, and these best; or none."""
+        """Return the pose that most points confirm best; or none."""
         fits = self.fit_poses()
         return fits.subset(np.argsort(-fits.likeness(), kind="stable")[:1])
 
     def select_plausible(self, fits: _PoseFits) -> _PoseFits:
-        """Those with enough discs, the back of the hand before the camera, and, where fingers are there to explain the
-        rest, their share of the points explained."""
+        """Select the poses with enough discs and the back of the hand before the camera.
+
+        Where fingers are there to explain the rest, with their share of the points explained.
+        """
         share = np.array(MIN_EXPLAINED_SHARE)[fits.count] * (0 if self.is_in_reach is None else len(self.points))
         good = (fits.count >= MIN_FOUND_MARKERS) & (fits.rotation[:, 2, 2] < 0.0)
         return fits.subset(np.flatnonzero(good & (fits.explained >= share)))
 
     def fit_all_assignments(self, four: NDArray[np.int64]) -> _PoseFits:
-        """The poses that four points would have by all their names, where these fit at all."""
+        """Return the poses of four points by all their associations, where these fit at all."""
         used = np.zeros((len(_FOUR_MARKER_ASSIGNMENTS), len(self.model)), dtype=bool)
         np.put_along_axis(used, _FOUR_MARKER_ASSIGNMENTS, True, axis=1)
         at = np.zeros(used.shape, dtype=np.int64)
@@ -275,7 +280,7 @@ class _PalmSearch:
         return fits.subset(np.flatnonzero((fits.assigned == np.where(used, at, -1)).all(axis=1)))
 
     def _match_triples(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Which of the triples (N,) of palm discs has its distances between which points (N, 3)."""
+        """Return which triples (N,) of palm discs have their distances between which points (N, 3)."""
         between = np.linalg.norm(self.points[:, None] - self.points[None], axis=-1)
         triples, blobs = [], []
         for number, (a, b, c) in enumerate(_TRIPLES):
@@ -289,7 +294,7 @@ class _PalmSearch:
         return np.concatenate(triples), np.concatenate(blobs)
 
     def _score_poses(self, rotation: FloatArray, translation: FloatArray) -> _PoseFits:
-        """What the points confirm of these poses."""
+        """Count the points that confirm these poses."""
         nearest, gap_m = self._find_nearest(rotation, translation)
         matched = gap_m < MAX_DISC_GAP_M
         count = matched.sum(axis=1)
@@ -302,7 +307,7 @@ class _PalmSearch:
         return _PoseFits(rotation, translation, np.where(matched, nearest, -1), mean_m, explained)
 
     def _find_nearest(self, rotation: FloatArray, translation: FloatArray) -> tuple[NDArray[np.int64], FloatArray]:
-        """Nearest point (N, 6) to each disc of the placed models, and its gap (N, 6)."""
+        """Return the nearest point (N, 6) to each disc of the placed models, and its gap (N, 6)."""
         points, placed = self.points, self.model @ np.swapaxes(rotation, -1, -2) + translation[:, None, :]
         gap2 = (placed * placed).sum(axis=-1)[..., None] + (points * points).sum(axis=-1) - 2.0 * (placed @ points.T)
         nearest = gap2.argmin(axis=-1)
@@ -311,7 +316,7 @@ class _PalmSearch:
 
 
 def _triad_axes(points: FloatArray) -> FloatArray:
-    """Right-handed axes (..., 3, 3) as columns that three points (..., 3, 3) span."""
+    """Return right-handed axes (..., 3, 3) as columns that three points (..., 3, 3) span."""
     along = points[..., 1, :] - points[..., 0, :]
     normal = _cross(along, points[..., 2, :] - points[..., 0, :])
     axes = np.empty((*along.shape, 3))
@@ -326,7 +331,7 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _fit_rigid_poses(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
-    """Least-squares poses (N, 3, 3), (N, 3) that carry the used (N, 6) discs of the model to points (N, 6, 3)."""
+    """Return least-squares poses that carry the used (N, 6) discs of the model to points (N, 6, 3)."""
     weight = used / used.sum(axis=1, keepdims=True)
     model_mean = weight @ model
     point_mean = (weight[:, None] @ points)[:, 0]
@@ -338,7 +343,10 @@ def _fit_rigid_poses(model: FloatArray, points: FloatArray, used: NDArray[np.boo
 def _select_pose(
     search: _PalmSearch, seen: _BlobPoints, strays: FloatArray, about: _CameraTurnLimits
 ) -> _PoseFits | None:
-    """The one pose to believe; None when none is good enough, or when other names are about as good."""
+    """Return the one pose to believe.
+
+    None when none is good enough, or when another association is about as good.
+    """
     model = search.model
     fits = search.select_plausible(search.fit_poses())
     if not fits.count.size:
@@ -364,30 +372,30 @@ def _select_pose(
 def _rank_poses(
     fits: _PoseFits, search: _PalmSearch, seen: _BlobPoints, strays: FloatArray, about: _CameraTurnLimits
 ) -> tuple[_PoseFits, FloatArray]:
-    """The poses by worth, then those a hand can have, then by their misfits (N,), which come with them."""
+    """Sort the poses by worth, then those a hand can have, then by their misfits (N,)."""
     misfit = _compute_misfit(fits, search.model, seen, strays)
     order = np.lexsort((misfit, _exceeds_turn_limits(fits, about), -(fits.explained + fits.count)))
     return fits.subset(order), misfit[order]
 
 
 def _exceeds_turn_limits(fits: _PoseFits, about: _CameraTurnLimits) -> NDArray[np.bool_]:
-    """Which poses (N,) are turned further than a hand can be."""
+    """Return which poses (N,) are turned further than a hand can be."""
     beyond = _turn_angles_rad(fits, about.expected) > about.max_rad
     is_whole = (fits.assigned >= 0).all(axis=1)
     return np.asarray(np.where(is_whole, _turn_angles_rad(fits, about.neutral) > about.max_tilt_rad, beyond))
 
 
 def _turn_angles_rad(fits: _PoseFits, about: FloatArray) -> FloatArray:
-    """How far (N,) the poses are turned from ``about`` (3, 3)."""
+    """Return how far (N,) the poses are turned from ``about`` (3, 3)."""
     cosine = 0.5 * (np.einsum("ij,nij->n", about, fits.rotation) - 1.0)
     return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 def _compute_misfit(fits: _PoseFits, model: FloatArray, seen: _BlobPoints, strays: FloatArray) -> FloatArray:
-    """Chi squared (N,) of the discs' places, each pose moved to where it is least.
+    """Return chi squared (N,) of the discs' places, each pose moved to where it is least.
 
     Across the ray of the camera and of the finger a disc is known to a fraction of a millimetre, along them to some:
-    names are told apart by that, much better than by plain distances.
+    associations are told apart by that, much better than by plain distances.
     """
     discs = len(model)
     named = fits.assigned >= 0

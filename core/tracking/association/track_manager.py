@@ -1,4 +1,4 @@
-"""When a hand counts as seen, coasted or lost, found again and confirmed, by what it shows."""
+"""Track management: initiation, confirmation, coasting and deletion of the one track."""
 
 from __future__ import annotations
 
@@ -11,35 +11,24 @@ from carpus.core.model import so3
 from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.tracking.association.reacquire import FoundPalm, TurnLimits
 
-COLLINEAR_RMS_M = 0.008
-"""Discs that lie as near (rms) to one line say nothing of turning about it."""
-MIN_PALM_MARKERS = 3
-"""That tell the pose of the palm; below a frame is predicted."""
-PROBATION_S = 0.2
-"""A hand found again out of nothing must keep showing for so long,"""
-CONFIRMATION_S = 0.09
-"""and four discs among those of fingers, before they are believed."""
-DIRECT_SHARE_WINDOW_S = 1.0
-"""Over which the share of direct measurements is told."""
-VAGUE_SD_RAD = 0.15
-"""Expecting the turn less surely the filter may settle on wrong names or at a wrong pose."""
-MAX_TRUSTED_SD_RAD = 0.5
-"""Less surely sigma points reach too far for a correction to be trusted even by the right names."""
+COLLINEAR_RMS_M = 0.008  # discs that lie as near (rms) to one line say nothing of turning about it
+MIN_PALM_MARKERS = 3  # that determine the pose of the palm; with fewer a frame is predicted
+PROBATION_S = 0.2  # a track initiated from nothing must go on being measured for so long
+CONFIRMATION_S = 0.09  # four markers among those of fingers must be found for so long
+DIRECT_SHARE_WINDOW_S = 1.0  # over which the share of direct measurements is reported
+VAGUE_SD_RAD = 0.15  # predicted less surely the filter may settle on a wrong association or pose
+MAX_TRUSTED_SD_RAD = 0.5  # beyond, sigma points reach too far to trust an update even by the right association
+# beyond, any so many blobs would do for markers: none to five of them
 AMBIGUOUS_SD_RAD: tuple[float, ...] = (0.1, 0.1, 0.15, 0.35, 0.5, 0.5)
-"""Less surely any so many blobs would do for discs: none to five of them."""
+# the same where markers on fingers can look like five of the palm
 AMBIGUOUS_WITH_FINGERS_SD_RAD: tuple[float, ...] = (0.1, 0.06, 0.15, 0.25, 0.35, 0.5)
-"""The same where discs on fingers can look like some of the palm, even like five."""
-TURN_SLACK_RAD = 0.35
-"""A hand gone from sight is not found turned further than by this"""
-MAX_RATE_RAD_S = 12.0
-"""and so fast meanwhile."""
-MAX_TURN_RAD = 1.9
-"""Gone for long, lost, or shown by every disc of the palm it is turned no further from the neutral pose."""
+TURN_SLACK_RAD = 0.35  # a hand gone from sight is not found turned further than by this
+MAX_RATE_RAD_S = 12.0  # and so fast meanwhile
+MAX_TURN_RAD = 1.9  # from the neutral pose, of a hand that was lost or shows every marker of the palm
 
 
 class TrackStage(Enum):
-    """What is thought of the one track: seen by so few discs that it may be something else, believed, believed and
-    out of sight, given up."""
+    """Stage of the track: so few markers that it may be something else, believed, hidden, deleted."""
 
     TENTATIVE = auto()
     CONFIRMED = auto()
@@ -48,9 +37,9 @@ class TrackStage(Enum):
 
 
 class TrackManager:
-    """Begins, confirms, coasts and deletes the track of one hand; it knows times and counts, and moves no filter.
+    """Initiates, confirms, coasts and deletes the track; it knows times and counts, and moves no filter.
 
-    ``min_found`` discs by which a hand can be found, ``has_digits``: there are discs on fingers as well.
+    ``min_found`` markers by which a hand can be found; ``has_digits``: there are markers on fingers as well.
     """
 
     def __init__(self, min_found: int, lost_after_s: float, *, has_digits: bool) -> None:
@@ -64,7 +53,7 @@ class TrackManager:
         self._candidate_before: tuple[float, FoundPalm] | None = None
 
     def begin_at_neutral(self, at_s: float | None = None) -> None:
-        """A person has the hand at the calibrated pose; at that time, or else with the next frame."""
+        """Confirm a hand at the calibrated pose, at that time or else with the next frame."""
         if at_s is not None:
             self._time_s = self._last_seen_s = at_s
         self.stage, self._is_at_start = TrackStage.CONFIRMED, True
@@ -74,15 +63,15 @@ class TrackManager:
         return self.stage is TrackStage.LOST
 
     def time_step_s(self, timestamp_s: float) -> float:
-        """Time since the last frame, 0 at the first."""
+        """Return the time since the last frame, 0 at the first."""
         return 0.0 if self._time_s is None else timestamp_s - self._time_s
 
     def is_timed_out(self, timestamp_s: float) -> bool:
-        """Whether no picture came for so long that where the hand was says nothing of where it is."""
+        """Return whether no frame came for so long that the old pose says nothing."""
         return self._time_s is not None and timestamp_s - self._time_s > self._lost_after_s
 
     def start_frame(self, timestamp_s: float) -> bool:
-        """A frame comes; whether it follows from the one before."""
+        """Begin a frame; return whether it follows from the one before."""
         self._candidate_before, self._candidate = self._candidate, None
         is_linked, self._is_at_start = not self._is_at_start, False
         if not is_linked:
@@ -90,7 +79,7 @@ class TrackManager:
         return is_linked
 
     def try_initiate(self, found: FoundPalm | None, timestamp_s: float) -> bool:
-        """Whether a track begins with what was found without any prediction."""
+        """Initiate the track with a palm found without a prediction, if it is confirmed."""
         if found is None or not self.is_confirmed(found, timestamp_s):
             return False
         self.accept_found(found)
@@ -98,12 +87,14 @@ class TrackManager:
         return True
 
     def accept_found(self, found: FoundPalm) -> None:
-        """The track is where a palm was found: by just so many discs as will do it is tentative."""
+        """Move the track to a palm that was found; by the fewest markers it is tentative."""
         self.stage = TrackStage.CONFIRMED if found.count > self._min_found else TrackStage.TENTATIVE
 
     def is_confirmed(self, found: FoundPalm, timestamp_s: float) -> bool:
-        """Whether a palm found out of nothing is to be believed: among the discs of fingers some four often look like
-        one, and only the palm goes on doing so."""
+        """Return whether a palm found without a prediction is to be believed.
+
+        Among the markers of fingers some four often look like a palm, and only the palm goes on doing so.
+        """
         if not self._has_digits or found.count > self._min_found:
             return True
         since_s = timestamp_s
@@ -116,7 +107,7 @@ class TrackManager:
         return timestamp_s - since_s >= CONFIRMATION_S
 
     def turn_limits(self, rotation_w2_w0: FloatArray, timestamp_s: float) -> TurnLimits:
-        """How far a hand can have turned since it was last seen; a tentative one anyhow."""
+        """Return how far a hand can have turned since it was last measured; a tentative one anyhow."""
         if self.stage is TrackStage.TENTATIVE:
             return self.widest_turn_limits()
         gone_s = timestamp_s - max(self._last_seen_s, self._started_s)
@@ -126,42 +117,48 @@ class TrackManager:
         )
 
     def widest_turn_limits(self) -> TurnLimits:
-        """How far a hand can be turned of which nothing is known."""
+        """Return how far a hand can be turned of which nothing is known."""
         return TurnLimits(np.eye(3), MAX_TURN_RAD, MAX_TURN_RAD)
 
     def is_vague(self, turn_sd_rad: float) -> bool:
-        """Whether a turn was predicted so unsurely that the filter may settle at a wrong one."""
+        """Return whether the turn was predicted so unsurely that the filter may settle at a wrong one."""
         return turn_sd_rad > VAGUE_SD_RAD
 
     def is_reacquisition_due(self, seen: int, unassigned: int, turn_sd_rad: float) -> bool:
-        """Whether to look for the palm, of which ``seen`` discs are where they were predicted, without a prediction as
-        well: ``unassigned`` blobs are left over."""
+        """Return whether to search the palm without a prediction as well.
+
+        ``seen`` markers are where they were predicted, ``unassigned`` blobs are left over.
+        """
         few = seen <= MIN_PALM_MARKERS or self.stage is TrackStage.TENTATIVE
         return (few or self.is_vague(turn_sd_rad)) and unassigned + seen > MIN_PALM_MARKERS
 
     def is_uncertain(self, seen: int, turn_sd_rad: float) -> bool:
-        """Whether what shows ``seen`` discs may be another hand: they are few, or it was not seen a moment ago."""
+        """Return whether ``seen`` markers may be of another hand: few, or not confirmed a moment ago."""
         return seen <= MIN_PALM_MARKERS or self.stage is not TrackStage.CONFIRMED or self.is_vague(turn_sd_rad)
 
     def can_be_flipped(self, seen: int, unassigned: int) -> bool:
-        """Whether blobs are left over for the discs that are not where they were predicted: the knuckles can be where
-        they should be and the hand turned over about their line."""
+        """Return whether blobs are left for the markers that are not where they were predicted.
+
+        The knuckles can be where they should be and the hand turned over about their line.
+        """
         return seen < len(self._ambiguous_sd_rad) <= seen + unassigned
 
     def is_ambiguous(self, seen: int, turn_sd_rad: float) -> bool:
-        """Whether any so many blobs would do for discs of a hand whose turn was predicted so unsurely."""
+        """Return whether any so many blobs would do for markers of so unsure a prediction."""
         return seen < len(self._ambiguous_sd_rad) and turn_sd_rad > self._ambiguous_sd_rad[seen]
 
     def is_refuted(self, seen: int, timestamp_s: float) -> bool:
-        """Whether the hand was found a moment ago and the next pictures do not bear it out."""
+        """Return whether the next frames do not bear out a hand just found."""
         least = MIN_PALM_MARKERS
         if timestamp_s == self._found_s:
             return seen < least + 1
         return timestamp_s - self._found_s < PROBATION_S and seen < least
 
     def update_status(self, timestamp_s: float, seen: int, *, is_consistent: bool) -> TrackStatus:
-        """The track confirmed, coasted or given up after a frame that showed so many of its discs, where the updated
-        pose puts them (``is_consistent``) or not."""
+        """Confirm, coast or delete the track after a frame with ``seen`` markers.
+
+        ``is_consistent``: they lie where the updated pose puts them.
+        """
         self._time_s = timestamp_s
         is_believed = self.stage is not TrackStage.TENTATIVE or (seen > self._min_found and is_consistent)
         if seen >= MIN_PALM_MARKERS:
@@ -174,10 +171,9 @@ class TrackManager:
         return TrackStatus.PREDICTED
 
     def drop_track(self, timestamp_s: float) -> None:
-        """The track is given up."""
         self.stage, self._time_s = TrackStage.LOST, timestamp_s
 
 
 def angle_between_rad(one: FloatArray, other: FloatArray) -> float:
-    """By how much two rotations (3, 3) are turned against each other."""
+    """Return the angle between two rotations (3, 3)."""
     return float(np.linalg.norm(so3.log(one.T @ other)))

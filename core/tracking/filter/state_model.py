@@ -47,7 +47,7 @@ PALM_STATE = (
     StatePart(
         "turn", TURN, "rad", "error d of the rotation, R_true = R Exp(d), in W2",
         ("rate",), "Exp(w dt)' d + Jr(w dt) w dt", "q dt^3 / 3 Jr Jr', with the rate q dt^2 / 2 Jr",
-        ("MotionNoise.turn_acceleration_rad_s2", "palm.move_palm"),
+        ("MotionNoise.turn_acceleration_rad_s2", "palm.compute_palm_transition"),
     ),
     StatePart(
         "rate", RATE, "rad/s", "angular velocity in W2", (), "w",
@@ -57,36 +57,38 @@ PALM_STATE = (
     StatePart(
         "shape", SHAPE, "m", "x, y, z of each of six discs from its calibrated place on the fixed unit",
         (), "s", "none; a Schmidt partial update takes a share of what a frame says",
-        ("predicted_measurement.SHAPE_NEWS",),
+        ("predicted_measurement.SHAPE_LEARNING_SHARE",),
     ),
     StatePart(
-        "back", SURFACE, "rad, rad, m", "turn about X and Y and height that the calibrated back of the hand is wrong by",  # noqa: E501
-        (), "s", "none; as of the shape", ("surface_fit.calibrated_covariance", "predicted_measurement.SHAPE_NEWS"),
+        "back", SURFACE, "rad, rad, m",
+        "turn about X and Y and height that the calibrated back of the hand is wrong by",
+        (), "s", "none; as of the shape",
+        ("surface_fit.surface_calibration_covariance", "predicted_measurement.SHAPE_LEARNING_SHARE"),
     ),
     StatePart(
         "skin", SKIN, "m", "x, y, z by which each disc has left that place for now",
         (), "s exp(-dt / tau), tau by mode; s exp(-dt / tau - path / lambda) by the path of joints that are seen",
         "what keeps the mode's stationary covariance",
-        ("SoftTissue.lasts_s", "SoftTissue.rests_s", "SoftTissue.lasts_rad", "soft_tissue.resting_or_moving",
-         "soft_tissue.moved_by_joints"),
+        ("SoftTissue.lasts_s", "SoftTissue.rests_s", "SoftTissue.lasts_rad", "soft_tissue.resting_and_moving_modes",
+         "soft_tissue.joint_driven_modes"),
     ),
     StatePart(
         "relief", RELIEF, "rad, rad, m", "turn about X and Y and height by which the back has left its shape for now",
         (), "s exp(-dt / tau), tau by mode", "what keeps the mode's stationary covariance",
-        ("SoftTissue.relief_still_s", "SoftTissue.relief_home_s", "soft_tissue.resting_or_moving",
-         "soft_tissue.moved_by_joints"),
+        ("SoftTissue.relief_still_s", "SoftTissue.relief_home_s", "soft_tissue.resting_and_moving_modes",
+         "soft_tissue.joint_driven_modes"),
     ),
 )  # fmt: skip
 
 PALM_MEASUREMENTS = (
     MeasurementPart(
         "discs", 18, "px, px, m: u, v and depth z of each disc that is associated",
-        ("palm.see_palm",),
-        ("palm_association.measurements_of", "predicted_measurement.adapted_factor"),
+        ("palm.predict_palm_measurement",),
+        ("palm_association.measurements_from_blobs", "predicted_measurement.adapt_noise_factor"),
     ),
     MeasurementPart(
         "surface", 3, "rad, rad, m: turn about X and Y and height of the back of the hand",
-        ("surface_fit.surface_measurement",), ("SurfaceSettings",),
+        ("surface_fit.fit_surface",), ("SurfaceSettings",),
     ),
 )  # fmt: skip
 
@@ -94,7 +96,7 @@ DIGIT_STATE = (
     StatePart(
         "joints", JOINTS, "rad", "the thumb's five angles; a finger's abduction, MCP, PIP and what DIP is off by",
         ("rates",), "a + r dt; what is bound returns to zero as exp(-dt / tau)", "q dt^3 / 3",
-        ("MotionNoise.joint_acceleration_rad_s2", "finger_model.SETTLES_S"),
+        ("MotionNoise.joint_acceleration_rad_s2", "finger_model.RETURN_TIME_S"),
     ),
     StatePart(
         "rates", RATES, "rad/s", "of the joints", (), "r; fading where nothing shows the joint", "q dt",
@@ -111,10 +113,11 @@ DIGIT_MEASUREMENTS = (
     MeasurementPart(
         "discs", 9, "px, px, m: u, v and depth z of three discs",
         ("digit_images.linearise_images",),
-        ("digit_association.updated_as_associated", "digit_images.propagate_palm_error"),
+        ("digit_association.update_digits", "digit_images.propagate_palm_error"),
     ),
     MeasurementPart(
         "knuckle", 1, "rad: flexion at a knuckle whose discs are hidden, by depth",
-        ("finger_depth.knuckle_bends",), ("finger_depth.MIN_SD_RAD", "finger_depth.ALIKE"),
+        ("knuckle_flexion.estimate_knuckle_flexion",),
+        ("knuckle_flexion.MIN_SD_RAD", "knuckle_flexion.CORRELATED_FRAMES"),
     ),
 )  # fmt: skip
