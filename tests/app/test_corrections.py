@@ -131,7 +131,7 @@ def correcting(qtbot: QtBot, kept: Kept) -> Iterator[Correcting]:
         shell.resize(1280, 744)
         shell.show()
         now = CurrentSelection(session_id=kept.session_id)
-        context = a_context(theme, shell, told, Background(), library=kept.library, now=now)
+        context = a_context(theme, shell, told, Background(), library=kept.library, current=now)
         made.append(CorrectionFlow(context))
         return made[-1], context
 

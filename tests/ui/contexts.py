@@ -18,53 +18,52 @@ from tests.ui.fakes import NOW
 class Told:
     """Messages, and a way, that take down what a person would see; ``answer`` is the number of the one given."""
 
-    busy = False
+    is_busy = False
 
     def __init__(self, place: str = "patients", answer: int | None = None, behind: str = "") -> None:
-        self.place, self._answer, self._behind = place, answer, behind
+        self.screen_name, self._answer, self._behind = place, answer, behind
         self.asked: list[str] = []
         self.faults: list[Exception] = []
         self.shown: list[tuple[object, ...]] = []
 
     @property
-    def behind(self) -> str:
-        return self._behind or self.place
+    def underlying_screen(self) -> str:
+        return self._behind or self.screen_name
 
-    def put(self, flow: object) -> None:
+    def register(self, flow: object) -> None:
         """Nobody looks it up."""
 
-    def go(self, place: str) -> None:
-        self.place = place
+    def switch_screen(self, screen_name: str) -> None:
+        self.screen_name = screen_name
 
-    def back(self) -> None:
+    def navigate_back(self) -> None:
         """Nobody goes anywhere."""
 
-    def show(self, place: str, *given: object) -> None:
-        self.shown.append((place, *given))
+    def open_screen(self, screen_name: str, *given: object) -> None:
+        self.shown.append((screen_name, *given))
 
-    show_behind = show
+    open_under_overlay = open_screen
 
-    def ask(self, question: Any, answers: Any, **_: object) -> None:
-        self.asked.append(question.happened)
+    def show_question(self, question: Any, answers: Any, **_: object) -> None:
+        self.asked.append(question.summary)
         if self._answer is not None:
             answers[self._answer].action()
 
-    def fault(self, fault: Exception) -> None:
+    def show_fault(self, fault: Exception) -> None:
         self.faults.append(fault)
 
 
 def a_context(theme: Theme, window: QWidget, told: Told, background: Background, **given: object) -> ScreenContext:
     """A context of ``told`` for way and messages; what else a flow needs is ``given`` by its name there."""
     usual = {
-        "shell": window,
+        "window": window,
         "theme": theme,
         "background": background,
         "messages": told,
-        "way": told,
-        "now": CurrentSelection(source_choice=SourceChoice("camera")),
-        "report": ReportSettings("MK"),
+        "navigator": told,
+        "current": CurrentSelection(source_choice=SourceChoice("camera")),
+        "report_settings": ReportSettings("MK"),
         "today": NOW.date,
-        "version": "1.2.3",
         "is_demo": False,
         "opener": SimpleNamespace(close_source=lambda: None),
     }

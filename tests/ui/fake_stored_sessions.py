@@ -23,7 +23,7 @@ class FakeStoredSessions(SessionStore):
         ]
         self.done: list[tuple[str, ...]] = []
 
-    def lines(self, patient_id: str) -> list[SessionLine]:
+    def list_sessions(self, patient_id: str) -> list[SessionLine]:
         return list(self.all)
 
     def with_figures(self, line: SessionLine) -> SessionLine:
@@ -31,18 +31,20 @@ class FakeStoredSessions(SessionStore):
         if number == 4:
             return replace(line, is_damaged=True)
         words = "mean of 9 repetitions; number 7 left out: pain"
-        return replace(line, figure=f"Flexion {57 - 3 * number}° ± 2°", counted="9 / 10", counted_words=words)
+        return replace(
+            line, main_value=f"Flexion {57 - 3 * number}° ± 2°", counted_repetitions="9 / 10", counted_words=words
+        )
 
-    def other_patients(self, patient_id: str) -> list[tuple[str, str]]:
+    def list_move_targets(self, patient_id: str) -> list[tuple[str, str]]:
         return [("heron", "Heron 17"), ("alder", "Alder 51")]
 
-    def archived(self, patient_id: str) -> int:
+    def count_archived(self, patient_id: str) -> int:
         return 0
 
     def _change(self, session_id: str, **values: object) -> None:
         self.all = [replace(one, **values) if one.entry.session_id == session_id else one for one in self.all]  # type: ignore[arg-type]
 
-    def set_aside(self, session_id: str, reason: str) -> None:
+    def exclude(self, session_id: str, reason: str) -> None:
         self.done.append(("aside", session_id, reason))
         self._change(session_id, set_aside=reason)
 

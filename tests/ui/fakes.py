@@ -603,30 +603,30 @@ class FakeSessions:
     def session(self, session_id: str) -> Session:
         return self.sessions[session_id]
 
-    def figures_of(self, session_id: str) -> SessionResults:
+    def results_by_id(self, session_id: str) -> SessionResults:
         return figures_once(self.session(session_id), self.choices(session_id))
 
-    def picture(self, session_id: str, row: int) -> ByteImage | None:
+    def read_frame(self, session_id: str, row: int) -> ByteImage | None:
         if not self.pictures:
             return None
         return picture(self.pictures_of(self.sessions[session_id].header.hand), row)
 
-    def results_of(self, session_id: str) -> list[SessionEntry]:
+    def result_versions(self, session_id: str) -> list[SessionEntry]:
         return list(self.results)
 
-    def owner(self, session_id: str) -> str:
+    def owner_id(self, session_id: str) -> str:
         return self.owners.get(session_id, "linden")
 
     def choices(self, session_id: str) -> RepetitionChoices:
         return self.kept.get(session_id, RepetitionChoices())
 
-    def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
+    def save_choices(self, session_id: str, choices: RepetitionChoices) -> None:
         self.kept[session_id] = choices
 
     def history(self, patient_id: str) -> list[SessionResults]:
         return [figures_once(stored, self.choices(key)) for key, stored in self.sessions.items()]
 
-    def by_hand(self, patient_id: str) -> list[ManualValue]:
+    def manual_measurements(self, patient_id: str) -> list[ManualValue]:
         return list(self.hand_values)
 
 
@@ -634,7 +634,7 @@ def home_report(language: str = "", side: Side = "right", names: Sequence[str] =
     """The sheet for home of the last session, with an appointment in a week and a goal."""
     store = FakeSessions()
     made = build_session_report(store.session("session-7"), history=store.history("linden"), pseudonym="Linden 42")
-    made = replace(made, figures=replace(made.results, side=side))
+    made = replace(made, results=replace(made.results, side=side))
     tasks = tuple(HomeTask(get_exercise(name), 10, 3) for name in names)
     way = HomeProgress((date(2026, 10, 2), date(2026, 11, 6), NOW.date()), (25.0, 36.0, 47.0), 60.0, True)
     return HomeReport(made, tasks, NOW.date(), date(2026, 11, 27), "11:30", "", way, language)

@@ -126,8 +126,9 @@ ERASED_SESSION = ErasurePlan(
     1, tuple(map(Path, "abcd")), 38_200_000, (Path("/home/clinic/Reports/L.pdf"),), (),
 )  # fmt: skip
 ERASED_PATIENT = replace(
-    ERASED_SESSION, kind="patient", sessions=9, files=tuple(Path(str(n)) for n in range(31)), size_bytes=412_000_000,
-    made=(Path("/home/clinic/Reports/L.pdf"), Path("/home/clinic/Reports/L.csv")),
+    ERASED_SESSION, kind="patient", recording_count=9, files=tuple(Path(str(n)) for n in range(31)),
+    size_bytes=412_000_000,
+    output_files=(Path("/home/clinic/Reports/L.pdf"), Path("/home/clinic/Reports/L.csv")),
 )  # fmt: skip
 LAST_BACKUP = datetime(2026, 11, 15, 18, 4)
 KEPT = "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025"

@@ -149,7 +149,9 @@ def test_beside_at_least_stands_what_the_goniometer_said() -> None:
 
 
 def test_the_report_prints_both_and_what_was_measured_by_hand(tmp_path: Path) -> None:
-    path = write_session_report(helped_session((HELPED_S, PASSIVE)), tmp_path / "both.pdf", by_hand=hand_values_today())
+    path = write_session_report(
+        helped_session((HELPED_S, PASSIVE)), tmp_path / "both.pdf", manual_values=hand_values_today()
+    )
     words = words_of(path)
     assert "Active and passive" in words
     assert f"{MANUAL_SIGN} 48° / 60°" in words

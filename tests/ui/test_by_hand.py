@@ -106,7 +106,7 @@ def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ManualMeas
 def test_where_carpus_has_only_a_simulated_session_that_is_said(screen: ManualMeasurementsScreen) -> None:
     figures = max(FakeSessions().history("linden"), key=lambda one: one.when)
     for simulated in (False, True):
-        shown = (replace(figures, simulated=simulated),)
+        shown = (replace(figures, is_simulated=simulated),)
         screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), shown, "MK"))
         assert ("47°" in screen.form.rows["FLEXION"].side_text.text()) is not simulated
         assert ("is simulated" in screen.basis_text.text()) is simulated
@@ -152,7 +152,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     patient = library.patients.add(Patient("Linden 42", "left"))
     told = Told("progress", answer=0)
     closed: list[str] = []
-    shell = SimpleNamespace(close_surely=lambda: closed.append("closed"))
+    shell = SimpleNamespace(close_without_prompt=lambda: closed.append("closed"))
     context = a_context(theme, host, told, background, library=library)
     now = context.current
     now.patient = Patient("Linden 42", "left", patient_id=patient)
@@ -162,7 +162,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     qtbot.addWidget(screen)
     screen.show()
     flow.open()
-    qtbot.waitUntil(lambda: told.place == "by_hand")
+    qtbot.waitUntil(lambda: told.screen_name == "by_hand")
     assert screen.side == "left"
     typed(screen, "FLEXION", "170")
     screen.save_button.click()

@@ -128,7 +128,7 @@ def test_figures_of_two_sessions_never_stand_on_each_other(
     two = compute_progress([first, replace(second, when=first.when + apart)])
     said_at: list[float] = []
     monkeypatch.setattr(chart, "_add_value", lambda *given: said_at.append(given[2]))
-    chart.show_progress(replace(two, by_hand=(by_hand,)))
+    chart.show_progress(replace(two, manual_measurements=(by_hand,)))
     chart.grab()
     panels = len(chart.panels())
     assert panels
@@ -155,6 +155,9 @@ def test_course_on_paper_has_a_square_for_each_value_by_hand(
     picture = QImage(800, 500, QImage.Format.Format_RGB32)
     with QPainter(picture) as painter:
         progress.paint_progress_chart(
-            painter, paper_style(1.0), QRectF(picture.rect()), replace(compute_progress(alike), by_hand=by_hand)
+            painter,
+            paper_style(1.0),
+            QRectF(picture.rect()),
+            replace(compute_progress(alike), manual_measurements=by_hand),
         )
     assert sum(squares) == len(by_hand) + 1  # and one that says what they mean

@@ -82,7 +82,7 @@ def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: DeleteDial
     assert "The patient’s other sessions." in sheet.kept_text.text()
     assert "15 Nov" in sheet.kept_text.text()
     assert "before that day" in sheet.consequence_text.text()
-    many = replace(ERASED_SESSION, made=tuple(Path(str(number)) for number in range(5)))
+    many = replace(ERASED_SESSION, output_files=tuple(Path(str(number)) for number in range(5)))
     sheet.show_plan(many, 10, LAST_BACKUP, date(2036, 10, 10))
     assert sheet.consequence_text.text() == "Carpus cannot bring it back: a restored back-up leaves it out."
     assert "(5): 0, 1, 2, …" in sheet.kept_text.text()

@@ -116,7 +116,7 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
     figures = compute_session_results(session(seconds=26.0))
     screen.show_history("somebody else", [figures])
     assert not screen.proposal_button.isVisible()
-    screen.show_history(row.patient_id, [replace(figures, simulated=True)])
+    screen.show_history(row.patient_id, [replace(figures, is_simulated=True)])
     assert not screen.proposal_button.isVisible(), "what a simulated hand did is no measure of this patient"
     screen.show_history(row.patient_id, [figures])
     mean_deg = figures.find("flexion", "flexion").mean  # type: ignore[union-attr]

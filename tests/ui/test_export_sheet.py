@@ -52,7 +52,7 @@ def parts(
     stored, told = Stored(), Told()
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
     exporting = ExportController(
-        a_context(theme, host, told, background, library=stored, places=RecentLocations(tmp_path))
+        a_context(theme, host, told, background, library=stored, recent_locations=RecentLocations(tmp_path))
     )
     return exporting, stored, told
 

@@ -119,18 +119,18 @@ def test_a_saved_picture_shows_the_hand_alone_is_told_and_noted(
 
     class Pictures:
         @staticmethod
-        def picture(session_id: str, row: int) -> ByteImage | None:
+        def read_frame(session_id: str, row: int) -> ByteImage | None:
             return frames.get(row)
 
         @staticmethod
-        def made(paths: list[Path], kind: str, sessions: list[str]) -> None:
+        def register_output_files(paths: list[Path], kind: str, sessions: list[str]) -> None:
             assert kind == "export"
             made.extend((str(path), sessions) for path in paths)
 
     asked: list[tuple[object, ...]] = []
-    places = SimpleNamespace(ask_where_to_save=lambda *given: asked.append(given) or tmp_path / "x")
+    places = SimpleNamespace(choose_save_path=lambda *given: asked.append(given) or tmp_path / "x")
     told = Told()
-    flow = ReviewFlow(a_context(theme, host, told, background, library=Pictures(), places=places))
+    flow = ReviewFlow(a_context(theme, host, told, background, library=Pictures(), recent_locations=places))
     qtbot.addWidget(flow.screen)
     flow.save_hand_image(HandImage(side, ROWS[0], get_exercise("WRIST_RU"), "24°"))
     qtbot.waitUntil(lambda: bool(made))

@@ -91,7 +91,7 @@ def test_a_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path)
 
 def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
     made = report(form=ReportForm(excluded_sections=frozenset(SECTIONS)))
-    doubtful = replace(made, figures=replace(made.results, simulated=True))
+    doubtful = replace(made, results=replace(made.results, is_simulated=True))
     words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
     sure = "How sure are these figures?"
     for kept in (LEGAL_SENTENCE, "Simulated hand", sure, "Method: 6 markers", "known to about", "Carpus 1"):
@@ -164,7 +164,7 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
     made = build_session_report(
         stored, history=store.history("linden"), form=form, language=language, therapist="M. R."
     )
-    made = replace(made, figures=replace(made.results, simulated=True, recovered=True, not_counted=True))
+    made = replace(made, results=replace(made.results, is_simulated=True, is_recovered=True, is_excluded=True))
     for comment in (
         ("Short, and kept.", LONG) if language == "de" else ("Short, and kept.",)
     ):  # it has the longest words
@@ -316,7 +316,7 @@ def test_a_diagnosis_is_printed_only_where_the_clinic_wants_it(tmp_path: Path) -
     """With the weeks that had passed on the day of the session."""
     day = report().results.when.date() - timedelta(weeks=13)
     own = replace(report(), diagnosis="Wrist fracture, plate", onset="operation", onset_day=day)
-    asked = replace(own, form=replace(own.form, left_out=frozenset()))
+    asked = replace(own, form=replace(own.form, excluded_sections=frozenset()))
     for one, printed in ((own, False), (asked, True)):
         said = words_of(write_session_report(one, tmp_path / f"{printed}.pdf"))
         assert [words in said for words in ("Wrist fracture, plate", "13 weeks before")] == [printed, printed]

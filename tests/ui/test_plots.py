@@ -419,7 +419,7 @@ def test_time_axis_label_at_the_end_lies_within_the_paper(view: SessionChart, mo
     assert plot is not None
     time_s = plot.curves.time_s
     view.show_plot(replace(plot, curves=replace(plot.curves, time_s=time_s * (60.0 / time_s[-1]))))
-    monkeypatch.setattr("carpus.ui.charts.chart.write", note)
+    monkeypatch.setattr("carpus.ui.charts.chart.draw_text", note)
     image = QImage(2000, 900, QImage.Format.Format_RGB32)
     painter = QPainter(image)
     view.render_on_paper(painter, paper_style(4), QRectF(0.0, 0.0, 2000.0, 900.0))

@@ -123,13 +123,15 @@ def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path
 
 def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None:
     figures = figures_once(session())
-    once = dict(speed_pain_lines(replace(figures, pain=(3,), pain_times_s=(74.2,))))
+    once = dict(speed_pain_lines(replace(figures, pain_scores=(3,), pain_times_s=(74.2,))))
     assert once["Pain (0–10)"] == "3 at 01:14"
     assert (
-        dict(speed_pain_lines(replace(figures, pain=(2, 3), pain_times_s=(1.0, 9.0))))["Pain first / last (0–10)"]
+        dict(speed_pain_lines(replace(figures, pain_scores=(2, 3), pain_times_s=(1.0, 9.0))))[
+            "Pain first / last (0–10)"
+        ]
         == "2 / 3"
     )
-    assert dict(speed_pain_lines(replace(figures, pain=(), pain_times_s=())))["Pain (0–10)"] == "not asked"
+    assert dict(speed_pain_lines(replace(figures, pain_scores=(), pain_times_s=())))["Pain (0–10)"] == "not asked"
 
 
 @pytest.mark.parametrize("number", ["1", "2"])
@@ -287,7 +289,7 @@ def test_no_word_is_printed_over_another_whatever_the_language(tmp_path: Path, c
     said = build_session_report(session(), language=code)
     pauses = {"pauses": 1.2, "pause time": 10.2}
     rows = [replace(row, mean=pauses.get(row.quantity, row.mean)) for row in said.results.measures]
-    said = replace(said, figures=replace(said.results, measures=tuple(rows)))
+    said = replace(said, results=replace(said.results, measures=tuple(rows)))
     assert overlapping_words(write_session_report(said, tmp_path / "x.pdf")) == []
 
 
@@ -297,7 +299,7 @@ def test_the_preview_shows_the_lines_and_places_of_the_pdf(qapp: QApplication, t
     made = build_session_report(session(), language="de", form=ReportForm(paper=paper), comment="Schiene nachts.")
     names = session().header.protocol.markers
     findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in names)
-    made = replace(made, figures=replace(made.results, findings=findings, simulated=True))
+    made = replace(made, results=replace(made.results, findings=findings, is_simulated=True))
     page = pages_of_report(made)[0]
     width = 1200
     preview = QImage(width, round(width * page.size_pt[1] / page.size_pt[0]), QImage.Format.Format_Grayscale8)

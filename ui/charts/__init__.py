@@ -1,1 +1,1 @@
-"""Everything with an axis: one set of marks, drawn by pyqtgraph's scene in the window and by a painter on paper."""
+"""Charts: drawn by pyqtgraph's scene in the window, and by a painter on paper."""

@@ -1,8 +1,4 @@
-"""Plots of an agreement: the differences against their mean (Bland and Altman), and both curves over time.
-
-Along the panel runs the mean of both in
-degrees, or time in seconds.
-"""
+"""Agreement charts: differences against their mean (Bland and Altman), and both curves over time."""
 
 from __future__ import annotations
 
@@ -31,8 +27,8 @@ if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.research.agreement.compare import AnglePairs
 
 View = Literal["differences", "curves"]
+# One difference is drawn each 0.2 s; the statistics are of all samples.
 POINT_INTERVAL_S = 0.2
-"""Of the differences as many are drawn; the figures are of all."""
 AXIS_LIMITS_DEG = (5.0, 10.0, 20.0, 40.0, 90.0, 180.0)
 TICK_STEPS_DEG = (5.0, 10.0, 15.0, 30.0, 60.0, 90.0)
 DOT_ALPHA = 140
@@ -40,7 +36,19 @@ DOT_ALPHA = 140
 
 @dataclass(frozen=True, slots=True)
 class AgreementPlot:
-    """One angle of a comparison; ``limit_deg`` set before, 0 for none; ``is_time_series`` unless they are readings."""
+    """One angle of a comparison between Carpus and a reference measurement.
+
+    Parameters
+    ----------
+    pairs
+            Paired values and their statistics.
+    limit_deg
+            Acceptance limit set beforehand, 0 for none.
+    is_time_series
+            False where the reference is a list of single readings.
+    view
+            Differences against the mean of both, or both curves over time.
+    """
 
     pairs: AnglePairs
     limit_deg: float
@@ -61,14 +69,14 @@ class AgreementPlot:
 
     @property
     def point_rows(self) -> np.ndarray:
-        """Rows of which a difference is drawn: the first of every fifth of a second, or each reading."""
+        """Rows (K,) whose difference is drawn: one each 0.2 s, or each reading."""
         if not self.is_time_series:
             return np.arange(len(self.pairs.time_s))
         return np.unique(np.floor(self.pairs.time_s / POINT_INTERVAL_S), return_index=True)[1]
 
     @property
     def x_values(self) -> FloatArray:
-        """What runs along the panel, in the order of the pairs."""
+        """Horizontal coordinate (N,) of each pair: mean of both in degrees, seconds, or number of the reading."""
         if self.view == "differences":
             return self.mean_deg
         return self.pairs.time_s if self.is_time_series else np.arange(1.0, len(self.pairs.time_s) + 1.0)
@@ -81,7 +89,7 @@ class AgreementPlot:
         return low - pad, high + pad
 
     def scale(self) -> Scale:
-        """Of the differences symmetrical, and of the curves about what they reach; labels are the angle's words."""
+        """Return the vertical scale: symmetric for differences, else around both curves."""
         if self.view == "differences":
             figures = self.pairs.agreement_deg
             values = [*(self.carpus_deg - self.reference_deg), *figures.lower_interval, *figures.upper_interval]
@@ -105,7 +113,7 @@ class AgreementPlot:
         return Scale(low - pad, high + pad, ticks, tuple(labels), False)
 
     def panel(self, style: PlotStyle, box: QRectF) -> Panel:
-        """Where the values are within a box; the words of the lines stand right of it."""
+        """Return the panel inside ``box`` that leaves room for the labels at its right."""
         metrics, unit = QFontMetricsF(style.end_label_font), style.unit
         right = max(metrics.horizontalAdvance(text) for texts in _line_labels(self) for text in texts) + 20 * unit
         scale = self.scale()
@@ -115,7 +123,7 @@ class AgreementPlot:
         return Panel(area, scale, *self.extent())
 
     def x_labels(self, start: float, end: float) -> list[tuple[float, str]]:
-        """Round values along the panel; degrees have the angle's words at the ends."""
+        """Return round values along the panel; the outermost degrees name their direction."""
         if self.view == "curves" and self.is_time_series:
             return time_labels(start, end)
         step = _tick_step(end - start) if self.view == "differences" else max(1.0, _tick_step(end - start) // 5)
@@ -131,7 +139,6 @@ class AgreementPlot:
 
 
 def _line_labels(plot: AgreementPlot) -> list[tuple[str, ...]]:
-    """What stands at the lines: of both limits and the mean with their intervals, or the names of the curves."""
     if plot.view == "curves":
         return [(tr("Carpus"),), (tr("Reference"),)]
     name, figures = plot.pairs.name, plot.pairs.agreement_deg
@@ -145,7 +152,7 @@ def _line_labels(plot: AgreementPlot) -> list[tuple[str, ...]]:
 
 
 def _direction_labels(name: str) -> tuple[str, str]:
-    """``Carpus shows more flexion``, and the other way."""
+    """Return ``Carpus shows more flexion`` and the opposite."""
     more, less = direction_names(name)
     words = tr("Carpus shows {what}") if more == tr("more") else tr("Carpus shows more {what}")
     return words.format(what=more), words.format(what=less)
@@ -156,7 +163,6 @@ def _hatched() -> str:
 
 
 def _axis_caption(plot: AgreementPlot) -> str:
-    """What runs along."""
     if plot.view == "curves":
         return tr("seconds after the first picture") if plot.is_time_series else tr("number of the reading")
     if plot.is_time_series:
@@ -169,7 +175,7 @@ def _tick_step(span: float) -> float:
 
 
 class AgreementChart(Chart):
-    """One angle of a comparison, over time or as differences against the mean."""
+    """Chart of one angle, over time or as differences against the mean."""
 
     is_card = False
 
@@ -192,14 +198,12 @@ class AgreementChart(Chart):
         (self._add_differences if differences else self._add_curves)(plot)
 
     def _add_limit(self, plot: Plot) -> None:
-        """What was set before, hatched about no difference."""
         limit, box = self._plot.limit_deg, plot.panel.box
         plot.add_to_layer(Hatching(plot, [(-math.inf, math.inf, -limit, limit)], "accent", 90), BAND)
         words = self.add_text(_hatched(), self.plot_style.label_font, "accent", (1.0, 0.0))
         words.setPos(box.right() - 6 * self.plot_style.unit, float(plot.panel.y(-limit)) + 2 * self.plot_style.unit)
 
     def _add_dots(self, plot: Plot, x: FloatArray, y: FloatArray, token: str, radius: float) -> None:
-        """One value each, half clear."""
         at = [
             plot.panel.point(one, value)
             for one, value in zip(x.tolist(), y.tolist(), strict=True)

@@ -1,4 +1,4 @@
-"""One panel with a fixed scale: ticks are positive, the ends carry the words. And the hatching of what is not known."""
+"""Panels with a fixed scale, their tick labels, and hatching for missing data."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from carpus.ui.kit import numbers
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """Values from ``low`` to ``high``; ``ticks`` get a line, ``labels`` (value, text) their text on the left."""
+    """Values from ``low`` to ``high``, the ``ticks`` with a grid line, and the ``labels`` (value, text) at the left."""
 
     low: float
     high: float
@@ -27,7 +27,7 @@ class Scale:
 
 
 def angle_scale(tick_deg: float, limit_deg: float, upper: str, lower: str, *, is_sparse: bool = False) -> Scale:
-    """An angle in degrees between two named directions; ``is_sparse`` leaves out the ticks half-way."""
+    """Return the scale of an angle between two named directions; ``is_sparse`` omits the ticks half-way."""
     half = tick_deg / 2
     inner = () if is_sparse else (half, -half)
     labels = [
@@ -40,7 +40,7 @@ def angle_scale(tick_deg: float, limit_deg: float, upper: str, lower: str, *, is
 
 
 def positive_scale(top: float, step: float, unit: str, name: str) -> Scale:
-    """A quantity that starts at zero, with its name at the upper end."""
+    """Return the scale of a quantity that starts at zero, its name at the upper end."""
     ticks = tuple(np.arange(0.0, top + step / 2, step).tolist())
     labels = tuple(
         (value, f"{name} {format_rounded(value)}{unit}" if value == ticks[-1] else format_rounded(value))
@@ -51,7 +51,7 @@ def positive_scale(top: float, step: float, unit: str, name: str) -> Scale:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """A scale in a rectangle, with time from ``start_s`` on the left to ``end_s`` on the right."""
+    """Rectangle with a vertical scale and a time axis from ``start_s`` to ``end_s``."""
 
     box: QRectF
     scale: Scale
@@ -62,19 +62,18 @@ class Panel:
         return x_px(np.asarray(time_s, dtype=np.float64), *self.x_parameters())
 
     def y(self, value: FloatArray | float) -> FloatArray:
-        """Painter y of values, kept inside the panel."""
+        """Return painter y of values, clipped to the panel."""
         return y_px(np.asarray(value, dtype=np.float64), *self.y_parameters())
 
     def point(self, time_s: float, value: float) -> QPointF:
-        """Where one value is."""
         return QPointF(float(self.x(time_s)), float(self.y(value)))
 
     def x_parameters(self) -> tuple[float, float, float, float]:
-        """What :func:`x_px` takes."""
+        """Return the arguments that :func:`x_px` needs after the times."""
         return self.box.left(), self.box.width(), self.start_s, self.end_s
 
     def y_parameters(self) -> tuple[float, float, float, float]:
-        """What :func:`y_px` takes."""
+        """Return the arguments that :func:`y_px` needs after the values."""
         return self.box.top(), self.box.height(), self.scale.low, self.scale.high
 
 
@@ -82,17 +81,17 @@ Bound = float | FloatArray
 
 
 def x_px(time_s: FloatArray, left: Bound, width: Bound, start_s: Bound, end_s: Bound) -> FloatArray:
-    """Painter x of times in a panel, or each in its own."""
+    """Return painter x of times in one panel, or each in a panel of its own."""
     return np.asarray(left + (time_s - start_s) / (end_s - start_s) * width)
 
 
 def y_px(value: FloatArray, top: Bound, height: Bound, low: Bound, high: Bound) -> FloatArray:
-    """Painter y of values, kept inside the panel, or each inside its own."""
+    """Return painter y of values, clipped to one panel or each to a panel of its own."""
     return np.asarray(top + (high - np.minimum(np.maximum(value, low), high)) / (high - low) * height)
 
 
 def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:
-    """Round times along the axis, about six of them."""
+    """Return about six round times along the axis."""
     span_s = end_s - start_s
     step = next((step for step in (0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600) if span_s / step <= 7), 1200)
     ticks = step * np.arange(math.ceil(start_s / step - 1e-6), math.floor(end_s / step + 1e-6) + 1)
@@ -101,15 +100,18 @@ def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:
 
 
 def align_to_pixels(box: QRectF) -> QRectF:
-    """The nearest rectangle with edges between pixels."""
+    """Round a rectangle so that its edges lie between pixels."""
     return QRectF(box.toRect())
 
 
 def draw_hatching(
     painter: QPainter, style: PlotStyle, box: QRectF, token: str = "border", alpha: int = 130, phase: float = 0.0
 ) -> None:
-    """Diagonal lines over a stretch that is not known; drawn as lines so that paper gets vectors too. What is over
-    another one is seen by a ``phase``, as a share of their distance."""
+    """Draw diagonal lines over a stretch without data.
+
+    They are lines and not a brush, so that paper gets vectors. ``phase`` shifts them by a share of their distance, so
+    that overlapping areas stay distinct.
+    """
     painter.setPen(QPen(style.color(token, alpha), style.grid_width))
     step, high = 5.0 * style.unit, box.height()
     first = (math.floor((box.left() - high) / step) + phase) * step

@@ -1,4 +1,4 @@
-"""A chart: panels with words and lines on pyqtgraph's scene, one for the screen, for paper and for pictures."""
+"""Chart base class on pyqtgraph's scene, for the screen, paper and image files."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ from carpus.ui.kit.theme import Theme
 
 pg.setConfigOptions(antialias=True, mouseRateLimit=-1)  # Qt joins movements itself; the last of a drag must not be lost
 
+# In pyqtgraph's terms: a notch of the wheel shows a quarter more or less.
 WHEEL_FACTOR = -math.log(1.25) / math.log(1.02) / 120.0
-"""In the terms of pyqtgraph: a notch shows a quarter more or less."""
+# A notch sideways moves by this share of the visible range.
 PAN_FRACTION = 0.1
-"""A notch sideways goes on by this part of what is shown."""
 SYMBOLS = pg.graphicsItems.ScatterPlotItem.Symbols
+# Drawing order within a panel.
 GROUND, BAND, GRID, LINES, CURVES, FRONT = -30, -20, -10, -5, 0, 10
-"""What lies over what within a panel."""
 
 
 @dataclass(frozen=True, slots=True)
 class AxisLabel:
-    """ChartText at a value of an axis."""
+    """Text at a value of an axis."""
 
     value: float
     text: str
@@ -54,7 +54,7 @@ class AxisLabel:
 
 
 class Plot(pg.ViewBox):
-    """A panel with a fixed scale upwards. Nothing in it moves by mouse before it is given ``hands``."""
+    """Panel with a fixed vertical scale; the mouse moves it only after :meth:`enable_mouse`."""
 
     mouse_handler: Any = None
 
@@ -74,24 +74,27 @@ class Plot(pg.ViewBox):
 
     @property
     def local_panel(self) -> Panel:
-        """The panel in its own pixels, as it is ranged now."""
+        """Panel in its own pixels, over the range that is visible now."""
         panel = self.panel
         start, end = (panel.start_s, panel.end_s) if self.chart.is_printing else self.viewRange()[0]
         return Panel(QRectF(0.0, 0.0, panel.box.width(), panel.box.height()), panel.scale, start, end)
 
     def to_item_x(self, times: ArrayLike) -> FloatArray:
-        """Where times are for an item in the panel. On paper that is in its unit, cut at the panel's ends: a line of
-        pyqtgraph that is stretched with a scale has no width there, and a drawing forgets what is cut."""
+        """Return the x of times for an item in the panel.
+
+        On paper it is in paper units and clipped to the panel: a pyqtgraph line that is stretched by a scale has no
+        width there, and an SVG or PDF painter ignores clipping.
+        """
         times = np.asarray(times, dtype=np.float64)
         return np.clip(self.local_panel.x(times), 0.0, self.panel.box.width()) if self.chart.is_printing else times
 
     def to_item_y(self, value: ArrayLike) -> FloatArray:
-        """The same of values."""
+        """Return the y of values for an item in the panel; see :meth:`to_item_x`."""
         value = np.asarray(value, dtype=np.float64)
         return self.local_panel.y(value) if self.chart.is_printing else value
 
     def add_to_layer(self, item: Any, layer: int) -> Any:
-        """Add an item of pyqtgraph."""
+        """Add a pyqtgraph item at a drawing order."""
         item.setZValue(layer)
         item.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
         if not self.chart.is_printing and GROUND < layer < CURVES:  # what stays, and is no larger than the panel
@@ -101,7 +104,7 @@ class Plot(pg.ViewBox):
 
     # --- what is in it ------------------------------------------------------------------------------------
     def pen(self, token: str, width: float = 1.0, dash: Sequence[float] = (), alpha: int = 255) -> QPen:
-        """A pen ``width`` design pixels wide whatever the scale."""
+        """Return a pen ``width`` design pixels wide at any scale."""
         pen = dash_pen(self.plot_style.color(token, alpha), width * self.plot_style.unit, dash)
         pen.setCosmetic(not self.chart.is_printing)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
@@ -111,8 +114,10 @@ class Plot(pg.ViewBox):
         self.add_to_layer(Grid(self), GRID)
 
     def add_bars(self, stretches: Sequence[tuple[float, float]], token: str) -> None:
-        """Stretches of the time in a colour, with a seam; of several colours pyqtgraph's own are pictures, which paper
-        shows in another size."""
+        """Add coloured time spans with a seam.
+
+        pyqtgraph draws bars of several colours as images, which paper shows in another size.
+        """
         if stretches:
             start, end = np.array(stretches).T
             low, high = self.to_item_y((self.panel.scale.low, self.panel.scale.high)).tolist()
@@ -121,7 +126,7 @@ class Plot(pg.ViewBox):
             self.add_to_layer(pg.BarGraphItem(x0=x0, x1=x1, y0=low, y1=high, brush=brush, pen=pen), GROUND)
 
     def add_band(self, low: float, high: float, token: str, hatched: str = "") -> None:
-        """Values from ``low`` to ``high`` filled, and hatched in a second token where there is one."""
+        """Fill values from ``low`` to ``high``, hatched in a second colour if ``hatched`` names one."""
         brush = pg.mkBrush(self.plot_style.color(token))
         ends = self.to_item_y((low, high)).tolist()
         self.add_to_layer(pg.LinearRegionItem(ends, "horizontal", brush, QPen(Qt.PenStyle.NoPen), movable=False), BAND)
@@ -131,7 +136,7 @@ class Plot(pg.ViewBox):
     def add_horizontal_line(
         self, value: float, token: str, dash: Sequence[float] = (8.0, 6.0), words: str = "", *, below: bool = False
     ) -> Any:
-        """A line at a value, with words at its left end; none where it is unknown."""
+        """Add a line at a value with words at its left end; nothing if the value is NaN."""
         if not math.isfinite(value):
             return None
         line = self.add_to_layer(
@@ -144,7 +149,7 @@ class Plot(pg.ViewBox):
     def add_label(
         self, value: float, words: str, token: str = "text2", *, below: bool = False, small: bool = False
     ) -> Any:
-        """Words at the left end just over, or under, a value."""
+        """Add words at the left end, just above or below a value."""
         unit = self.plot_style.unit
         face = self.plot_style.label_font if small else self.plot_style.end_label_font
         item = self.chart.add_text(words, face, token, (0.0, 0.0 if below else 1.0))
@@ -153,19 +158,19 @@ class Plot(pg.ViewBox):
         return item
 
     def scene_x(self, time: float) -> float:
-        """Where a time is in the chart, as the panel is ranged now."""
+        """Return the x of a time in the chart, for the range that is visible now."""
         return float(self.panel.box.left() + self.local_panel.x(time))
 
     def add_line(
         self, x: Sequence[float], y: Sequence[float], token: str, width: float = 0.0, dash: Sequence[float] = (),
         connect: str = "all", layer: int = CURVES,
     ) -> None:  # fmt: skip
-        """A line through points, as wide as curves are unless told."""
+        """Add a line through points, as wide as curves unless ``width`` is given."""
         pen = self.pen(token, width or self.plot_style.line_width / self.plot_style.unit, dash)
         self.add_to_layer(pg.PlotCurveItem(self.to_item_x(x), self.to_item_y(y), pen=pen, connect=connect), layer)
 
     def add_curves(self, *, is_cached: bool = True) -> Curves:
-        """Still without any; ``is_cached`` as a picture where a cursor goes over them more often than they change."""
+        """Add an empty set of curves; cache it as an image if it changes less often than a cursor moves over it."""
         return self.add_to_layer(Curves(self, is_cached=is_cached), CURVES)  # type: ignore[no-any-return]
 
     def add_cursor(self, time: float, token: str = "text", width: float = 1.5) -> Any:
@@ -173,13 +178,13 @@ class Plot(pg.ViewBox):
 
     # --- mouse --------------------------------------------------------------------------------------------
     def enable_mouse(self, handler: Any) -> None:
-        """Let the mouse move it along its one free axis."""
+        """Let the mouse zoom and pan along the time axis."""
         self.mouse_handler = handler
         self.setMouseEnabled(x=True, y=False)
         self.state["wheelScaleFactor"] = WHEEL_FACTOR
 
     def wheelEvent(self, event: Any, axis: int | None = None) -> None:
-        """With Ctrl longer or shorter about the mouse; sideways, or with Shift, along the axis; else the page."""
+        """Zoom with Ctrl, pan sideways or with Shift; otherwise leave the wheel to the page."""
         if self.mouse_handler is None:
             event.ignore()
         elif event.orientation() == Qt.Orientation.Horizontal or event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
@@ -206,7 +211,7 @@ class Plot(pg.ViewBox):
 
 
 class PixelItem(pg.GraphicsObject):
-    """Something among the items of a panel that is drawn in its pixels."""
+    """Item of a panel that is drawn in the panel's pixels."""
 
     def __init__(self, plot: Plot, *, is_cached: bool = True) -> None:
         super().__init__()
@@ -233,7 +238,7 @@ class PixelItem(pg.GraphicsObject):
 
 
 class Grid(PixelItem):
-    """A line at each value of the scale, the one at zero stronger."""
+    """A line at each tick, the one at zero stronger."""
 
     def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         for value in panel.scale.ticks:
@@ -244,9 +249,7 @@ class Grid(PixelItem):
 
 
 class Curves(PixelItem):
-    """All curves of a panel with their bands and gaps; how they are drawn is in :class:`CurveDrawing`, which also
-    says why
-    pyqtgraph's own curves, fills and dashes are not."""
+    """All curves of a panel with their bands and gaps; :class:`CurveDrawing` says why pyqtgraph's are not used."""
 
     def __init__(self, plot: Plot, *, is_cached: bool) -> None:
         super().__init__(plot, is_cached=is_cached)
@@ -256,7 +259,7 @@ class Curves(PixelItem):
         self.set_drawing_source(lambda panel: (CurveDrawing(self.plot.plot_style, [(panel, curves)]), 0))
 
     def set_drawing_source(self, drawing: Callable[[Panel], tuple[CurveDrawing, int]]) -> None:
-        """Of many panels worked out at once, and which of them this is."""
+        """Set the function that returns a drawing of several panels and the number of this one."""
         self.drawing = drawing
         self.update()
 
@@ -267,8 +270,10 @@ class Curves(PixelItem):
 
 
 class Hatching(PixelItem):
-    """Diagonal lines over stretches (start, end, low, high) of a panel. pyqtgraph has none: a brush with a pattern is
-    stretched with the scale, and is a picture of dots on paper."""
+    """Diagonal lines over stretches (start, end, low, high) of a panel.
+
+    pyqtgraph has none: a patterned brush is stretched by the scale and becomes dots on paper.
+    """
 
     def __init__(
         self,
@@ -295,8 +300,10 @@ class Hatching(PixelItem):
 
 
 class PaintedLayer(pg.GraphicsObject):
-    """Something painted over the panels of a chart, kept as a picture until it is updated: what changes ten times a
-    second and more, of which each as an item of pyqtgraph costs as much as a curve."""
+    """Something painted over the panels and cached until it is updated.
+
+    For what changes ten times a second: as pyqtgraph items, each would cost as much as a curve.
+    """
 
     def __init__(
         self, chart: Chart, area: QRectF, paint: Callable[[QPainter], None], *, is_cached: bool = True
@@ -317,8 +324,10 @@ class PaintedLayer(pg.GraphicsObject):
 
 
 class Symbols(pg.ScatterPlotItem):
-    """Symbols over the panels of a chart. On paper they are drawn here: pyqtgraph leaves out what is beyond the widget,
-    and draws them in the device's unit."""
+    """Symbols over the panels.
+
+    On paper they are drawn here: pyqtgraph omits those beyond the widget and uses the device's unit.
+    """
 
     chart: Chart
 
@@ -343,7 +352,7 @@ class Symbols(pg.ScatterPlotItem):
 
 
 class ChartText(pg.TextItem):
-    """Words over the panels, placed by ``setPos``; rich text by :meth:`show_rich`."""
+    """Text over the panels, placed by ``setPos``; rich text by :meth:`show_rich`."""
 
     _rich = ""
 
@@ -367,9 +376,9 @@ class ChartText(pg.TextItem):
 
 
 class Axis(pg.AxisItem):
-    """Words beside a panel at its values, the first before the others: one that would touch another is left out.
+    """Labels beside a panel; a label that would touch an earlier one is omitted.
 
-    pyqtgraph's axis has one font and one colour for all, and lets words touch or leaves out the whole lot.
+    pyqtgraph's axis has one font and colour for all, and lets labels touch or omits all of them.
     """
 
     def __init__(
@@ -380,7 +389,7 @@ class Axis(pg.AxisItem):
         gap: float,
         room: float = math.inf,
     ) -> None:
-        """``gap`` design pixels from the panel; words get smaller where they are longer than the ``room``."""
+        """Place labels ``gap`` design pixels from the panel, in a smaller font if they are wider than ``room``."""
         super().__init__(side)
         self.plot, self._labels, self._gap, self._room = plot, labels, gap, room
         if not plot.chart.is_printing:
@@ -437,7 +446,7 @@ class Axis(pg.AxisItem):
 
 
 def date_labels(labels: Sequence[tuple[float, str]]) -> Callable[[float, float], list[AxisLabel]]:
-    """Of the days that are shown the last one, the first one, then those between, the last ones first."""
+    """Return a function that orders visible dates: last, first, then the others from the newest back."""
 
     def select_labels(start: float, end: float) -> list[AxisLabel]:
         some = [label for label in labels if start <= label[0] <= end]
@@ -451,7 +460,7 @@ def date_labels(labels: Sequence[tuple[float, str]]) -> Callable[[float, float],
 
 
 def fit_font(face: QFont, text: str, room_px: float) -> QFont:
-    """The font, or one as small as half of it, with which a text has room."""
+    """Return the font, reduced to at least half its size if the text is wider than the room."""
     width = QFontMetricsF(face).horizontalAdvance(text)
     if width <= room_px or width <= 0.0:
         return face
@@ -461,7 +470,7 @@ def fit_font(face: QFont, text: str, room_px: float) -> QFont:
 
 
 def scale_labels(panel: Panel) -> list[AxisLabel]:
-    """Of a fixed scale, its ends first."""
+    """Return the labels of a fixed scale, its ends first."""
     scale = panel.scale
     ends = (max(scale.ticks), min(scale.ticks)) if scale.ticks else ()
     out = []
@@ -472,10 +481,10 @@ def scale_labels(panel: Panel) -> list[AxisLabel]:
 
 
 class Chart(pg.GraphicsView):
-    """A card with panels. A subclass says in :meth:`build` what is in it, for the present ``look`` and ``area``."""
+    """Card with panels; a subclass adds them in :meth:`build` for the present ``plot_style`` and ``area``."""
 
+    # Width and height.
     default_px, min_px = (736, 360), (420, 200)
-    """Width and height."""
     is_card = True
 
     def __init__(self, theme: Theme) -> None:
@@ -485,8 +494,8 @@ class Chart(pg.GraphicsView):
         self.area = QRectF()
         self.is_printing = False
         self.plots: list[Plot] = []
+        # The scene does not keep its items alive.
         self._items: list[Any] = []
-        """The scene does not keep them alive."""
         self.setCentralWidget(None)
         # Items of pyqtgraph say too late for an index that they have another size.
         self.scene().setItemIndexMethod(QGraphicsScene.ItemIndexMethod.NoIndex)
@@ -499,11 +508,10 @@ class Chart(pg.GraphicsView):
 
     # --- for a subclass -----------------------------------------------------------------------------------
     def build(self) -> None:
-        """Add plots and words."""
         raise NotImplementedError
 
     def paint_background(self, painter: QPainter) -> None:
-        """What lies under everything, on the screen alone."""
+        """Paint what lies under everything, on the screen only."""
 
     def sizeHint(self) -> QSize:
         return QSize(*self.default_px)
@@ -518,7 +526,6 @@ class Chart(pg.GraphicsView):
         return plot
 
     def add_item(self, item: Any) -> Any:
-        """Put an item over, or beside, the panels."""
         self._items.append(item)
         self.scene().addItem(item)
         return item
@@ -534,7 +541,7 @@ class Chart(pg.GraphicsView):
         labels: Callable[[float, float], Iterable[AxisLabel]] | Iterable[AxisLabel],
         gap: float,
     ) -> Axis:
-        """Words left of, under or over a plot: by what is shown of it, or always the same."""
+        """Add labels left of, under or over a plot: a fixed list, or a function of the visible range."""
         said = labels if callable(labels) else lambda *_, own=tuple(labels): own
         room = math.inf if self.is_printing else plot.panel.box.left() - gap * self.plot_style.unit - 2.0
         return Axis(plot, side, said, gap, room)
@@ -542,14 +549,14 @@ class Chart(pg.GraphicsView):
     def add_text(
         self, words: str, face: QFont, token: str = "text", anchor: tuple[float, float] = (0.0, 0.0)
     ) -> ChartText:
-        """Words over the panels; placed by ``setPos``."""
+        """Add words over the panels; the caller places them by ``setPos``."""
         return ChartText(self, words, face, token, anchor)
 
     def add_symbols(
         self, symbol: str = "o", size: float = 10.0, pen: QPen | None = None, fill: str = "",
         positions: Sequence[QPointF] = (), alpha: int = 255,
     ) -> Any:  # fmt: skip
-        """Symbols over the panels at places of the chart, ``size`` design pixels wide; discs have a seam."""
+        """Add symbols at positions of the chart, ``size`` design pixels wide, with a seam unless ``pen`` is given."""
         unit = self.plot_style.unit
         pen = pg.mkPen(self.plot_style.color("surface"), width=1.5 * unit) if pen is None else pen
         symbols = Symbols(
@@ -565,8 +572,7 @@ class Chart(pg.GraphicsView):
         return self.add_item(symbols)
 
     def add_end_labels(self, plot: Plot, labels: Sequence[tuple[float, str, str]]) -> None:
-        """Words (value, text, token) at the right ends of their lines, pushed apart where they would touch, and kept
-        above what stands under the panel; pyqtgraph's axis lets them touch."""
+        """Add labels (value, text, token) at the right ends of lines, moved apart where they would touch."""
         panel, unit, face = plot.panel, self.plot_style.unit, self.plot_style.end_label_font
         height = QFontMetricsF(face).height()
         taken, lowest = -math.inf, panel.box.bottom() + height / 2 - len(labels) * height
@@ -578,7 +584,7 @@ class Chart(pg.GraphicsView):
     def legend_lines(
         self, entries: Sequence[tuple[str, str, str]], width: float
     ) -> list[list[tuple[float, str, str, str]]]:
-        """What the signs (symbol, words, token) mean, in as many lines as it needs, each with its left end."""
+        """Break legend entries (symbol, text, token) into lines, each entry with its left end."""
         metrics, unit = QFontMetricsF(self.plot_style.end_label_font), self.plot_style.unit
         lines: list[list[tuple[float, str, str, str]]] = [[]]
         across = 8 * unit
@@ -592,8 +598,10 @@ class Chart(pg.GraphicsView):
         return lines
 
     def add_legend(self, entries: Sequence[tuple[str, str, str]], box: QRectF) -> None:
-        """At the lower end of a box, in lines: pyqtgraph's legend has one column, or many of the same width. A filled
-        disc is written ``O``."""
+        """Add a legend at the lower end of a box; ``O`` is a filled disc.
+
+        pyqtgraph's legend has one column, or several of equal width.
+        """
         unit, face = self.plot_style.unit, self.plot_style.end_label_font
         height = QFontMetricsF(face).height()
         for number, line in enumerate(reversed(self.legend_lines(entries, box.width()))):
@@ -605,7 +613,7 @@ class Chart(pg.GraphicsView):
                 self.add_text(words, face, "text2", (0.0, 0.5)).setPos(box.left() + left + 17 * unit, middle)
 
     def refresh(self) -> None:
-        """What is shown has changed: build it anew, once it is seen."""
+        """Rebuild the chart if it is visible."""
         if self.isVisible():
             self.plot_style = screen_style(self._theme)
             self.area = QRectF(self.rect())
@@ -622,12 +630,12 @@ class Chart(pg.GraphicsView):
     # --- life ---------------------------------------------------------------------------------------------
     @property
     def mouse_target(self) -> QWidget:
-        """What the mouse meets."""
+        """Widget that receives the mouse events."""
         port: QWidget = self.viewport()
         return port
 
     def close(self) -> bool:
-        """As any widget: it may be shown again. pyqtgraph takes the scene apart."""
+        """Hide the chart; pyqtgraph's own ``close`` would take the scene apart."""
         return QGraphicsView.close(self)
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -651,7 +659,7 @@ class Chart(pg.GraphicsView):
 
     # --- on paper -----------------------------------------------------------------------------------------
     def render_on_paper(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        """The same as lines and letters, in any unit: it is built for that, and then again for the screen."""
+        """Rebuild the chart for a painter in any unit, render it as vectors, then rebuild it for the screen."""
         self.plot_style, self.area, self.is_printing = style, QRectF(0.0, 0.0, box.width(), box.height()), True
         self.setSceneRect(self.area)
         try:
@@ -665,13 +673,13 @@ class Chart(pg.GraphicsView):
 
 
 def span_html(words: str, style: PlotStyle, token: str, size_px: float, weight: int) -> str:
-    """Words in a colour, size and weight of their own, for a text of several."""
+    """Return words as HTML in a colour, size and weight."""
     color = style.color(token).name()
     return f'<span style="color:{color};font-size:{round(size_px)}px;font-weight:{int(weight)}">{escape(words)}</span>'
 
 
 class HoverLabel(pg.TextItem):
-    """Lines of words in a small frame beside a point, within the chart: what is under the mouse."""
+    """Framed lines of text beside a point, kept within the chart."""
 
     def __init__(self, chart: Chart) -> None:
         look = chart.plot_style
@@ -684,7 +692,7 @@ class HoverLabel(pg.TextItem):
         chart.add_item(self)
 
     def show_lines(self, position: QPointF | None, lines: Sequence[str]) -> None:
-        """Nothing without a point."""
+        """Show lines beside a position; hide the label if it is None."""
         self.setVisible(position is not None)
         if position is None:
             return

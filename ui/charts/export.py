@@ -1,4 +1,4 @@
-"""A plot for other programs: PNG and SVG at print size on white, its values as a table."""
+"""Export of a chart: PNG and SVG at print size on white, or its values as a table."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from carpus.ui.kit.theme import LIGHT
 if TYPE_CHECKING:
     from carpus.ui.charts.chart import Chart
 
+# Head and rows.
 Table: TypeAlias = tuple[Sequence[str], Iterable[Sequence[str]]]
-"""Head and rows."""
+# Width of a page's text, at print resolution.
 WIDTH_MM, DPI = 170.0, 300.0
-"""The width of a page's text, at the resolution of print."""
 SVG_UNITS_PER_POINT = 10.0
 MARGIN_PT = 8.0
 POINTS_PER_MM = 72.0 / 25.4
@@ -40,7 +40,7 @@ def _paint(painter: QPainter, chart: Chart, point: float) -> None:
 
 
 def render_image(chart: Chart) -> QImage:
-    """170 mm wide at 300 dots to the inch."""
+    """Return the chart as an image, 170 mm wide at 300 dpi."""
     point = DPI / 72.0
     width_pt, height_pt = _size_pt(chart)
     image = QImage(round(width_pt * point), round(height_pt * point), QImage.Format.Format_RGB32)
@@ -54,7 +54,7 @@ def render_image(chart: Chart) -> QImage:
 
 
 def render_svg(chart: Chart) -> bytes:
-    """The same as lines and letters."""
+    """Return the chart as SVG."""
     point = SVG_UNITS_PER_POINT
     width_pt, height_pt = _size_pt(chart)
     store = QByteArray()
@@ -73,7 +73,13 @@ def render_svg(chart: Chart) -> bytes:
 
 
 def save_chart(chart: Chart, table: Callable[[], Table], path: Path) -> None:
-    """Write the plot, or its values as a table, as the name ends. Raises :class:`OutputNotWritable`."""
+    """Save the chart, or its values as a table, in the format of the file's suffix.
+
+    Raises
+    ------
+    OutputNotWritable
+            If the file cannot be written.
+    """
     kind = path.suffix.lower()
     if kind == ".svg":
         content = render_svg(chart)

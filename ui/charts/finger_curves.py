@@ -1,4 +1,4 @@
-"""Small multiples of the whole hand: bending and spreading by finger over ten seconds, and every angle in figures."""
+"""Live charts of the whole hand: flexion and spreading by finger over ten seconds, and every angle's value."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ BENDING_ROWS: tuple[AngleKind, ...] = ("end", "middle", "knuckle")
 MIN_TEXT_PX = 11
 SPREADING_ROWS: tuple[AngleKind, ...] = ("spread",)
 MIN_HEIGHT_WITH_VALUES_PX, MIN_HEIGHT_WITH_SPREADING_PX = 290, 160
+# From this standard deviation on an angle is marked as uncertain.
 WEAK_SD_DEG = 10.0
-"""From this spread on a figure is marked as weak."""
 _ANGLE_INDEX = {figure: number for number, figure in enumerate(FINGER_ANGLES)}
 
 
 class FingerCurves(Chart):
-    """Shows the fingers of a :class:`History`; ``angle_chosen`` tells that a figure was clicked."""
+    """Live curves and values by finger from a :class:`History`; ``angle_chosen`` when a value is clicked."""
 
     default_px = (776, 396)
 
@@ -68,7 +68,7 @@ class FingerCurves(Chart):
         self.refresh()
 
     def set_waiting(self, is_waiting: bool) -> None:
-        """Whether no pictures come: then no figure is shown as if it were now."""
+        """Hide all values while no frames arrive, so that none looks current."""
         self._is_waiting = is_waiting
         self._update_cells()
 
@@ -78,7 +78,7 @@ class FingerCurves(Chart):
             self.refresh()
 
     def update_values(self) -> None:
-        """Take the figures below the curves anew; called at most ten times a second."""
+        """Refresh the values below the curves; at most ten times a second."""
         self._values = {figure: self._history.angle_value(k) for k, figure in enumerate(FINGER_ANGLES)}
         self._update_cells()
 
@@ -90,7 +90,6 @@ class FingerCurves(Chart):
         return QSize(560, 165 if self._theme.text_scale > 1.0 else 220)  # the number above it gives way no further
 
     def _has_spreading(self) -> bool:
-        """Whether there is room for the spreading; the bending stays."""
         return bool(self.height() >= MIN_HEIGHT_WITH_SPREADING_PX * self._theme.text_scale)
 
     # --- places -------------------------------------------------------------------------------------------
@@ -101,14 +100,14 @@ class FingerCurves(Chart):
         return QRectF(left + (finger - 1) * step, 8, step - BETWEEN_PX, self.height() - 16)
 
     def values_top(self) -> float:
-        """Where the figures begin; without room for both, the curves stay."""
+        """Return the y at which the values begin; a low chart has curves only."""
         return float(self.height()) - 8 - len(self._visible_kinds()) * ROW_PX * self._theme.text_scale
 
     def _visible_kinds(self) -> tuple[AngleKind, ...]:
         return ANGLE_KINDS if self.height() >= MIN_HEIGHT_WITH_VALUES_PX * self._theme.text_scale else ()
 
     def panels(self, finger: int) -> tuple[Panel, Panel]:
-        """Bending and spreading of a finger; time ends at now."""
+        """Return the panels of flexion and of spreading of a finger."""
         scale, column = self._theme.text_scale, self.column(finger)
         top = TOP_PX * scale
         room, between = self.values_top() - 12 - top, 22 * scale
@@ -139,7 +138,7 @@ class FingerCurves(Chart):
         return QRectF(column.left(), self.values_top() + ANGLE_KINDS.index(angle.kind) * height, column.width(), height)
 
     def select_angle(self, position: QPointF) -> None:
-        """A click: on a number that figure, elsewhere on a finger the same angle of it."""
+        """Choose the clicked value, or the same angle of the clicked finger."""
         for figure in FINGER_ANGLES:
             if figure.kind in self._visible_kinds() and self.cell(figure).contains(position):
                 self.angle_chosen.emit(figure)
@@ -168,7 +167,7 @@ class FingerCurves(Chart):
         self.draw()
 
     def draw(self) -> None:
-        """What moves has changed; what all curves cost in Python is paid once."""
+        """Redraw the curves of all panels in one pass."""
         if not self.plots or not self.isVisible():
             return
         block = self._history.angle_block(speeds=self._speeds)
@@ -181,7 +180,6 @@ class FingerCurves(Chart):
             curves.show_drawn(lambda _, number=number: (drawing, number))
 
     def _paint_values(self, painter: QPainter) -> None:
-        """The numbers below the curves; they change ten times a second at most."""
         scale = self._theme.text_scale
         number, words = _Face.from_font(font(16 * scale, SEMIBOLD)), _Face.from_font(font(12 * scale, MEDIUM))
         shown_rows = self._visible_kinds()
@@ -221,7 +219,7 @@ class FingerCurves(Chart):
             paint_state(painter, "warn", box, theme.color("warn"), theme.color("surface"))
 
     def _paint_line(self, painter: QPainter, angle: FingerAngle, cell: QRectF, *, predicted: bool) -> None:
-        """The key to the curve: its colour, solid or dashed on hatching."""
+        """Paint the legend of a curve: its colour, solid or dashed on hatching."""
         pen = QPen(self._theme.color(angle.token), 3)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         if predicted:
@@ -269,7 +267,7 @@ class FingerCurves(Chart):
         self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str,
         room_px: float = math.inf,
     ) -> None:  # fmt: skip
-        """Smaller where a language has a long word for it, down to what can be read."""
+        """Draw text, smaller where a language needs a longer word."""
         wide_px = QFontMetricsF(font(size * self._theme.text_scale, weight)).horizontalAdvance(text)
         shown = max(MIN_TEXT_PX, size * min(1.0, room_px / max(wide_px, 1.0)))
         face = font(shown * self._theme.text_scale, weight)
@@ -278,7 +276,7 @@ class FingerCurves(Chart):
 
 @dataclass(frozen=True, slots=True)
 class _Face:
-    """A font and what it measures, made once for all the numbers."""
+    """Font with its metrics, made once for all values."""
 
     font: QFont
     metrics: QFontMetricsF
@@ -289,7 +287,7 @@ class _Face:
 
 
 def angle_suffix(angle: FingerAngle, value_deg: float) -> str:
-    """What the row's name does not say: that the thumb's is its lift, and to which side a finger is spread."""
+    """Return what the row's name does not say: palmar abduction of the thumb, or the side of spreading."""
     if angle.is_palmar_abduction:
         return tr("lift")
     return spread_side(value_deg, angle.finger) if angle.kind == "spread" else ""

@@ -1,4 +1,4 @@
-"""The last seconds of what was tracked, wrist and fingers, as arrays ready to draw; how well each disc was seen."""
+"""Last seconds of tracked frames, wrist and fingers, as arrays ready to draw."""
 
 from __future__ import annotations
 
@@ -25,20 +25,19 @@ from carpus.ui.words.finger_angle_estimates import (
 from carpus.ui.words.finger_angles import FINGER_ANGLES
 
 VISIBLE_S = 10.0
+# A little more than is shown, so that lines leave the chart at its edge.
 BUFFER_S = 11.0
-"""A little more than is shown, so that lines run out of the picture instead of ending in it."""
 MarkerVisibility = Literal["seen", "partly", "hidden"]
+# Marker visibility is averaged over this time: occluded after 0.3 s, visible again as fast.
 VISIBILITY_WINDOW_S = 0.4
-"""How well a disc is seen is judged over this long: hidden after 0.3 s, and seen again as soon."""
 MIN_VISIBLE_FRACTION, MIN_PARTLY_VISIBLE_FRACTION = 0.75, 0.25
+# Small panels draw ten points a second, about two pixels each.
 POINT_INTERVAL_S = 0.1
-"""Small panels draw every third frame of thirty a second: ten points, two pixels each on a large screen. Of fewer
-frames they draw more, or the points would lie further apart than what is joined."""
+# The forearm's rest position is the median over this time.
 HOME_S = 0.5
-"""The forearm's place is the median over this long."""
 FIT_INTERVAL_S = 1.0
+# The wrist's rotation centre is fitted once a second to at most this many poses, spread over all frames.
 FIT_POSES = 600
-"""Where the wrist turns is fitted once a second to this many of its poses, spread over all that was seen."""
 _TIME, _ANGLES, _SDS, _STATUS, _POSITION, _SPEEDS, _AXES = (
     0,
     slice(1, 4),
@@ -54,7 +53,17 @@ _COLUMNS = 22
 
 @dataclass(frozen=True, slots=True)
 class AngleBlock:
-    """Samples of all figures: ``time_s`` (n,) from ``start_s`` on, ``value_deg``, ``sd_deg``, ``predicted`` (n, F)."""
+    """Samples of all finger angles.
+
+    Parameters
+    ----------
+    time_s
+            Times (n,), counted from ``start_s``.
+    value_deg, sd_deg
+            Angles and standard deviations (n, F).
+    predicted
+            True where an angle was not measured (n, F).
+    """
 
     time_s: FloatArray
     value_deg: FloatArray
@@ -71,10 +80,10 @@ class AngleBlock:
 
 
 class History:
-    """Frames in, arrays of the last ten seconds out: degrees, millimetres, seconds of the recording.
+    """Buffer of tracked frames, returned as arrays over the last ten seconds.
 
-    Figures of the fingers are numbered as in :data:`ui.words.finger_angles.FINGER_ANGLES`; without discs on
-    them all are unknown.
+    Degrees, millimetres, and seconds of the recording. Finger angles are indexed as in
+    :data:`ui.words.finger_angles.FINGER_ANGLES`; without finger markers all are NaN.
     """
 
     def __init__(self, protocol: MarkerProtocol) -> None:
@@ -83,7 +92,7 @@ class History:
     def clear(
         self, protocol: MarkerProtocol, exercise: Exercise | None = None, start_angles_rad: FloatArray | None = None
     ) -> None:
-        """Begin again; the wrist's angles are read as the exercise has them, from where the hand started."""
+        """Start again for a protocol, an exercise and the start position of the wrist (3,) in rad."""
         self._protocol, self._exercise = protocol, exercise or get_exercise("")
         self._start_rad = np.zeros(3) if start_angles_rad is None else start_angles_rad
         self._rows = np.empty((0, _COLUMNS))
@@ -99,11 +108,11 @@ class History:
         self._waited_s = 0.0
 
     def add_waiting_time(self, seconds: float) -> None:
-        """Time goes on without frames: what is missing grows at the right."""
+        """Advance the time axis while no frames arrive."""
         self._waited_s += seconds
 
     def append(self, frames: Sequence[TrackedFrame]) -> None:
-        """Add frames in order; what is older than needed goes."""
+        """Add new frames in order and drop those older than the buffer."""
         fresh = [frame for frame in frames if frame.index > self.last_index]
         if not fresh:
             return
@@ -136,7 +145,7 @@ class History:
             self.set_home()
 
     def set_home(self) -> None:
-        """Take the wrist's present place as the forearm's place at rest."""
+        """Take the wrist's present position as the forearm's rest position."""
         recent = self._rows[self._rows[:, _TIME] >= self.end_s - HOME_S, _POSITION] if len(self._rows) else self._rows
         known = recent[np.isfinite(recent).all(axis=1)] if len(recent) else recent
         if len(known):
@@ -153,7 +162,7 @@ class History:
 
     @property
     def end_s(self) -> float:
-        """The right end of the curves: time of the newest frame, NaN before the first."""
+        """Time at the right end of the curves; NaN before the first frame."""
         return float(self._rows[-1, _TIME]) + self._waited_s if len(self._rows) else math.nan
 
     @property
@@ -162,17 +171,17 @@ class History:
 
     @property
     def angles_deg(self) -> FloatArray:
-        """Newest deviation, flexion, pro/supination (3,)."""
+        """Newest deviation, flexion and pronation-supination (3,)."""
         return self._rows[-1, _ANGLES] if len(self._rows) else np.full(3, math.nan)
 
     @property
     def sds_deg(self) -> FloatArray:
-        """Their standard deviations (3,)."""
+        """Standard deviations of the newest angles (3,)."""
         return self._rows[-1, _SDS] if len(self._rows) else np.full(3, math.nan)
 
     @property
     def status(self) -> TrackStatus:
-        """Of the newest frame; lost before the first."""
+        """Track status of the newest frame; lost before the first."""
         return TrackStatus(int(self._rows[-1, _STATUS])) if len(self._rows) else TrackStatus.LOST
 
     @property
@@ -187,13 +196,13 @@ class History:
         )
 
     def speed_series(self, column: int) -> Series:
-        """Linear (0) or angular (1) speed; the filter gives no deviation for them."""
+        """Return linear (0) or angular (1) speed over time, without standard deviation."""
         rows = self._rows
         return Series(rows[:, _TIME], rows[:, 11 + column], None, rows[:, _STATUS] == TrackStatus.PREDICTED)
 
     # --- fingers ------------------------------------------------------------------------------------------
     def angle_block(self, *, speeds: bool = False) -> AngleBlock:
-        """The curves of all figures over the shown time up to now; speeds in degrees/s without sign."""
+        """Return all finger angles over the visible time, or their absolute speeds in degrees/s."""
         rows, hand, now_s = self._rows, self._fingers, self.end_s
         if not self.has_fingers:
             none = np.empty((0, len(FINGER_ANGLES)))
@@ -210,7 +219,7 @@ class History:
         )
 
     def angle_value(self, index: int) -> tuple[float, float, bool]:
-        """Newest value, its standard deviation, and whether its discs have been seen of late, as :meth:`seen` says."""
+        """Return the newest angle, its standard deviation, and whether its markers have been visible recently."""
         hand = self._fingers
         if not len(self._rows) or not self.has_fingers:
             return math.nan, math.nan, False
@@ -222,16 +231,16 @@ class History:
         return float(self._fingers.speed_deg_s[-1, index]) if len(self._rows) and self.has_fingers else math.nan
 
     def is_inferred(self, index: int) -> bool:
-        """Whether the figure only follows another joint."""
+        """Return whether the angle is computed from another joint."""
         return bool(self._weights.is_inferred[index])
 
     @property
     def has_inferred_angles(self) -> bool:
-        """Whether the end joints only follow the middle joints."""
+        """Whether the DIP joints are computed from the PIP joints."""
         return bool(self._weights.is_inferred.any())
 
     def marker_visibility(self) -> dict[str, MarkerVisibility]:
-        """How well each disc has been seen of late: light, map, cells and the large number all go by it."""
+        """Return how visible each marker has been recently."""
         if not len(self._rows) or not self.has_fingers:
             return dict.fromkeys(self._protocol.markers, "hidden")
         return {
@@ -245,18 +254,17 @@ class History:
 
     # --- place --------------------------------------------------------------------------------------------
     def path_mm(self) -> FloatArray:
-        """Places of the wrist from its home over the shown time (n, 3), gaps as NaN."""
+        """Return wrist positions (n, 3) from the rest position over the visible time, NaN in gaps."""
         rows = self._rows[self._rows[:, _TIME] >= self.end_s - VISIBLE_S] if len(self._rows) else self._rows
         return np.asarray(rows[:, _POSITION] - self._home_mm)
 
     def axes(self) -> FloatArray:
-        """Axes of W2 in W0 as columns over the shown time (n, 3, 3)."""
+        """Return the axes of W2 in W0 as columns (n, 3, 3) over the visible time."""
         rows = self._rows[self._rows[:, _TIME] >= self.end_s - VISIBLE_S] if len(self._rows) else self._rows
         return rows[:, _AXES].reshape(-1, 3, 3)
 
     def _collect_poses(self, rows: FloatArray) -> None:
-        """Poses for the fit, thinned out by two whenever they become too many: a long set costs no more than a short
-        one, and its beginning stays in it."""
+        """Collect poses for the fit; drop every second one when they become too many."""
         for row in rows:
             if np.isfinite(row[_POSITION]).all() and int(row[_STATUS]) == TrackStatus.TRACKED:
                 if self._pose_count % self._pose_stride == 0:
@@ -272,19 +280,21 @@ class History:
             self._centre_mm = 1000.0 * found.centre_w2_m
 
     def home_centre_mm(self) -> FloatArray:
-        """Where the wrist turned about at home, (3,) from the home of its disc."""
+        """Return the rotation centre at rest (3,), from the rest position of the WRIST marker."""
         return np.asarray(self._home_rotation @ self._centre_mm)
 
     def centre_mm(self) -> FloatArray:
-        """Where the wrist turns about now, (3,) from the home of its disc; NaN where that is not known."""
+        """Return the present rotation centre (3,), from the rest position of the WRIST marker; NaN if unknown."""
         if not len(self._rows):
             return np.full(3, math.nan)
         row = self._rows[-1]
         return np.asarray(row[_POSITION] - self._home_mm + row[_AXES].reshape(3, 3) @ self._centre_mm)
 
     def forearm_offset_mm(self) -> float:
-        """How far the forearm is from its home now: the point that the wrist turns about, not the disc above it, which
-        goes round that point with every bend."""
+        """Return how far the forearm is from its rest position.
+
+        Measured at the wrist's rotation centre, because the marker above it moves with every flexion.
+        """
         return float(np.linalg.norm(self.centre_mm() - self.home_centre_mm()))
 
     def has_forearm_moved(self) -> bool:
@@ -294,7 +304,7 @@ class History:
 
 @dataclass(frozen=True, slots=True)
 class _FingerSamples:
-    """Figures (n, F), discs seen (n, M); F is 0 where there are no fingers."""
+    """Finger angles (n, F) and marker visibility (n, M); F is 0 without finger markers."""
 
     value_deg: FloatArray
     sd_deg: FloatArray

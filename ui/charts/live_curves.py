@@ -1,4 +1,4 @@
-"""Ten running seconds of the three angles, or of the two speeds, on fixed scales."""
+"""Live chart of the three wrist angles, or of both speeds, over ten seconds."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from carpus.ui.kit.theme import CURVE_TOKENS, Theme
 from carpus.ui.words import terms
 
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 132, 112, 24, 28, 30
+# Room for the dot of the newest value, which lies half outside the panel.
 DOT_PX = 7
-"""Room for the newest value, which stands half outside the panel."""
 SPEED_TOP_MM_S, SPEED_TOP_DEG_S = 400.0, 400.0
+# Within this of zero the direction's name stays, so that it does not flicker.
 ZERO_BAND_DEG = 0.5
-"""Within this of zero the word for the direction stays as it was, so that it does not flutter."""
 
 
 class LiveCurves(Chart):
-    """Shows the history it is given, the newest value at 0 s on the right. Nothing here moves by mouse."""
+    """Live wrist curves from a :class:`History`, the newest value at the right; not moved by the mouse."""
 
     default_px, min_px = (696, 396), (420, 170)  # the number above it never gives way
 
@@ -48,20 +48,20 @@ class LiveCurves(Chart):
         self.setAccessibleName(self.tr("Curves of the last ten seconds"))
 
     def set_exercise(self, exercise: Exercise, target_positive_deg: float, target_negative_deg: float) -> None:
-        """Which angle is trained, its targets, and what should stay within limits."""
+        """Set the trained angle, its targets and the limits of the others."""
         self._exercise = exercise
         self._targets_deg = (target_positive_deg, target_negative_deg)
         self.refresh()
 
     def show_speeds(self, on: bool) -> None:
-        """Linear and angular speed instead of the angles."""
+        """Show linear and angular speed, or the angles."""
         if on != self._speeds:
             self._speeds = on
             self.update_values()
             self.refresh()
 
     def show_single(self, on: bool) -> None:
-        """Only the trained angle, where large text leaves no room for three."""
+        """Show the trained angle alone, for large text."""
         if on != self._single:
             self._single = on
             self.refresh()
@@ -71,7 +71,7 @@ class LiveCurves(Chart):
         return self._speeds
 
     def update_values(self) -> None:
-        """Take the figures at the right anew; called at most ten times a second."""
+        """Refresh the values at the right; at most ten times a second."""
         if self._speeds:
             linear, angular = self._history.speeds if not self._history.is_waiting else (math.nan, math.nan)
             words = (self.tr("Turning"), numbers.format_speed(angular), ""), (self.tr("Moving"), _mm_s(linear), "")
@@ -98,7 +98,7 @@ class LiveCurves(Chart):
 
     # --- places -------------------------------------------------------------------------------------------
     def panels(self) -> list[tuple[Panel, int]]:
-        """The panels with the column each shows; the trained angle is twice as high and first. Time ends at now."""
+        """Return the panels with the column of each; the trained angle is first and twice as high."""
         scale = self._theme.text_scale
         left, right = LEFT_PX * scale, RIGHT_PX * scale
         width = self.width() - left - right
@@ -161,7 +161,7 @@ class LiveCurves(Chart):
         self.draw()
 
     def draw(self) -> None:
-        """What moves has changed."""
+        """Redraw the curves."""
         history = self._history
         if not self.plots or not self.isVisible():
             return
@@ -170,16 +170,15 @@ class LiveCurves(Chart):
                 history.end_s
             )
             token = "curve_c" if self._speeds else CURVE_TOKENS[column]
-            curves.show([Curve(series, token)])
+            curves.set_curves([Curve(series, token)])
             panel = own.panel
             is_late = history.is_waiting and len(series.value) > 0
             if is_late or hatching.stretches:
                 low, high = panel.scale.low, panel.scale.high
-                hatching.show([(float(series.time_s[-1]), 0.0, low, high)] if is_late else ())
+                hatching.set_stretches([(float(series.time_s[-1]), 0.0, low, high)] if is_late else ())
         self._dots.update()
 
     def _paint_dots(self, painter: QPainter) -> None:
-        """The newest value of each panel."""
         history = self._history
         for own, (_, _, column) in zip(self.plots, self._curves, strict=True):
             value = float(history.speeds[column] if self._speeds else history.angles_deg[column])

@@ -1,4 +1,4 @@
-"""The course of one measure taken by hand: hollow squares, beside Carpus's own dots where it measures the same."""
+"""Manual measurements over time: hollow squares beside the dots of Carpus's own measurements."""
 
 from __future__ import annotations
 
@@ -25,8 +25,7 @@ DAY_S = 86_400.0
 
 
 def day_timestamp(day: date, sessions: Iterable[datetime] = ()) -> float:
-    """Where a value known only by its day lies on an axis of time: at that day's session, whose time is known, else in
-    the middle of the day."""
+    """Return where a day lies on a time axis: at that day's session if there is one, else at noon."""
     same = [when for when in sessions if when.date() == day]
     return (same[0] if same else datetime.combine(day, time(12))).timestamp()
 
@@ -34,10 +33,15 @@ def day_timestamp(day: date, sessions: Iterable[datetime] = ()) -> float:
 def add_manual_values(
     plot: Plot, values: Sequence[ManualValue], sessions: Sequence[datetime] = (), *, is_joined: bool = False
 ) -> list[Any]:
-    """Values by hand of one way: hollow squares, diamonds where it was moved by somebody else; never joined with ours.
+    """Add manual values of one measure and mode to a plot: squares, or diamonds for passive ones.
 
-    ``is_joined``: a thin line between them, where nothing else is in the panel; ``sessions``: when ours were. What is
-    beyond the axis of time is an arrow at its end.
+    ``sessions`` are the times of the recorded sessions. ``is_joined`` joins the values by a thin line, where nothing
+    else is in the panel.
+
+    Returns
+    -------
+    list
+            The items added; a value beyond the time axis is an arrow at its end.
     """
     panel, chart, start, end = plot.panel, plot.chart, plot.local_panel.start_s, plot.local_panel.end_s
     times = [day_timestamp(one.day, sessions) for one in values]
@@ -61,7 +65,7 @@ def add_manual_values(
 
 
 def manual_value_scale(measure: ManualMeasure, values: Sequence[float]) -> Scale:
-    """From zero, or below it where something is, to the next round number above all there is."""
+    """Return a scale from zero, or the lowest value, to the next round number above all values."""
     top = max([*values, 0.5 * measure.usual_range[1] if measure.kind == "score" else 0.0, 1e-6])
     steps = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)
     step = next((one for one in steps if top / one <= 4.0), 500.0)
@@ -72,7 +76,7 @@ def manual_value_scale(measure: ManualMeasure, values: Sequence[float]) -> Scale
 
 
 class ManualValueChart(Chart):
-    """Title, axis, squares, dots and what they mean; nothing before it is shown a measure."""
+    """Chart of one manual measure; empty until :meth:`show_values`."""
 
     default_px, min_px = (400, 250), (260, 250)
     is_card = False
@@ -92,8 +96,7 @@ class ManualValueChart(Chart):
     def show_values(
         self, measure: ManualMeasure, values: Sequence[ManualValue], carpus_values: Sequence[tuple[datetime, float]]
     ) -> None:
-        """``values`` as entered, each way for itself; ``carpus_values`` what Carpus measured of the same, by
-        session."""
+        """Show manual values of all modes, and ``carpus_values`` (time, value) of the same quantity."""
         self.measure, self._values, self._carpus_values = measure, values, carpus_values
         self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
         self.refresh()

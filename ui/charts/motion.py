@@ -1,4 +1,4 @@
-"""Where the wrist was, how fast it went and turned, and its ZYZ angles over a session, as the papers draw them."""
+"""Position, velocities and ZYZ angles of the wrist over a session, as in the papers."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr
 
 MotionKind = Literal["place", "zyz"]
+# Possible ends of an axis: the smallest that holds the whole session, so that it does not change.
 AXIS_LIMITS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0)
-"""Ends of an axis: the smallest that holds the whole session, so that it does not move while one looks."""
 ZYZ_SUM = "α+γ"
 ZYZ_NAMES = ("α", "β", "γ")
 _UNITS = ("mm", "mm/s", "°/s")
@@ -31,24 +31,23 @@ _FILE_UNITS = ("mm", "mm_s", "deg_s")
 
 
 def panel_words() -> tuple[str, str, str]:
-    """What the panels of places and speeds are called."""
+    """Return the names of the position and velocity panels."""
     return tr("Place"), tr("Speed"), tr("Turning")
 
 
 @dataclass(frozen=True, slots=True)
 class MotionPlot(SessionPlot):
-    """Instead of the angles: ``place`` over linear over angular velocity, each along three axes; or ``zyz``."""
+    """Position, linear and angular velocity along three axes (``place``), or the ZYZ angles (``zyz``)."""
 
     motion: MotionCurves | None = None
     kind: MotionKind = "place"
 
     @property
     def has_readings(self) -> bool:
-        """Several numbers beside each panel, one under the other."""
         return True
 
     def quantity(self, key: int) -> FloatArray:
-        """(N, 3) of a panel of places and speeds."""
+        """Return position, linear or angular velocity (N, 3)."""
         assert self.motion is not None
         return (self.motion.position_mm, self.motion.velocity_mm_s, self.motion.angular_velocity_deg_s)[key]
 
@@ -56,7 +55,7 @@ class MotionPlot(SessionPlot):
         return [0, 1, 2]
 
     def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
-        """Three panels of the same height; of large text the speed alone, or beta."""
+        """Return three panels of the same height, or with ``single`` the speed or beta alone."""
         keys = [1] if single else self.panel_order()
         height = (box.height() - between * (len(keys) - 1)) / len(keys)
         out = []
@@ -158,7 +157,7 @@ def _zyz_scale(key: int) -> Scale:
 
 
 def zyz_words(plots: Sequence[MotionCurves]) -> str:
-    """How much of the time ZYZ is known, and what is known all the time."""
+    """Say for how much of the time the ZYZ angles are known."""
     known = [np.isfinite(curves.zyz_deg[:, 0]) for curves in plots]
     every = np.concatenate(known) if known else np.zeros(0, dtype=bool)
     share = f"{format_rounded(100.0 * float(every.mean()))}{numbers.NARROW_GAP}%" if len(every) else numbers.UNKNOWN

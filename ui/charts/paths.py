@@ -1,4 +1,4 @@
-"""Ways through the room in the three planes of the papers: of the wrist with the hand's axes, and of finger joints."""
+"""Paths in the three planes of the papers: of the wrist with the hand's axes, and of finger joints."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ from carpus.ui.words.finger_angles import FINGERS
 from carpus.ui.words.marker_words import finger_name
 
 EDGE_PX, HEAD_PX, BETWEEN_PX = 20, 34, 14
+# Side of the live squares, for exercises with a still forearm and for all others.
 STILL_SPAN_MM, FREE_SPAN_MM = 60.0, 600.0
-"""Side of the squares while it is measured: for exercises with a still forearm, and for all others."""
 LIVE_AXIS_FRACTION = 0.22
 BAR_LENGTHS_MM = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
+# The view is never narrower, also of a still hand.
 MIN_SPAN_MM = 40.0
-"""A hand that lies still is not looked at more closely."""
 MAX_BAR_FRACTION = 0.3
+# Minimum height of a panel with a title below it, in lines of text.
 MIN_LINES_WITH_TITLE = 8.0
-"""Height of a panel, in lines of its words, from which it has its name under it."""
 VIEW_MARGIN = 1.3
+# So many times the hand's axes are drawn along a path, evenly in time.
 AXES_COUNT = 9
-"""The hand's axes are drawn so often along the whole way, evenly in time."""
 AXIS_FRACTION, CURRENT_AXIS_FRACTION = 0.075, 0.16
 RECENT_S = 1.0
 _FINGER_JOINTS = ("MCP", "PIP", "DIP", "TIP")
@@ -49,18 +49,17 @@ _THUMB_JOINTS = ("CMC", "MCP", "IP", "TIP")
 _JOINT_TOKENS = ("curve_a", "curve_b", "curve_c", "accent")
 UP = (0, 2, 2)
 ACROSS = (1, 0, 1)
+# Seen from above and from the fingers, Y of W0 points to the left on both hands.
 ACROSS_SIGN = (-1.0, 1.0, -1.0)
-"""From above and from the fingers Y of W0 points to the left of the picture, on both hands."""
+# Each axis has the colour of its angle: X pronation-supination, Y flexion, Z deviation.
 AXIS_TOKENS = ("curve_c", "curve_a", "curve_b")
-"""X turns pro/supination, Y flexion, Z deviation: each axis has the colour of its angle."""
 AXIS_LETTERS = ("X", "Y", "Z")
 PLANE_LETTERS = ("XY", "ZX", "ZY")
 
 
 @dataclass(frozen=True, slots=True)
 class PathLine:
-    """One line: ``position_mm`` (N, 3) in W0, its colour, what it is called at its end, and where it was not
-    ``is_visible``."""
+    """One path: positions (N, 3) in W0, colour, name, and where its marker was visible (N,)."""
 
     position_mm: FloatArray
     token: str
@@ -70,8 +69,10 @@ class PathLine:
 
 @dataclass(frozen=True, slots=True)
 class PathPlot:
-    """All ways that are drawn together; ``axes`` (N, 3, 3) of the hand along the first one, None for none; ``low_mm``
-    and ``high_mm`` (3,) what they need in W0."""
+    """Paths that are drawn together, with the hand's axes (N, 3, 3) along the first one.
+
+    ``low_mm`` and ``high_mm`` (3,) are the bounds in W0.
+    """
 
     time_s: FloatArray
     paths: Sequence[PathLine]
@@ -80,34 +81,33 @@ class PathPlot:
     low_mm: FloatArray
     high_mm: FloatArray
     margin: float = VIEW_MARGIN
+    # Time before the present position that is drawn in full strength.
     recent_s: float = RECENT_S
-    """What is drawn strongly before the present place."""
+    # Length of the hand's axes at the present position, as a share of the panel's height.
     axis_fraction: float = CURRENT_AXIS_FRACTION
-    """Length of the hand's axes at the present place, of the panel's height."""
+    # False for the live view, which has no axes along the path.
     is_whole: bool = True
-    """All of a session, with the hand's axes along it."""
 
     def per_mm(self, box: QRectF) -> float:
-        """Painter units for a millimetre in a panel of this size, the same in all three planes and in both
-        directions."""
+        """Return painter units per millimetre, the same in all three planes."""
         needs = np.maximum(self.margin * (self.high_mm - self.low_mm), MIN_SPAN_MM)
         fits = [(box.width() / needs[ACROSS[plane]], box.height() / needs[UP[plane]]) for plane in range(3)]
         return float(min(min(fit) for fit in fits))
 
     def bar_mm(self, box: QRectF) -> float:
-        """Length of the scale bar: the longest round one that takes up a third of a panel at most."""
+        """Return the length of the scale bar: the longest round one within a third of the panel."""
         most = MAX_BAR_FRACTION * box.width() / self.per_mm(box)
         return max((length for length in BAR_LENGTHS_MM if length <= most), default=BAR_LENGTHS_MM[0])
 
 
 def wrist_path(curves: MotionCurves) -> PathPlot:
-    """The WRIST disc's way with the hand's axes (wrist paper, figures 3 and 5)."""
+    """Return the path of the WRIST marker with the hand's axes (wrist paper, figures 3 and 5)."""
     way = PathLine(curves.position_mm, "accent", "", ~curves.is_predicted)
     return _plot(curves, [way], curves.axes)
 
 
 def finger_paths(curves: MotionCurves, finger: int) -> PathPlot:
-    """The ways of a finger's joints, or of finger 0 of all five tips (hand paper, figures 2 and 3)."""
+    """Return the paths of a finger's joints, or for finger 0 of all five tips (hand paper, figures 2 and 3)."""
     if finger:
         kinds = _THUMB_JOINTS if finger == 1 else _FINGER_JOINTS
         named = [(f"{kind}{finger}", token, kind) for kind, token in zip(kinds, _JOINT_TOKENS, strict=True)]
@@ -129,7 +129,7 @@ def _plot(curves: MotionCurves, paths: Sequence[PathLine], axes: FloatArray | No
 
 
 def plane_names(side: Side) -> tuple[tuple[str, str, str, str], ...]:
-    """Up, across, title and letters of the three planes."""
+    """Return upward label, horizontal label, title and letters of each plane."""
     thumb = tr("thumb ←") if side == "right" else tr("thumb →")
     return (
         (tr("fingers ↑"), thumb, tr("From above"), PLANE_LETTERS[0]),
@@ -139,8 +139,7 @@ def plane_names(side: Side) -> tuple[tuple[str, str, str, str], ...]:
 
 
 def plane_panels(style: PlotStyle, box: QRectF, gap: float) -> list[Panel]:
-    """Three panels side by side in a box, none higher than wide, with a line of words over each and one under it
-    where there is room."""
+    """Return three square panels side by side, with a line of text above and, if there is room, below."""
     width = max(math.floor((box.width() - 2 * gap) / 3), 1.0)
     line = _line_height(style)
     below = line if box.height() >= MIN_LINES_WITH_TITLE * line else 0.0
@@ -154,8 +153,7 @@ def plane_panels(style: PlotStyle, box: QRectF, gap: float) -> list[Panel]:
 
 
 class PlaneItem(PixelItem):
-    """Ways in one plane up to ``until_s``, NaN for the whole way without an end, with the hand's axes as three lines:
-    their letters and the names of the ways find room that pyqtgraph does not look for."""
+    """Paths in one plane up to ``until_s``, or whole if it is NaN, with the hand's axes."""
 
     def __init__(self, plot: Plot, plane: int) -> None:
         super().__init__(plot, is_cached=False)
@@ -200,7 +198,6 @@ class PlaneItem(PixelItem):
         return int(np.abs(self.plot_data.time_s - self.until_s).argmin())
 
     def _project_positions(self, panel: Panel, place_mm: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Where they are in the panel."""
         assert self.plot_data is not None
         away = place_mm - 0.5 * (self.plot_data.low_mm + self.plot_data.high_mm)
         scale = self.plot_data.per_mm(panel.box)
@@ -209,7 +206,7 @@ class PlaneItem(PixelItem):
         return center.x() + sign * away[:, across] * scale, center.y() - away[:, up] * scale
 
     def _paint_path(self, painter: QPainter, style: PlotStyle, path: PathLine, x: FloatArray, y: FloatArray) -> None:
-        """Solid where it was seen, dashed where it was not; of a way with an end what lies ahead is faint."""
+        """Paint a path: solid if visible, dashed if occluded, faint beyond ``until_s``."""
         assert self.plot_data is not None
         painter.setBrush(Qt.BrushStyle.NoBrush)
         known = np.isfinite(x) & np.isfinite(y)
@@ -237,7 +234,7 @@ class PlaneItem(PixelItem):
         self, painter: QPainter, style: PlotStyle, panel: Panel, path: PathLine,
         places: tuple[FloatArray, FloatArray], occupied: list[QRectF],
     ) -> None:  # fmt: skip
-        """At the outermost point of the way that is free; none where there is no room."""
+        """Write the name at the outermost free point of the path; omit it without room."""
         x, y = places
         known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
         if not path.name or not len(known):
@@ -304,7 +301,7 @@ class PlaneItem(PixelItem):
 
 
 class RotationCentreItem(PixelItem):
-    """Where the point that the wrist turns about must stay, a ring, and where it is, a cross."""
+    """Ring in which the wrist's rotation centre must stay, and a cross where it is."""
 
     def __init__(self, plot: Plot, plane: int, words: str) -> None:
         super().__init__(plot, is_cached=False)
@@ -336,12 +333,11 @@ class RotationCentreItem(PixelItem):
 
 
 def _project_point(plane: int, place: FloatArray) -> QPointF:
-    """Of something in W0, as it goes on in the picture."""
     return QPointF(ACROSS_SIGN[plane] * float(place[ACROSS[plane]]), -float(place[UP[plane]]))
 
 
 def has_title(style: PlotStyle, panel: Panel) -> bool:
-    """Whether there is a line of words under a square too."""
+    """Return whether the panel is high enough for a title below it."""
     return panel.box.height() > (MIN_LINES_WITH_TITLE - 2.0) * _line_height(style) - 1.0
 
 
@@ -350,7 +346,7 @@ def _line_height(style: PlotStyle) -> float:
 
 
 class PlanesChart(Chart):
-    """Three squares, each with its frame and a cross through its middle."""
+    """Three squares, each with a frame and a cross through its middle."""
 
     def add_planes(self, panels: Sequence[Panel]) -> list[PlaneItem]:
         out = []
@@ -365,8 +361,7 @@ class PlanesChart(Chart):
 
 
 class PathsChart(PlanesChart):
-    """The card with the ways of a session, of the wrist with the hand's axes or of finger joints, up to the player's
-    time; on paper all of them, without a title."""
+    """Card with the paths of a session up to the player's time; on paper whole and without title."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme)
@@ -416,7 +411,7 @@ class PathsChart(PlanesChart):
             item.show_paths(ways, math.nan if self.is_printing else self._time_s)
 
     def _add_bar(self, item: PlaneItem, plot_data: PathPlot) -> None:
-        """How long so many millimetres are, in the lower left corner."""
+        """Add the scale bar in the lower left corner."""
         plot, look, unit = item.plot, self.plot_style, self.plot_style.unit
         box, line = plot.panel.box, _line_height(look)
         item.occupied.append(QRectF(0.0, box.height() - 1.6 * line, 0.32 * box.width(), 1.6 * line))
@@ -428,8 +423,7 @@ class PathsChart(PlanesChart):
 
 
 class LivePathChart(PlanesChart):
-    """The card with the path of the wrist and its axes over the last seconds, in three squares of fixed size (figures 3
-    and 5 of the wrist paper)."""
+    """Live path of the wrist and its axes in three fixed squares (wrist paper, figures 3 and 5)."""
 
     default_px, min_px = (520, 242), (380, 180)
 
@@ -451,7 +445,7 @@ class LivePathChart(PlanesChart):
         return QRectF(20, 12, self.width() - 40, 24 * self._theme.text_scale)
 
     def panels(self) -> list[Panel]:
-        """The squares of the three planes; both axes in millimetres from the forearm's place at rest."""
+        """Return the squares of the three planes, in millimetres from the forearm's rest position."""
         scale = self._theme.text_scale
         top = self._head().bottom() + 6
         size = min((self.width() - 40 - 2 * 15) / 3, self.height() - top - 46 * scale)
@@ -498,7 +492,7 @@ class LivePathChart(PlanesChart):
         self.draw()
 
     def draw(self) -> None:
-        """What moves has changed."""
+        """Redraw the path."""
         if not self.plots or not self.isVisible():
             return
         history = self._history
@@ -531,7 +525,7 @@ class LivePathChart(PlanesChart):
 
 
 def paint_paths(painter: QPainter, style: PlotStyle, plot: PathPlot, box: QRectF) -> None:
-    """The chart on paper, with its words, in a box."""
+    """Paint the chart into a box on paper."""
     chart = PathsChart(Theme("light"))
     chart.show_plot(plot)
     chart.render_on_paper(painter, style, box)

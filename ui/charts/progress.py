@@ -1,4 +1,4 @@
-"""Range over the sessions: points with error bars, error band about the first, norm band, other hand."""
+"""Range of motion over the sessions: error bars, error band, reference range, other hand and goals."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ from carpus.ui.words.progress import correction_words, exclusion_words, uncertai
 from carpus.ui.words.terms import end_words
 
 STEP_DEG = 30.0
+# The caps of an error bar reach beyond the dot, so that one of 1° still shows.
 DOT_RADIUS, CAP_REACH = 3.5, 7.0
-"""The caps of an error bar reach beyond the dot, so that a spread of one or two degrees still shows."""
 MAX_PANELS = 3
+# Minimum width of a panel whose first and last point carry their values, in em.
 MIN_VALUED_WIDTH_EM = 12.0
-"""Width of a panel, in sizes of its letters, from which its first and last point carry their figures."""
+# Minimum distance between both values in em; below it only the last one is written.
 MIN_VALUE_DISTANCE_EM = 4.0
-"""Between first and last point, in the same, from which both figures have room; else only the last one stands."""
+# Share of the time span left free at both ends.
 PADDING_FRACTION = 1 / 15
-"""Of the time from the first to the last session, left free before and after."""
+# Time span around a single session.
 SINGLE_SESSION_SPAN_S = 86_400.0
-"""What is shown about a session that is the only one."""
 
 
 def panel_keys(progress: Progress) -> list[MeasureKey]:
-    """What is drawn, arc first; of free movement the three arcs; of the whole hand what was chosen and ever seen."""
+    """Return the measures that are drawn: arc and ends of one angle, all arcs, or the chosen finger measures."""
     if not progress.points:
         return []
     if progress.keys:
@@ -61,7 +61,7 @@ def panel_keys(progress: Progress) -> list[MeasureKey]:
 
 
 def axis_top_deg(key: MeasureKey) -> float:
-    """Fixed top of the axis: the same for both ends, whatever was measured."""
+    """Return the fixed top of an axis, the same for both directions."""
     of, movement = key
     angle = wrist_angle_index(of)
     if angle < 0:
@@ -72,7 +72,7 @@ def axis_top_deg(key: MeasureKey) -> float:
 
 
 def panel_scale(progress: Progress, key: MeasureKey) -> Scale:
-    """The fixed axis of a panel, from zero; below it where an end was never reached, by one step of what lacks."""
+    """Return the scale of a panel, from zero or from below it where neutral was not reached."""
     movement, angle = key[1], wrist_angle_index(key[0])
     top_deg = axis_top_deg(key)
     step = STEP_DEG if top_deg <= 90 else 2 * STEP_DEG if top_deg <= 180 else 100.0
@@ -88,9 +88,9 @@ def panel_scale(progress: Progress, key: MeasureKey) -> Scale:
 
 
 def extent_s(progress: Progress) -> tuple[float, float]:
-    """Ends of the time axis, to scale, with room beside the first and the last session.
+    """Return the ends of the time axis.
 
-    Values by hand widen it by at most half the time of the sessions on either side, which keep half of the width.
+    Manual values widen it by at most half the time between first and last session.
     """
     when = [point.results.when for point in progress.points]
     times = sorted(one.timestamp() for one in when)
@@ -112,7 +112,7 @@ def extent_s(progress: Progress) -> tuple[float, float]:
 
 
 def select_manual_values(progress: Progress, key: MeasureKey) -> list[ManualValue]:
-    """What was measured by hand of the same, moved by the patient."""
+    """Return the active manual values of the same measure."""
     return [
         one
         for one in progress.manual_measurements
@@ -123,7 +123,7 @@ def select_manual_values(progress: Progress, key: MeasureKey) -> list[ManualValu
 def place_panels(
     progress: Progress, style: PlotStyle, box: QRectF, key_lines: int, visible_s: tuple[float, float] | None = None
 ) -> list[tuple[Panel, MeasureKey]]:
-    """All panels over one time axis, in one column or, if there are many, in two."""
+    """Place all panels over one time axis, in one column or, if there are many, in two."""
     keys, unit = panel_keys(progress), style.unit
     if not keys:
         return []
@@ -147,13 +147,13 @@ def place_panels(
 
 
 def find_session_measure(progress: Progress, number: int, key: MeasureKey) -> Measure | None:
-    """What a session measured of it; None for nothing."""
+    """Return what session ``number`` measured, or None."""
     row = progress.points[number].results.find(*key)
     return row if row is not None and row.count else None
 
 
 def panel_title(progress: Progress, key: MeasureKey) -> str:
-    """Title of a panel."""
+    """Return the title of a panel."""
     movement, angle = key[1], wrist_angle_index(key[0])
     if angle < 0:
         return find_finger_angle(key[0]).long_name
@@ -163,7 +163,7 @@ def panel_title(progress: Progress, key: MeasureKey) -> str:
 
 
 def add_background(plot: Plot, progress: Progress, key: MeasureKey) -> None:
-    """Add what lies behind the points of a panel: usual, error band, grid, the other hand, goals, and their words."""
+    """Add reference range, error band, grid, other hand and goals behind the points."""
     of, movement = key
     angle = wrist_angle_index(of)
     labels: list[tuple[float, str, str]] = []
@@ -203,7 +203,7 @@ def add_background(plot: Plot, progress: Progress, key: MeasureKey) -> None:
 
 
 def goals_deg(progress: Progress, key: MeasureKey) -> list[float]:
-    """The target that each session had that way, NaN for none; nothing where the newest has none."""
+    """Return the goal of each session, NaN for none; empty if the newest session has none."""
     out = []
     for point in progress.points:
         figures, goal = point.results, math.nan
@@ -217,7 +217,7 @@ def goals_deg(progress: Progress, key: MeasureKey) -> list[float]:
 
 
 def point_token(key: MeasureKey) -> str:
-    """The colour of a panel's points."""
+    """Return the colour of a panel's points."""
     of, movement = key
     angle = wrist_angle_index(of)
     if angle < 0 and not is_total_active_motion(of):
@@ -226,12 +226,12 @@ def point_token(key: MeasureKey) -> str:
 
 
 def half_error_bar(row: Measure) -> float:
-    """Half the error bar of a point: between repetitions, of a single one of the measurement."""
+    """Return the SD between repetitions, or that of the measurement for a single one."""
     return row.sd if math.isfinite(row.sd) else row.measurement_sd
 
 
 def error_bar_top(row: Measure) -> float:
-    """The upper end of its error bar."""
+    """Return the upper end of a point's error bar."""
     sd = half_error_bar(row)
     return row.mean + (sd if math.isfinite(sd) else 0.0)
 
@@ -241,7 +241,7 @@ def _is_spread(joint: str) -> bool:
 
 
 def legend_entries(progress: Progress) -> list[tuple[str, str, str]]:
-    """What the signs mean."""
+    """Return symbol, text and colour of each legend entry."""
     out = [("O", tr("mean, ± sd between repetitions"), "text"), ("o", tr("not compared"), "text2")]
     out += [("t1", tr("at least: hidden in part"), "text2")] if progress.keys else []
     if any(select_manual_values(progress, key) for key in panel_keys(progress)):
@@ -249,15 +249,15 @@ def legend_entries(progress: Progress) -> list[tuple[str, str, str]]:
     return out
 
 
+# Half the width of a point's click target.
 TARGET_RADIUS_PX = 16
-"""Half the width of the target around a point: 32 px."""
 DAY_S = 86_400.0
+# Characters of a line of the hover label.
 MAX_LINE_LENGTH = 60
-"""Letters of a line of what a point says."""
 
 
 class ProgressChart(ZoomChart):
-    """``session_chosen`` carries the session of a point that was clicked, or chosen by key."""
+    """Chart of the sessions; ``session_chosen`` when a point is clicked or chosen by key."""
 
     default_px, min_px = (864, 560), (480, 320)
     min_span = DAY_S
@@ -267,12 +267,12 @@ class ProgressChart(ZoomChart):
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, "progress")
         self._progress = Progress((), (), None)
+        # What is rebuilt whenever another time span is visible.
         self._zoomed_items: list[Any] = []
-        """What goes along with the part of the time that is shown."""
         self._ring: Any = None
         self._hover_label: HoverLabel | None = None
+        # Session number and panel of the point under the mouse or chosen by key.
         self._current: tuple[int, MeasureKey] | None = None
-        """Number of the session and panel of the point under the mouse, or chosen by key."""
         self.setAccessibleName(self.tr("Range over the sessions"))
 
     def show_progress(self, progress: Progress) -> None:
@@ -283,7 +283,7 @@ class ProgressChart(ZoomChart):
 
     @property
     def current_session(self) -> int:
-        """Number of the session whose point is under the mouse, or chosen by key; -1 for none."""
+        """Number of the session under the mouse or chosen by key, -1 for none."""
         return -1 if self._current is None else self._current[0]
 
     def step(self, offset: int) -> None:
@@ -333,7 +333,7 @@ class ProgressChart(ZoomChart):
         )
 
     def visible_points(self, plot: Plot, key: MeasureKey) -> list[tuple[int, QPointF, Measure]]:
-        """Number of the session, where its point is, and its figures, of those that measured it and are shown."""
+        """Return session number, position and measure of each visible point of a panel."""
         out = []
         start, end = self.x_range()
         for number, point in enumerate(self._progress.points):
@@ -392,8 +392,7 @@ class ProgressChart(ZoomChart):
         self.update_range()
 
     def _add_points(self, plot: Plot, key: MeasureKey) -> None:
-        """Mean of each session with its spread; those that do not compare are rings. The first and the last one that
-        compare carry their figures, where these do not cover what is beside them."""
+        """Add means with error bars, rings for sessions that are not compared, and the first and last value."""
         progress, look, unit, panel = self._progress, self.plot_style, self.plot_style.unit, plot.panel
         found = self.visible_points(plot, key)
         for is_fair, token in ((True, point_token(key)), (False, "text2")):
@@ -423,7 +422,7 @@ class ProgressChart(ZoomChart):
         add_manual_values(plot, select_manual_values(progress, key), [point.results.when for point in progress.points])
 
     def _add_value(self, plot: Plot, key: MeasureKey, x: float, row: Measure) -> None:
-        """The figure of a session, over its point, or under it where the line of the other hand goes through it."""
+        """Write a value above its point, or below it where the other hand's line would cross it."""
         unit, panel = self.plot_style.unit, plot.panel
         face = font(self.plot_style.end_label_font.pixelSize() * 1.17, SEMIBOLD, display=False)
         metrics = QFontMetricsF(face)
@@ -476,7 +475,6 @@ class ProgressChart(ZoomChart):
             self._update_highlight()
 
     def _update_highlight(self) -> None:
-        """A ring about the point that is pointed at, in each panel, and what it says."""
         if self._ring is None or self._hover_label is None:
             return
         rings = [at for number, _, at in self.points() if number == self.current_session]
@@ -505,7 +503,7 @@ class ProgressChart(ZoomChart):
 
     # --- for other programs -------------------------------------------------------------------------------
     def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
-        """One row for each session and panel that is shown."""
+        """Return one row for each visible session and panel."""
         head = ["session", "when", "what", "mean_deg", "sd_deg", "repetitions", "compared"]
         start, end = self.x_range()
         rows = []
@@ -525,7 +523,7 @@ class ProgressChart(ZoomChart):
 
 
 def paint_progress_chart(painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress) -> None:
-    """The chart on paper, with its words, in a box."""
+    """Paint the chart into a box on paper."""
     chart = ProgressChart(Theme("light"))
     chart.show_progress(progress)
     chart.render_on_paper(painter, style, box)

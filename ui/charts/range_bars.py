@@ -1,4 +1,4 @@
-"""Bars from one end of a movement to the other: today, last time and the other hand over the reference values."""
+"""Bars from one end of a movement to the other: today, last time and the other hand over reference values."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from carpus.ui.kit.theme import CURVE_TOKENS
 from carpus.ui.kit.translate import tr
 from carpus.ui.words import terms
 
+# Height of a bar with its margin, and of the scale below, in design pixels.
 BAR_PX, FOOT_PX = 20.0, 36.0
-"""A bar with the room about it; degrees and names below, in design pixels."""
 _CENTER = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignHCenter
 _LEFT = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft
 _RIGHT = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight
@@ -30,7 +30,7 @@ _RIGHT = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight
 
 @dataclass(frozen=True, slots=True)
 class RangeBar:
-    """One session's range in an angle."""
+    """Range of one angle in one session."""
 
     name: str
     results: SessionResults
@@ -42,7 +42,7 @@ class RangeBar:
 def range_bars(
     results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None
 ) -> list[RangeBar]:
-    """A bar for each angle of the exercise; where that is one, last time's and the other hand's below it."""
+    """Return a bar for each angle; of a single angle also last time's and the other hand's."""
     if results.exercise.angle is None:
         names = {1: tr("Today bending"), 0: tr("Today side"), 2: tr("Today turning")}
         bars = [RangeBar(name, results, angle, 10.7, CURVE_TOKENS[angle]) for angle, name in names.items()]
@@ -60,7 +60,7 @@ def range_bars(
 def paint_range_bars(
     painter: QPainter, style: PlotStyle, box: QRectF, exercise: Exercise, bars: Sequence[RangeBar]
 ) -> None:
-    """Paint them in a box, from the reference values to the names of both ends."""
+    """Paint the bars over the reference values into a box."""
     px = style.unit
     area = box.adjusted(104 * px, 0.0, -16 * px, -FOOT_PX * px)  # half of “120°” is right of the last line
     end_deg = _end_deg(exercise, bars)
@@ -100,7 +100,6 @@ def paint_range_bars(
 
 
 def _end_deg(exercise: Exercise, bars: Sequence[RangeBar]) -> float:
-    """The end of the axis; a forearm goes beyond 90 degrees of pronation."""
     angles = {bar.angle for bar in bars}
     if PRONOSUPINATION in angles and is_counted_from_thumb_up(exercise):
         return 120.0

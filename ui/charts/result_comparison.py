@@ -1,4 +1,4 @@
-"""Two results of one recording over each other: the old one grey and thin, the new one as always."""
+"""Two result versions of one recording in one chart: the previous one grey and thin."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr
 from carpus.ui.words.finger_angles import find_finger_angle
 
+# Dashes mean predicted samples, in both.
 OLD_TOKEN, OLD_WIDTH_FACTOR = "text2", 0.45
-"""Dashes are of what was predicted, of either."""
 
 
 def _to_old_style(curve: Curve) -> Curve:
-    """Without its band: two over each other would hide what they say."""
+    """Return the curve grey, thin and without band, which would hide the other one."""
     return replace(curve, series=replace(curve.series, sd=None), token=OLD_TOKEN, width_factor=OLD_WIDTH_FACTOR)
 
 
 @dataclass(frozen=True, slots=True)
 class ComparisonPlot(SessionPlot):
-    """The wrist's angles as a session has them, and ``previous`` as it had them before."""
+    """Wrist angles of a session, and its ``previous`` result."""
 
     old: WristCurves | None = None
 
@@ -59,7 +59,6 @@ class ComparisonPlot(SessionPlot):
 
 
 def _value_text(value: Value) -> str:
-    """The panel's scale says which side is which."""
     if not math.isfinite(value.value_deg):
         return numbers.UNKNOWN
     return f"{numbers.format_signed_degrees(value.value_deg)} {numbers.format_sd(value.sd_deg)}"
@@ -67,7 +66,7 @@ def _value_text(value: Value) -> str:
 
 @dataclass(frozen=True, slots=True)
 class HandComparisonPlot(HandPlot):
-    """The joints of one finger as a session has them, and ``previous`` as it had them before."""
+    """Joints of one finger of a session, and their ``previous`` result."""
 
     old: JointCurves | None = None
 
@@ -87,12 +86,12 @@ class HandComparisonPlot(HandPlot):
 
 
 def legend_words() -> tuple[str, str]:
-    """Of the old and of the new result."""
+    """Return the legend of the old and of the new result."""
     return tr("old result"), tr("new result")
 
 
 def find_changed_finger(previous: JointCurves | None, current: JointCurves | None) -> int:
-    """The finger, 1 to 5, one of whose joints differs most between two results; 0 where none does."""
+    """Return the finger (1 to 5) whose joints differ most between two results, 0 if none does."""
     if (
         previous is None
         or current is None

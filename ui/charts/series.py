@@ -1,4 +1,4 @@
-"""A curve with its band: solid where measured, dashed where predicted, open where nothing is known."""
+"""Curves with a band: solid where measured, dashed where predicted, open in gaps."""
 
 from __future__ import annotations
 
@@ -19,27 +19,36 @@ from carpus.ui.charts.axes import Panel, draw_hatching, x_px, y_px
 from carpus.ui.charts.style import PlotStyle
 from carpus.ui.kit.theme import BAND_ALPHA
 
+# Samples further apart than this are not joined.
 MAX_STEP_S = 0.2
-"""Neighbouring samples further apart than this are not joined: a gap stays a gap."""
+# The same for recordings of low frame rate, in frame intervals.
 MAX_STEP_FRAMES = 1.75
-"""Nor are those of a recording of few frames a second, from so many frames apart."""
 
+# A band is drawn on pixels in pieces of so many points.
 BAND_PIECE_POINTS = 256
-"""Points of the pieces in which a band goes onto a picture of pixels."""
+# Length of a dash and of its gap on a level curve, in design pixels.
 DASH_PX = 4.0
-"""Design pixels of a dash, and of what is left open after it, where a curve is level."""
 MAX_HALVINGS = 4
+# A shorter rest of a dash, left by rounding, would show as a blot.
 MIN_DASH_PX = 1e-6
-"""What rounding leaves of a dash at the end of a segment would be a blot as wide as the line."""
 
 _wrapped: Any = shiboken6.wrapInstance
 
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Samples of one quantity: ``time_s``, ``value``, ``sd`` (n,) with NaN where unknown; ``predicted`` bool (n,).
+    """Samples of one quantity over time.
 
-    Samples further apart than ``longest_step_s`` are not joined.
+    Parameters
+    ----------
+    time_s, value, sd
+            Arrays (n,); NaN where unknown. ``sd`` is None for a quantity without one.
+    predicted
+            True where the value was not measured (n,).
+    max_step_s
+            Samples further apart are not joined.
+    start_s
+            Time that ``time_s`` counts from.
     """
 
     time_s: FloatArray
@@ -48,19 +57,17 @@ class Series:
     predicted: np.ndarray
     max_step_s: float = MAX_STEP_S
     start_s: float = 0.0
-    """What times are counted from."""
 
     def shift_time(self, start_s: float) -> Series:
-        """The same with times counted from ``start_s``."""
+        """Return the series with times counted from ``start_s``."""
         return replace(self, time_s=self.time_s - start_s, start_s=start_s)
 
     def select_rows(self, rows: slice | np.ndarray) -> Series:
-        """Some of the samples."""
         sd = None if self.sd is None else self.sd[rows]
         return replace(self, time_s=self.time_s[rows], value=self.value[rows], sd=sd, predicted=self.predicted[rows])
 
     def gaps_s(self) -> list[tuple[float, float]]:
-        """Times without a value, between and inside samples."""
+        """Return start and end of each gap."""
         known = np.flatnonzero(np.isfinite(self.value))
         if len(self.time_s) == 0:
             return []
@@ -69,24 +76,24 @@ class Series:
 
 
 def find_max_step_s(time_s: FloatArray) -> float:
-    """How far apart two frames of a recording (N,) may lie so that nothing is missing between them."""
+    """Return how far apart two frames (N,) may lie without a frame missing between them."""
     return max(MAX_STEP_S, MAX_STEP_FRAMES * float(np.median(np.diff(time_s)))) if len(time_s) > 1 else MAX_STEP_S
 
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """A quantity over time with its band: solid where measured, dashed where predicted, hatched where lost."""
+    """Quantity over time with its band: solid if measured, dashed if predicted, hatched if lost."""
 
     series: Series
     token: str
+    # False leaves gaps open.
     is_hatched: bool = True
-    """Where it is lost; else it stays open there."""
+    # Times the usual line width.
     width_factor: float = 1.0
-    """Of the usual width of a line."""
 
 
 def find_runs(flag: np.ndarray) -> list[tuple[int, int]]:
-    """First and one-past-last index of each stretch of True."""
+    """Return first and past-the-end index of each run of True."""
     wide = np.zeros(len(flag) + 2, dtype=np.bool_)
     wide[1:-1] = flag
     edges = np.flatnonzero(wide[1:] != wide[:-1]).tolist()
@@ -94,10 +101,10 @@ def find_runs(flag: np.ndarray) -> list[tuple[int, int]]:
 
 
 class CurveDrawing:
-    """The curves of some panels in painter units, one after the other: what they cost in Python is paid once for all.
+    """Curves of several panels in painter units, computed in one pass.
 
-    Segment k goes from sample k to the next: ``_joined`` (n - 1,) says which of them there are, ``_ends`` (n - 1, 4)
-    where; ``_compute_dashes`` (m, 4) are the dashes of the segments ``_dash_of`` (m,).
+    Segment k joins samples k and k + 1: ``_joined`` (n - 1,) says which exist, ``_ends`` (n - 1, 4) where;
+    ``_dashes`` (m, 4) are the dashes of the segments ``_dash_of`` (m,).
     """
 
     def __init__(self, style: PlotStyle, placed: Sequence[tuple[Panel, Sequence[Curve]]]) -> None:
@@ -132,8 +139,15 @@ class CurveDrawing:
         self._dash_of = dashed[of]
 
     def paint(self, painter: QPainter, style: PlotStyle, number: int) -> list[QRectF]:
-        """One panel's: gaps, bands, then lines. What is measured beyond the scale stays at its edge with an arrow, and
-        with its number where that covers no other; returns where these numbers stand."""
+        """Paint gaps, bands and lines of one panel.
+
+        A value beyond the scale is an arrow at the edge, with its number where that covers no other.
+
+        Returns
+        -------
+        list
+                Rectangles of the written numbers.
+        """
         curves, panel = self._curves[number], self._panels[number]
         numbers: list[QRectF] = []
         if not curves:
@@ -152,8 +166,7 @@ class CurveDrawing:
         return numbers
 
     def _paint_bands(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
-        """On pixels in pieces, for lines that go to and fro, and without antialiasing, a third: then they fit, and the
-        edge is translucent anyway."""
+        """Paint the bands, on pixels in pieces without antialiasing: a third of the time, and seamless."""
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         longest = BAND_PIECE_POINTS if _is_raster(painter) else len(self._x)
@@ -169,8 +182,7 @@ class CurveDrawing:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
     def _paint_lines(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
-        """A line on pixels piece by piece, as pyqtgraph draws it: to stroke one of many points takes five times as
-        long, of one that goes to and fro in every pixel seventy times."""
+        """Paint the lines, on pixels segment by segment: stroking a long polyline takes 5 to 70 times as long."""
         painter.setBrush(Qt.BrushStyle.NoBrush)
         pen = QPen(Qt.PenStyle.SolidLine)
         pen.setCapStyle(Qt.PenCapStyle.SquareCap)
@@ -200,8 +212,22 @@ def _is_raster(painter: QPainter) -> bool:
 
 
 def _compute_dashes(ends: FloatArray, from_px: FloatArray, dash: float) -> tuple[FloatArray, np.ndarray]:
-    """Every second of the stretches, counted from ``from_px`` (n,), that are ``dash`` wide, or a half, a quarter ... of
-    it where a segment of ``ends`` (n, 4) is steep: both ends of each (m, 4), and the segment (m,) that it is of."""
+    """Compute the dashes of segments.
+
+    Parameters
+    ----------
+    ends
+            Both ends of each segment (n, 4) in px.
+    from_px
+            x from which dashes are counted (n,).
+    dash
+            Length of a dash on a level line; it is halved for steep segments.
+
+    Returns
+    -------
+    tuple
+            Both ends of each dash (m, 4), and the segment of each (m,).
+    """
     x0, y0, x1, y1 = ends.T
     steep = (y1 - y0) / np.maximum(x1 - x0, 1e-9)
     width = dash / 2.0 ** np.clip(np.round(0.5 * np.log2(1.0 + steep**2)), 0, MAX_HALVINGS)
@@ -233,7 +259,7 @@ def _paint_gaps(
 def _paint_out_of_range(
     painter: QPainter, style: PlotStyle, panel: Panel, curve: Curve, numbered: list[QRectF]
 ) -> None:
-    """Each measured excursion past the scale: an arrow at the edge with the extreme value."""
+    """Mark each measured excursion beyond the scale by an arrow with its extreme value."""
     series, color = curve.series, style.color(curve.token)
     low, high = float(np.fmin.reduce(series.value)), float(np.fmax.reduce(series.value))
     if panel.scale.low <= low and high <= panel.scale.high:
@@ -271,15 +297,14 @@ def _paint_out_of_range(
 POINTS_PER_COLUMN = 2
 
 
+# Kept samples lie up to two stretches apart, slightly more where frames are missing.
 MAX_STRETCHES = 3.0
-"""Samples that were kept lie up to two stretches apart, a little more where pictures are missing."""
 
 
 def decimate(series: Series, columns: int) -> Series:
-    """At most two samples of each of ``columns`` equal stretches: its smallest and its largest value.
+    """Keep at most the smallest and the largest sample of each of ``columns`` equal stretches.
 
-    A stretch without a value keeps one sample of it, so that gaps stay, also those of missing pictures; the widest
-    band of a stretch is kept.
+    A stretch without a value keeps one NaN, so that gaps stay; the widest band of a stretch is kept.
     """
     count = len(series.time_s)
     if count <= POINTS_PER_COLUMN * columns:
@@ -316,7 +341,7 @@ def decimate(series: Series, columns: int) -> Series:
 
 
 def slice_time(series: Series, start_s: float, end_s: float) -> Series:
-    """The samples of a stretch of time, with one beyond each end so that the line goes to the edge."""
+    """Return the samples of a time span, with one beyond each end so that lines reach the edge."""
     first = max(int(np.searchsorted(series.time_s, start_s)) - 1, 0)
     last = int(np.searchsorted(series.time_s, end_s, side="right")) + 1
     if first == 0 and last >= len(series.time_s):
@@ -325,7 +350,7 @@ def slice_time(series: Series, start_s: float, end_s: float) -> Series:
 
 
 def _insert_gaps(series: Series) -> Series:
-    """A sample without a value in the middle of each step that is too long to be joined."""
+    """Insert a NaN sample in the middle of each step that is too long to be joined."""
     before = np.flatnonzero(np.diff(series.time_s) > series.max_step_s)
     if not len(before):
         return series

@@ -1,4 +1,4 @@
-"""The curves of a whole session with its repetitions, wrist or fingers: what is drawn on the screen and on the page."""
+"""Curves of a whole session with its repetitions, wrist or fingers, for screen and paper."""
 
 from __future__ import annotations
 
@@ -45,18 +45,20 @@ from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGERS, AngleKind, FingerAngle, format_spread, spread_labels
 from carpus.ui.words.marker_words import finger_name
 
+# Shown before the first and after the last repetition when zoomed to them.
 MARGIN_S = 1.0
-"""Shown before the first and after the last repetition where the rest is left away."""
+# A repetition cannot be made shorter.
 MIN_REPETITION_S = 0.2
-"""Least length a repetition can be cut to."""
 MIN_POINTS = 200
 FLEXION_KINDS: tuple[AngleKind, ...] = ("knuckle", "middle", "end")
 _BEND_LOW_DEG, _BEND_HIGH_DEG, _SPREAD_DEG = -15.0, 115.0, 32.0
 
 
 def add_targets(plot: Plot, positive_deg: float, negative_deg: float) -> None:
-    """The lines of the targets that there are, in degrees their own way: ``Target −40°`` of a supination short of thumb
-    up. Their words stand on the far side, where no curve comes from."""
+    """Add the lines of the targets that exist, in degrees of their own direction.
+
+    Their labels lie beyond the line, where no curve comes from.
+    """
     words = tr("Target {angle}")
     for value, way in ((positive_deg, 1), (negative_deg, -1)):
         said = words.format(angle=numbers.format_signed_degrees(way * value)) if math.isfinite(value) else ""
@@ -64,7 +66,7 @@ def add_targets(plot: Plot, positive_deg: float, negative_deg: float) -> None:
 
 
 def add_panel_name(plot: Plot, words: str, *, above: bool = False) -> None:
-    """What a panel is called, at its left; ``above`` beside its upper end."""
+    """Write the name of a panel at its left; with ``above`` beside its upper end."""
     look, box = plot.plot_style, plot.panel.box
     scale = look.end_label_font.pixelSize() / 12.0
     item = plot.chart.add_text(words, look.end_label_font, "text", (0.0, 0.5))
@@ -73,7 +75,7 @@ def add_panel_name(plot: Plot, words: str, *, above: bool = False) -> None:
 
 
 def add_limits(plot: Plot, exercise: Exercise, key: int, *, is_first: bool) -> None:
-    """The band in which an angle that is not trained should stay, else where the forearm's rotation is counted from."""
+    """Add the band that an untrained angle should stay in, or say where forearm rotation is counted from."""
     limit = exercise.trick_limit_deg
     if not is_first and math.isfinite(limit):
         plot.add_band(-limit, limit, "norm")
@@ -86,44 +88,44 @@ def add_limits(plot: Plot, exercise: Exercise, key: int, *, is_first: bool) -> N
 
 
 def missing_value_words() -> str:
-    """What stands where nothing is known."""
+    """Return the text for an unknown value."""
     return tr("no value")
 
 
 def angle_group_names() -> tuple[str, str]:
-    """The two kinds of angles of one finger."""
+    """Return the names of the two groups of finger angles."""
     return tr("Bending"), tr("Spreading")
 
 
 def tolerance_words(limit_deg: float, key: int) -> str:
-    """What is said of an angle that should hardly move."""
+    """Say that an angle should hardly move."""
     within = tr("should stay within {angle}").format(angle=numbers.format_degrees(limit_deg))
     return within if key != PRONOSUPINATION else tr("rotation from the start; {within}").format(within=within)
 
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """What is known of one curve at a time: degrees, and whether it was hidden; NaN in a gap."""
+    """Value of one curve at a time in degrees; NaN in a gap."""
 
     name: str
     token: str
     value_deg: float
     sd_deg: float
     is_occluded: bool = False
+    # Replaces angle and SD, if given.
     text: str = ""
-    """What is written of it where that is no angle with its sd."""
+    # As of its curve.
     width_factor: float = 1.0
-    """Of the usual width, as its curve."""
 
     @property
     def display_text(self) -> str:
-        """``42° ± 2°``."""
+        """Text such as ``42° ± 2°``."""
         return self.text or numbers.format_with_sd(self.value_deg, self.sd_deg)
 
 
 @dataclass(frozen=True, slots=True)
 class SessionPlot:
-    """The wrist's three angles, with exercise, repetitions, and the current one (-1 for none)."""
+    """Wrist angles of a session with its exercise, repetitions and the current one (-1 for none)."""
 
     curves: WristCurves
     exercise: Exercise
@@ -131,16 +133,16 @@ class SessionPlot:
     current: int = -1
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
+    # Visible time span; None for all of it.
     window_s: tuple[float, float] | None = None
-    """The part of the time axis that is shown; None for all of it."""
 
     @property
     def has_readings(self) -> bool:
-        """Whether several numbers stand beside a panel, one under the other, instead of a name and its value."""
+        """Whether several values stand beside a panel, one under the other."""
         return False
 
     def unit(self, key: int) -> str:
-        """Unit of a panel's curves as columns of a file are called."""
+        """Return the unit of a panel's curves as used in column names."""
         return "deg"
 
     @property
@@ -149,7 +151,7 @@ class SessionPlot:
 
     @property
     def repetition_span_s(self) -> tuple[float, float]:
-        """From shortly before the first repetition to shortly after the last; the whole where there is none."""
+        """Time span of the repetitions with a margin; the whole session if there are none."""
         if not self.repetitions:
             return 0.0, self.end_s
         start_s, end_s = self.repetitions[0].start_s, max(repetition.end_s for repetition in self.repetitions)
@@ -175,7 +177,7 @@ class SessionPlot:
 
     # --- what is drawn ------------------------------------------------------------------------------------
     def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
-        """Three panels in a box with the column each shows, the trained angle twice as high; or that one alone."""
+        """Return three panels with the column of each, the trained angle twice as high; or that one alone."""
         order = self.panel_order()[: 1 if single else 3]
         unit = (box.height() - between * (len(order) - 1)) / (len(order) + 1)
         top, out = box.top(), []
@@ -188,21 +190,21 @@ class SessionPlot:
         return out
 
     def add_background(self, plot: Plot, place: int, key: int) -> None:
-        """Add what lies behind the curves of the panel at a place from the top."""
+        """Add what lies behind the curves of a panel."""
         add_limits(plot, self.exercise, key, is_first=place == 0)
         plot.add_grid()
         if place == 0:
             add_targets(plot, self.target_positive_deg, self.target_negative_deg)
 
     def visible_curves(self, key: int, points: int) -> list[Curve]:
-        """The curves of a panel over what is shown, of about so many points each."""
+        """Return the curves of a panel over the visible time, of about ``points`` points each."""
         return [self._curve(self.series(key), CURVE_TOKENS[key], points)]
 
     def _curve(self, series: Series, token: str, points: int) -> Curve:
         return Curve(decimate(slice_time(series, *self.visible_s), max(MIN_POINTS, points)), token)
 
     def curve_series(self, key: int) -> list[tuple[str, Series]]:
-        """Name and whole series of every curve of a panel, for reading off and for tables."""
+        """Return name and whole series of every curve of a panel."""
         name = WRIST_ANGLES[key]
         if key == PRONOSUPINATION:  # as it is read: the files' name has the files' zero
             name = "supination_from_thumb_up" if is_counted_from_thumb_up(self.exercise) else "rotation_from_start"
@@ -216,14 +218,14 @@ class SessionPlot:
 
 @dataclass(frozen=True, slots=True)
 class HandPlot(SessionPlot):
-    """As a session of the wrist, with the joints; ``finger`` 1 to 5, or 0 for all of them."""
+    """Session plot of the finger joints; ``finger`` 1 to 5, or 0 for all of them."""
 
     joints: JointCurves | None = None
     finger: int = 0
+    # Of :meth:`joint_series`, which is called at every step of the wheel.
     _series_cache: dict[FingerAngle, tuple[JointCurves, Series | None]] = field(
         default_factory=dict, repr=False, compare=False
     )
-    """What :meth:`joint_series` has found: it is asked at every step of the wheel."""
 
     def panel_angles(self, panel: int) -> list[FingerAngle]:
         if self.finger and panel == 1:
@@ -231,7 +233,7 @@ class HandPlot(SessionPlot):
         return [FingerAngle(self.finger or FINGERS[panel], row) for row in FLEXION_KINDS]
 
     def joint_series(self, angle: FingerAngle) -> Series | None:
-        """A joint as it is drawn, dashed where it was not seen; None for one that is neither measured nor bound."""
+        """Return a joint's series, dashed where occluded; None if it is neither measured nor coupled."""
         joints = self.joints
         assert joints is not None
         of, found = self._series_cache.get(angle, (None, None))
@@ -244,7 +246,7 @@ class HandPlot(SessionPlot):
         return self.joints is not None and angle.joint not in self.joints.names
 
     def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
-        """One panel for each finger, or bending over spreading; ``single`` leaves the spreading out."""
+        """Return a panel for each finger, or flexion over spreading; ``single`` omits the spreading."""
         weights = (2.0, 1.0)[: 1 if single else 2] if self.finger else (1.0,) * len(FINGERS)
         unit = (box.height() - between * (len(weights) - 1)) / sum(weights)
         top, out = box.top(), []
@@ -262,7 +264,7 @@ class HandPlot(SessionPlot):
         add_panel_name(plot, words, above=bool(self.finger) and key == 0)
 
     def visible_curves(self, key: int, points: int) -> list[Curve]:
-        """The joints of a panel; one bound to another, or never seen, only where there is room for it."""
+        """Return the joints of a panel; those coupled or never visible only in the view of one finger."""
         out = []
         for figure in self.panel_angles(key):
             series = self.joint_series(figure)
@@ -273,12 +275,11 @@ class HandPlot(SessionPlot):
         return out
 
     def curve_series(self, key: int) -> list[tuple[str, Series]]:
-        """Every joint of a panel that is measured or bound."""
         many = [(figure.joint, self.joint_series(figure)) for figure in self.panel_angles(key)]
         return [(name, series) for name, series in many if series is not None]
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
-        """The joints of a panel that have a number beside it."""
+        """Return the joints that have a value beside the panel."""
         figures = [figure for figure in self.panel_angles(key) if self.joint_series(figure) is not None]
         shown = figures if self.finger else [figure for figure in figures if not self.is_coupled(figure)]
         return [Value(figure.kind_name, figure.token, *read_joint_angle(self, figure, time_s)) for figure in shown]
@@ -308,14 +309,14 @@ def _spread_scale(finger: int) -> Scale:
 
 
 def repetition_label(number: int, repetition: RepetitionResult) -> str:
-    """What stands at a repetition: its number, and why where it does not count."""
+    """Return a repetition's number, and why it is not analysed."""
     if repetition.is_passive:
         return tr("{number} passive").format(number=number)
     return str(number) if repetition.is_counted else tr("{number} out").format(number=number)
 
 
 def read_wrist_angle(curves: WristCurves, column: int, time_s: float) -> tuple[float, float]:
-    """Angle and its deviation in degrees at the frame nearest to a time; NaN in a gap."""
+    """Return angle and SD in degrees at the frame nearest to a time; NaN in a gap."""
     if not len(curves.time_s):
         return math.nan, math.nan
     row = find_nearest_row(curves.time_s, time_s)
@@ -325,7 +326,7 @@ def read_wrist_angle(curves: WristCurves, column: int, time_s: float) -> tuple[f
 
 
 def read_joint_angle(plot: HandPlot, angle: FingerAngle, time_s: float) -> tuple[float, float, bool]:
-    """Angle, deviation and whether it was hidden at the frame nearest to a time; NaN in a gap."""
+    """Return angle, SD and whether occluded at the frame nearest to a time; NaN in a gap."""
     series = plot.joint_series(angle)
     if series is None or not len(series.time_s):
         return math.nan, math.nan, True
@@ -336,19 +337,19 @@ def read_joint_angle(plot: HandPlot, angle: FingerAngle, time_s: float) -> tuple
 
 
 def find_nearest_row(time_s: FloatArray, at_s: float) -> int:
-    """Row of the frame nearest to a time; -1 without any."""
+    """Return the row of the frame nearest to a time, -1 if there are none."""
     return int(np.abs(time_s - at_s).argmin()) if len(time_s) else -1
 
 
 def with_edge(repetition: RepetitionResult, edge: str, time_s: float) -> RepetitionResult:
-    """With its ``start`` or ``end`` elsewhere, as far as the other one lets it."""
+    """Return the repetition with its ``start`` or ``end`` moved, as far as the other edge allows."""
     if edge == "start":
         return replace(repetition, start_s=min(max(0.0, time_s), repetition.end_s - MIN_REPETITION_S))
     return replace(repetition, end_s=max(time_s, repetition.start_s + MIN_REPETITION_S))
 
 
 def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
-    """One row for each picture that is shown: seconds, and of every curve degrees, their sd, whether measured."""
+    """Return a table of the visible frames: time, and value, SD and whether measured of every curve."""
     placed = [(plot.unit(key), found) for key in keys for found in plot.curve_series(key)]
     head = ["time_s"]
     for unit, (name, _) in placed:
@@ -369,17 +370,17 @@ def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str]
 
 
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
+# Left, top, right and bottom margin on paper, without the room for readings of the screen.
 PAPER_MARGINS = (106.0, 26.0, 8.0, 22.0)
-"""Left, over, right of and under the panels on paper, in its units, as the room for readings is on the screen alone."""
 HAND_BETWEEN, PAPER_BETWEEN, NUMBERS_ABOVE = 8, 12, 10
+# Half the width of the drag target around an edge or the cursor.
 GRIP_PX = 16
-"""Half the width of the target around an edge or the cursor: the grip is 8 px wide, the target 32."""
+# Shortest visible time span.
 MIN_SPAN_S = 2.0
-"""Shortest stretch of time that is shown."""
 
 
 class SessionChart(ZoomChart):
-    """The card with the session's curves: cursor by mouse and keys, edges of a repetition by drag, zoom along the time.
+    """Card with a session's curves: cursor, draggable repetition edges, and zoom along the time.
 
     Emits ``cursor_moved`` (seconds) and ``edges_moved`` (repetition, start, end).
     """
@@ -394,8 +395,8 @@ class SessionChart(ZoomChart):
         super().__init__(theme, "curves")
         self._plot: SessionPlot | None = None
         self._time_s = 0.0
+        # What is dragged: an edge (``start``, ``end``), the ``cursor``, or nothing.
         self._drag_target = ""
-        """What a drag has taken: an edge (``start``, ``end``), the ``cursor``, or nothing."""
         self._single = False
         self._curves: list[tuple[Curves, int]] = []
         self._cursors: list[Any] = []
@@ -403,7 +404,7 @@ class SessionChart(ZoomChart):
         self.setAccessibleName(self.tr("Curves of the session"))
 
     def show_plot(self, plot: SessionPlot) -> None:
-        """Draw another session, or the same with other repetitions, where it was looked at."""
+        """Draw a session, or the same one with other repetitions, keeping the visible time span."""
         self._plot = replace(plot, window_s=self._window)
         self.refresh()
 
@@ -412,13 +413,13 @@ class SessionChart(ZoomChart):
         self.refresh()
 
     def show_single(self, on: bool) -> None:
-        """Only the trained angle, where large text leaves no room for three."""
+        """Show the trained angle alone, for large text."""
         if on != self._single:
             self._single = on
             self.refresh()
 
     def set_time(self, time_s: float) -> None:
-        """Put the cursor; what is shown goes on with it."""
+        """Move the cursor, and scroll if it leaves the visible time span."""
         self._time_s = time_s
         if self._window is not None and self._plot is not None and not self._drag_target:
             start_s, end_s = self._window
@@ -447,7 +448,7 @@ class SessionChart(ZoomChart):
 
     @property
     def _share(self) -> int:
-        """Of the points that a panel has room for: on paper all of them."""
+        """Return the share of points that a panel has room for: all of them on paper."""
         return 1 if self.is_printing else 2
 
     # --- places -------------------------------------------------------------------------------------------
@@ -487,7 +488,7 @@ class SessionChart(ZoomChart):
         self.update_range()
 
     def _add_repetitions(self, own: Plot, plot: SessionPlot) -> None:
-        """Shaded stretches; the current one in its own colour, one that is left out hatched."""
+        """Add shaded time spans; the current one coloured, excluded ones hatched."""
         shown = plot.repetitions
         if not shown:
             return
@@ -502,7 +503,7 @@ class SessionChart(ZoomChart):
             own.add_to_layer(Hatching(own, left_out), GROUND + 1)
 
     def _repetition_labels(self) -> list[AxisLabel]:
-        """The numbers of the repetitions; where they would touch, some are left out, never the current one."""
+        """Return the repetition numbers, the current one first so that it is never omitted."""
         assert self._plot is not None
         current, out = self._plot.current, []
         for number, one in sorted(enumerate(self._plot.repetitions), key=lambda one: one[0] != current):
@@ -512,7 +513,7 @@ class SessionChart(ZoomChart):
         return out
 
     def _add_readings(self, plot: SessionPlot) -> None:
-        """What goes with the cursor: lines, edges, dots, numbers at the right, and what is said under the mouse."""
+        """Add what follows the cursor and the mouse: lines, edges, dots, values and the hover label."""
         first, scale = self.plots[0], self._theme.text_scale
         if 0 <= plot.current < len(plot.repetitions):
             one = plot.repetitions[plot.current]
@@ -564,8 +565,7 @@ class SessionChart(ZoomChart):
             item.show_rich(self._reading_html(plot, key, values, len(placed), max(map(len, many))))
 
     def _reading_html(self, plot: SessionPlot, key: int, values: Sequence[Value], panels: int, most: int) -> str:
-        """The numbers beside a panel: with its name, or one under the other after a stroke of each curve, or side by
-        side where there is no room for a row each; a hidden joint in the second colour."""
+        """Return the values beside a panel: one with its name, several as a list or in one line."""
         scale = self._theme.text_scale
         if values and not plot.has_readings and not isinstance(plot, HandPlot):
             (value,) = values
@@ -597,7 +597,7 @@ class SessionChart(ZoomChart):
         return ("&nbsp; " if in_a_line else "<br>").join(out)
 
     def hover(self, position: QPointF | None) -> None:
-        """What is under the mouse: a line through all panels, and the values of the panel it is in."""
+        """Show a line through all panels and the values of the panel under the mouse."""
         if self._plot is None or not self._cursors:
             return
         inside = position is not None and any(own.panel.box.contains(position) for own in self.plots)
@@ -632,7 +632,7 @@ class SessionChart(ZoomChart):
 
     # --- mouse --------------------------------------------------------------------------------------------
     def _find_edge(self, point: QPointF) -> str:
-        """``start`` or ``end`` of the current repetition under the mouse, empty for none."""
+        """Return ``start`` or ``end`` of the current repetition under the mouse, or an empty string."""
         plot = self._plot
         if plot is None or not 0 <= plot.current < len(plot.repetitions):
             return ""
@@ -653,7 +653,7 @@ class SessionChart(ZoomChart):
         return panel.start_s + min(max(share, 0.0), 1.0) * (panel.end_s - panel.start_s)
 
     def click(self, event: Any) -> None:
-        """Once the cursor, twice the repetitions alone and the whole again."""
+        """Move the cursor; a double click toggles between the repetitions and the whole session."""
         if self._plot is None:
             return
         if event.double():
@@ -662,7 +662,7 @@ class SessionChart(ZoomChart):
             self.cursor_moved.emit(self.to_time(event.scenePos().x()))
 
     def drag(self, event: Any) -> bool:
-        """An edge, the cursor, or with nothing to move along the cursor too; anything else moves along the time."""
+        """Drag an edge or the cursor; return False to let the plot pan."""
         if self._plot is None or event.button() != Qt.MouseButton.LeftButton:
             return False
         if event.isStart():
@@ -697,7 +697,7 @@ class SessionChart(ZoomChart):
 
 
 def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, box: QRectF) -> None:
-    """The chart on paper, with its words, in a box."""
+    """Paint the chart into a box on paper."""
     chart = SessionChart(Theme("light"))
     chart.show_plot(plot)
     chart.render_on_paper(painter, style, box)

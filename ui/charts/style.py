@@ -1,4 +1,4 @@
-"""How curves look: from the theme on the screen, from the light tokens in points on paper."""
+"""Appearance of charts: from the theme on the screen, from the light tokens on paper."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from carpus.ui.kit.theme import LIGHT, Theme, Tokens
 
 @dataclass(frozen=True, slots=True)
 class PlotStyle:
-    """Colours by token, fonts, and widths in the painter's unit (px on the screen, points on paper)."""
+    """Colours, fonts, and widths in the painter's unit (pixels on the screen, points on paper)."""
 
     tokens: Tokens
     label_font: QFont
     end_label_font: QFont
     line_width: float
     grid_width: float
+    # One design pixel in the painter's unit; gaps and dashes are multiples of it.
     unit: float
-    """One design pixel in the painter's unit; gaps and dashes are multiples of it."""
 
     def color(self, token: str, alpha: int = 255) -> QColor:
         value = QColor(getattr(self.tokens, token))
@@ -38,7 +38,7 @@ def draw_text(
     painter: QPainter, place: QPointF | QRectF, words: str, face: QFont, color: QColor,
     side: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignVCenter,
 ) -> None:  # fmt: skip
-    """Words from the left end of their baseline on, or in a box: there in its middle and at its left, unless told."""
+    """Write words from a baseline's left end, or in a box: left and vertically centred by default."""
     painter.setFont(face)
     painter.setPen(color)
     if isinstance(place, QPointF):
@@ -48,7 +48,7 @@ def draw_text(
 
 
 def dash_pen(color: QColor, width: float, dash: Sequence[float]) -> QPen:
-    """A pen for a line of dashes and gaps, in widths of the line; solid without any."""
+    """Return a pen of dashes and gaps in widths of the line; solid if there are none."""
     pen = QPen(color, width)
     if dash:
         pen.setDashPattern(dash)
@@ -56,7 +56,7 @@ def dash_pen(color: QColor, width: float, dash: Sequence[float]) -> QPen:
 
 
 def screen_style(theme: Theme) -> PlotStyle:
-    """The theme's style."""
+    """Return the style of the theme."""
     return _screen_style(theme.tokens, theme.text_scale)
 
 
@@ -67,13 +67,13 @@ def _screen_style(tokens: Tokens, text_scale: float) -> PlotStyle:
 
 
 def paper_style(point_px: float) -> PlotStyle:
-    """Style of the printed page, always light; ``point_px`` painter units per point."""
+    """Return the style of printed pages, always light, for ``point_px`` painter units per point."""
     regular, medium = (font(8.5 * point_px, weight, display=False) for weight in (REGULAR, MEDIUM))
     return PlotStyle(LIGHT, regular, medium, 1.2 * point_px, 0.6 * point_px, 0.75 * point_px)
 
 
 def paint_dot(painter: QPainter, style: PlotStyle, position: QPointF, token: str, radius: float) -> None:
-    """A disc with a seam, ``radius`` design pixels."""
+    """Paint a disc with a seam, ``radius`` in design pixels."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
     painter.setBrush(style.color(token))

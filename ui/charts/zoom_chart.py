@@ -1,4 +1,4 @@
-"""A chart whose plots can be looked into: zoom and pan along the one axis they share, read-out, pictures and tables."""
+"""Chart that zooms and pans along a shared axis, with a menu to copy and save it."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from carpus.ui.charts.chart import Chart, Plot
 from carpus.ui.kit.button import icon_button
 from carpus.ui.kit.theme import Theme
 
+# Factor of a notch of the wheel, or of a key.
 ZOOM_STEP = 1.25
-"""How much a notch of the wheel or a key changes what is shown."""
 
 
 class ZoomChart(Chart):
-    """The window is the part of the shared axis that is shown, None for all."""
+    """Chart with one shared axis; its ``_window`` is the visible part, None for all."""
 
+    # Shortest visible part of the axis.
     min_span = 1.0
-    """Least length of the axis that is shown."""
 
     def __init__(self, theme: Theme, file_name: str) -> None:
         super().__init__(theme)
@@ -43,28 +43,28 @@ class ZoomChart(Chart):
 
     # --- for a subclass -----------------------------------------------------------------------------------
     def extent(self) -> tuple[float, float] | None:
-        """Ends of the shared axis; None while there is nothing."""
+        """Return the ends of the shared axis, None while there is no data."""
         raise NotImplementedError
 
     def zoom_center(self) -> float:
-        """What zooming by key goes about: else the middle."""
+        """Return the value that stays in place when zooming by key."""
         return sum(self.x_range()) / 2
 
     def drag(self, event: Any) -> bool:
-        """A drag that is more than moving along; whether it was taken."""
+        """Handle a drag; return False to let the plot pan."""
         return False
 
     def click(self, event: Any) -> None:
-        """A click of the left button."""
+        pass
 
     def hover(self, position: QPointF | None) -> None:
-        """The mouse is somewhere, or gone."""
+        """Handle a mouse position, None when the mouse has left."""
 
     def update_range(self) -> None:
-        """Another part of the axis is shown."""
+        """Update what depends on the visible range."""
 
     def table(self) -> export.Table:
-        """Head and rows of what is shown."""
+        """Return head and rows of the visible data."""
         raise NotImplementedError
 
     # --- window -------------------------------------------------------------------------------------------
@@ -73,7 +73,7 @@ class ZoomChart(Chart):
         return self._window
 
     def x_range(self) -> tuple[float, float]:
-        """Left and right end of what is shown."""
+        """Return both ends of the visible range."""
         return self._window or self.extent() or (0.0, 1.0)
 
     def show_window(self, window: tuple[float, float] | None) -> None:
@@ -91,7 +91,7 @@ class ZoomChart(Chart):
         self.update_range()
 
     def zoom(self, factor: float, center: float) -> None:
-        """Show that many times as much, with ``center`` staying where it is."""
+        """Show ``factor`` times as much, keeping ``center`` in place."""
         start, end = self.x_range()
         span = (end - start) * factor
         begin = center - (center - start) / (end - start) * span
@@ -111,7 +111,7 @@ class ZoomChart(Chart):
         return min(max(self.zoom_center(), start), end)
 
     def add_plot(self, panel: Panel) -> Plot:
-        """All plots go along together."""
+        """Add a plot whose visible range is linked to the others'."""
         first, plot, extent = next(iter(self.plots), None), super().add_plot(panel), self.extent()
         if extent is None or self.is_printing:
             return plot
@@ -132,7 +132,7 @@ class ZoomChart(Chart):
             self.show_window((start, end))
 
     def viewportEvent(self, event: QEvent) -> bool:
-        """Two fingers go apart or together on the panels."""
+        """Zoom by a pinch gesture."""
         if event.type() == QEvent.Type.Gesture and self.plots:
             pinch = event.gesture(Qt.GestureType.PinchGesture)  # type: ignore[attr-defined]
             if pinch is not None and pinch.scaleFactor() > 0.0:
@@ -154,8 +154,7 @@ class ZoomChart(Chart):
 
 
 class PlotMenu(QObject):
-    """What can be done with a plot, in words. ``fault_raised`` carries a fault of saving, ``saved`` the path
-    written."""
+    """Context menu of a chart; emits ``fault_raised`` if saving fails, ``saved`` with the path."""
 
     fault_raised = Signal(object)
     saved = Signal(str)
@@ -163,8 +162,8 @@ class PlotMenu(QObject):
     def __init__(self, card: ZoomChart, file_name: str) -> None:
         super().__init__(card)
         self._card, self._file_name = card, file_name
+        # Where the file dialog opens.
         self.start_folder = ""
-        """Where saving begins."""
 
     def build_menu(self) -> QMenu:
         card, menu = self._card, QMenu(self._card)
@@ -203,7 +202,7 @@ class PlotMenu(QObject):
             self.save(Path(path))
 
     def save(self, path: Path) -> None:
-        """Write a picture, drawing or table, as the name ends; a fault is told."""
+        """Save an image, drawing or table by the file's suffix."""
         try:
             export.save_chart(self._card, self._card.table, path)
         except CarpusFault as fault:

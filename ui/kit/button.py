@@ -1,4 +1,4 @@
-"""Buttons of three kinds, painted from the tokens; mnemonics and shortcuts are shown on them."""
+"""Buttons that show their mnemonic and shortcut."""
 
 from __future__ import annotations
 
@@ -20,10 +20,9 @@ HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
 
 
 class Button(QPushButton):
-    """``primary`` one per screen, ``plain`` outlined, ``quiet`` without outline, ``well`` a filled small one.
+    """Button of a kind: ``primary`` (one per screen), ``plain``, ``quiet`` without outline, ``well`` filled and small.
 
-    ``hint`` is the key shown beside the text, "Enter" on a default button (:mod:`ui.kit.button`);
-    ``icon`` a line icon before it; a mnemonic (&) is underlined.
+    ``icon`` is a line icon before the text, ``hint`` the key beside it; a mnemonic (&) is underlined.
     """
 
     def __init__(
@@ -38,8 +37,8 @@ class Button(QPushButton):
     ) -> None:
         super().__init__(text)
         self._theme, self._kind, self._icon, self._key = theme, kind, icon, hint
+        # What Enter does while the button has the keyboard; ``pass`` leaves it to the dialog or screen.
         self.on_enter: EnterAction = "press"
-        """What Enter does while it has the keyboard; ``pass``: it goes to the card or screen that it stands on."""
         self.height_px = height_px or HEIGHT_PX[kind]
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setSizePolicy(QSizePolicy.Policy.Minimum, QSizePolicy.Policy.Fixed)
@@ -64,7 +63,7 @@ class Button(QPushButton):
 
     @property
     def _hint(self) -> str:
-        """The key as the person's keyboard has it; its room stays while it is not written."""
+        """The key's name on the person's keyboard; its room stays while it is not written."""
         return key_name(self._key)
 
     def set_label(self, text: str, *, icon: str | None = None, hint: str | None = None) -> None:
@@ -105,13 +104,13 @@ class Button(QPushButton):
         return QSize(round(icon + text + hint + gaps + 2 * pad), self._theme.px(self.height_px))
 
     def minimumSizeHint(self) -> QSize:
-        """Without the key's name, which goes first where there is little room."""
+        """Return the size without the key's name, which is omitted first."""
         hint = self._parts_px()[2]
         return self.sizeHint() - QSize(round(hint + 12) if hint else 0, 0)
 
     @property
     def visible_text(self) -> str:
-        """What there is room for; a tooltip says the rest."""
+        """The part of the text that fits; a tooltip has the rest."""
         icon, text, _ = self._parts_px()
         room = self.width() - icon - (8 if icon and text else 0) - 2 * MIN_PADDING_PX
         if text <= room:
@@ -144,7 +143,7 @@ class Button(QPushButton):
         return color(body), color(text), color("border" if self.isEnabled() else "line"), color("text2")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Enter presses as the space bar does; Qt gives it to dialogs only."""
+        """Press on Enter as on the space bar; Qt does so in dialogs only."""
         if is_enter_key(event):
             event.setAccepted(self.on_enter != "pass")
             if self.on_enter == "press":
@@ -192,36 +191,36 @@ class Button(QPushButton):
 
 
 def icon_button(theme: Theme, icon: str, name: str, kind: ButtonKind = "quiet") -> Button:
-    """A 40 px square without text; its name is tooltip and accessible name."""
+    """Return a 40 px square button without text; its name is tooltip and accessible name."""
     button = Button(theme, "", kind, icon=icon, height_px=40)
     button.setToolTip(name)
     button.setAccessibleName(name)
     return button
 
 
+# The key hint of a default button.
 ENTER_KEY = "Enter"
-"""The key hint of a default button."""
 
 
 def is_enter_key(event: QKeyEvent) -> bool:
-    """Whether Enter was pressed, of either block of keys: alone, or with Ctrl, as from a field of several lines."""
+    """Return whether Enter was pressed on either key block, alone or with Ctrl."""
     left_alone = Qt.KeyboardModifier.KeypadModifier | Qt.KeyboardModifier.ControlModifier
     return not event.modifiers() & ~left_alone and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
 
 def is_enter_handler(widget: QWidget | None) -> bool:
-    """Whether a widget that has the keyboard keeps Enter to itself, as buttons do."""
+    """Return whether a widget keeps Enter to itself, as buttons do."""
     return isinstance(widget, QPushButton) and getattr(widget, "on_enter", "press") != "pass"
 
 
 def is_enter_target(button: QPushButton) -> bool:
-    """Whether Enter would press a default button now."""
+    """Return whether Enter would press a default button now."""
     now: QWidget | None = button.window().focusWidget()
     return button.isEnabled() and (now is button or not is_enter_handler(now))
 
 
 def press_default(button: QPushButton | None) -> bool:
-    """Press the default button; whether there was one that can be pressed."""
+    """Press the default button; return False if there is none that can be pressed."""
     if button is None or not button.isVisible() or not button.isEnabled():
         return False
     button.click()
@@ -229,7 +228,7 @@ def press_default(button: QPushButton | None) -> bool:
 
 
 class CheckButton(Button):
-    """A plus, and a check once it is wanted. Enter is not its own."""
+    """Checkable button with a plus or a check; leaves Enter to the dialog."""
 
     def __init__(self, theme: Theme, words: str) -> None:
         super().__init__(theme, words, "quiet", icon="plus", height_px=38)

@@ -1,4 +1,4 @@
-"""Surfaces: the white card, the separator line; the row of key caps."""
+"""Cards and surfaces, separators, and the row of key caps."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from carpus.ui.kit.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
 
 
 def paint_card(painter: QPainter, theme: Theme, box: QRectF) -> QRectF:
-    """The surface of a card that fills ``box``; the rectangle of its line."""
+    """Paint the surface of a card and return the rectangle of its outline."""
     frame = box.adjusted(0.5, 0.5, -0.5, -0.5)
     painter.setPen(QPen(theme.color("line"), 1.0))
     painter.setBrush(theme.color("surface"))
@@ -24,10 +24,10 @@ def paint_card(painter: QPainter, theme: Theme, box: QRectF) -> QRectF:
 
 
 class Surface(QWidget):
-    """A plain ground of one token, for bars; the application's style sheet paints it."""
+    """Plain ground in the colour of a token; the application's style sheet paints it."""
 
     def __init__(self, theme: Theme, fill: str = "surface", edge: str = "", bottom_edge: str = "") -> None:
-        """``edge`` is the token of a line about it, ``bottom_edge`` of one at its lower end."""
+        """Set the tokens of the ground, of the outline, and of a line at the lower end."""
         super().__init__()
         self._theme = theme
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -39,7 +39,6 @@ class Surface(QWidget):
         return str(self.property("edge"))
 
     def set_colors(self, fill: str, edge: str = "", edge_px: float = 1.0) -> None:
-        """Change the surface, as a message of another rank does."""
         for name, value in (("fill", fill), ("edge", edge), ("thick", edge_px > 1.0)):
             self.setProperty(name, value)
         self.style().unpolish(self)
@@ -47,7 +46,7 @@ class Surface(QWidget):
 
 
 class Card(Surface):
-    """A rounded surface with a 1 px line; its layout is vertical and already there as ``body``."""
+    """Rounded surface with a 1 px outline and a vertical layout, ``body``."""
 
     def __init__(
         self, theme: Theme, padding_px: int = CARD_PADDING_PX, fill: str = "surface", edge: str = "line"
@@ -57,7 +56,7 @@ class Card(Surface):
 
 
 class ColorFill(QWidget):
-    """A plain rectangle of one token, on paper too, where no style sheet is."""
+    """Rectangle in the colour of a token, on paper too, where no style sheet applies."""
 
     def __init__(self, theme: Theme, token: str) -> None:
         super().__init__()
@@ -76,7 +75,7 @@ class ColorFill(QWidget):
 
 
 class Separator(ColorFill):
-    """A separator, a pixel wide on the screen."""
+    """Separator, one pixel wide on the screen."""
 
     def __init__(self, theme: Theme, *, vertical: bool = False) -> None:
         super().__init__(theme, "line")
@@ -90,7 +89,7 @@ SPACE_PX, BETWEEN_PX = 7, 16
 
 
 class KeyCaps(FittedWidget):
-    """Keys and what they do, in one line: ``[("Space", "accept"), ...]``."""
+    """Keys and what they do in one line, such as ``[("Space", "accept"), ...]``."""
 
     def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]]) -> None:
         super().__init__()

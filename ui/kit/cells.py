@@ -1,4 +1,4 @@
-"""A table as words: cells with a look of their own under heads, and how its columns look. A widget lays it out."""
+"""Content and appearance of a table, without a widget."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ VERDICT_TOKENS = {"improved": "good", "worse": "bad", "warn": "warn"}
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Words with a look of their own, a smaller line ``subtext`` them, and before them the ``mark_token`` of their
-    curve or a
-    state's ``state``."""
+    """Text of a table with its appearance.
+
+    ``subtext`` is a smaller line below it; before it stands the colour ``mark_token`` of a curve or the icon of a
+    ``state``.
+    """
 
     text: str
     weight: int = REGULAR
@@ -27,9 +29,7 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class TableColumn:
-    """How the cells of a column look: ``is_right_aligned`` where they end at its right edge, ``is_wrapped`` where
-    words go on in the
-    next line once they have so many letters as ``min_letters``, ``scale`` of the table's size."""
+    """Appearance of a column; text wraps once it has ``min_letters`` characters, ``scale`` is that of the font."""
 
     weight: int = REGULAR
     token: str = "text"
@@ -43,7 +43,7 @@ TableRow = tuple[str | Cell, ...]
 
 
 class TableContent(NamedTuple):
-    """All of a table; a column without words has an empty head and is not shown."""
+    """Columns, head and rows of a table; a column without any text is not shown."""
 
     columns: tuple[TableColumn, ...]
     heads: TableRow
@@ -51,5 +51,5 @@ class TableContent(NamedTuple):
 
 
 def cell_text(cell: str | Cell) -> str:
-    """Return the words of a cell, whatever it looks like."""
+    """Return the text of a cell."""
     return cell if isinstance(cell, str) else cell.text

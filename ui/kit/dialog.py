@@ -1,4 +1,4 @@
-"""A card over a dimmed screen, for what must be answered or typed before the screen goes on."""
+"""Dialog as a card over the dimmed window."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from carpus.ui.kit.layouts import STRETCH, fill, require_parent, row_layout
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
 
+# Open dialogs, the topmost last.
 _open_dialogs: list[Dialog] = []
-"""The sheets that are open, the topmost last."""
 
 
 def _move_to_top(sheet: Dialog) -> None:
@@ -31,26 +31,28 @@ def _move_to_top(sheet: Dialog) -> None:
 
 
 def has_open_dialog(window: QWidget) -> bool:
-    """Whether a sheet is open in a window."""
+    """Return whether a dialog is open in a window."""
     return any(isValid(sheet) and sheet.isVisible() and sheet.window() is window for sheet in _open_dialogs)
 
 
 _MOUSE_EVENTS = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonRelease, QEvent.Type.MouseButtonDblClick)
+# Events that a dialog keeps from the window below; all others pass without being looked at.
 _FILTERED_EVENTS = frozenset((QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress, QEvent.Type.FocusIn, *_MOUSE_EVENTS))
-"""What a sheet keeps from the window below it: all other events of the whole program pass without being looked at."""
 
 
 class Dialog(QWidget):
-    """Covers ``host`` while open. Every key of the window is the topmost sheet's, whatever lies below or beside it; Tab
-    stays inside; Esc closes when ``is_dismissible``, and says so first where something was typed; Enter presses the
-    ``default_button`` button. Where it must be answered the mouse is held to it too."""
+    """Card that covers ``host`` while open.
+
+    All keys go to the topmost dialog. Esc closes a dismissible one, with a warning if something was typed; Enter
+    presses ``default_button``. A dialog that is not dismissible takes the mouse as well.
+    """
 
     closed = Signal()
 
     def __init__(
         self, host: QWidget, theme: Theme, width_px: int = 560, *, is_dismissible: bool = True, is_low: bool = False
     ) -> None:
-        """``is_low``: near the lower edge and without dimming, over a screen that must stay readable."""
+        """With ``is_low`` the card is near the lower edge, over a screen that stays readable."""
         super().__init__(host)
         self._theme, self._is_dismissible = theme, is_dismissible
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground, not is_low)
@@ -76,7 +78,6 @@ class Dialog(QWidget):
         self.update()
 
     def _fit_card(self) -> None:
-        """The card as wide as the design has it, and never wider than its host has room for."""
         self.card.setFixedWidth(min(self._theme.px(self._width_px), max(require_parent(self).width() - 48, 200)))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -84,14 +85,14 @@ class Dialog(QWidget):
         super().resizeEvent(event)
 
     def add_heading(self, title: str = "", words: str = "", *, gap: int = 12) -> None:
-        """What is asked, and a sentence of what follows; ``gap`` between all that is on the card."""
+        """Add title and explanation; ``gap`` is that between all parts of the card."""
         self.title = Text(self._theme, title, 20, SEMIBOLD, wrap=True)
         self.words = Text(self._theme, words, 14, REGULAR, "text2", wrap=True)
         self.card.body.setSpacing(gap)
         fill(self.card.body, self.title, self.words)
 
     def add_buttons(self, accept: Button, *others: Button, cancel_text: str = "", gap: int | None = 10) -> Button:
-        """The last line: ``others`` at the left, then the way out, which is returned, and what Enter takes."""
+        """Add the last row: ``others`` at the left, then the returned cancel button, and ``accept``."""
         close = Button(
             self._theme, cancel_text or self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=accept.height_px
         )
@@ -101,14 +102,14 @@ class Dialog(QWidget):
         return close
 
     def set_default(self, button: Button) -> None:
-        """What Enter answers: it loses nothing."""
+        """Set the button that Enter presses; it must lose nothing."""
         if self.default_button is not None and self.default_button is not button and isValid(self.default_button):
             self.default_button.set_label(self.default_button.text(), hint="")
         self.default_button = button
         button.set_label(button.text(), hint=ENTER_KEY)
 
     def open(self, focus: QWidget | None = None) -> None:
-        """Show over the host and give the keyboard to ``focus``, a field, or else to the default button."""
+        """Show the dialog and give the keyboard to ``focus``, or else to the default button."""
         focus = focus or self.default_button
         now: QWidget | None = self.window().focusWidget()
         if now is None or not self.isAncestorOf(now):
@@ -131,7 +132,7 @@ class Dialog(QWidget):
         (first if first is not None and isValid(first) else self).setFocus(Qt.FocusReason.OtherFocusReason)
 
     def close_dialog(self) -> None:
-        """Hide and give the keyboard back."""
+        """Hide the dialog and return the keyboard to where it was."""
         if self.isVisibleTo(require_parent(self)):
             self.hide()
             application = QCoreApplication.instance()
@@ -145,7 +146,7 @@ class Dialog(QWidget):
             self.closed.emit()
 
     def dismiss(self) -> None:
-        """What Esc does: close where this may be left without an answer; what was typed takes a second key."""
+        """Close on Esc; typed text needs a second Esc."""
         if not self._is_dismissible:
             return
         typed = self._field_texts()
@@ -165,7 +166,7 @@ class Dialog(QWidget):
             self._warning = None
 
     def _field_texts(self) -> list[str]:
-        """What stands in the fields; nothing of a search, or of a secret, which is typed again."""
+        """Return the texts of all fields but searches and secrets."""
         lines = [
             one.text()
             for one in self.card.findChildren(QLineEdit)
@@ -183,7 +184,7 @@ class Dialog(QWidget):
         event.accept()  # nothing goes through to what lies below
 
     def _press_mnemonic(self, event: QKeyEvent) -> bool:
-        """Press the button, or go to the field, whose letter was pressed with Alt; whether there is one."""
+        """Press the button, or focus the field, of an Alt key; return False if there is none."""
         if event.modifiers() != Qt.KeyboardModifier.AltModifier:
             return False
         pressed = QKeySequence(event.keyCombination())
@@ -239,6 +240,5 @@ class Dialog(QWidget):
         return False
 
     def _is_topmost(self, window: QWidget | None) -> bool:
-        """Whether this is the topmost sheet to be seen in a window."""
         shown = [sheet for sheet in _open_dialogs if isValid(sheet) and sheet.isVisible() and sheet.window() is window]
         return bool(shown) and shown[-1] is self

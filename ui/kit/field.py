@@ -1,4 +1,4 @@
-"""Fields: the search line with its icon, the labelled field, the row of exclusive choices."""
+"""Fields: text, search, number, date and choices."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from carpus.ui.kit.theme import Theme
 
 
 def add_inside(line: QLineEdit, *parts: QWidget | None, edge_px: int = 15) -> None:
-    """Put signs and words over a line to type in, which leaves room for them; None is what stretches."""
+    """Put widgets over a line edit; None is a stretch between them."""
     row = row_layout(margins=(edge_px, 0, edge_px, 0), parent=line)
     for part in parts:
         if part is None:
@@ -39,7 +39,7 @@ def add_inside(line: QLineEdit, *parts: QWidget | None, edge_px: int = 15) -> No
 
 
 class SearchField(QLineEdit):
-    """A line with a magnifier before and a key hint behind the text."""
+    """Line with a magnifier before, and a key hint behind the text."""
 
     def __init__(self, theme: Theme, placeholder: str, hint: str) -> None:
         super().__init__()
@@ -59,7 +59,7 @@ class SearchField(QLineEdit):
 
 
 class _WheelFilter(QObject):
-    """Passes the wheel on to the page: who scrolls it would change what lies under the mouse, unseen."""
+    """Passes the wheel on to the page, which would otherwise change a field unseen."""
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() != QEvent.Type.Wheel:
@@ -69,14 +69,13 @@ class _WheelFilter(QObject):
 
 
 def ignore_wheel(field: QAbstractSpinBox | QComboBox) -> None:
-    """The wheel neither changes a field nor brings the keyboard to it."""
+    """Make a field ignore the wheel."""
     field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     field.installEventFilter(_WheelFilter(field))
 
 
 class Combo(QComboBox):
-    """As wide as its longest choice; where there is less room the end of the chosen one is left out, not cut. The wheel
-    scrolls the page that it lies in and chooses nothing."""
+    """Combo box as wide as its longest choice, elided if there is less room; ignores the wheel."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -84,7 +83,7 @@ class Combo(QComboBox):
         ignore_wheel(self)
 
     def set_choices(self, choices: Iterable[tuple[object, str]], selected: object = None) -> None:
-        """Values with their words in place of those before; the first unless another is ``selected``. Tells nobody."""
+        """Replace all choices (value, text) and select one, without emitting a signal."""
         self.blockSignals(True)
         self.clear()
         for number, (value, words) in enumerate(choices):
@@ -104,7 +103,7 @@ class Combo(QComboBox):
 
 
 class LabelledField(QWidget):
-    """A field under its caption, with what belongs to it ``beside`` it."""
+    """Field under its label, with widgets ``beside`` it."""
 
     def __init__(self, theme: Theme, label: str, field: QWidget, *beside: QWidget) -> None:
         super().__init__()
@@ -119,7 +118,7 @@ class LabelledField(QWidget):
 
 
 def number_field(theme: Theme, maximum: int, suffix: str = "", empty_text: str = "", minimum: int = 0) -> QSpinBox:
-    """A whole number with its unit; ``empty_text`` is shown for the least."""
+    """Return a field for whole numbers; ``empty_text`` is shown for the minimum."""
     field = QSpinBox()
     ignore_wheel(field)
     field.setRange(minimum, maximum)
@@ -131,10 +130,10 @@ def number_field(theme: Theme, maximum: int, suffix: str = "", empty_text: str =
 
 
 class DateField(QLineEdit):
-    """A day as people type one, empty for none."""
+    """Line for a date as people type one."""
 
     def value(self) -> date | None:
-        """None where nothing, or no day, is typed."""
+        """Return the date, None for nothing or anything else."""
         return numbers.parse_date(self.text())
 
     def set_value(self, day: date | None) -> None:
@@ -142,8 +141,10 @@ class DateField(QLineEdit):
 
 
 class NumberField(QLineEdit):
-    """A number with a decimal comma or point, empty for none. What is refused stays; its edge is marked, as that of
-    what is in doubt, and the tooltip tells why."""
+    """Line for a number with decimal comma or point.
+
+    An invalid number stays as it is; the outline marks it, and the tooltip says why.
+    """
 
     def __init__(self, theme: Theme, width_px: int = 110, max_length: int = 12) -> None:
         super().__init__(maxLength=max_length)
@@ -156,7 +157,7 @@ class NumberField(QLineEdit):
         return not self.text().strip().removesuffix("°").strip()
 
     def value(self) -> float:
-        """NaN where nothing, or no number, is written."""
+        """Return the number, NaN for nothing or anything else."""
         text = self.text().strip().removesuffix("°").strip().replace(",", ".").replace("\N{MINUS SIGN}", "-")
         try:
             value = float(text)
@@ -171,27 +172,26 @@ class NumberField(QLineEdit):
         )
 
     @property
-    def problem(self) -> str:
-        """Why it cannot be kept; empty when it can."""
+    def error(self) -> str:
+        """Why the value is invalid; empty if it is valid."""
         return ""
 
     @property
     def warning(self) -> str:
-        """Why it should be looked at again; empty where nothing is unusual."""
+        """Why the value is unusual; empty if it is not."""
         return ""
 
     def _apply_theme(self) -> None:
         self.setFixedWidth(self._theme.px(self._width_px))
-        token = "bad" if self.problem else "warn" if self.warning else ""
+        token = "bad" if self.error else "warn" if self.warning else ""
         edge = getattr(self._theme.tokens, token) if token else ""
         self.setStyleSheet(f"QLineEdit {{ border: 2px solid {edge}; }}" if edge else "")
-        self.setToolTip(self.problem or self.warning)
-        self.setAccessibleDescription(self.problem or self.warning)
+        self.setToolTip(self.error or self.warning)
+        self.setAccessibleDescription(self.error or self.warning)
 
 
 class DegreesField(NumberField):
-    """An angle above 0, or from a lowest one, to the largest; ``empty_text`` stands where it is empty. ``direction`` is
-    the sign of the value, which the person never sees."""
+    """Angle above 0, or from a minimum, up to a maximum; ``direction`` is its hidden sign."""
 
     def __init__(self, theme: Theme, maximum: int, empty_text: str, direction: float = 1.0) -> None:
         super().__init__(theme)
@@ -206,7 +206,7 @@ class DegreesField(NumberField):
         return self.direction * value if is_possible else math.nan
 
     def set_minimum(self, minimum: int) -> None:
-        """0, beyond which an angle must be, or the lowest that can be entered."""
+        """Set the minimum; 0 requires a larger value."""
         self._minimum = minimum
         self._apply_theme()
 
@@ -216,22 +216,21 @@ class DegreesField(NumberField):
             self.setText(f"{self.text()}°")
 
     @property
-    def problem(self) -> str:
+    def error(self) -> str:
         if self.is_empty or math.isfinite(self.value()):
             return ""
         return self.tr("Up to {most}°, or empty").format(most=self._maximum)
 
 
 class ChoiceRow(QWidget):
-    """Exclusive choices side by side; Tab leads to the chosen one, arrow keys choose another. The chosen one is filled
-    and says so by its check state."""
+    """Exclusive choices side by side; Tab reaches the chosen one, arrow keys choose another."""
 
     chosen = Signal(object)
 
     def __init__(
         self, theme: Theme, options: Sequence[tuple[object, str]], current: object = None, *, wraps: bool = False
     ) -> None:
-        """``wraps``: in several lines where there is little room."""
+        """With ``wraps`` the choices take several lines if there is little room."""
         super().__init__()
         row = FlowLayout(8) if wraps else QHBoxLayout()
         row.setContentsMargins(0, 0, 0, 0)
@@ -251,7 +250,7 @@ class ChoiceRow(QWidget):
         self.choose(current if current in self._values else self._values[0])
 
     def choose(self, value: object) -> None:
-        """One of the values; with another the choice is taken back: the person must make it."""
+        """Choose a value; any other leaves none chosen."""
         if value in self._values:
             self._group.button(self._values.index(value)).setChecked(True)
             return
@@ -261,13 +260,13 @@ class ChoiceRow(QWidget):
         self._group.setExclusive(True)
 
     def _update_tab_stop(self) -> None:
-        """Qt does it only once a button has had the keyboard."""
+        """Let Tab reach the chosen button; Qt does so only after a button had the keyboard."""
         at = max(self._group.checkedId(), 0)
         for number, button in enumerate(self.buttons()):
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if number == at else Qt.FocusPolicy.ClickFocus)
 
     def value(self) -> object:
-        """What is chosen; None before anything is."""
+        """Return the chosen value, None if there is none."""
         chosen = self._group.checkedId()
         return self._values[chosen] if chosen >= 0 else None
 
@@ -276,7 +275,7 @@ class ChoiceRow(QWidget):
 
 
 class ChoiceButton(Button):
-    """One of several; chosen = accent outline, soft fill and a check. The space bar chooses; Enter is not its own."""
+    """One of several choices, marked by outline, fill and a check; leaves Enter to the dialog."""
 
     def __init__(self, theme: Theme, text: str, *, height_px: int = 40) -> None:
         super().__init__(theme, text, "plain", height_px=height_px)

@@ -1,4 +1,4 @@
-"""A layout with what is in it, as one expression."""
+"""Layouts with their parts in one expression, and scrolling pages."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+# Left, top, right, bottom.
 Margins: TypeAlias = tuple[int, int, int, int]
-"""Left, top, right, bottom."""
 LayoutT = TypeVar("LayoutT", bound=QBoxLayout)
 
 
 class Stretch:
-    """Takes what room is left."""
+    """Part that takes the remaining room."""
 
 
 STRETCH = Stretch()
 Item: TypeAlias = QWidget | QLayout
+# A widget or layout with its stretch and alignment, or a gap in design pixels.
 Part: TypeAlias = Item | Stretch | int | tuple[Item, int] | tuple[QWidget, int, Qt.AlignmentFlag]
-"""A widget or layout, with its share of the room and its alignment; or so many design pixels of nothing."""
 
 
 def fill(layout: QBoxLayout, *parts: Part) -> None:
-    """Add them one after the other."""
+    """Add parts to a layout, one after the other."""
     for part in parts:
         item, share, *aligned = part if isinstance(part, tuple) else (part, 0)
         if isinstance(item, Stretch):
@@ -50,7 +50,7 @@ def fill(layout: QBoxLayout, *parts: Part) -> None:
 
 
 def clear_layout(layout: QLayout) -> None:
-    """Take out what is in it, and let it go."""
+    """Remove and delete all widgets of a layout."""
     while (item := layout.takeAt(0)) is not None:
         if (widget := item.widget()) is not None:
             widget.hide()
@@ -63,7 +63,7 @@ def row_layout(
     margins: Margins | None = None,
     parent: QWidget | None = None,
 ) -> QHBoxLayout:
-    """Side by side, ``gap`` pixels between them, as the layout of ``parent``."""
+    """Return a layout of parts side by side, installed on ``parent``."""
     return _laid(QHBoxLayout() if parent is None else QHBoxLayout(parent), parts, gap, margins)
 
 
@@ -73,7 +73,7 @@ def column_layout(
     margins: Margins | None = None,
     parent: QWidget | None = None,
 ) -> QVBoxLayout:
-    """One below the other; else as :func:`row_layout`."""
+    """Return a layout of parts one below the other, installed on ``parent``."""
     return _laid(QVBoxLayout() if parent is None else QVBoxLayout(parent), parts, gap, margins)
 
 
@@ -85,7 +85,7 @@ def grid_layout(
     margins: Margins | None = None,
     parent: QWidget | None = None,
 ) -> QGridLayout:
-    """In rows and columns, with so many pixels between them; ``stretches`` of the room for each column."""
+    """Return a grid with these gaps and column stretches, installed on ``parent``."""
     grid = QGridLayout() if parent is None else QGridLayout(parent)
     grid.setHorizontalSpacing(horizontal_gap)
     grid.setVerticalSpacing(vertical_gap)
@@ -106,14 +106,14 @@ def _laid(layout: LayoutT, parts: tuple[Part, ...], gap: int | None, margins: Ma
 
 
 def require_parent(widget: QWidget) -> QWidget:
-    """The parent of a widget that is never without one."""
+    """Return the parent of a widget that always has one."""
     parent = widget.parentWidget()
     assert parent is not None
     return parent
 
 
 class FlowLayout(QLayout):
-    """One line where there is room for all, else several; never narrower than the widest item."""
+    """Layout in one line, or several if there is little room; never narrower than its widest item."""
 
     def __init__(self, spacing_px: int) -> None:
         super().__init__()
@@ -169,18 +169,18 @@ class FlowLayout(QLayout):
 
 
 RING_PX = 5
+# Qt's own largest width and height.
 NO_LIMIT_PX = 16_777_215
-"""Qt's own greatest width and height."""
 
 
 class FittedWidget(QWidget):
-    """What is on it is fitted to the room whenever that changes."""
+    """Widget that adapts its content whenever its size changes."""
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
 
     def _fit_soon(self) -> None:
-        """Again when every part has taken its new size."""
+        """Adapt once more after all parts have taken their new size."""
         QTimer.singleShot(0, self, self._fit)
 
     def _fit(self) -> None:
@@ -188,7 +188,7 @@ class FittedWidget(QWidget):
 
 
 class ScrolledColumn(QWidget):
-    """As high as its texts need at the width they have; Qt's own guess is for narrower texts and scrolls too soon."""
+    """Column as high as its texts need at their width; Qt assumes narrower texts and scrolls too soon."""
 
     def minimumSizeHint(self) -> QSize:
         whole, layout = super().minimumSizeHint(), self.layout()
@@ -198,7 +198,7 @@ class ScrolledColumn(QWidget):
 
 
 class _ScrolledPage(ScrolledColumn):
-    """Never lower than everything on it can be."""
+    """Page that is never lower than its content's minimum."""
 
     def heightForWidth(self, width: int) -> int:
         layout = self.layout()
@@ -206,7 +206,7 @@ class _ScrolledPage(ScrolledColumn):
 
 
 class ScrollArea(QScrollArea):
-    """Scrolls what it holds up and down, never aside; Tab passes it by unless ``focus`` says otherwise."""
+    """Vertical scroll area; Tab skips it unless ``focus`` says otherwise."""
 
     def __init__(self, host: QWidget, focus: Qt.FocusPolicy = Qt.FocusPolicy.NoFocus) -> None:
         super().__init__()
@@ -216,7 +216,7 @@ class ScrollArea(QScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
 
     def expand(self, *, on: bool) -> None:
-        """As high as all that it holds, on a page that scrolls in its place."""
+        """Show all content at its full height, on a page that scrolls instead."""
         policy = self.sizePolicy()
         policy.setHeightForWidth(on)
         self.setSizePolicy(policy)
@@ -236,14 +236,14 @@ class ScrollArea(QScrollArea):
 
 
 def scroll_page(layout: QVBoxLayout) -> ScrollArea:
-    """The whole of a screen, which scrolls where the window is lower than everything on it can be."""
+    """Return a whole screen that scrolls if the window is lower than its minimum."""
     host = _ScrolledPage()
     host.setLayout(layout)
     return ScrollArea(host)
 
 
 def scroll_column(layout: QVBoxLayout) -> ScrollArea:
-    """A column that scrolls where large text leaves no room; at its edges there is room for the focus ring."""
+    """Return a column that scrolls, with room for the focus ring at its edges."""
     layout.setContentsMargins(RING_PX, RING_PX, RING_PX, RING_PX)
     host = ScrolledColumn()
     host.setLayout(layout)

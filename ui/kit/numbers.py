@@ -1,4 +1,4 @@
-"""How figures, times and dates are written on the screen; one rule each, by the person's locale for dates."""
+"""Display format of numbers, times and dates in the person's language."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ UNKNOWN = "\N{EN DASH}"
 
 
 def format_degrees(value_deg: float) -> str:
-    """``42°`` without sign (the word carries it); a dash when unknown.
+    """Return ``42°`` without sign, which a word carries; a dash if unknown.
 
-    >>> degrees(-41.6), degrees(44.5), degrees(-44.5), degrees(float("nan"))
+    >>> format_degrees(-41.6), format_degrees(44.5), format_degrees(-44.5), format_degrees(float("nan"))
     ('42°', '45°', '45°', '–')
     """
     return f"{round_half_away(abs(value_deg))}°" if math.isfinite(value_deg) else UNKNOWN
 
 
 def format_signed_degrees(value_deg: float) -> str:
-    """``−3°`` below zero, where no word carries the sign.
+    """Return ``−3°`` for a negative angle, where no word carries the sign.
 
-    >>> signed_degrees(-3.2), signed_degrees(-0.3)
+    >>> format_signed_degrees(-3.2), format_signed_degrees(-0.3)
     ('−3°', '0°')
     """
     shown = format_degrees(value_deg)
@@ -38,42 +38,42 @@ def format_signed_degrees(value_deg: float) -> str:
 
 
 def format_with_sd(value_deg: float, sd_deg: float) -> str:
-    """``57° ± 2°`` with no-break spaces; without the spread when that is unknown."""
+    """Return ``57° ± 2°`` with no-break spaces; the angle alone if the SD is unknown."""
     if not math.isfinite(value_deg) or not math.isfinite(sd_deg):
         return format_degrees(value_deg)
     return f"{format_degrees(value_deg)}{NARROW_GAP}{format_sd(sd_deg)}"
 
 
 def format_sd(sd_deg: float) -> str:
-    """``± 2°``; empty when unknown. A spread below half a degree still says one, never none."""
+    """Return ``± 2°``, at least 1°; empty if unknown."""
     if not math.isfinite(sd_deg):
         return ""
     return f"±{NARROW_GAP}{max(1, round_half_away(sd_deg))}°"
 
 
 def format_speed(value_deg_s: float) -> str:
-    """``38°/s``."""
+    """Return ``38°/s``."""
     return f"{round_half_away(abs(value_deg_s))}°/s" if math.isfinite(value_deg_s) else UNKNOWN
 
 
 def format_millimetres(value_mm: float) -> str:
-    """``12 mm``."""
+    """Return ``12 mm``."""
     return f"{round_half_away(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
 
 
 def format_shortest(value: float) -> str:
-    """With a decimal only where there is one.
+    """Return a number with one decimal only if it has one.
 
-    >>> shortest(2.5), shortest(5.0)
+    >>> format_shortest(2.5), format_shortest(5.0)
     ('2.5', '5')
     """
     return format_fixed(value, int(value % 1 != 0))
 
 
 def format_fixed(value: float, decimals: int) -> str:
-    """``12.5`` with that many decimals, written as the person's language writes it; a dash when unknown.
+    """Return ``12.5`` with so many decimals; a dash if unknown.
 
-    >>> fixed(12.46, 1), fixed(float("nan"), 1), fixed(-0.04, 1)
+    >>> format_fixed(12.46, 1), format_fixed(float("nan"), 1), format_fixed(-0.04, 1)
     ('12.5', '–', '0.0')
     """
     if not math.isfinite(value):
@@ -82,33 +82,33 @@ def format_fixed(value: float, decimals: int) -> str:
 
 
 def format_signed(value: float, decimals: int) -> str:
-    """``+1.3``, ``−0.4``: with its sign, also above zero."""
+    """Return ``+1.3`` or ``−0.4``."""
     return f"{'−' if value < 0 else '+'}{format_fixed(abs(value), decimals)}"
 
 
 def format_significant(value: float, digits: int) -> str:
-    """``0.65`` with that many figures that mean something, none but them.
+    """Return ``0.65`` with so many significant digits.
 
-    >>> figures(0.6512, 3), figures(12.0, 3)
+    >>> format_significant(0.6512, 3), format_significant(12.0, 3)
     ('0.651', '12')
     """
     return _localise(f"{value:.{digits}g}") if math.isfinite(value) else UNKNOWN
 
 
 def format_integer(value: int) -> str:
-    """``1,250``: thousands apart, as the person's language parts them."""
+    """Return ``1,250`` with the language's group separator."""
     return language.locale().toString(value)
 
 
 def _localise(plain: str) -> str:
-    """A number as Python writes it, with the language's decimal sign."""
+    """Replace the decimal point by the language's."""
     return plain.replace(".", language.locale().decimalPoint())
 
 
 def format_clock(seconds: float) -> str:
-    """``01:24``, hours only when there are some.
+    """Return ``01:24``, with hours if there are any.
 
-    >>> clock(84.9), clock(3661)
+    >>> format_clock(84.9), format_clock(3661)
     ('01:24', '1:01:01')
     """
     if not math.isfinite(seconds):
@@ -119,41 +119,41 @@ def format_clock(seconds: float) -> str:
 
 
 def format_clock_tenths(seconds: float) -> str:
-    """``00:20.6``."""
+    """Return ``00:20.6``."""
     tenths = int(max(0.0, seconds) * 10 + 1e-6)
     return f"{format_clock(tenths // 10)}{language.locale().decimalPoint()}{tenths % 10}"
 
 
 def format_short_date(when: date | datetime) -> str:
-    """``Fri 13 Nov`` in the person's language."""
+    """Return ``Fri 13 Nov``."""
     return language.locale().toString(_to_qdate(when), tr("ddd d MMM"))
 
 
 def format_day_month(when: date | datetime) -> str:
-    """``13 Nov``."""
+    """Return ``13 Nov``."""
     return language.locale().toString(_to_qdate(when), tr("d MMM"))
 
 
 def format_distinct_day(when: datetime, *others: datetime) -> str:
-    """``13 Nov``, or ``13 Nov, 15:29`` where another session is of the same day."""
+    """Return ``13 Nov``, or ``13 Nov, 15:29`` if another session is of the same day."""
     same = any(other != when and other.date() == when.date() for other in others)
     return f"{format_day_month(when)}, {format_distinct_time(when, *others)}" if same else format_day_month(when)
 
 
 def format_distinct_time(when: datetime, *others: datetime) -> str:
-    """``15:29``, or ``15:29:07`` where another session is of the same minute."""
+    """Return ``15:29``, or ``15:29:07`` if another session is of the same minute."""
     day, minute = when.date(), (when.hour, when.minute)  # of hundreds of sessions with each row: nothing is written
     same = any(other != when and other.date() == day and (other.hour, other.minute) == minute for other in others)
     return f"{when:%H:%M:%S}" if same else f"{when:%H:%M}"
 
 
 def format_time_or_day(when: datetime, now: datetime) -> str:
-    """``13 Nov``, or ``15:29`` of the same day: short, for the head of a column."""
+    """Return ``15:29`` for the same day as ``now``, else ``13 Nov``."""
     return format_distinct_time(when, now) if when.date() == now.date() else format_day_month(when)
 
 
 def format_recording_time(minutes: float) -> str:
-    """How long a disk takes recordings: ``8 min``, ``17 h``, ``more other 99 h``."""
+    """Return how long a disk takes recordings: ``8 min``, ``17 h``, ``more than 99 h``."""
     if minutes < 600.0:
         return tr("{minutes} min").format(minutes=format_rounded(minutes))
     hours = minutes / 60.0
@@ -161,27 +161,27 @@ def format_recording_time(minutes: float) -> str:
 
 
 def format_long_date(when: date | datetime) -> str:
-    """``Friday 20 November 2026``."""
+    """Return ``Friday 20 November 2026``."""
     return language.locale().toString(_to_qdate(when), tr("dddd d MMMM yyyy"))
 
 
 def format_date(when: date | datetime) -> str:
-    """``20 Nov 2026``."""
+    """Return ``20 Nov 2026``."""
     return language.locale().toString(_to_qdate(when), tr("d MMM yyyy"))
 
 
 def qt_date_format() -> str:
-    """How a day is typed and shown in a field, in Qt's letters."""
+    """Return the date format of fields in Qt's notation."""
     return tr("d MMM yyyy")
 
 
 def format_date_time(when: datetime, *others: datetime) -> str:
-    """``20 Nov 2026, 11:36``; to be told from ``others``, by the second where need be."""
+    """Return ``20 Nov 2026, 11:36``, with seconds if ``others`` are of the same minute."""
     return f"{format_date(when)}, {format_distinct_time(when, *others)}"
 
 
 def format_days_ago(when: date | datetime, today: date) -> str:
-    """``yesterday``, ``7 days ago``; empty for the future."""
+    """Return ``yesterday`` or ``7 days ago``; empty for the future."""
     days = (today - (when.date() if isinstance(when, datetime) else when)).days
     if days < 0:
         return ""
@@ -189,7 +189,7 @@ def format_days_ago(when: date | datetime, today: date) -> str:
 
 
 def format_weeks_since(day: date, today: date) -> str:
-    """``13 weeks``, of less than one ``5 days``; empty for the future."""
+    """Return ``13 weeks``, below one ``5 days``; empty for the future."""
     days = (today - day).days
     if days < 0:
         return ""
@@ -203,13 +203,13 @@ MIN_YEAR = 1900
 
 
 def parse_date(text: str) -> date | None:
-    """A day as people type one, day before month: ``21.8.2026``, ``21/8/26``, ``2026-08-21``, or as Carpus writes it.
+    """Parse a date as people type it, day before month, or as Carpus writes it; None for anything else.
 
-    >>> day_typed("21.8.26"), day_typed("2026-08-21"), day_typed("31.2.2026"), day_typed("soon")
+    >>> parse_date("21.8.26"), parse_date("2026-08-21"), parse_date("31.2.2026"), parse_date("soon")
     (datetime.date(2026, 8, 21), datetime.date(2026, 8, 21), None, None)
-    >>> day_typed("21.8.202"), day_typed("21.8.99999999999"), day_typed("21.8.2026 5")  # a slip, and a year nobody has
+    >>> parse_date("21.8.202"), parse_date("21.8.99999999999"), parse_date("21.8.2026 5")  # slips
     (None, None, None)
-    >>> day_typed("3 Oct 2026") == day_typed("3 October 2026") == date(2026, 10, 3)
+    >>> parse_date("3 Oct 2026") == parse_date("3 October 2026") == date(2026, 10, 3)
     True
     """
     if found := re.fullmatch(r"(\d{1,4})[\s./-]+(\d{1,2})[\s./-]+(\d{1,4})", text.strip().strip(".")):
@@ -226,7 +226,7 @@ def parse_date(text: str) -> date | None:
 
 
 def format_ordinal(number: int) -> str:
-    """``6th``; other languages translate the whole pattern."""
+    """Return ``6th``; other languages translate the whole pattern."""
     last = 0 if number % 100 in (11, 12, 13) else number % 10
     pattern = {1: tr("{number}st"), 2: tr("{number}nd"), 3: tr("{number}rd")}.get(last, tr("{number}th"))
     return pattern.format(number=number)

@@ -1,4 +1,4 @@
-"""How far work is that takes a while."""
+"""Progress bar."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from carpus.ui.kit.theme import Theme
 
 
 class ThinProgressBar(QProgressBar):
-    """A line that fills; before the first word it says only that something is done."""
+    """Thin progress bar; busy until the first progress is known."""
 
     def __init__(self, theme: Theme, name: str) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""The table of words and values, the same on a screen and on paper; Qt lays it out."""
+"""Table widget, the same on screen and paper."""
 
 from __future__ import annotations
 
@@ -16,24 +16,23 @@ from carpus.ui.kit.layouts import clear_layout, column_layout, grid_layout, row_
 from carpus.ui.kit.text import MEDIUM, REGULAR, Icon, PlainText
 from carpus.ui.kit.theme import Theme
 
+# A longer text does not widen its column: it wraps.
 MAX_LETTERS = 26
-"""A longer text asks for no wider column: it goes on in the next line."""
+# Width and height of a curve's colour mark in sizes of the text, before a row and in the head.
 ROW_MARK, HEAD_MARK = (0.35, 1.0), (0.85, 0.28)
-"""Width and height, in sizes of the words, of the mark of a curve: before the name of a row, and of a column."""
+# Smallest scale at which a table can be read.
 MIN_SCALE = 0.7
-"""Share of its usual size in which a table can still be read."""
 
 _HEAD = TableColumn(MEDIUM, "text2")
 
 
 class Table(QWidget):
-    """Heads over rows with a line between them. Columns share the width as their words ask for; where that is more than
-    there is, all words are smaller."""
+    """Table whose columns share the width by their texts; the font shrinks if there is too little."""
 
     def __init__(
         self, theme: Theme, size: float = 14, head_size: float = 12, gap: float = 12, pitch: float = 5
     ) -> None:
-        """``gap`` lies between two columns, ``pitch`` above and below each line."""
+        """Set font sizes, the ``gap`` between columns, and the ``pitch`` above and below each line."""
         super().__init__()
         self._theme, self._size, self._head_size, self._gap, self._pitch = theme, size, head_size, gap, pitch
         self._grid = grid_layout(theme.px(gap), 0, margins=(0, 0, 0, 0), parent=self)
@@ -52,7 +51,7 @@ class Table(QWidget):
         *,
         accessible_rows: Sequence[str] = (),
     ) -> None:
-        """Replace what is shown; columns without head and words are left out."""
+        """Replace the content; columns without text are omitted."""
         lines = [*([heads] if heads else []), *rows]
         used = [at for at in range(len(columns)) if any(cell_text(line[at]) for line in lines)]
         self._columns = tuple(columns[at] for at in used)
@@ -65,7 +64,7 @@ class Table(QWidget):
         self._rebuild()
 
     def fit_width(self, width_px: int) -> None:
-        """Make all words smaller where they would be wider than that; the size then stays, whatever room there is."""
+        """Shrink the font to a width once; it then stays, whatever room there is."""
         self._follows_width = False
         self._fit(width_px)
 
@@ -96,7 +95,6 @@ class Table(QWidget):
             self._fit(self.width())
 
     def _build(self, share: float) -> None:
-        """Lay everything out in that share of the usual size."""
         clear_layout(self._grid)
         self._scale = share
         self._grid.setHorizontalSpacing(self._theme.px(share * self._gap))
@@ -123,7 +121,7 @@ class Table(QWidget):
         self._grid.setRowMinimumHeight(row, self._theme.px(2 * self._scale * self._pitch))
 
     def _add(self, cell: Cell, column: TableColumn, row: int, place: int, mark: tuple[float, float]) -> int:
-        """Put a cell into the grid; the width that its words ask for."""
+        """Add a cell to the grid and return the width its text asks for."""
         size = self._scale * self._size * column.scale
         side = Qt.AlignmentFlag.AlignRight if column.is_right_aligned else Qt.AlignmentFlag.AlignLeft
         shown = PlainText(self._theme, cell.text, size, cell.weight, cell.token, wrap=column.is_wrapped)

@@ -1,4 +1,4 @@
-"""Text in one of the design's sizes, following theme and text scale."""
+"""Labels in the sizes of the design that follow theme and text scale."""
 
 from __future__ import annotations
 
@@ -28,8 +28,10 @@ __all__ = [
 
 
 class PlainText(QLabel):
-    """A label with size, weight and colour by token; plain text only, so nothing typed is ever markup. As it overrides
-    nothing of Qt, pages and tables can have hundreds."""
+    """Label with size, weight and colour token; plain text, so that nothing typed becomes markup.
+
+    It overrides no method of Qt: pages and tables have hundreds.
+    """
 
     def __init__(
         self,
@@ -57,8 +59,7 @@ class PlainText(QLabel):
         self._reserve_ascent()
 
     def _reserve_ascent(self) -> None:
-        """The display cut's Ä, Ö, Ü and È rise above the line that the font asks for, and would be cut at the label's
-        edge."""
+        """Reserve room for Ä, Ö, Ü and È, which rise above the line of the display font."""
         top_px = 0
         if self.font().family() == DISPLAY_FAMILY and not self.text().isascii():
             metrics = QFontMetricsF(self.font())
@@ -68,14 +69,14 @@ class PlainText(QLabel):
 
 
 class Text(PlainText):
-    """A label on a screen, whose words may change; what there is no room for is left out, and a tooltip says it."""
+    """Label of a screen whose text may change; it elides, with the whole text as tooltip."""
 
     def setText(self, text: str) -> None:
         super().setText(text)
         self._reserve_ascent()
 
     def show_text(self, words: str) -> None:
-        """These words; hidden where there are none."""
+        """Show a text; hide the label if it is empty."""
         self.setText(words)
         self.setVisible(bool(words))
 
@@ -101,7 +102,7 @@ class Text(PlainText):
 
     @property
     def visible_text(self) -> str:
-        """What there is room for of a single line; a tooltip says the rest."""
+        """The part of a single line that fits."""
         if self.wordWrap() or "\n" in self.text():
             return self.text()
         words = self.text().replace("&", "") if self.buddy() is not None else self.text()
@@ -130,7 +131,7 @@ class Text(PlainText):
 
 
 class ElidedText(Text):
-    """One line that never asks for room: what does not fit is left out at its end."""
+    """One line that asks for no room and is elided at its end."""
 
     def __init__(
         self, theme: Theme, text: str = "", size_px: int = 14, weight: int = REGULAR, token: str = "text"
@@ -151,12 +152,12 @@ class ElidedText(Text):
 
 
 def heading(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
-    """The 28 px title of a page."""
+    """Return the 28 px title of a page."""
     return Text(theme, text, 28, SEMIBOLD, wrap=wrap)
 
 
 def caption(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
-    """Small secondary text."""
+    """Return small secondary text."""
     return Text(theme, text, 12, MEDIUM, "text2", wrap=wrap)
 
 
@@ -167,12 +168,12 @@ STATE_TOKENS: dict[State, str] = {
 
 
 def paint_status(painter: QPainter, theme: Theme, state: State, box: QRectF) -> None:
-    """A state icon in its usual colours on a card."""
+    """Paint a state icon in its colours."""
     paint_state(painter, state, box, theme.color(STATE_TOKENS[state]), theme.color("surface"))
 
 
 class StateText(QWidget):
-    """A state icon (or a line icon) with its word: colour never speaks alone. ``resized`` when it needs other room."""
+    """State icon or line icon with its text; emits ``resized`` when it needs other room."""
 
     resized = Signal()
 
@@ -187,7 +188,7 @@ class StateText(QWidget):
         theme.changed.connect(self._resize)
 
     def show_state(self, state: State, text: str, icon: str = "", token: str = "text2") -> None:
-        """Set icon and word; ``icon`` names a line icon for a neutral fact."""
+        """Show a state and its text; ``icon`` replaces the state's icon by a line icon."""
         if (state, text, icon, token) != (self._state, self._text, self._icon, self._token):
             self._state, self._text, self._icon, self._token = state, text, icon, token
             self.setAccessibleName(text)
@@ -233,8 +234,10 @@ class StateText(QWidget):
 
 
 class Icon(QWidget):
-    """A state's sign or a line icon alone; its words stand beside it. ``size_px`` large in the middle of the height of
-    ``box_px``, and so far to the right in it as ``alignment`` says, from 0 to 1."""
+    """State icon or line icon without text.
+
+    It is ``size_px`` large, centred in the height of ``box_px``, and placed in its width by ``alignment`` (0 to 1).
+    """
 
     def __init__(
         self, theme: Theme, name: str, size_px: int = 18, box_px: tuple[int, int] = (20, 20), token: str = "accent",
@@ -246,7 +249,7 @@ class Icon(QWidget):
         theme.on_change(self, self._apply_theme)
 
     def show_icon(self, name: str, token: str = "accent", size_px: int = 18) -> None:
-        """Show another; the token is that of an icon, a state has its own."""
+        """Show another icon; ``token`` colours a line icon, a state has its own colour."""
         self._name, self._token, self._size_px = name, token, size_px
         self.update()
 
@@ -268,5 +271,5 @@ class Icon(QWidget):
 
 
 def plain_tooltip(text: str) -> str:
-    """A text as a tooltip shows it letter by letter; Qt would take tags in it for tags, and load their pictures."""
+    """Return a text as a tooltip that shows it literally; Qt would interpret its tags."""
     return f"<span>{escape(text)}</span>" if "<" in text else text

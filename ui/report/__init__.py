@@ -1,1 +1,1 @@
-"""The printed page, its preview, and the tables and sentences it shares with the screens."""
+"""Report pages: their parts, and their output as PDF."""

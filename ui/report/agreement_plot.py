@@ -1,4 +1,4 @@
-"""Plots of an agreement: both curves over time and the differences with their limits, as PNG and PDF. No window."""
+"""Agreement plots as PNG and PDF, without a window."""
 
 from __future__ import annotations
 
@@ -28,16 +28,20 @@ if TYPE_CHECKING:  # a window loads nothing that reads files
 WIDTH, HEIGHT, EDGE = 1120, 480, 24
 PICTURE_SCALE = 2
 PAPER_MM, MARGIN_MM = (297.0, 210.0), 10.0
+# The page is laid out in design pixels, not in points.
 STYLE = paper_style(4.0 / 3.0 * UNIT)
-"""The page is laid out in design pixels, not in points."""
 PaintPlots = Callable[[QPainter, float], None]
 
 
 def write_plots(compared: Comparison, folder: Path, stem: str, limit_deg: float = 0.0) -> list[Path]:
-    """Write one ``STEM.ANGLE.png`` for each angle and ``STEM.pdf`` with all; the files. ``limit_deg``
-    set before is hatched, 0 for none.
+    """Write ``STEM.ANGLE.png`` for each angle and ``STEM.pdf`` with all of them.
 
-    Raises :class:`OutputExists` or :class:`OutputNotWritable`.
+    ``limit_deg``, the acceptance limit set beforehand, is hatched; 0 for none.
+
+    Raises
+    ------
+    OutputExists, OutputNotWritable
+            If a file exists already, or the folder cannot be written.
     """
     application = ensure_application()
     pages = {pairs.name: _page_painter(pairs, compared, limit_deg) for pairs in compared.pairs}
@@ -67,7 +71,6 @@ def _picture(paint: PaintPlots) -> bytes:
 
 
 def _paint_on_paper(paint: PaintPlots, painter: QPainter, point: float) -> None:
-    """As wide as the page."""
     mm = POINTS_PER_MM * point
     painter.save()
     painter.translate(MARGIN_MM * mm, MARGIN_MM * mm)
@@ -76,7 +79,7 @@ def _paint_on_paper(paint: PaintPlots, painter: QPainter, point: float) -> None:
 
 
 def _page_painter(pairs: AnglePairs, compared: Comparison, limit_deg: float) -> PaintPlots:
-    """Paints an angle's figures and both plots, with so many painter units to a design pixel."""
+    """Return a function that paints an angle's values and both plots, scaled by units per design pixel."""
     f = pairs.agreement_deg
     values = [
         f"RMSE {format_tenths(f.rmse)}",

@@ -1,4 +1,4 @@
-"""What the report of a session, or over several, says: gathered from them, and written."""
+"""Session and progress reports, built from results and written as PDF."""
 
 from __future__ import annotations
 
@@ -41,10 +41,11 @@ def build_session_report(
     form: ReportForm | None = None,
     language: str = "",
 ) -> SessionReport:
-    """What the page of a session says; ``history`` figures of the patient's other sessions, in any order,
-    ``manual_values``
-    all that was ever measured by hand: what counts of the session's day and hand is told; ``language`` of the page,
-    empty for the window's."""
+    """Build the report of a session.
+
+    ``history`` are the results of the patient's other sessions, in any order. ``manual_values`` are all of the
+    patient; those of the session's day and hand are used. ``language`` is empty for the window's.
+    """
     figures = compute_session_results(session, choices, error_limits(history))
     known = next((other for other in history if other.session_id == figures.session_id), figures)
     older = all(one is not figures for one in select_latest_versions((*history, figures)))
@@ -81,8 +82,10 @@ def build_session_report(
 
 
 def write_session_report(report: Session | SessionReport, output_path: Path, **context: object) -> Path:
-    """Write the report of a session, two pages; ``context`` as of :func:`build_session_report` when a session is given.
-    Faults as :func:`write_report`.
+    """Write the report of a session as PDF.
+
+    ``context`` are the arguments of :func:`build_session_report` if a session is given. Raises the faults of
+    :func:`write_report`.
     """
     page = build_session_report(report, **context) if isinstance(report, Session) else report  # type: ignore[arg-type]
     return write_report(page, output_path)
@@ -91,7 +94,11 @@ def write_session_report(report: Session | SessionReport, output_path: Path, **c
 def write_progress_report(
     report: Sequence[SessionResults] | ProgressReport, output_path: Path, **context: object
 ) -> Path:
-    """Write the one-page report over sessions; faults as :func:`write_report`."""
+    """Write the report over sessions as PDF.
+
+    ``context`` are the arguments of :func:`build_progress_report` if results are given. Raises the faults of
+    :func:`write_report`.
+    """
     page = report if isinstance(report, ProgressReport) else build_progress_report(report, **context)  # type: ignore[arg-type]
     return write_report(page, output_path)
 
@@ -107,11 +114,10 @@ def build_progress_report(
     language: str = "",
     other_hand: SessionResults | None = None,
 ) -> ProgressReport:
-    """The course of the newest session's exercise and hand; the other hand's last session beside it, which is
-    ``other_hand`` where that is none of the ``sessions``.
+    """Build the progress report of the newest session's exercise and hand.
 
-    ``choice`` of the whole hand is followed, as of :func:`progress_choices`; the first of them by itself.
-    ``manual_values`` is what counts of what was measured by hand of this hand and person.
+    ``choice`` is what is followed of a whole hand, as in :func:`progress_choices`, the first one by default.
+    ``manual_values`` are those of this hand and person. ``other_hand`` is used if the ``sessions`` have none of it.
     """
     newest = max(sessions, key=lambda figures: figures.when)
     alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]

@@ -1,4 +1,4 @@
-"""The part of the session report that is the whole hand's: table of the fingers, the wrist beside it, curves."""
+"""Whole-hand sections of the session report: finger table, wrist and curves."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from carpus.ui.words.terms import arc_name
 def finger_section(
     results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None
 ) -> list[Part]:
-    """One row for each finger, then in words what the camera's view limits."""
+    """Return the table of the fingers and what occlusion limited."""
     columns, heads, rows = finger_table(results, previous, other_hand)
     shown = table(columns, [cell_text(head) for head in heads], rows, pitch=2.0)
     words = limitation_words(results)
@@ -44,7 +44,7 @@ def finger_section(
 
 
 def wrist_section(results: SessionResults) -> list[Part]:
-    """The wrist's three arcs in one line under the table of the fingers."""
+    """Return the wrist's three arcs in one line."""
     arcs = [
         (
             line(
@@ -62,7 +62,7 @@ def wrist_section(results: SessionResults) -> list[Part]:
 
 
 def finger_curve_section(curves: WristCurves, joints: JointCurves, results: SessionResults) -> list[Part]:
-    """Bending of every finger over time, in the height that is left; dashed where it was hidden."""
+    """Return the flexion curves of every finger."""
     key: list[QWidget | float] = []
     for row in FLEXION_KINDS:
         swatch = ColorFill(PAPER, KIND_TOKENS[row])

@@ -1,4 +1,4 @@
-"""The sheet to take home: exercises as drawn pictures, the own way so far, when to come again. One page, no degrees."""
+"""Home exercise sheet: drawn exercises, the patient's progress and the next appointment, without degrees."""
 
 from __future__ import annotations
 
@@ -44,17 +44,17 @@ from carpus.ui.words import terms
 from carpus.ui.words.patient import task_words
 
 MAX_TASKS, MAX_DAYS, DEFAULT_DAYS = 3, 7, 7
+# Exercises of one angle.
 DRAWABLE_EXERCISES = tuple(exercise for exercise in EXERCISES if exercise.has_repetitions)
-"""What can be drawn: exercises of one angle."""
 REST_DEG, DRAWN_DEG = 0.0, 45.0
+# Width of a picture, and its largest height.
 PICTURE_PT, MAX_PICTURE_PT = 190.0, 180.0
-"""Width of a picture, and its height where there is room."""
 MAX_NOTE_LENGTH = 160
 
 
 @dataclass(frozen=True, slots=True)
 class HomeTask:
-    """One exercise: how often in a row, and how often a day."""
+    """One exercise with its repetitions and rounds a day."""
 
     exercise: Exercise
     times: int
@@ -63,8 +63,7 @@ class HomeTask:
 
 @dataclass(frozen=True, slots=True)
 class HomeProgress:
-    """The patient's own way in one movement, signed degrees; it is drawn, never printed as a figure. ``said`` whether
-    it is further, or held; ``goal_deg`` NaN for none."""
+    """Progress of one movement in signed degrees; drawn, never printed as a number. The goal may be NaN."""
 
     days: tuple[date, ...]
     values_deg: tuple[float, ...]
@@ -78,9 +77,11 @@ def _kind() -> str:
 
 @dataclass(frozen=True, slots=True)
 class HomeReport(DerivedReport):
-    """All that is on the page: never a diagnosis or the real name. ``next_appointment`` the next appointment, None
-    for a line to
-    write it on; ``appointment_time`` its time as it was typed; ``language`` the patient's, by two letters."""
+    """Home exercise sheet; never with a diagnosis or the real name.
+
+    ``next_appointment`` is None for a line to write on, ``appointment_time`` as it was typed; ``language`` is the
+    patient's.
+    """
 
     tasks: tuple[HomeTask, ...]
     day: date
@@ -92,7 +93,7 @@ class HomeReport(DerivedReport):
 
     @property
     def plan(self) -> HomePlan:
-        """What is to be done, as it is remembered with the patient."""
+        """The plan as it is stored with the patient."""
         names, first = tuple(task.exercise.id for task in self.tasks), self.tasks[0]
         return HomePlan(
             names,
@@ -116,8 +117,7 @@ class HomeReport(DerivedReport):
 def build_home_progress(
     results: SessionResults, history: Sequence[SessionResults], goals: Goals
 ) -> HomeProgress | None:
-    """What may be shown of progress: sessions that compare, and no bad news; None where there is nothing good to say
-    that is beyond doubt."""
+    """Return the progress to show: only comparable sessions, and only an improvement or a kept range."""
     exercise = results.exercise
     alike = [one for one in history if (one.exercise.id, one.side) == (exercise.id, results.side)]
     known = [one for one in alike if one.when <= results.when and one.session_id != results.session_id]
@@ -139,7 +139,7 @@ def build_home_progress(
 
 
 def home_progress_words(progress: HomeProgress) -> str:
-    """What is said above it, beyond error only: how much of the way to the goal is done, or that it is held."""
+    """Return the sentence above the progress."""
     first, last, goal = progress.values_deg[0], progress.values_deg[-1], progress.goal_deg
     if not progress.has_improved:
         return tr("You are holding what you reached.")
@@ -166,7 +166,6 @@ def _body(home: HomeReport, number: str) -> QLayout:
 
 
 def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
-    """A drawn exercise, what is to be done, how often, and a box for each day."""
     words = translate_phrase(task.exercise.instruction)
     if task.exercise.angle == PRONOSUPINATION:  # at home nobody looks for markers
         words = tr("Turn the palm up, then down. The elbow stays at your side.")
@@ -192,7 +191,7 @@ def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
 
 
 def _progress_box(home: HomeReport, progress: HomeProgress) -> RoundedBox:
-    """The hand at the start, today and at the goal, and the own curve; no degrees, and nobody else's."""
+    """Return the hand at the start, today and at the goal, with the curve of the sessions."""
     key = tr("dashed: at the start; full line: today")
     if math.isfinite(progress.goal_deg):
         key = tr("dashed: at the start; full line: today; green: our goal")
@@ -208,7 +207,6 @@ def _progress_box(home: HomeReport, progress: HomeProgress) -> RoundedBox:
 
 
 def _appointment_box(home: HomeReport) -> QLayout:
-    """When to come again, and room for questions."""
     again: list[Part | float] = [paragraph(tr("See you again"), 9.5, MEDIUM), 4.0]
     if home.next_appointment is None:
         again += [18.0, rule()]
@@ -228,7 +226,7 @@ def _appointment_box(home: HomeReport) -> QLayout:
 
 
 def _days(home: HomeReport) -> list[date]:
-    """From today to the day before the next appointment, a week at most."""
+    """Return the days from today to the day before the next appointment, a week at most."""
     count = DEFAULT_DAYS if home.next_appointment is None else (home.next_appointment - home.day).days
     return [home.day + timedelta(days=day) for day in range(min(max(count, 1), MAX_DAYS))]
 
@@ -252,14 +250,13 @@ def _paint_tick_box(painter: QPainter, box: QRectF) -> None:
 
 
 def _paint_lines(painter: QPainter, box: QRectF) -> None:
-    """Lines to write on."""
     painter.setPen(QPen(PAPER.color("line"), 0.6 * UNIT))
     for y in range(PAPER.px(18.0), round(box.height()), PAPER.px(19.0)):
         painter.drawLine(QLineF(0.0, y, box.width(), y))
 
 
 def _fit_transform(box: QRectF, side: Side, part: QRectF) -> QTransform:
-    """From a figure's plane into a box, mirrored for a left hand."""
+    """Return the transform of a drawn hand into a box, mirrored for a left hand."""
     scale = min(box.width() / part.width(), box.height() / part.height())
     to = QTransform()
     to.translate(box.center().x(), box.center().y())
@@ -269,7 +266,7 @@ def _fit_transform(box: QRectF, side: Side, part: QRectF) -> QTransform:
 
 
 def _visible_rect(exercise: Exercise, values_deg: Sequence[float]) -> QRectF:
-    """What of the figure's plane is to be seen: the hands, and a piece of the forearm."""
+    """Return the visible part of a drawing: the hands, and a piece of the forearm."""
     part = QRectF()
     for value in values_deg:
         part = part.united(build_pose(exercise, value).hand.boundingRect())
@@ -279,7 +276,7 @@ def _visible_rect(exercise: Exercise, values_deg: Sequence[float]) -> QRectF:
 
 
 def _paint_exercise(exercise: Exercise, side: Side, painter: QPainter, box: QRectF) -> None:
-    """The hand where it begins, dashed, and where it goes, with an arrow there and back."""
+    """Paint the hand at the start (dashed) and at the end, with a double arrow."""
     start, end = (-DRAWN_DEG, DRAWN_DEG) if exercise.angle is not None else (REST_DEG, 1.6 * DRAWN_DEG)
     if exercise.angle == 0 or exercise.joint.endswith("abduction"):
         start, end = 0.5 * start, 0.5 * end

@@ -1,7 +1,7 @@
-"""The letter to the referring doctor: one page, whatever stands in it.
+"""Letter to the referring doctor, always on one page.
 
-Where it does not fit it is painted smaller, down to :data:`MIN_SCALE`. Then these go, in this order: the figures of the
-other hand and of last time, the change since the first session, the comment, in whose place stands where it is.
+A long letter is printed smaller, down to :data:`MIN_SCALE`. Then are omitted, in this order: the values of the other
+hand and of last time, the change since the first session, and the comment, in whose place stands where it is.
 """
 
 from __future__ import annotations
@@ -51,8 +51,7 @@ def _kind() -> str:
 
 @dataclass(frozen=True, slots=True)
 class LetterReport(DerivedReport):
-    """All that is on the page: what the report has, to whom it goes and when. ``real_name`` is printed where it is not
-    empty, beside the made-up one."""
+    """Letter made of a session report; ``real_name`` is printed beside the pseudonym if it is not empty."""
 
     recipient: str
     day: date
@@ -68,7 +67,6 @@ class LetterReport(DerivedReport):
 
 
 def _body(letter: LetterReport, number: str) -> QLayout:
-    """All of it, or what has room."""
     omitted = 0
     while omitted < MAX_OMISSIONS and fit_parts(_parts(letter, omitted), *body_size(letter.form))[1] < MIN_SCALE:
         omitted += 1
@@ -76,7 +74,6 @@ def _body(letter: LetterReport, number: str) -> QLayout:
 
 
 def _parts(letter: LetterReport, omitted: int) -> QLayout:
-    """The letter without what is omitted."""
     report, figures = letter.report, letter.report.results
     who = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
     measured = tr("On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.").format(
@@ -116,7 +113,6 @@ def _parts(letter: LetterReport, omitted: int) -> QLayout:
 
 
 def _result_table(report: SessionReport, *, has_comparison: bool) -> Item:
-    """The main figures, with those of the other hand and of last time beside them."""
     rows = letter_rows(report)
     if not rows:
         return paragraph(tr("No range could be measured."), SIZE_PT)
@@ -130,7 +126,7 @@ def _result_table(report: SessionReport, *, has_comparison: bool) -> Item:
 
 
 def letter_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
-    """Name, mean with its spread, the other hand's and last time's; a figure that is not known is said to be so."""
+    """Return name, mean ± SD, the other hand's and last time's value of each main measure."""
     figures = report.results
     if report.joints is None:
         shown = range_table(figures, report.previous, report.other_hand, on_paper=True)
@@ -150,7 +146,6 @@ def letter_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
 
 
 def _foot(report: SessionReport) -> QLayout:
-    """How it was measured, in what it can be wrong, and by which program: never left out."""
     figures = report.results
     made_by = f" ({report.revision[:7]})" if report.revision else ""
     origin = f"Carpus {figures.software_version}{made_by} · " + tr("Session {id}").format(id=figures.session_id[:8])
@@ -159,7 +154,7 @@ def _foot(report: SessionReport) -> QLayout:
 
 
 def address_lines(recipient: str) -> list[str]:
-    """The recipient as it is printed.
+    """Return the recipient as printed.
 
     >>> address_lines(" Dr A \\n\\n Vienna")
     ['Dr A', 'Vienna']

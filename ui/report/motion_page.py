@@ -1,4 +1,4 @@
-"""The second page of a session report: the papers' figures and what the exercise has beside its ranges."""
+"""Second page of the session report: task measures and the papers' figures."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from carpus.ui.words.task_measures import task_table, task_title
 def motion_page(
     head: QLayout, results: SessionResults, previous: SessionResults | None, curves: WristCurves, motion: MotionCurves
 ) -> QLayout:
-    """What is on the page under its head."""
+    """Return the page under its head."""
     is_hand = bool(motion.joint_names)
     parts: list[Part] = [head, *_task_measure_section(results, previous)]
     height = 118.0 if is_hand else 165.0
@@ -52,7 +52,6 @@ def motion_page(
 
 
 def _task_measure_section(results: SessionResults, previous: SessionResults | None) -> list[Part]:
-    """Two figures to a line."""
     columns, _, rows = task_table(results, previous)
     if not rows:
         return []

@@ -1,4 +1,4 @@
-"""A page of paper: parts that Qt lays out, and what puts them on it; the same on the screen and on paper."""
+"""Report page: parts laid out by Qt, the same on screen and paper."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.words import terms
 
+# Layout pixels per point: Qt places in whole pixels, and a quarter of a point is finer than print.
 UNIT = 4
-"""Pixels of a layout in a point: Qt places in whole ones, and a quarter of a point is finer than print shows."""
+# Margins at the sides, above and below; printers leave a centimetre free.
 MARGIN_PT, TOP_PT, FOOT_PT = 42.5, 30.5, 28.5
-"""At the sides, above and below; printers reach no nearer to the edge than a centimetre."""
+# Width of the parts on A4; Letter is wider.
 BODY_WIDTH_PT = PAPER_PT["a4"][0] - 2 * MARGIN_PT
-"""So wide are the parts of a page at least; Letter is wider."""
 LOGO_PT = (150.0, 44.0)
 DISPLAY_FROM_PT = 20.0
+# No page is laid out smaller.
 MIN_SCALE = 0.3
-"""Of the usual size: no page is ever laid out smaller."""
 
 
 class _Paper(Theme):
@@ -51,43 +51,43 @@ class _Paper(Theme):
         take()
 
 
+# Longer than any word of a language; unbroken, it would make the whole page small.
 _LONG_WORD = re.compile(r"\S{28,}")
-"""Longer than any of a language: a name that somebody typed, and that would make all of the page small."""
 
 
 def _break_anywhere(word: re.Match[str]) -> str:
-    """A word that may go on in the next line after every letter."""
+    """Return the word with invisible breaks after every letter."""
     return "\u200b".join(word[0])
 
 
+# Lays out a page, given its number as text.
 Body = Callable[[str], QLayout]
-"""What is on a page, in whose head the words say which of how many it is."""
 PAPER = _Paper()
 CHART: PlotStyle = paper_style(UNIT)
 
 
 def to_layout_units(*sizes: float) -> tuple[int, ...]:
-    """Lengths in points as a layout counts them."""
+    """Return lengths in points as layout pixels."""
     return tuple(PAPER.px(size) for size in sizes)
 
 
 def paragraph(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> PlainText:
-    """A paragraph."""
+    """Return a paragraph that wraps."""
     return PlainText(PAPER, _LONG_WORD.sub(_break_anywhere, words), size, weight, token, wrap=True)
 
 
 def label(words: str, size: float = 9.0, weight: int = REGULAR, token: str = "text") -> PlainText:
-    """Words in one line."""
+    """Return words in one line."""
     return PlainText(PAPER, words, size, weight, token)
 
 
 def column(*parts: Part | float, gap: float = 0.0, within: QWidget | None = None) -> QVBoxLayout:
-    """One below the other; numbers are points of nothing."""
+    """Stack parts; numbers are gaps in points."""
     return column_layout(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0), parent=within)
 
 
 def line(*parts: Part | float, gap: float = 0.0) -> QHBoxLayout:
-    """Side by side; numbers are points of nothing."""
+    """Put parts side by side; numbers are gaps in points."""
     return row_layout(*_to_units(parts), gap=PAPER.px(gap), margins=(0, 0, 0, 0))
 
 
@@ -96,12 +96,12 @@ def _to_units(parts: Sequence[Part | float]) -> list[Part]:
 
 
 def rule() -> Separator:
-    """A line across."""
+    """Return a horizontal line."""
     return Separator(PAPER)
 
 
 def line_or_column(first: PlainText, *rest: QWidget | float, is_apart: bool = True) -> QLayout:
-    """All in one line, the rest at its end or right behind, or where that is too long below the first."""
+    """Put parts in one line, or below the first one if they are too wide."""
     widths = [one.sizeHint().width() if isinstance(one, QWidget) else PAPER.px(one) for one in (first, *rest, 12.0)]
     if sum(widths) <= PAPER.px(BODY_WIDTH_PT):
         behind: tuple[Part | float, ...] = (STRETCH, *rest) if is_apart else (12.0, *rest, STRETCH)
@@ -114,13 +114,13 @@ def line_or_column(first: PlainText, *rest: QWidget | float, is_apart: bool = Tr
 
 
 def section_title(words: str, *aside: str | QWidget | float) -> QLayout:
-    """The head of a part, with a remark or a key."""
+    """Return the title of a section with a remark or a legend."""
     behind = [label(one, 8.5, REGULAR, "text2") if isinstance(one, str) else one for one in aside if one != ""]
     return line_or_column(label(words, 11.5, SEMIBOLD), *behind)
 
 
 def page_head(kind: str, number: str, who: str, what: str) -> QLayout:
-    """The program's mark, what kind of page and which of how many, of whom and of what."""
+    """Return the page head: logo, kind and number of the page, patient and content."""
     aside = f"{kind} · {number}" if number else kind
     top = line(
         Icon(PAPER, "carpus", 15, (15, 15)),
@@ -134,13 +134,13 @@ def page_head(kind: str, number: str, who: str, what: str) -> QLayout:
 
 
 def session_page_head(newest: SessionResults, who: str, kind: str, number: str) -> QLayout:
-    """The head of a page about an exercise of a hand."""
+    """Return the head of a page about an exercise of one hand."""
     what = f"{terms.exercise_name(newest.exercise.id)}, {to_mid_sentence(terms.hand_name(newest.side))}"
     return page_head(kind, number, who, what)
 
 
 def fact_row(pairs: Sequence[tuple[str, str]]) -> QLayout:
-    """Small names over values, side by side."""
+    """Return small names over their values, side by side."""
     parts: list[Part] = [
         (column(paragraph(name, 8.5, REGULAR, "text2"), paragraph(value, 10.0, MEDIUM)), max(len(name), len(value), 8))
         for name, value in pairs
@@ -155,7 +155,7 @@ def table(
     size: float = 9.0,
     pitch: float = 3.0,
 ) -> Table:
-    """A table as wide as the page."""
+    """Return a table as wide as the page."""
     made = Table(PAPER, size, size - 0.5, gap=8.0, pitch=pitch)
     made.show_rows(columns, heads, rows)
     made.fit_width(PAPER.px(BODY_WIDTH_PT))
@@ -163,7 +163,7 @@ def table(
 
 
 def value_rows(lines: Sequence[tuple[str, str, str]]) -> QLayout:
-    """Names with their values at the right, in the colour of a token, for a :class:`RoundedBox` of half the page."""
+    """Return rows of names and right-aligned values (name, value, token) for half the page."""
     rows: list[Part] = []
     for name, value, token in lines:
         named, shown = label(name, 8.5, REGULAR, "text2"), label(value, 8.5, MEDIUM, token)
@@ -176,7 +176,7 @@ def value_rows(lines: Sequence[tuple[str, str, str]]) -> QLayout:
 
 
 def break_lines(words: str, size: float, width: float) -> list[str]:
-    """A text in lines no wider than that; a word that is wider is broken too."""
+    """Break a text into lines of at most that width; a longer word is broken too."""
     found = []
     for part in words.splitlines():
         letters = part.encode("utf-16-le")  # as Qt counts them: a picture among letters is two
@@ -194,12 +194,12 @@ def break_lines(words: str, size: float, width: float) -> list[str]:
 
 
 def legal_line() -> PlainText:
-    """What is said of the program on every page."""
+    """Return the legal sentence of every page."""
     return paragraph(terms.LEGAL_SENTENCE, 8.0, SEMIBOLD)
 
 
 class RoundedBox(QWidget):
-    """A frame with round corners, or a ground of a token, with a column in it."""
+    """Column in a rounded frame, or on a filled ground."""
 
     def __init__(self, *parts: Part | float, fill: str = "") -> None:
         super().__init__()
@@ -216,8 +216,7 @@ class RoundedBox(QWidget):
 
 
 class PaintedPart(QWidget):
-    """What is painted: at least so many points high, and up to ``max_height`` where there is room; as wide as there
-    is."""
+    """Part that is painted, between ``min_height`` and ``max_height`` points high."""
 
     def __init__(
         self, paint: Callable[[QPainter, QRectF], None], min_height: float, max_height: float = 0.0, width: float = 0.0
@@ -240,7 +239,7 @@ class PaintedPart(QWidget):
 
 
 def session_chart_part(plot: SessionPlot, min_height: float, max_height: float) -> PaintedPart:
-    """Curves with their axes."""
+    """Return curves with their axes as a part."""
     return PaintedPart(lambda painter, box: paint_session(painter, CHART, plot, box), min_height, max_height)
 
 
@@ -249,10 +248,10 @@ def _watermark_words() -> str:
 
 
 class Page:
-    """Parts on the form's paper under the clinic's letterhead, smaller where there is too much."""
+    """Parts under the clinic's letterhead, scaled down if there is too much."""
 
     def __init__(self, form: ReportForm, body: QLayout, *, simulated: bool = False) -> None:
-        """Laid out and painted in the language that is spoken now."""
+        """Lay the page out in the current language."""
         self._language = thread_language()
         self.size_pt = PAPER_PT[form.paper]
         self._watermark = _watermark_words() if simulated else ""
@@ -263,7 +262,7 @@ class Page:
         self._place(body, top, width, PAPER.px(self.size_pt[1] - FOOT_PT) - top, fills=True)
 
     def _place(self, layout: QLayout, top: int, width: int, height: int, *, fills: bool = False) -> int:
-        """Lay parts out in their room; the height that they take."""
+        """Lay parts out in their room and return the height they take."""
         host, share = fit_parts(layout, width, height)
         across = round(width / share)
         host.resize(across, round(height / share) if fills else layout.minimumHeightForWidth(across))
@@ -272,11 +271,11 @@ class Page:
 
     @property
     def size_mm(self) -> QSizeF | None:
-        """The paper's; None for A4, which Qt knows by name."""
+        """Size of the paper; None for A4, which Qt knows by name."""
         return None if self.size_pt == PAPER_PT["a4"] else QSizeF(*(25.4 / 72.0 * side for side in self.size_pt))
 
     def paint(self, painter: QPainter, point: float) -> None:
-        """Paint it with ``point`` painter units to a point."""
+        """Paint the page with ``point`` painter units per point."""
         painter.save()
         painter.scale(point / UNIT, point / UNIT)
         if self._watermark:
@@ -291,7 +290,7 @@ class Page:
         painter.restore()
 
     def _paint_watermark(self, painter: QPainter) -> None:
-        """SIMULATED across the page, behind everything: no copy of it passes for a patient's."""
+        """Paint SIMULATED across the page, so that no copy of it passes for a patient's."""
         painter.save()
         painter.translate(*(0.5 * UNIT * side for side in self.size_pt))
         painter.rotate(-55.0)
@@ -303,7 +302,7 @@ class Page:
 
 
 def body_size(form: ReportForm) -> tuple[int, int]:
-    """Width and height of a page between its margins, under a usual letterhead where there is one."""
+    """Return width and height of a page between its margins, below a usual letterhead if there is one."""
     width, height = PAPER_PT[form.paper]
     head = LOGO_PT[1] + 12.0 if form.letterhead.is_set else 0.0
     across, down = to_layout_units(width - 2 * MARGIN_PT, height - TOP_PT - FOOT_PT - head)
@@ -311,13 +310,13 @@ def body_size(form: ReportForm) -> tuple[int, int]:
 
 
 def render_parts(host: QWidget, painter: QPainter) -> None:
-    """Paint what lies on a widget that nobody sees."""
+    """Render an invisible widget's children."""
     painter.setRenderHints(QPainter.RenderHint.Antialiasing | QPainter.RenderHint.TextAntialiasing)
     host.render(painter, QPoint(), QRegion(), QWidget.RenderFlag.DrawChildren)
 
 
 def fit_parts(layout: QLayout, width: int, height: int) -> tuple[QWidget, float]:
-    """Parts on a widget of their own, and the largest share, up to the whole size, at which they have room."""
+    """Lay parts out on a widget of their own and return the largest scale, up to 1, at which they fit."""
     host = QWidget()
     host.setLayout(layout)
     layout.setSizeConstraint(QLayout.SizeConstraint.SetNoConstraint)  # it would ask for the height of the least width
@@ -336,7 +335,6 @@ def fit_parts(layout: QLayout, width: int, height: int) -> tuple[QWidget, float]
 
 
 def _letterhead(head: Letterhead) -> QLayout:
-    """Logo at the left, name and address beside it."""
     words = column(STRETCH, *(paragraph(one, 11.5, SEMIBOLD) for one in (head.name,) if one))
     for one in head.address:
         words.addWidget(paragraph(one, 8.0, REGULAR, "text2"))

@@ -1,4 +1,4 @@
-"""Pages to PDF: vector curves and embedded fonts by Qt's own writer. Works without a display."""
+"""PDF output by Qt's writer: vector curves and embedded fonts, without a display."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.report.page import DISPLAY_FROM_PT, Page
 from carpus.ui.report.report import Report, layout_pages
 
+# Shown by PDF viewers and mail programs, so without a name.
 TITLE = "Carpus report"
-"""What a viewer writes above its window and a mail program into its list: nobody's name."""
 RESOLUTION_DPI = 1200
 POINTS_PER_INCH = 72.0
 POINTS_PER_MM = POINTS_PER_INCH / 25.4
+# Paints a page, given painter units per point.
 PaintPage = Callable[[QPainter, float], None]
-"""Paints a page with so many painter units to a point."""
 
 
 def ensure_application() -> QApplication:
-    """The running Qt application, or one without a screen: pages are widgets. Keep the result while writing."""
+    """Return the running Qt application, or a new one without a screen; keep it while writing."""
     running = QGuiApplication.instance()
     application = running if isinstance(running, QApplication) else QApplication(["carpus", "-platform", "offscreen"])
     load_fonts()
@@ -35,7 +35,10 @@ def ensure_application() -> QApplication:
 
 
 def write_sheets(output_path: Path, sheets: Sequence[PrintedSheet], title: str) -> Path:
-    """Write sheets to print, each in its own size, in millimetres as drawn; faults as of :func:`write_report`."""
+    """Write sheets to print, each in its own size in millimetres.
+
+    Raises the faults of :func:`write_report`.
+    """
     application = ensure_application()
     pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _sheet_painter(sheet)) for sheet in sheets]
     content = pdf_bytes(pages, title)
@@ -48,9 +51,12 @@ def _sheet_painter(sheet: PrintedSheet) -> PaintPage:
 
 
 def write_report(report: Report, output_path: Path) -> Path:
-    """Write a report of any kind.
+    """Write a report of any kind as PDF.
 
-    Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-written stays.
+    Raises
+    ------
+    OutputExists, OutputNotWritable, DiskFull
+            If the file cannot be written; no partial file is left.
     """
     application = ensure_application()
     content = report_pdf(layout_pages(report))
@@ -59,12 +65,12 @@ def write_report(report: Report, output_path: Path) -> Path:
 
 
 def report_pdf(pages: Sequence[Page]) -> bytes:
-    """Pages as the content of a PDF. Only where the window lives, as all widgets."""
+    """Return pages as a PDF; call it in the window's thread only."""
     return pdf_bytes([(page.size_mm, page.paint) for page in pages], TITLE)
 
 
 def save_pdf(output_path: Path, content: bytes) -> Path:
-    """Write a PDF's content; faults as of :func:`write_report`."""
+    """Save a PDF's content; raises the faults of :func:`write_report`."""
     require_folder(output_path)
     with open_new_file(output_path) as file:
         file.write(content)
@@ -72,7 +78,7 @@ def save_pdf(output_path: Path, content: bytes) -> Path:
 
 
 def pdf_bytes(pages: Sequence[tuple[QSizeF | None, PaintPage]], title: str) -> bytes:
-    """The content of a PDF: what paints each page, and its size in millimetres, None for A4."""
+    """Return the PDF of pages (size in mm or None for A4, paint function)."""
     store = QByteArray()
     buffer = QBuffer(store)
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
@@ -95,7 +101,6 @@ def pdf_bytes(pages: Sequence[tuple[QSizeF | None, PaintPage]], title: str) -> b
 
 
 def _layout(size_mm: QSizeF | None) -> QPageLayout:
-    """A page without margins; A4 where no size is named."""
     size = (
         QPageSize(QPageSize.PageSizeId.A4)
         if size_mm is None
@@ -108,7 +113,7 @@ _LINE_PT = 0.5
 
 
 def paint_sheet(painter: QPainter, point: float, sheet: PrintedSheet) -> None:
-    """All marks of a sheet, edges as sharp as the printer has them."""
+    """Paint all marks of a sheet."""
     mm = point * POINTS_PER_MM
     # Half-covered edge pixels would make two squares that meet at a corner leak into each other.
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)

@@ -1,4 +1,4 @@
-"""The progress report: the answer, the chart, the table, why sessions were left out. One page."""
+"""Progress report on one page: answer, chart, table and comparability."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, 
 MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
 MAX_EXCLUDED = 4
 MAX_IDS = 8
+# The CSV table of manual values has all of them.
 MAX_MANUAL_CHANGES, MAX_DAYS = 5, 3
-"""So many changes, and days of what was taken once, are on the page; the table of them has all."""
 CHANGE_COLUMNS = (TableColumn(MEDIUM), TableColumn(SEMIBOLD), TableColumn(), TableColumn(is_right_aligned=True))
 MANUAL_COLUMNS = (TableColumn(MEDIUM), TableColumn(), TableColumn(SEMIBOLD, is_right_aligned=True))
 
@@ -56,16 +56,16 @@ def _kind() -> str:
 
 @dataclass(frozen=True, slots=True)
 class ProgressReport:
-    """All that is on the page."""
+    """Report over the sessions of one exercise and hand."""
 
     progress: Progress
     pseudonym: str
     therapist: str = ""
+    # Version and revision of the program.
     made_by: str = ""
-    """Version and revision of the program that makes the report."""
     form: ReportForm = DEFAULT_FORM
+    # Two letters; empty for the window's.
     language: str = ""
-    """The language it is painted in, by two letters; empty for the window's."""
 
     @property
     def sessions(self) -> tuple[SessionResults, ...]:
@@ -110,7 +110,7 @@ def _body(report: ProgressReport, number: str) -> QLayout:
 
 
 def provenance_words(made_by: str, sessions: Sequence[SessionResults]) -> str:
-    """``Made by Carpus 0.1.0 (1a2b3c4) of 7 sessions: 0b1c2d3e … · they were measured by Carpus 0.1.0``."""
+    """Return which program made the report, of which sessions, and which program measured them."""
     ids = ", ".join(figures.session_id[:8] for figures in sessions[-MAX_IDS:])
     if len(sessions) > MAX_IDS:
         ids = f"…, {ids}"
@@ -146,7 +146,7 @@ def _changes(progress: Progress) -> list[Part]:
 
 
 def _manual_changes(progress: Progress) -> list[Part]:
-    """What was measured by hand, each way for itself; values of one day only in one paragraph."""
+    """Return the changes of each manual measure; values of a single day in one paragraph."""
     if not progress.manual_measurements:
         return []
     changed = find_changes(progress.manual_measurements)

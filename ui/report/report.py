@@ -1,4 +1,4 @@
-"""A report page by page, the same on the screen and on paper."""
+"""What a report is, and its pages."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from carpus.ui.report.page import Body, Page
 
 
 class Report(Protocol):
-    """What can be shown, printed and saved: on whose form, of which sessions, and what is on its pages."""
+    """Report that can be shown, printed and saved."""
 
     @property
     def form(self) -> ReportForm: ...
 
     @property
     def language(self) -> str:
-        """The language it is written in, by two letters; empty for the window's."""
+        """Language by two letters; empty for the window's."""
 
     @property
     def kind(self) -> str:
-        """What it is, in a word, for the name of its file."""
+        """Kind in a word, for the file name."""
 
     @property
     def pseudonym(self) -> str: ...
@@ -36,7 +36,7 @@ class Report(Protocol):
 
 
 def layout_pages(report: Report) -> list[Page]:
-    """The pages, laid out in the language of the report. Only where the window lives, as all widgets."""
+    """Lay the pages out in the report's language; call it in the window's thread only."""
     with use_language(report.language):
         bodies, simulated = report.bodies(), any(figures.is_simulated for figures in report.sessions)
         pages = []

@@ -1,4 +1,4 @@
-"""The first page of the session report: always light, readable in grey."""
+"""First page of the session report: always light, readable in grey."""
 
 from __future__ import annotations
 
@@ -63,8 +63,8 @@ from carpus.ui.words.session import (
 )
 
 COMMENT_PT = 9.0
+# A longer comment gets pages of its own.
 MAX_COMMENT_LINES, LINES_ON_A_PAGE = 6, 52
-"""A longer comment has pages of its own."""
 
 
 def _kind() -> str:
@@ -73,7 +73,7 @@ def _kind() -> str:
 
 @dataclass(frozen=True, slots=True)
 class SessionReport:
-    """All that is on the page."""
+    """Report of one session."""
 
     results: SessionResults
     curves: WristCurves
@@ -83,8 +83,8 @@ class SessionReport:
     dominance: str = "unknown"
     diagnosis: str = ""
     onset: str = ""
+    # Diagnosis and onset are printed only if the form includes them.
     onset_day: date | None = None
-    """Why the patient comes: printed only where the form has it."""
     therapist: str = ""
     previous: SessionResults | None = None
     first: SessionResults | None = None
@@ -95,13 +95,13 @@ class SessionReport:
     settings_digest: str = ""
     revision: str = ""
     recording_digest: str = ""
+    # Of this hand and person, on the day of the session.
     manual_values: tuple[ManualValue, ...] = ()
-    """What was measured by hand of this hand and person on the day of the session."""
+    # The therapist's own words, several lines.
     comment: str = ""
-    """The therapist's own words, several lines."""
     form: ReportForm = DEFAULT_FORM
+    # Two letters; empty for the window's.
     language: str = ""
-    """The language it is painted in, by two letters; empty for the window's."""
 
     @property
     def sessions(self) -> tuple[SessionResults, ...]:
@@ -112,7 +112,7 @@ class SessionReport:
         return _kind()
 
     def bodies(self) -> list[Body]:
-        """The first page, that of movement, and those of a comment for which the first has no room."""
+        """Return the first page, the motion page, and pages for a long comment."""
         lines = comment_lines(self.comment)
         pages: list[Body] = [partial(_first_page, self, lines)]
         if self.motion is not None and self.form.includes("motion"):
@@ -125,7 +125,7 @@ class SessionReport:
 
 @dataclass(frozen=True, slots=True)
 class DerivedReport:
-    """A page made of what the report of a session has."""
+    """Page made from a session report."""
 
     report: SessionReport
 
@@ -188,12 +188,12 @@ def _comment_page(report: SessionReport, lines: Sequence[str], number: str) -> Q
 
 
 def comment_lines(comment: str) -> list[str]:
-    """The therapist's words as they are broken into lines."""
+    """Return the comment broken into lines."""
     return break_lines(comment, COMMENT_PT, BODY_WIDTH_PT) if comment.strip() else []
 
 
 def comment_text(lines: Sequence[str]) -> PlainText:
-    """Lines that are broken already, as they are."""
+    """Return lines that are broken already as a part."""
     return PlainText(PAPER, "\n".join(lines), COMMENT_PT)
 
 
@@ -226,7 +226,7 @@ def _facts(report: SessionReport) -> list[Part]:
 
 
 def _diagnosis_words(report: SessionReport) -> str:
-    """``Wrist fracture, plate, operated on 21 Aug 2026, 13 weeks before``, where the clinic wants it."""
+    """Return ``Wrist fracture, plate, operated on 21 Aug 2026, 13 weeks before``."""
     day = report.onset_day
     if not report.form.includes("diagnosis"):
         return ""
@@ -248,7 +248,6 @@ def _range_table(report: SessionReport) -> list[Part]:
 
 
 def _active_passive(report: SessionReport) -> list[Part]:
-    """Active and passive beside each other, with what was measured by hand, where there is more than the first."""
     found = build_active_passive(report.results, report.manual_values if report.form.includes("by_hand") else ())
     if found is None:
         return []
@@ -269,7 +268,6 @@ def _curves(report: SessionReport) -> list[Part]:
 
 
 def _bars(report: SessionReport) -> list[Part]:
-    """Today, last time and the other hand from one end of the movement to the other."""
     figures = report.results
     bars = range_bars(figures, report.previous, report.other_hand)
     if not bars:
@@ -284,7 +282,6 @@ def _bars(report: SessionReport) -> list[Part]:
 
 
 def _boxes(report: SessionReport) -> list[Part]:
-    """How sure the figures are beside speed, pain and notes, as far as they are wanted."""
     figures, boxes = report.results, []
     lines = quality_lines(figures)
     is_sure = all(fine for _, _, fine in lines)
@@ -302,7 +299,7 @@ def _boxes(report: SessionReport) -> list[Part]:
 
 
 def _has_verdict(report: SessionReport) -> bool:
-    """Whether any change is judged on the page, against its measurement error."""
+    """Return whether any change on the page is compared with the measurement error."""
     figures, rows = report.results, find_main_ranges(report.results)
     before = [item for item in (report.previous, report.first) if item is not None]
     return any(item.verdict != "not_judged" for earlier in before for item in compare_ranges(earlier, figures, rows))

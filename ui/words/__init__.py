@@ -1,1 +1,1 @@
-"""What calibrations, checks, comparisons and values by hand are called: for plots, report and screens alike."""
+"""Texts shared by charts, reports and screens."""

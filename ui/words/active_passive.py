@@ -1,4 +1,4 @@
-"""Active and passive range beside each other, with what a person measured of the same; for the screen and the page."""
+"""Table of active and passive range with the manual values of the same measures."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from carpus.ui.words.progress import range_name
 from carpus.ui.words.ranges import is_deficit, mean_words
 from carpus.ui.words.verdicts import reason_words
 
+# Before a manual value, here as in every chart.
 MANUAL_SIGN = "\N{WHITE SQUARE}"
-"""Before what a person measured, here as in every chart."""
 _JOINTS: tuple[AngleKind, ...] = ("knuckle", "middle", "end")
 
 
 @dataclass(frozen=True, slots=True)
 class ActivePassiveTable:
-    """A sentence, the table, whose heads may have two lines, and what explains it."""
+    """A sentence, the table, and a note that explains it."""
 
     sentence: str
     table: TableContent
@@ -37,7 +37,7 @@ class ActivePassiveTable:
 
 
 def build_active_passive(results: SessionResults, manual_values: Sequence[ManualValue]) -> ActivePassiveTable | None:
-    """The table of a session; None where nothing was passive and nothing of it was measured by hand that day."""
+    """Return the table of a session, None without passive repetitions and manual values of that day."""
     helped = results.passive_results()
     if helped is None and not _has_manual_values(results, manual_values):
         return None
@@ -58,12 +58,11 @@ def build_active_passive(results: SessionResults, manual_values: Sequence[Manual
 
 
 def _has_manual_values(results: SessionResults, manual_values: Sequence[ManualValue]) -> bool:
-    """Whether a person measured any of what the table shows."""
     return any(_manual_cell(row.key, manual_values) for row in results.measures_in_group("range"))
 
 
 def _manual_cell(key: MeasureKey, manual_values: Sequence[ManualValue]) -> str:
-    """``□ 70° / 90°``: active and passive, of the same figure."""
+    """Return ``□ 70° / 90°``: the active and the passive manual value of a measure."""
     measure = next((one for one in MEASURES if one.session_measure == key), None)
     if measure is None:
         return ""
@@ -125,7 +124,7 @@ def _range_cell(row: Measure | None) -> str:
 
 
 def _gap_cell(item: Comparison | None) -> str:
-    """``21° (error 10°)``, below zero where less was reached; a gap within the error is none."""
+    """Return ``21° (error 10°)``, negative where passive is less; a gap within the error is not given."""
     if item is None:
         return ""
     if item.verdict == "not_judged":
@@ -139,7 +138,7 @@ def _gap_cell(item: Comparison | None) -> str:
 
 
 def _sentence(results: SessionResults, passive: SessionResults) -> str:
-    """The largest gap beyond error, in a sentence."""
+    """Return a sentence on the largest gap beyond the measurement error."""
     bent = [row for row in passive.joint_ranges if row.quantity == "flexion" and row.subject.endswith("_flexion")]
     rows = bent if passive.joint_ranges else passive.wrist_ranges
     gaps = compare_ranges(results, passive, rows)

@@ -1,4 +1,4 @@
-"""What a comparison with another measurement is called and said in; the sign of a difference is a word."""
+"""Names and values of an agreement; the sign of a difference is a word."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TOKENS = {"deviation": "curve_b", "flexion": "curve_a", "pronosupination": "curv
 
 
 def angle_name(name: str) -> str:
-    """``Flexion–extension`` of an angle's name in every file."""
+    """Return the display name of an angle, such as ``Flexion–extension``."""
     wrist = {
         "flexion": tr("Flexion–extension"), "deviation": tr("Side movement"),
         "pronosupination": tr("Pronation–supination"),
@@ -30,14 +30,14 @@ def angle_name(name: str) -> str:
 
 
 def angle_token(name: str) -> str:
-    """Colour of an angle."""
+    """Return the colour of an angle."""
     return TOKENS.get(name) or (
         find_finger_angle(name).token if any(one.joint == name for one in FINGER_ANGLES) else "curve_a"
     )
 
 
 def direction_names(name: str) -> tuple[str, str]:
-    """What is more, and what is less, of an angle: ``flexion``, ``extension``."""
+    """Return the names of the positive and the negative direction of an angle."""
     wrist = {
         "flexion": (tr("flexion"), tr("extension")),
         "deviation": (tr("radial"), tr("ulnar")),
@@ -47,19 +47,19 @@ def direction_names(name: str) -> tuple[str, str]:
 
 
 def format_tenths(size_deg: float) -> str:
-    """``0.6°`` without sign; a dash where it is not known."""
+    """Return ``0.6°`` without sign, a dash if unknown."""
     return f"{numbers.format_fixed(abs(size_deg), 1)}°" if math.isfinite(size_deg) else numbers.UNKNOWN
 
 
 def format_difference(value_deg: float, name: str) -> str:
-    """``0.6° flexion``: the sign is the word."""
+    """Return ``0.6° flexion``: the sign as a word."""
     if not math.isfinite(value_deg):
         return numbers.UNKNOWN
     return f"{format_tenths(value_deg)} {direction_names(name)[0 if value_deg >= 0.0 else 1]}"
 
 
 def format_interval(low_high: Interval, name: str) -> str:
-    """``0.0° to 1.2°`` where both are on one side, else each with its word."""
+    """Return ``0.0° to 1.2°`` for one direction, else each end with its own."""
     low, high = low_high
     if not (math.isfinite(low) and math.isfinite(high)):
         return numbers.UNKNOWN
@@ -70,12 +70,12 @@ def format_interval(low_high: Interval, name: str) -> str:
 
 
 def format_coefficient(value: float) -> str:
-    """``0.995`` of a coefficient; a dash where there is none."""
+    """Return a coefficient such as ``0.995``, a dash if unknown."""
     return numbers.format_fixed(value, 3) if math.isfinite(value) else numbers.UNKNOWN
 
 
 def remark_words(compared: Comparison, name: str = "") -> list[str]:
-    """What must be looked at before the figures are believed, of one angle or of all."""
+    """Return the caveats of a comparison, of one angle or of all."""
     said = [_remark_text(remark) for remark in (compared.angle_remarks(name) if name else compared.remarks)]
     return [f"{words[:1].upper()}{words[1:]}." for words in said]
 

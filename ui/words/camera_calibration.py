@@ -1,4 +1,4 @@
-"""What the screen of the board is told, as values, and what it says: what is there, and the result line by line."""
+"""Values and texts of the camera calibration: progress, result and storage."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from carpus.ui.kit.translate import tr, translate_phrase
 
 
 def view_fault_words(lack: RejectReason) -> str:
-    """What a picture lacks; empty where it lacks nothing."""
+    """Say what an image of the board lacks; empty if nothing."""
     return {
         "": "",
         "dark": tr("More light: the picture is too dark."),
@@ -44,7 +44,7 @@ def view_fault_words(lack: RejectReason) -> str:
 
 
 def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
-    """What is there, and what is still missing: places, tilts, distances."""
+    """Return state and text of places, tilts and distances."""
     missing = [side for side in TILT_SIDES if side not in judgement.sides]
     places = tr("Places: {count} of {all} fields, {least} or more").format(
         count=judgement.covered_fields, all=FIELDS[0] * FIELDS[1], least=MIN_FIELDS
@@ -67,7 +67,7 @@ def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
 
 
 def button_words(progress: BoardProgress | None) -> str:
-    """The primary button: what it does, or what it waits for."""
+    """Return the text of the primary button: what it does, or what it waits for."""
     if progress is None:
         return tr("Work out · show the board")
     left = progress.required_views - progress.judgement.view_count
@@ -78,7 +78,7 @@ def button_words(progress: BoardProgress | None) -> str:
 
 
 def headline(calibration: CameraCalibration) -> tuple[str, str]:
-    """The sentence, and what it means."""
+    """Return the result in a sentence, and what it means."""
     error_px = calibration.intrinsics.reprojection_error_px
     if error_px > FAIR_ERROR_PX:
         return (
@@ -98,7 +98,7 @@ def headline(calibration: CameraCalibration) -> tuple[str, str]:
 
 
 def depth_words(depth: DepthCheck | None) -> str:
-    """How far depth was off."""
+    """Say by how much depth was wrong."""
     if depth is None:
         return tr("Its depth was not checked.")
     share, shift = 100.0 * (depth.scale - 1.0), 1e3 * depth.offset_m
@@ -113,7 +113,7 @@ def _offset_px(depth: DepthCheck) -> str:
 
 
 def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, str]]:
-    """State, what, value, in words."""
+    """Return state, quantity, value and comment of each result."""
     error_px, depth = calibration.intrinsics.reprojection_error_px, calibration.depth
     lands = (
         tr("good: below {limit} px").format(limit=GOOD_ERROR_PX) if error_px <= GOOD_ERROR_PX
@@ -152,7 +152,7 @@ def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, s
 
 
 def storage_words(result: BoardResult) -> str:
-    """Where it will be kept, and what of sessions before; empty where it may not be used."""
+    """Say where the calibration will be stored; empty if it is unusable."""
     if not result.calibration.is_usable:
         return ""
     if not result.serial:
@@ -166,7 +166,7 @@ def storage_words(result: BoardResult) -> str:
 
 @dataclass(frozen=True, slots=True)
 class BoardChoice:
-    """Which board on which paper, and how long its ruler was measured."""
+    """Pattern and paper of a board, and its measured ruler."""
 
     pattern: Pattern = "chessboard"
     paper: Paper = "a4"
@@ -180,9 +180,7 @@ class BoardChoice:
 
 @dataclass(frozen=True, slots=True)
 class BoardProgress:
-    """What the newest picture lacked, all that was kept, the next step in words, empty when all is there;
-    ``required_views`` so
-    many pictures."""
+    """Fault of the newest image, progress so far, and the next step (empty when complete)."""
 
     lack: RejectReason
     judgement: ViewCoverage
@@ -192,7 +190,7 @@ class BoardProgress:
 
 @dataclass(frozen=True, slots=True)
 class BoardResult:
-    """A calibration before it is kept, for the camera of ``serial``, empty where nobody knows which it is."""
+    """Calibration before it is saved; ``serial`` is empty for a camera without one."""
 
     calibration: CameraCalibration
     serial: str

@@ -1,4 +1,4 @@
-"""What is said of a camera's last check, and of the card that is being looked at."""
+"""Texts of a camera's last check, and of a check in progress."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # a window loads nothing that reads files
 
 
 def check_words(status: CheckStatus) -> tuple[State, str]:
-    """The verdict of the last check with its date, and what to do next."""
+    """Return state and text of the last check, with the next step."""
     check = status.last_check
     if check is None:
         return "open", tr("This camera has not been checked yet.")
@@ -35,7 +35,7 @@ def check_words(status: CheckStatus) -> tuple[State, str]:
 
 
 def camera_words(status: CheckStatus) -> tuple[State, str]:
-    """For the settings: the camera, when it was calibrated, and its last check."""
+    """Return state and text of a camera for the settings."""
     if not status.serial:
         return "open", tr("Not calibrated and not checked yet.")
     calibrated = tr("never calibrated")
@@ -51,9 +51,19 @@ def camera_words(status: CheckStatus) -> tuple[State, str]:
 
 @dataclass(frozen=True, slots=True)
 class CardProgress:
-    """How far a check is: ``disc_px`` of the discs (6, 2), None while they are not all seen; how many ``disc_count``
-    discs are;
-    ``seconds`` of steady pictures; ``has_moved``: the card lies elsewhere and all began again."""
+    """Progress of a check.
+
+    Parameters
+    ----------
+    disc_px
+            Pixels of the discs (6, 2), None until all are visible.
+    disc_count
+            Number of blue discs.
+    seconds
+            Duration of steady frames.
+    has_moved
+            True if the card moved and the check started again.
+    """
 
     disc_px: FloatArray | None
     disc_count: int
@@ -62,7 +72,7 @@ class CardProgress:
 
 
 def card_hint(progress: CardProgress | None) -> str:
-    """What to do with the card."""
+    """Say what to do with the card."""
     if progress is None or (progress.disc_px is None and progress.disc_count == 0):
         return tr("Lay the card flat under the camera, all of it in the picture, about 60 cm away.")
     if progress.has_moved:

@@ -1,4 +1,4 @@
-"""The table of words (:mod:`core.model.fault_text`) in the person's language."""
+"""Faults and findings (:mod:`core.model.fault_text`) in the user's language."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from carpus.ui.kit.translate import tr, translate_phrase
 
 
 def fault_words(fault: Exception) -> MessageText:
-    """Say a fault in the person's language; any other exception is an unexpected error."""
+    """Return the text of a fault; any other exception is an unexpected error."""
     if isinstance(fault, CarpusFault):
         return fault_text.format_fault(fault, is_brief=True, translate=translate_phrase)
     return MessageText(
@@ -28,5 +28,5 @@ def fault_words(fault: Exception) -> MessageText:
 
 
 def finding_words(finding: CalibrationFinding) -> MessageText:
-    """Say a finding of the calibration, and how to correct it."""
+    """Return the text of a calibration finding and its remedy."""
     return result.finding_words(finding, translate_phrase, lambda value: numbers.format_significant(value, 3))

@@ -1,4 +1,4 @@
-"""From tracked frames to the figures of the whole hand: values, how sure they are, and whether they were measured."""
+"""Finger angles of tracked frames: values, standard deviations, and whether they were measured."""
 
 from __future__ import annotations
 
@@ -21,9 +21,16 @@ BoolArray = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class AngleWeights:
-    """How the figures (F,) come from the joint angles (J,) of every file and from the discs (M,) seen.
+    """Linear map from the joint angles (J,) of a file to the finger angles (F,).
 
-    ``weight`` (F, J); ``variance_weight`` (F, J) for variances; ``is_inferred`` (F,) where no disc of its own can tell.
+    Parameters
+    ----------
+    weight
+            Weights (F, J).
+    variance_weight
+            Weights of the variances (F, J).
+    is_inferred
+            True where no marker of its own measures an angle (F,).
     """
 
     weight: FloatArray
@@ -32,14 +39,14 @@ class AngleWeights:
 
 
 def joint_names(protocol: MarkerProtocol, count: int) -> tuple[str, ...]:
-    """The names of so many joint angles as a protocol measures: with coupled end joints or with free ones."""
+    """Return the names of ``count`` joint angles of a protocol, with coupled or with free DIP joints."""
     coupled = protocol.joint_names()
     return coupled if len(coupled) == count else protocol.joint_names(dip_free=True)
 
 
 @lru_cache(maxsize=4)
 def angle_weights(names: tuple[str, ...]) -> AngleWeights:
-    """For joint angles of those names; what they do not tell is NaN."""
+    """Return the weights for joint angles of these names; NaN for an angle that they do not determine."""
     weight = np.zeros((len(FINGER_ANGLES), len(names)))
     for row, figure in enumerate(FINGER_ANGLES):
         parts = [figure]
@@ -65,8 +72,10 @@ def angle_weights(names: tuple[str, ...]) -> AngleWeights:
 
 @lru_cache(maxsize=4)
 def _marker_requirements(protocol: MarkerProtocol) -> tuple[BoolArray, BoolArray]:
-    """Discs (F, M) a figure needs: of a joint the one over it and the next one outwards, as in every file's figures;
-    and whether the protocol has them all (F,)."""
+    """Return the markers (F, M) that an angle needs, and whether the protocol has them all (F,).
+
+    A joint needs the marker over it and the next one distally.
+    """
     out, has = (
         np.zeros((len(FINGER_ANGLES), len(protocol.markers)), dtype=bool),
         np.ones(len(FINGER_ANGLES), dtype=bool),
@@ -83,7 +92,7 @@ def _marker_requirements(protocol: MarkerProtocol) -> tuple[BoolArray, BoolArray
 
 
 def find_measured_angles(protocol: MarkerProtocol, is_visible: BoolArray) -> BoolArray:
-    """Which figures (n, F) are seen where discs (n, M) are."""
+    """Return which angles (n, F) are measured, given which markers (n, M) are visible."""
     needed, has = _marker_requirements(protocol)
     return np.asarray(~(~is_visible[:, None] & needed).any(axis=2) & has, dtype=np.bool_)
 
@@ -91,7 +100,14 @@ def find_measured_angles(protocol: MarkerProtocol, is_visible: BoolArray) -> Boo
 def estimate_finger_angles(
     protocol: MarkerProtocol, frames: Sequence[TrackedFrame]
 ) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray, BoolArray]:
-    """Times (n,), values and standard deviations (n, F) in degrees, supported (n, F), discs seen (n, M)."""
+    """Return the finger angles of frames.
+
+    Returns
+    -------
+    tuple
+            Times (n,), angles and standard deviations in degrees (n, F), whether measured (n, F), and marker
+        visibility (n, M).
+    """
     names = joint_names(protocol, len(frames[-1].kinematics.joint_angles_rad))
     mixed = angle_weights(names)
     angles = np.array([frame.kinematics.joint_angles_rad for frame in frames])

@@ -1,8 +1,7 @@
-"""The joint angles of the whole hand as the clinic speaks of them: by finger, with a name, a range and a colour.
+"""Finger angles by name, range and colour: MCP, PIP, DIP, spread and TAM of five fingers.
 
-Five fingers (thumb to little) by four rows: knuckle, middle joint, end joint, spread. The thumb has no middle joint;
-its row shows the lift away from the palm. Spreading is counted away from the middle finger, the thumb's away from the
-palm's edge, and that of the middle finger towards the thumb. TAM is the sum of a finger's bending.
+The thumb has no PIP joint: its row shows palmar abduction. Spread is measured from the middle finger, the thumb's
+from the edge of the palm, and that of the middle finger towards the thumb. TAM is the sum of a finger's flexion.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ _KIND_NAMES: Mapping[str, Phrase] = {
 
 @dataclass(frozen=True, slots=True)
 class FingerAngle:
-    """One angle of one finger. ``joint`` is its name in every file, ``TAM3`` for the sum of a finger's bending."""
+    """One angle of one finger; ``joint`` is its name in files, ``TAM3`` for total active motion."""
 
     finger: int
     kind: AngleKind
@@ -52,7 +51,7 @@ class FingerAngle:
 
     @property
     def is_palmar_abduction(self) -> bool:
-        """Whether it is the thumb's lift away from the palm, which stands in the row of the middle joints."""
+        """Whether it is the thumb's palmar abduction, which stands in the row of the PIP joints."""
         return self.finger == 1 and self.kind == "middle"
 
     @property
@@ -61,7 +60,7 @@ class FingerAngle:
 
     @property
     def sign(self) -> float:
-        """From the angle in every file to the one that is spoken of: spreading is away from the middle finger."""
+        """Factor from the angle in files to the displayed one, whose spread points away from the middle finger."""
         return -1.0 if self.kind == "spread" and self.finger in (4, 5) else 1.0
 
     @property
@@ -74,17 +73,17 @@ class FingerAngle:
 
     @property
     def kind_name(self) -> str:
-        """``Knuckle``; the thumb's second row is its lift."""
+        """Name of its row."""
         return kind_name("lift" if self.is_palmar_abduction else self.kind)
 
     @property
     def long_name(self) -> str:
-        """``RingBuffer finger, middle joint``."""
+        """Name with the finger, such as ``Ring finger, PIP``."""
         return _long_name(self)
 
     @property
     def short_name(self) -> str:
-        """``RingBuffer``, where the row is said elsewhere."""
+        """Name of the finger alone, such as ``Ring``."""
         return finger_name(str(self.finger))
 
     @property
@@ -92,14 +91,14 @@ class FingerAngle:
         return _end_names(self)
 
 
+# All that can be the large number, finger by finger.
 FINGER_ANGLES: tuple[FingerAngle, ...] = tuple(
     FingerAngle(finger, row) for finger in FINGERS for row in (*ANGLE_KINDS, "tam")
 )
-"""All that can be the large number, finger by finger."""
 
 
 def kind_name(kind: AngleKind | Literal["lift"]) -> str:
-    """``Middle joint``."""
+    """Return the name of a kind of angle."""
     return translate_phrase(_KIND_NAMES[kind])
 
 
@@ -123,8 +122,7 @@ def _end_names(angle: FingerAngle) -> tuple[str, str]:
 
 
 def spread_side(value_deg: float, finger: int = 0) -> str:
-    """``in`` or ``out`` beside an angle of spreading, of the middle finger ``radial`` or ``ulnar``; empty about the
-    middle and where there is no value."""
+    """Return ``in`` or ``out`` (middle finger: ``radial``, ``ulnar``); empty near zero and if unknown."""
     if not abs(value_deg) >= 0.5:
         return ""
     if finger == 3:
@@ -133,12 +131,12 @@ def spread_side(value_deg: float, finger: int = 0) -> str:
 
 
 def format_spread(value_deg: float, finger: int = 0) -> str:
-    """``12° out``: an angle of spreading with its side."""
+    """Return a spread angle with its side, such as ``12° out``."""
     return f"{numbers.format_degrees(value_deg)} {spread_side(value_deg, finger)}".strip()
 
 
 def spread_labels(tick_deg: float, finger: int = 0) -> tuple[tuple[float, str], ...]:
-    """``Out 20°``, ``0°``, ``In 20°``: ticks of an axis of spreading; of the middle finger ``Radial``, ``Ulnar``."""
+    """Return the tick labels of a spread axis: ``Out 20°``, ``0°``, ``In 20°``."""
     angle = numbers.format_degrees(tick_deg)
     out, inward = tr("Out {angle}"), tr("In {angle}")
     if finger == 3:
@@ -148,11 +146,11 @@ def spread_labels(tick_deg: float, finger: int = 0) -> tuple[tuple[float, str], 
 
 
 def progress_measure_name(joint: str) -> str:
-    """What is followed of every finger: ``Total active motion (TAM)``, ``Middle joint, range_table``."""
+    """Return the name of the measure that is followed for every finger."""
     figure = find_finger_angle(joint)
     return tr("Total active motion (TAM)") if figure.kind == "tam" else tr("{row}, range").format(row=figure.kind_name)
 
 
 def find_finger_angle(joint: str) -> FingerAngle:
-    """The figure of a joint angle's name, the middle finger's middle joint for one that is not shown."""
+    """Return the angle of a joint name, the middle finger's PIP joint if there is none."""
     return next((figure for figure in FINGER_ANGLES if figure.joint == joint), FingerAngle(3, "middle"))

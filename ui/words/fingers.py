@@ -1,4 +1,4 @@
-"""The table of the fingers in words, the same on the review screen and on the page."""
+"""Table of the fingers, for the review and the report."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ from carpus.ui.words.task_measures import short_task_summary
 from carpus.ui.words.verdicts import reason_words, short_change_words
 
 COLUMNS: tuple[AngleKind, ...] = ("knuckle", "middle", "end", "spread", "tam")
+# Before a range that an occluded joint may have exceeded; always explained beside the table.
 LOWER_BOUND = "≥"
-"""Before a range that a hidden joint may have exceeded; always explained beside the table."""
 
 
 _GRADES = {
     "excellent": phrase("excellent"), "good": phrase("good"), "fair": phrase("fair"), "poor": phrase("poor"),
     None: phrase("not graded"),
 }  # fmt: skip
+# What an exercise trains, in the head of a column and before a list of fingers.
 _MAIN_NAMES = {
     "tam": (phrase("TAM"), phrase("TAM")), "spread": (phrase("spread"), phrase("Spreading")),
     "middle": (phrase("PIP"), phrase("Middle joints")),
 }  # fmt: skip
-"""What an exercise is about, in the head of a column and before a list of fingers."""
 _FINGER_GROUPS = {
     "knuckle": phrase("knuckles of {fingers}"), "middle": phrase("middle joints of {fingers}"),
     "end": phrase("end joints of {fingers}"), "spread": phrase("spreading of {fingers}"),
@@ -51,32 +51,33 @@ _THUMB_NAMES: dict[AngleKind, Phrase] = {"knuckle": phrase("MCP"), "middle": phr
 
 
 _COLUMN = TableColumn(is_wrapped=False)
+# Finger, five values, share of the total, last time, change.
 FINGER_COLUMNS = (
     TableColumn(MEDIUM, is_wrapped=False), *(_COLUMN,) * 6, TableColumn(is_wrapped=False, scale=0.95),
     TableColumn(MEDIUM, "text2", min_letters=15, scale=0.9),
 )  # fmt: skip
-"""Finger, five values, share of the total, last time, change."""
 
 
 def finger_table(
     results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None = None
 ) -> TableContent:
-    """Thumb to little finger; last time and change are those of the total, of spreading or of the middle joint,
-    whichever the exercise is about. ``other_hand`` the other hand, of which a total is a share."""
+    """Return the table of all fingers.
+
+    Last time and change are those of the total, of spread or of the PIP joint, whichever the exercise trains. The
+    total is given as a share of that of ``other_hand``.
+    """
     shares = {share.subject: share for share in _find_shares(results, other_hand)}
     rows = (_line_of_finger(finger, results, previous, shares.get(f"TAM{finger}")) for finger in FINGERS)
     return TableContent(FINGER_COLUMNS, _head_line(results, previous, other_hand), tuple(rows))
 
 
 def _find_shares(results: SessionResults, other_hand: SessionResults | None) -> tuple[Measure, ...]:
-    """Of every total, of the other hand's where that is known."""
     return compute_total_shares(
         results.joint_ranges, results.exercise, () if other_hand is None else other_hand.joint_ranges
     )
 
 
 def _head_line(results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None) -> TableRow:
-    """The joints with the colours of their curves, the share of the total, last time, the change."""
     day = numbers.format_time_or_day(previous.when, results.when) if previous and is_joint_exercise(results) else ""
     compared = tr("lift") if is_thumb_exercise(results) else translate_phrase(_MAIN_NAMES[main_kind(results)][0])
     total = share = ""
@@ -94,40 +95,40 @@ def _head_line(results: SessionResults, previous: SessionResults | None, other_h
 
 
 def is_joint_exercise(results: SessionResults) -> bool:
-    """Whether a joint is what the exercise is about: then it is compared with last time."""
+    """Return whether the exercise trains a joint, which is then compared with last time."""
     return bool(results.exercise.joint) or not results.exercise.is_task
 
 
 def has_totals(results: SessionResults) -> bool:
-    """Whether the exercise asks for a fist, of which there is a total."""
+    """Return whether the exercise includes a fist, which has total active motion."""
     return results.exercise.has_total_motion
 
 
 def main_kind(results: SessionResults) -> AngleKind:
-    """What of a finger the exercise is about."""
+    """Return the kind of angle that the exercise trains."""
     if has_totals(results):
         return "tam"
     return find_finger_angle(results.exercise.joint).kind
 
 
 def main_kind_name(results: SessionResults) -> str:
-    """What of a finger the exercise is about, before a list of fingers."""
+    """Return the name of what the exercise trains."""
     return tr("Thumb") if is_thumb_exercise(results) else translate_phrase(_MAIN_NAMES[main_kind(results)][1])
 
 
 def is_thumb_exercise(results: SessionResults) -> bool:
-    """Whether the exercise is the thumb's alone."""
+    """Return whether the exercise trains the thumb alone."""
     return bool(results.exercise.joint) and find_finger_angle(results.exercise.joint).finger == 1
 
 
 def main_angles(results: SessionResults) -> tuple[FingerAngle, ...]:
-    """What is compared with last time: of the fingers that the exercise trains, or of the thumb alone."""
+    """Return the angles that are compared with last time."""
     fingers = (1,) if is_thumb_exercise(results) else results.exercise.digits or FINGERS
     return tuple(FingerAngle(finger, main_kind(results)) for finger in fingers)
 
 
 def find_main_ranges(results: SessionResults) -> tuple[Measure, ...]:
-    """The ranges whose change is said: of the wrist all, of the whole hand what the exercise is about."""
+    """Return the ranges whose change is reported."""
     if not results.joint_ranges:
         return results.wrist_ranges
     found = (results.find(figure.joint, "arc") for figure in main_angles(results))
@@ -135,7 +136,7 @@ def find_main_ranges(results: SessionResults) -> tuple[Measure, ...]:
 
 
 def limitation_words(results: SessionResults) -> str:
-    """Which figures the camera's view limits, in words; empty when none."""
+    """Say which ranges were limited by occlusion; empty if none."""
     limited: dict[AngleKind, list[str]] = {row: [] for row in COLUMNS}
     unseen: list[str] = []
     lifted: list[str] = []
@@ -166,7 +167,7 @@ def limitation_words(results: SessionResults) -> str:
 
 
 def total_words(results: SessionResults) -> list[str]:
-    """What TAM is, or why there is none."""
+    """Explain TAM, or say why there is none."""
     totals = [row for row in results.joint_ranges if is_total_active_motion(row.subject)]
     if not totals:
         return []
@@ -190,8 +191,10 @@ def total_words(results: SessionResults) -> list[str]:
 
 
 def range_cell(results: SessionResults, angle: FingerAngle) -> str | Cell:
-    """The range of one joint or finger, over the ends that it went to. A thumb has no middle joint, and none of its
-    angles may be copied as a finger's PIP or DIP: its joints have their names."""
+    """Return the cell of a joint's range with its ends.
+
+    The thumb's cells name their joint, so that none is copied as a finger's PIP or DIP.
+    """
     row = results.find(angle.joint, "arc")
     if row is None and angle.kind == "tam":
         return ""
@@ -206,7 +209,6 @@ def range_cell(results: SessionResults, angle: FingerAngle) -> str | Cell:
 
 
 def _share_cell(share: Measure | None) -> str | Cell:
-    """Its grade under it; a total that was not seen whole has none."""
     if share is None:
         return ""
     at_least = f"{LOWER_BOUND}{numbers.NARROW_GAP}" if share.is_lower_bound else ""
@@ -240,7 +242,7 @@ def _line_of_finger(
 
 
 def range_words(row: Measure, *, has_sd: bool = True) -> str:
-    """``57° ± 2°``, or ``≥ 57°`` where the end of the movement was not seen."""
+    """Return ``57° ± 2°``, or ``≥ 57°`` if the end of the movement was occluded."""
     sd = row.sd if math.isfinite(row.sd) else row.measurement_sd
     if row.is_lower_bound:  # a spread would be that of where the joint went out of sight
         return f"{LOWER_BOUND}{numbers.NARROW_GAP}{numbers.format_degrees(row.mean)}"
@@ -248,7 +250,7 @@ def range_words(row: Measure, *, has_sd: bool = True) -> str:
 
 
 def _range_ends(results: SessionResults, angle: FingerAngle) -> str:
-    """``3° to 87°``; ``−3° to 87°`` where it bends back beyond straight; spreading with its sides."""
+    """Return both ends of a range, such as ``−3° to 87°``."""
     low, high = (results.find(angle.joint, end) for end in ("extension", "flexion"))
     if low is None or high is None:
         return ""
@@ -265,9 +267,9 @@ def _range_ends(results: SessionResults, angle: FingerAngle) -> str:
 
 
 def progress_choices(results: SessionResults) -> list[tuple[str, str]]:
-    """What of the whole hand can be followed over the sessions, as value and words; what is trained first.
+    """Return what can be followed over the sessions of a whole hand, as value and text; the trained one first.
 
-    Empty for the wrist alone; the last choice (an empty value) is the wrist of a whole hand.
+    Empty for the wrist alone. An empty value stands for the wrist of a whole hand.
     """
     if not results.joint_ranges:
         return []
@@ -282,7 +284,7 @@ def progress_choices(results: SessionResults) -> list[tuple[str, str]]:
 
 
 def progress_keys(choice: str) -> tuple[MeasureKey, ...]:
-    """What a choice of :func:`progress_choices` follows."""
+    """Return the measures of a choice of :func:`progress_choices`."""
     if choice == "spread":
         return abduction_measure_keys()
     if choice == "lift":
@@ -296,7 +298,7 @@ def _finger_label(finger: int) -> str:
 
 
 def main_result_words(results: SessionResults) -> str:
-    """The figure that a therapist looks for first: the best of the trained movement, or the first joint."""
+    """Return the main result of a session in a few words."""
     about = short_task_summary(results)
     if about:
         return about

@@ -1,4 +1,4 @@
-"""Words for what is measured by hand, its units and ways, and whether it changed."""
+"""Names, units, values and changes of manual measurements."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.words import terms
 from carpus.ui.words.marker_words import long_finger_name
-from carpus.ui.words.verdicts import no_change_words
+from carpus.ui.words.verdicts import verdict_word
 
 
 def measure_name(measure: ManualMeasure) -> str:
-    """``Wrist, flexion``, ``Grip``, ``RingBuffer finger, PIP flexion``."""
+    """Return the name of a measure, such as ``Grip`` or ``Ring finger, PIP flexion``."""
     if measure.name:
         return translate_phrase(measure.name)
     joint, _, movement = measure.id.rpartition("_")
@@ -43,19 +43,19 @@ def measure_name(measure: ManualMeasure) -> str:
 
 
 def mode_name(way: str) -> str:
-    """How it was moved; empty where there is one way only."""
+    """Return active or passive; empty for a measure with one mode."""
     return {"active": tr("active"), "passive": tr("passive")}.get(way, "")
 
 
 def unit_name(measure: ManualMeasure) -> str:
-    """The unit behind a number."""
+    """Return the unit behind a number."""
     if measure.unit == "points":
         return tr("of {most}").format(most=numbers.format_significant(measure.max_value, 6))
     return {"deg": "°", "kg": "kg", "cm": "cm", "ml": "ml"}[measure.unit]
 
 
 def value_words(measure: ManualMeasure, value: float) -> str:
-    """``45°``, ``5.3 kg``; nothing measured is a dash."""
+    """Return a value with its unit, such as ``5.3 kg``; a dash if unknown."""
     if not math.isfinite(value):
         return "–"
     decimals = 0 if measure.unit == "points" and value == int(value) else measure.decimals
@@ -66,33 +66,33 @@ def value_words(measure: ManualMeasure, value: float) -> str:
 
 
 def group_names() -> dict[str, str]:
-    """Headings of the form, by kind, in its order."""
+    """Return the headings of the form by kind, in order."""
     return {
         "angle": tr("Goniometer"), "force": tr("Force"), "size": tr("Size"), "score": tr("Scores"),
     }  # fmt: skip
 
 
 def direction_words(measure: ManualMeasure) -> str:
-    """Which way is better, of a score."""
+    """Say which direction of a score is better."""
     return {"less": tr("less is better"), "more": tr("more is better"), "": ""}[measure.better_direction]
 
 
 def full_name(key: MeasureKey) -> str:
-    """``Wrist, flexion, active``."""
+    """Return measure and mode, such as ``Wrist, flexion, active``."""
     return ", ".join(filter(None, (measure_name(find_manual_measure(key[0])), mode_name(key[1]))))
 
 
 def verdict_words(change: ManualChange) -> tuple[str, str]:
-    """State of a sign and its word, of a change by one way of measuring."""
+    """Return state and text of a change."""
     if change.verdict == "not_judged":
         return "none", tr("not judged")
     if change.verdict == "within_error":
-        return "none", no_change_words()
+        return "none", verdict_word("no_change")
     return ("good", tr("improved")) if change.verdict == "improved" else ("bad", tr("worse"))
 
 
 def change_words(change: ManualChange) -> str:
-    """``45° → 58° since 2 Oct (error 10°)``."""
+    """Return ``45° → 58° since 2 Oct (error 10°)``."""
     of = find_manual_measure(change.first.measure)
     words = tr("{before} → {after} since {day}").format(
         before=value_words(of, change.first.value), after=value_words(of, change.last.value),
@@ -104,13 +104,13 @@ def change_words(change: ManualChange) -> str:
 
 
 def sort_keys(values: Iterable[ManualValue]) -> list[MeasureKey]:
-    """What was measured, in the order of the form."""
+    """Return the keys of the values in the order of the form."""
     order = {measure.id: number for number, measure in enumerate(MEASURES)}
     return sorted({value.key for value in values}, key=lambda key: (order[key[0]], key[1], key[2]))
 
 
 def day_words(values: Sequence[ManualValue]) -> str:
-    """What counts, newest of each, in one line: ``Wrist, flexion 45° active, 58° passive; Grip 18 kg``."""
+    """Return the newest value of each measure in one line."""
     by_measure: dict[str, list[ManualValue]] = {}
     for key in sort_keys(values):
         by_measure.setdefault(key[0], []).append(value_history(values, key)[-1])
@@ -126,6 +126,6 @@ def day_words(values: Sequence[ManualValue]) -> str:
 
 
 def find_changes(values: Sequence[ManualValue]) -> list[tuple[MeasureKey, ManualChange]]:
-    """First and last of all that was measured on two days or more; ``values`` are those that count, of one hand."""
+    """Return first and last value of each measure that was taken on two days or more."""
     found = [(key, compute_change(value_history(values, key))) for key in sort_keys(values)]
     return [(key, change) for key, change in found if change is not None]

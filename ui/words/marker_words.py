@@ -1,4 +1,4 @@
-"""Words for the markers: clinical name, where exactly it sits, what to do when it is hidden."""
+"""Names of the markers, where they are placed, and how to make them visible."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from carpus.ui.kit.translate import tr, translate_phrase
 
 
 def marker_title(marker: str) -> str:
-    """``Thumb base`` for CMC1."""
+    """Return the name of a marker as a title, such as ``Thumb base`` for CMC1."""
     name = fault_text.marker_name(marker, translate_phrase)
     return name[:1].upper() + name[1:]
 
@@ -21,27 +21,27 @@ _FINGERS = {
 
 
 def finger_name(finger: str) -> str:
-    """``RingBuffer`` for 4."""
+    """Return the short name of a finger, such as ``Ring`` for 4."""
     return translate_phrase(_FINGERS[finger][0])
 
 
 def long_finger_name(finger: str) -> str:
-    """``RingBuffer finger`` for 4, ``Thumb`` for 1."""
+    """Return the name of a finger, such as ``Ring finger`` for 4."""
     return translate_phrase(_FINGERS[finger][1])
 
 
 def finger_number(marker: str) -> int:
-    """The finger that a disc lies on, 1 to 5; 0 for the wrist."""
+    """Return the finger of a marker, 1 to 5, or 0 for the wrist."""
     return int(marker[-1]) if marker[-1:].isdigit() else 0
 
 
 def click_instruction(marker: str) -> str:
-    """``Click the ring knuckle``."""
+    """Return the instruction to click a marker."""
     return tr("Click the {marker}").format(marker=fault_text.marker_name(marker, translate_phrase))
 
 
 def marker_placement(marker: str) -> str:
-    """Where exactly on the hand."""
+    """Say where exactly a marker is placed on the hand."""
     joint = marker.rstrip("12345")
     if marker == "WRIST":
         return tr("In the middle of the back of the wrist, in the small dimple.")
@@ -57,7 +57,7 @@ def marker_placement(marker: str) -> str:
 
 
 def occlusion_remedy(marker: str) -> str:
-    """How to bring one hidden marker back into view."""
+    """Say how to make an occluded marker visible."""
     if marker == "WRIST":
         return tr("Clear the view of the wrist")
     if marker == "CMC1":

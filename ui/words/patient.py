@@ -1,4 +1,4 @@
-"""What the patient reads: plain words for an adult, one or two for a child."""
+"""Texts for the patient: plain words for an adult, one or two for a child."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.picture.movement_guide import GuideScene
 
 Audience = Literal["adult", "child"]
+# From this share of the goal on: a little further.
 MIN_FURTHER_SHARE = 0.5
-"""From this part of the way on: a little further."""
 
 
 @dataclass(frozen=True, slots=True)
 class PatientWords:
-    """``task`` above, what to do; ``state`` below and largest, how it stands."""
+    """The ``task`` above, and the ``state`` below in the largest letters."""
 
     task: str
     state: str
 
 
 def patient_words(exercise_id: str, scene: GuideScene, audience: Audience) -> PatientWords:
-    """The words of a scene."""
+    """Return the texts of a scene."""
     child = audience == "child"
     if scene.phase == "away":
         return PatientWords("", tr("One moment."))
@@ -57,7 +57,7 @@ def patient_words(exercise_id: str, scene: GuideScene, audience: Audience) -> Pa
 
 
 def remaining_rest_words(seconds: int) -> str:
-    """How long a rest still is, as one says it."""
+    """Return how much longer a rest lasts."""
     if seconds > 75:
         return tr("A few minutes")
     if seconds > 40:
@@ -66,13 +66,13 @@ def remaining_rest_words(seconds: int) -> str:
 
 
 def next_task_words(exercise_id: str, audience: Audience) -> str:
-    """What comes after a rest."""
+    """Say what follows a rest."""
     task = _task_words(exercise_id, 1, audience == "child")
     return tr("then: {task}").format(task=to_mid_sentence(task)) if task else ""
 
 
 def task_words(exercise_id: str) -> str:
-    """What an exercise asks of an adult: ``Bend your hand down``."""
+    """Return what an exercise asks of an adult, such as ``Bend your hand down``."""
     return _task_words(exercise_id, 1, child=False)
 
 

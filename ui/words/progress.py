@@ -1,4 +1,4 @@
-"""Sentences of the progress screen and report. A change is one only beyond measurement error."""
+"""Sentences about progress; a difference is a change only beyond the measurement error."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from carpus.ui.words.verdicts import difference_words, reason_words
 
 
 def headline(progress: Progress) -> tuple[str, str]:
-    """The answer in one sentence, and the figures behind it."""
+    """Return the answer in one sentence, and the values behind it."""
     if not progress.points:
         return tr("No sessions of this exercise yet."), ""
     first, last, main = progress.reference, progress.current, progress.main_comparison
@@ -66,13 +66,12 @@ def headline(progress: Progress) -> tuple[str, str]:
 
 
 def comparison_name(item: Comparison, comparisons: Sequence[Comparison] = ()) -> str:
-    """``Whole arc``, ``Flexion``, or ``RingBuffer finger, TAM``; ``comparisons`` others that are whole arcs too it
-    says of what."""
+    """Return the name of a compared measure, distinct from the other ``comparisons``."""
     return range_name(item.after, names_arc=sum(one.after.quantity == "arc" for one in comparisons) > 1)
 
 
 def range_name(row: Measure, *, names_arc: bool) -> str:
-    """As :func:`comparison_name`, of one range."""
+    """Return the name of a range; ``names_arc`` says of which angle an arc is."""
     if row.wrist_angle < 0:
         return find_finger_angle(row.subject).long_name
     return terms.arc_name(row.wrist_angle) if names_arc and row.quantity == "arc" else terms.movement_name(row.quantity)
@@ -108,14 +107,13 @@ def _change_sentence(item: Comparison) -> str:
 
 
 def value_pair(item: Comparison) -> str:
-    """``34° → 57°``; ``≥`` before a figure that a hidden joint may have exceeded."""
+    """Return ``34° → 57°``, with ``≥`` before a value limited by occlusion."""
     signs = [f"≥{numbers.NARROW_GAP}" if limited else "" for limited in item.lower_bounds]
     before, after = _end_values(item)
     return f"{signs[0]}{before} → {signs[1]}{after}"
 
 
 def _end_values(item: Comparison) -> tuple[str, str]:
-    """Both means; of the wrist a side that was not reached lacks something."""
     before, after = item.before, item.after
     if item.is_joint:
         return numbers.format_degrees(before.mean), numbers.format_degrees(after.mean)
@@ -123,7 +121,7 @@ def _end_values(item: Comparison) -> tuple[str, str]:
 
 
 def change_line(item: Comparison) -> str:
-    """``23° more, error 10°``; a joint that was hidden has no difference, at most a least one."""
+    """Return ``23° more, error 10°``; of an occluded joint at most a lower bound."""
     if item.is_joint and item.verdict == "not_judged":
         return tr("hidden in part, or too few")
     if item.is_lower_bound:
@@ -140,7 +138,7 @@ def _day_text(point: ProgressPoint, progress: Progress) -> str:
 
 
 def uncertainty_words(point: ProgressPoint, progress: Progress) -> str:
-    """What was doubtful about a session that is compared all the same; empty for nothing."""
+    """Say what was uncertain about a session that is compared; empty if nothing."""
     said = " ".join(finding_words(finding).summary for finding in point.results.findings)
     if not said or not point.is_comparable:
         return ""
@@ -149,7 +147,7 @@ def uncertainty_words(point: ProgressPoint, progress: Progress) -> str:
 
 
 def exclusion_words(point: ProgressPoint, progress: Progress) -> str:
-    """``23 Oct: camera 12 cm further. Shown as a ring and left out.``; a ring only where something was measured."""
+    """Say why a session is excluded, and that its ring shows so if anything was measured."""
     first = progress.reference
     reasons = []
     for reason in point.reasons:
@@ -169,8 +167,7 @@ def exclusion_words(point: ProgressPoint, progress: Progress) -> str:
 
 
 def correction_words(results: SessionResults) -> str:
-    """``UpdatedState on 22 Nov 2026, from 00:31.4, by MK.``: markers were put right after the recording; empty as
-    measured."""
+    """Say when and by whom markers were corrected after the recording; empty if never."""
     said = results.correction
     if said is None:
         return ""

@@ -1,4 +1,4 @@
-"""The range-of-motion table in words, the same on the review screen and on the page."""
+"""Table of the wrist's range of motion, for the review and the report."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ _UNCOUNTED: Mapping[NoRepetitionReason, Phrase] = {
 
 
 _VALUE, _CHANGE = TableColumn(is_right_aligned=True, is_wrapped=False), TableColumn(MEDIUM, "text2", min_letters=15)
+# Movement, today, best, other hand, reference, last time, change.
 RANGE_COLUMNS = (
     TableColumn(MEDIUM), TableColumn(SEMIBOLD, is_wrapped=False, scale=1.1), _VALUE, _VALUE,
     TableColumn(token="text2", is_right_aligned=True, is_wrapped=False), _VALUE, _CHANGE,
 )  # fmt: skip
-"""Movement, today, best, other hand, reference, last time, change."""
 
 
 def range_table(
@@ -53,8 +53,10 @@ def range_table(
     *,
     on_paper: bool = False,
 ) -> TableContent:
-    """Arc first, then its two ends, what should have stayed still, and the speed; ``on_paper``, where another box has
-    them, without what stayed still or is not known, in shorter words."""
+    """Return arc, both ends, angles that should stay still, and speed.
+
+    ``on_paper`` omits still angles and unknown values, which another part of the page has, and uses shorter texts.
+    """
     day = numbers.format_time_or_day(previous.when, results.when) if previous else ""
     heads = (
         tr("Movement"), tr("Today, mean ± sd"), tr("Best"), terms.hand_name(other_hand.side) if other_hand else "",
@@ -74,13 +76,13 @@ def range_table(
 
 
 def reference_words(results: SessionResults) -> str:
-    """Where the usual values are from and whom they cover; empty where none is shown."""
+    """Return the source of the reference values and whom they cover; empty if none is shown."""
     norms = [wrist_norm(row.quantity, row.wrist_angle, results.exercise) for row in results.wrist_ranges]
     return next((translate_phrase(norm.sentence()) for norm in norms if norm is not None), "")
 
 
 def repetition_words(results: SessionResults) -> str:
-    """``mean of 9 repetitions; number 7 left out: pain``: always n and what is left out."""
+    """Return the number of repetitions and which are excluded, and why."""
     if not any(repetition.is_whole for repetition in results.repetitions):
         ways = [len(item.values) for item in results.measures_in_group("task") if item.quantity == "movement time"]
         if ways:
@@ -117,7 +119,7 @@ def _missing_repetition_words(results: SessionResults) -> str:
 
 
 def _add_occlusion(parts: list[str], results: SessionResults) -> str:
-    """Nothing is counted where nothing was seen for long: that much of the recording is not in the number."""
+    """Add the time without a visible hand, whose movements are not counted."""
     if results.exercise.has_repetitions and results.occluded_s >= 1.0:
         seconds = format_rounded(results.occluded_s)
         parts = [*parts, tr("{seconds} s not seen and not counted").format(seconds=seconds)]
@@ -125,7 +127,7 @@ def _add_occlusion(parts: list[str], results: SessionResults) -> str:
 
 
 def mean_words(row: Measure) -> str:
-    """``57° ± 2°``: the spread between repetitions, of a single one the tracker's own; two are listed."""
+    """Return ``57° ± 2°``: SD between repetitions, or of a single one the tracker's; two values are listed."""
     is_forearm = row.quantity in terms.FOREARM
     if 1 < row.count < 3:
         degrees = numbers.format_signed_degrees if is_forearm else numbers.format_degrees
@@ -136,13 +138,15 @@ def mean_words(row: Measure) -> str:
 
 
 def has_sd(row: Measure) -> bool:
-    """Whether what stands after its ± is the spread between repetitions, not the tracker's sd."""
+    """Return whether the ± is the SD between repetitions, not the tracker's."""
     return math.isfinite(row.sd)
 
 
 def is_deficit(row: Measure) -> bool:
-    """Whether an end of the wrist's movement was never reached: the other one does not come back to neutral. A forearm
-    that does not come to thumb up has a value below zero."""
+    """Return whether the movement did not come back to neutral.
+
+    Not for the forearm: if it does not reach thumb-up, its value is negative.
+    """
     return row.wrist_angle >= 0 and row.quantity not in ("arc", *terms.FOREARM) and row.mean < 0.0
 
 
@@ -194,13 +198,13 @@ def _line_of_still_angle(row: Measure, results: SessionResults, previous: Sessio
 
 
 def speed_words(speed: Measure) -> str:
-    """``190 ± 7°/s``."""
+    """Return ``190 ± 7°/s``."""
     spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{format_rounded(speed.sd)}" if math.isfinite(speed.sd) else ""
     return f"{format_rounded(speed.mean)}{spread}°/s" if speed.count else tr("too slow to judge")
 
 
 def mean_speed_words(results: SessionResults) -> str:
-    """``190°/s``, the mean peak speed of a session; a dash where none is known."""
+    """Return the mean peak speed of a session, a dash if unknown."""
     speed = results.speed_measure("peak speed")
     return numbers.format_speed(math.nan if speed is None else speed.mean)
 

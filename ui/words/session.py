@@ -1,4 +1,4 @@
-"""Sentences of the printed page."""
+"""Sentences of the session report."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, 
 
 
 def wrist_summary(results: SessionResults, previous: SessionResults | None, first: SessionResults | None) -> str:
-    """Today's figures, then what may be said of change."""
+    """Return today's values, then the changes."""
     free = results.exercise.angle is None
     rows = [row for row in results.wrist_ranges if row.quantity == "arc" or not free][:3]
     today = ", ".join(
@@ -49,7 +49,7 @@ def wrist_summary(results: SessionResults, previous: SessionResults | None, firs
 
 
 def hand_summary(results: SessionResults, previous: SessionResults | None, first: SessionResults | None) -> str:
-    """Today's value of every finger, then what may be said of change; of reaches what they were like."""
+    """Return today's value of every finger or the results of a task, then the changes."""
     main = task_summary(results)
     if main and not is_joint_exercise(results):
         return f"{main}."
@@ -73,7 +73,7 @@ def hand_summary(results: SessionResults, previous: SessionResults | None, first
 def change_sentences(
     results: SessionResults, previous: SessionResults | None, first: SessionResults | None
 ) -> list[str]:
-    """What may be said of change since last time, and since the first session where that is another one."""
+    """Return the changes since last time, and since the first session if that is another one."""
     found = []
     if previous is not None:
         found.append(change_sentence(results, previous, numbers.format_distinct_day(previous.when, results.when)))
@@ -84,8 +84,7 @@ def change_sentences(
 
 
 def change_sentence(results: SessionResults, earlier: SessionResults, since: str) -> str:
-    """What may be said of change since a session, of the error once where it is the same; empty without anything to
-    compare."""
+    """Return the changes since a session with their error; empty if nothing is comparable."""
     changes = compare_ranges(earlier, results, find_main_ranges(results))
     judged = [item for item in changes if item.verdict != "not_judged"]
     if not judged:
@@ -106,7 +105,7 @@ def change_sentence(results: SessionResults, earlier: SessionResults, since: str
 
 
 def _describe_change(item: Comparison, limit: str) -> str:
-    """``whole arc 34° better (error 14°)``, ``index at least 20° better``."""
+    """Return ``whole arc 34° better (error 14°)``, ``index at least 20° better``."""
     of, what = item.key
     name = to_mid_sentence(finger_name(of[3:4]) if item.is_joint else terms.movement_long_name(what))
     size = numbers.format_degrees(item.display_difference_deg)
@@ -127,7 +126,7 @@ def _range_name(row: Measure, results: SessionResults) -> str:
 def method_words(
     results: SessionResults, markers: int, *, compared: bool, manual_values: Sequence[ManualValue] = ()
 ) -> str:
-    """How it was measured, in three lines; ``compared``: the page speaks of measurement error, which is explained."""
+    """Describe the method; with ``compared`` also the measurement error."""
     quality = results.quality
     distance = (
         f"{format_rounded(100 * quality.distance_m)}{numbers.NARROW_GAP}cm"
@@ -169,13 +168,13 @@ def method_words(
 
 
 def zero_words(results: SessionResults, manual_values: Sequence[ManualValue] = ()) -> str:
-    """Where pronation and supination are counted from, where there are any, measured or entered by hand."""
+    """Say where pronation and supination are counted from, if there are any."""
     named = {row.quantity for row in results.wrist_ranges} | {one.measure.lower() for one in manual_values}
     return terms.thumb_up_words() if named & set(terms.FOREARM) else ""
 
 
 def camera_words(results: SessionResults) -> str:
-    """Which calibration of the camera was used, and how old it was; empty where nobody knows which camera it was."""
+    """Say which camera calibration was used; empty if the camera is unknown."""
     camera = results.camera
     if not camera.serial:
         return ""
@@ -188,7 +187,7 @@ def camera_words(results: SessionResults) -> str:
 
 
 def _sd_words(results: SessionResults) -> str:
-    """Whose standard deviation stands behind the ±: of the repetitions, or of the tracker where there are too few."""
+    """Say what the ± is: SD between repetitions, or the tracker's."""
     spreads = {has_sd(row) for row in results.measures_in_group("range") if row.count and not row.is_lower_bound}
     if spreads == {True}:
         return tr("± is the spread between repetitions; each angle itself is known to about {sd} where seen.")
@@ -201,8 +200,7 @@ def _sd_words(results: SessionResults) -> str:
 
 
 def warning_lines(results: SessionResults) -> list[str]:
-    """What must be read before any figure: that it is simulated, doubtful, cut short, is not to count, is an older
-    result, or was measured with a camera that was out."""
+    """Return what must be read before any value."""
     lines = []
     if results.is_simulated:
         lines.append(tr("Simulated hand: nobody’s movement was measured."))
@@ -219,7 +217,7 @@ def warning_lines(results: SessionResults) -> list[str]:
 
 
 def target_words(results: SessionResults) -> str:
-    """``Flexion 40°, Extension 35°``; empty without targets."""
+    """Return the targets, such as ``Flexion 40°, Extension 35°``; empty without any."""
     angle = results.exercise.angle
     if angle is None:
         return ""
@@ -232,7 +230,7 @@ def target_words(results: SessionResults) -> str:
 
 
 def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
-    """Name, value, and whether it is as it should be."""
+    """Return name, value, and whether acceptable, of each quality measure."""
     quality = results.quality
     measured = f"{numbers.format_fixed(100 * quality.measured_share, 1)}{numbers.NARROW_GAP}%"
     missed = tr("{share} of {frames}; {dropped} missed").format(
@@ -274,7 +272,7 @@ def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
 
 
 def speed_pain_lines(results: SessionResults) -> list[tuple[str, str]]:
-    """Speed, smoothness, pain."""
+    """Return name and value of speed, smoothness, targets and pain."""
     speed, smooth = results.speed_measure("peak speed"), results.speed_measure("smoothness")
     pauses, pause_time = results.speed_measure("pauses"), results.speed_measure("pause time")
     lines = []
@@ -304,7 +302,7 @@ def speed_pain_lines(results: SessionResults) -> list[tuple[str, str]]:
 
 
 def _single_pain(results: SessionResults) -> str:
-    """``3 at 01:14``."""
+    """Return ``3 at 01:14``."""
     if not results.pain_scores:
         return tr("not asked")
     said, when = results.pain_scores[0], (*results.pain_times_s, math.nan)[0]

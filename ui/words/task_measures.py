@@ -1,4 +1,4 @@
-"""What an exercise has beside its ranges, in words: reaches, finger tips, moving together, tremor."""
+"""Texts of the task measures: reach, fingertips, coordination and tremor."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from carpus.ui.kit.cells import TableColumn, TableContent, TableRow
 from carpus.ui.kit.fonts import SEMIBOLD
 from carpus.ui.kit.translate import tr, translate_phrase
 
+# The return stroke beside each outward one.
 _RETURN_STROKES = {"reach": "return", "thumb across": "thumb back"}
-"""Of each way out the way back, which stands beside it."""
 _STROKE_NAMES = {
     "reach": phrase("{name}, out"), "return": phrase("{name}, back"),
     "thumb across": phrase("{name}, across"), "thumb back": phrase("{name}, back"),
@@ -33,12 +33,12 @@ _UNKNOWN = {
 }
 
 
+# Name, today's value and last time's, twice.
 TASK_COLUMNS = (TableColumn(token="text2"), TableColumn(SEMIBOLD), TableColumn(is_right_aligned=True, is_wrapped=False))
-"""Name, today's value and last time's, twice."""
 
 
 def task_table(results: SessionResults, previous: SessionResults | None = None) -> TableContent:
-    """All of them in the order in which they are read, two to a line: the way out beside the way back."""
+    """Return all task measures, two to a line: outward beside return strokes."""
     cells: list[TableRow] = [
         (measure_name(item), value_words(item), _last_value(item, previous))
         for item in _pair_strokes(results.measures_in_group("task"))
@@ -51,13 +51,12 @@ def task_table(results: SessionResults, previous: SessionResults | None = None) 
 
 
 def _is_listed(item: Measure) -> bool:
-    """Whether a measure that is not known has a line: of ways that were hidden the first one says it for all."""
+    """Return whether an unknown measure has a line: of occluded strokes only the first one."""
     hidden_way = item.unknown_reason == "hidden" and item.subject in _STROKE_NAMES
     return bool(item.unknown_reason) and (not hidden_way or item.quantity == "movement time")
 
 
 def _pair_strokes(measures: Sequence[Measure]) -> list[Measure]:
-    """Ways out and back in turns; the rest as it comes."""
     back = {item.key: item for item in measures if item.subject in _RETURN_STROKES.values()}
     out = []
     for item in measures:
@@ -77,7 +76,7 @@ def _last_value(item: Measure, previous: SessionResults | None) -> str:
 
 
 def measure_name(item: Measure) -> str:
-    """``Path length, out``; ``Thumb to ring finger, nearest``."""
+    """Return the name of a measure, such as ``Path length, out``."""
     name = translate_phrase(QUANTITIES[item.quantity].name)
     if item.subject in _STROKE_NAMES:
         return translate_phrase(_STROKE_NAMES[item.subject]).format(name=name)
@@ -88,7 +87,7 @@ def measure_name(item: Measure) -> str:
 
 
 def value_words(item: Measure) -> str:
-    """``0.87 ± 0.05 s``: the mean, and the spread of three or more; single values have none."""
+    """Return ``0.87 ± 0.05 s``: the mean, and the SD of three values or more."""
     if item.unknown_reason:
         return translate_phrase(_UNKNOWN[item.unknown_reason])
     shown = _value(item)
@@ -111,7 +110,7 @@ def _value(item: Measure) -> str:
 
 
 def task_summary(results: SessionResults) -> str:
-    """What is said of a reach or of opposition in a line: ``out in 1.19 s at 548 mm/s``; empty for other exercises."""
+    """Return the results of a reach or of opposition in a sentence; empty for other exercises."""
 
     def describe(of: str, what: str) -> str:
         item = _find_value(results, of, what)
@@ -135,7 +134,7 @@ def task_summary(results: SessionResults) -> str:
 
 
 def short_task_summary(results: SessionResults) -> str:
-    """The same for a narrow column: ``Out in 1.19 s``, ``Touched 3 of 4``; empty for other exercises."""
+    """Return the same for a narrow column, such as ``Touched 3 of 4``."""
     reach, touches = _find_value(results, "reach", "movement time"), _touches(results)
     if results.exercise.is_task and reach is not None:
         return tr("Out in {time}").format(time=_value(reach))
@@ -158,5 +157,5 @@ def _count_touches(touches: Sequence[Measure]) -> int:
 
 
 def task_title(results: SessionResults) -> str:
-    """What the measures are about."""
+    """Return the title of the task measures."""
     return translate_phrase(results.exercise.task_title)

@@ -1,4 +1,4 @@
-"""Words of the clinic for exercises, movements, hands and marker places."""
+"""Clinical terms for exercises, movements and hands."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from carpus.core.model.types import FloatArray
 from carpus.ui.kit import language, numbers
 from carpus.ui.kit.translate import tr, translate_phrase
 
+# Verbatim on the first screen and every report; only an approved text may replace it.
 LEGAL_SENTENCE = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
     "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
 )
-"""Verbatim on the first screen and every report; never translated by meaning, only by an approved text."""
 
 
 def legal_notice() -> str:
-    """The sentence as a window has it, which says in its own language why this one is English."""
+    """Return the legal sentence, introduced in the user's language if that is not English."""
     before = "" if language.current_language() == "en" else tr("Legal notice, in its English wording:")
     return f"{before} {LEGAL_SENTENCE}".lstrip()
 
@@ -40,13 +40,13 @@ FOREARM = ("supination", "pronation")
 
 
 def exercise_name(exercise_id: str) -> str:
-    """``Wrist flexion–extension``."""
+    """Return the name of an exercise, such as ``Wrist flexion–extension``."""
     known = find_exercise(exercise_id)
     return exercise_id if known is None else translate_phrase(known.name)
 
 
 def protocol_name(protocol: MarkerProtocol) -> str:
-    """What a marker protocol covers and with how many markers."""
+    """Return the name of a marker protocol with its number of markers."""
     count = len(protocol.markers)
     if protocol.is_whole_hand:
         return tr("Whole hand · {count} markers").format(count=count)
@@ -56,7 +56,7 @@ def protocol_name(protocol: MarkerProtocol) -> str:
 
 
 def onset_words(onset: str, day: date | None) -> str:
-    """``operated on 21 Aug 2026``; empty without a day."""
+    """Return ``operated on 21 Aug 2026``; empty without a day."""
     if day is None:
         return ""
     pattern = tr("operated on {day}") if onset == "operation" else tr("injured on {day}")
@@ -64,24 +64,24 @@ def onset_words(onset: str, day: date | None) -> str:
 
 
 def movement_name(movement: str) -> str:
-    """``Flexion``, ``Radial``, ``Whole arc``."""
+    """Return the short name of a movement, such as ``Flexion`` or ``Radial``."""
     return translate_phrase(MOVEMENTS[movement].name)
 
 
 def deficit_name(movement: str) -> str:
-    """``Extension deficit``: what is missing to neutral."""
+    """Return the name of a deficit, such as ``Extension deficit``."""
     return translate_phrase(MOVEMENTS[movement].deficit)
 
 
 def deficit_words(size: str) -> str:
-    """``lacks 20°``: so much is missing to the neutral pose on a side that was never reached."""
+    """Return ``lacks 20°``: what is missing to neutral."""
     return tr("lacks {angle}").format(angle=size)
 
 
 def end_words(mean_deg: float, movement: str = "", sd_deg: float = math.nan) -> str:
-    """``42°``; ``lacks 20°`` of an end that was never reached, whatever stands beside it.
+    """Return ``42°``, or ``lacks 20°`` for an end that did not reach neutral.
 
-    Of the forearm, whose palm looks down at 90° of pronation, it is nothing unusual: ``−20°``.
+    For the forearm, whose palm faces down at 90° of pronation, it is ``−20°``.
     """
     shown = numbers.format_with_sd(mean_deg, sd_deg)
     if mean_deg >= 0.0 or numbers.format_degrees(mean_deg) == numbers.format_degrees(0.0):
@@ -90,12 +90,15 @@ def end_words(mean_deg: float, movement: str = "", sd_deg: float = math.nan) -> 
 
 
 def movement_long_name(movement: str) -> str:
-    """As :func:`movement_name`, with the noun where the short word alone is not one."""
+    """Return the name of a movement as a noun."""
     return translate_phrase(MOVEMENTS[movement].noun)
 
 
 def direction_names(angle: int, exercise: Exercise) -> tuple[str, str]:
-    """Both directions of a wrist angle; a rotation that accompanies another movement is no supination."""
+    """Return both directions of a wrist angle.
+
+    A rotation that accompanies another movement is not called supination.
+    """
     if angle == PRONOSUPINATION and not is_counted_from_thumb_up(exercise):
         return tr("Rotation +"), tr("Rotation −")  # thumb side up, thumb side down
     upper, lower = DIRECTIONS[angle]
@@ -103,33 +106,33 @@ def direction_names(angle: int, exercise: Exercise) -> tuple[str, str]:
 
 
 def direction_long_name(angle: int, value_deg: float, exercise: Exercise) -> str:
-    """As :func:`direction_name`, with the noun where the short word alone is not one."""
+    """Return the direction of a value as a noun."""
     if angle == PRONOSUPINATION and not is_counted_from_thumb_up(exercise):
         return direction_name(angle, value_deg, exercise)
     return movement_long_name(DIRECTIONS[angle][0 if value_deg >= 0.0 else 1])
 
 
 def direction_name(angle: int, value_deg: float, exercise: Exercise) -> str:
-    """The direction that a value lies in."""
+    """Return the direction of a value."""
     return direction_names(angle, exercise)[0 if value_deg >= 0.0 else 1]
 
 
 def thumb_up_words() -> str:
-    """Where pronation and supination are counted from, said once on every page that has them."""
+    """Say where pronation and supination are counted from."""
     return tr(
         "Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation."
     )
 
 
 def neutral_name(angle: int, exercise: Exercise) -> str:
-    """What a wrist is in that shows no movement to either side; ``angle`` is the column."""
+    """Return the name of the neutral position of a wrist angle (column ``angle``)."""
     if angle != PRONOSUPINATION:
         return tr("Straight")
     return tr("Thumb up") if is_counted_from_thumb_up(exercise) else tr("As at the start")
 
 
 def arc_name(angle: int) -> str:
-    """The whole arc of one angle, where more than one is shown."""
+    """Return the name of the arc of an angle where several are shown."""
     return translate_phrase(ARC_NAMES[angle])
 
 
@@ -142,27 +145,27 @@ _HANDED = {"right": phrase("right-handed"), "left": phrase("left-handed"), "both
 
 
 def hand_name(side: str) -> str:
-    """``Right hand``."""
+    """Return ``Right hand`` or ``Left hand``."""
     return translate_phrase(_HANDS.get(side, side))
 
 
 def side_name(side: str) -> str:
-    """``Right``."""
+    """Return ``Right`` or ``Left``."""
     return translate_phrase(_SIDES.get(side, side))
 
 
 def hand_dominance(dominance: str) -> str:
-    """``right-handed``; empty where nobody knows."""
+    """Return ``right-handed`` or the like; empty if unknown."""
     return translate_phrase(_HANDED.get(dominance, ""))
 
 
 def hand_status_words(side: str, dominance: str) -> str:
-    """``Right hand affected · right-handed``."""
+    """Return ``Right hand affected · right-handed``."""
     return " · ".join(filter(None, (translate_phrase(_AFFECTED.get(side, "")), hand_dominance(dominance))))
 
 
 def start_angle_words(angles_rad: FloatArray) -> str:
-    """``Flexion 10°, Pronation 60°`` of the angles (3,) of a file; empty for a straight hand with the palm down."""
+    """Return ``Flexion 10°, Pronation 60°`` for the start angles (3,) of a file; empty for neutral."""
     read = to_clinical_wrist_angles(angles_rad, get_exercise("FOREARM_PS"), np.zeros(3))
     parts = [
         f"{movement_name(DIRECTIONS[column][0 if read[column] > 0 else 1])} {numbers.format_degrees(math.degrees(read[column]))}"  # noqa: E501

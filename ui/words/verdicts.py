@@ -1,4 +1,4 @@
-"""Sentences about change. A change is named as one only beyond the measurement error."""
+"""Sentences about change; a difference is a change only beyond the measurement error."""
 
 from __future__ import annotations
 
@@ -12,13 +12,8 @@ from carpus.ui.kit.translate import tr, translate_phrase
 
 
 def verdict_token(verdict: str) -> str:
-    """Colour of a verdict: green and red only for what is beyond error."""
+    """Return the colour of a verdict: green and red only beyond the measurement error."""
     return {"improved": "good", "worse": "bad"}.get(verdict, "text2")
-
-
-def no_change_words() -> str:
-    """What is said everywhere where no change is beyond the error: never that there was none."""
-    return tr("no change proven")
 
 
 _VERDICTS: Mapping[str, Phrase] = {
@@ -45,17 +40,17 @@ _REASONS: Mapping[str, Phrase] = {
 
 
 def verdict_word(verdict: str) -> str:
-    """The verdict as the table says it."""
+    """Return a verdict as shown in tables."""
     return translate_phrase(_VERDICTS.get(verdict, ""))
 
 
 def reason_words(reasons: Sequence[str]) -> str:
-    """Why two sessions are not judged, or one is left out, in a few words; empty for no reason."""
+    """Return why sessions are not compared, or one is excluded; empty without a reason."""
     return ", ".join(dict.fromkeys(translate_phrase(_REASONS[reason]) for reason in reasons))
 
 
 def duplicate_result_words(earlier_results: int) -> str:
-    """That a recording counts once, where one was tracked again; else empty."""
+    """Say that only the newest result of a recording is analysed; empty without others."""
     if not earlier_results:
         return ""
     words = tr("A recording counts once, by its newest result: 1 earlier result is left out.")
@@ -65,7 +60,7 @@ def duplicate_result_words(earlier_results: int) -> str:
 
 
 def error_limit_words(study: RetestStudy | None = None) -> str:
-    """Whose the error limits are, beside every judgement; ``study`` the clinic's own."""
+    """Explain the measurement error; ``study`` is the clinic's own."""
     if study is not None:
         return tr(
             "“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where "
@@ -79,7 +74,7 @@ def error_limit_words(study: RetestStudy | None = None) -> str:
 
 
 def difference_words(change_deg: float) -> str:
-    """``23° more`` or ``3° less``; ``0°`` when it rounds to nothing."""
+    """Return ``23° more`` or ``3° less``; ``0°`` if it rounds to zero."""
     size = numbers.format_degrees(change_deg)
     if size == "0°":
         return size
@@ -87,16 +82,16 @@ def difference_words(change_deg: float) -> str:
 
 
 def change_since_first(verdict: str, change_deg: float) -> str:
-    """The short form on the patient's card."""
+    """Return the short form for the patient's card."""
     if verdict in ("improved", "worse"):
         return tr("{difference} since the first").format(difference=difference_words(change_deg))
     if verdict == "no_change":
-        return no_change_words()
+        return verdict_word(verdict)
     return ""
 
 
 def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
-    """``2° more, within error (10°)``, for paper."""
+    """Return ``2° more, within error (10°)``, for paper."""
     if verdict == "not_judged" or change_deg != change_deg:
         return tr("not judged") if verdict == "not_judged" else ""
     pattern = (
@@ -108,7 +103,7 @@ def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str
 
 
 def long_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
-    """``2° more: within measurement error (10°)``, the long form of tables."""
+    """Return ``2° more: within measurement error (10°)``, for tables."""
     if verdict == "not_judged" or change_deg != change_deg:
         return ""
     pattern = (

@@ -35,7 +35,9 @@ class PaperTrackSettings(TrackSettings):
     def uses_depth(self) -> bool:
         return False
 
-    def follow(self, calibration: Calibration, camera: Camera, learnt: NeutralNoise) -> tuple[PaperTracker, None]:
+    def build_tracker(
+        self, calibration: Calibration, camera: Camera, learnt: NeutralNoise
+    ) -> tuple[PaperTracker, None]:
         return PaperTracker(calibration, camera, self.paper), None
 
     def adapt_calibration(self, calibration: Calibration, camera: Camera) -> Calibration:

@@ -20,7 +20,7 @@ from carpus.ui.words.fingers import LOWER_BOUND, is_thumb_exercise, main_kind, p
 from carpus.ui.words.progress import comparison_name, range_name, uncertainty_words
 from carpus.ui.words.progress import headline as progress_headline
 from carpus.ui.words.ranges import is_deficit, mean_words, repetition_words
-from carpus.ui.words.verdicts import difference_words, no_change_words, reason_words
+from carpus.ui.words.verdicts import difference_words, reason_words, verdict_word
 
 _VALUE = TableColumn(SEMIBOLD, scale=1.14)
 COLUMNS = (
@@ -218,7 +218,7 @@ def _judgement(one: Comparison, both: SessionPair) -> str:
         return tr("not judged: {why}").format(why=reason_words(one.reasons) or tr("not measured"))
     if both.relation == "dates":
         if not one.is_beyond_error:
-            return no_change_words()
+            return verdict_word("no_change")
         return tr("improved, beyond error") if one.verdict == "improved" else tr("worse, beyond error")
     if not one.is_beyond_error:
         return tr("no difference beyond error")

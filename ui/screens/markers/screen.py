@@ -404,7 +404,7 @@ class PreviousPhoto(Photo):
         width = max(width, round(label_size(self._theme, self._label).width()) + 24)
         self.setGeometry(13, require_parent(self).height() - height - 13, width, height)
 
-    def place(self) -> tuple[QRectF, QPointF]:
+    def layout_boxes(self) -> tuple[QRectF, QPointF]:
         room = QRectF(self.rect()).adjusted(3, 3, -3, -self._theme.px(23))
         return room, QPointF(3, self.height() - self._theme.px(22))
 

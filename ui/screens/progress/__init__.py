@@ -1,1 +1,1 @@
-"""The course over the sessions: one sentence, the range with its error, whether the comparison is fair."""
+"""Progress over the sessions: answer, chart, changes and comparability."""

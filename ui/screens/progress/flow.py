@@ -1,4 +1,4 @@
-"""The flow of the progress: over which weeks, its report, its tables."""
+"""Flow of the progress screen: its report and its tables."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from carpus.ui.shell.flow import Flow, ScreenContext
 
 
 class ProgressFlow(Flow):
-    """How it went over the weeks."""
+    """Flow of a patient's progress."""
 
     screen_name, guide_page = "progress", "figures"
     screen: ProgressScreen
@@ -33,7 +33,7 @@ class ProgressFlow(Flow):
         screen.chart.menu.saved.connect(lambda path: self.register_exports([path], self._session_ids()))
 
     def open(self, patient_id: str) -> None:
-        """Of a patient; the kind of the session that is open comes first."""
+        """Show a patient's progress, in the exercise of the open session."""
         self.open_patient(patient_id)
         self.screen.chart.menu.start_folder = self.context.recent_locations.folder("exports")
         self.screen.load_patient(patient_id, self.context.current.session_id)
@@ -46,7 +46,7 @@ class ProgressFlow(Flow):
             self.return_to_session()
 
     def _show_report(self, sessions: Sequence[SessionResults]) -> None:
-        """Of the sessions shown, and what of the whole hand is on the screen."""
+        """Show the report of the sessions and of what is followed on the screen."""
         if not sessions or self.context.current.patient is None:
             return
         followed = self.screen.measure_choice.currentData()
@@ -79,7 +79,7 @@ HEAD = (
 
 
 def write_tables(path: Path, progress: Progress) -> list[Path]:
-    """The table of the sessions, and one beside it of what was measured by hand, if anything was; the files."""
+    """Write the table of the sessions, and one of manual values if there are any; return the files."""
     beside = companion_path(path, "-by-hand", can_replace=path.exists())
     write_table(path, progress)
     if not progress.manual_measurements:
@@ -89,7 +89,7 @@ def write_tables(path: Path, progress: Progress) -> list[Path]:
 
 
 def write_table(path: Path, progress: Progress) -> None:
-    """One line for each session and movement, degrees with one decimal; a session left out says why."""
+    """Write one row for each session and movement in degrees, with the reason of an exclusion."""
     save_table(path, HEAD, _rows(progress))
 
 

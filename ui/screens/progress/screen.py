@@ -1,4 +1,4 @@
-"""The progress screen: filters, the answer, the chart, the table in words, fairness."""
+"""Progress screen: choices, answer, chart, changes and comparability."""
 
 from __future__ import annotations
 
@@ -53,13 +53,12 @@ if TYPE_CHECKING:  # it reads and writes files
 
 MIN_LETTERS = 14
 MIN_CHART_PX, SIDE_PX = 360, 380
+# What the row above the answer needs.
 MIN_FILTERS_PX = 1180
-"""What the row above the sentence needs with everything in it."""
 
 
 class ProgressScreen(FittedWidget):
-    """``report_requested`` carries the sessions shown; ``session_chosen`` one that was chosen; ``fault_raised`` a
-    fault."""
+    """Emits ``report_requested`` (results), ``table_requested``, ``session_chosen`` and ``fault_raised``."""
 
     report_requested = Signal(object)
     fault_raised = Signal(object)
@@ -141,7 +140,7 @@ class ProgressScreen(FittedWidget):
         column_layout(scroll_page(whole), margins=(0, 0, 0, 0), parent=self)
 
     def _fit(self) -> None:
-        """Where there is little room, everything one below the other on a page that scrolls."""
+        """Stack everything on a scrolling page if there is little room."""
         narrow = is_tight(self, self._theme) or self.width() < MIN_FILTERS_PX * self._theme.text_scale
         direction = QBoxLayout.Direction.TopToBottom if narrow else QBoxLayout.Direction.LeftToRight
         self._filters.setDirection(direction)
@@ -156,7 +155,7 @@ class ProgressScreen(FittedWidget):
 
     # --- life ---------------------------------------------------------------------------------------------
     def load_patient(self, patient_id: str, session_id: str = "") -> None:
-        """Read all sessions of a patient; the kind of the given or newest session is shown."""
+        """Read all sessions of a patient and show the exercise of the given or newest one."""
         store, self._patient_id = self._store, patient_id
         self._show_empty(self.tr("Reading the sessions…"))
 
@@ -178,7 +177,7 @@ class ProgressScreen(FittedWidget):
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_empty(self, words: str) -> None:
-        """Nothing of the sessions before, which may be another patient's, and nothing to be made of them."""
+        """Hide the previous sessions, which may be another patient's."""
         self.exercise_choice.hide()
         self.measure_choice.hide()
         self._show_course(Progress((), (), None), [])
@@ -203,7 +202,7 @@ class ProgressScreen(FittedWidget):
         return [figures for figures in self._sessions if (figures.exercise.id, figures.side) == kind]
 
     def _choose_exercise(self) -> None:
-        """Offer what can be followed of the whole hand; what the exercise trains comes first."""
+        """Offer what can be followed of a whole hand, the trained measure first."""
         alike = self._current_sessions()
         kinds = progress_choices(alike[-1]) if alike else []
         self.measure_choice.set_choices(kinds)
@@ -273,7 +272,6 @@ class ProgressScreen(FittedWidget):
         )
 
     def _fill_manual_values(self) -> None:
-        """What was measured by hand, each way for itself."""
         clear_layout(self._manual_card.body)
         values, theme = self.progress.manual_measurements, self._theme
         self._manual_card.setVisible(bool(values))

@@ -1,1 +1,1 @@
-"""The report screen: preview, choice of pages, saving and printing."""
+"""Report screen: preview, parts and comment, saving and printing."""

@@ -1,4 +1,4 @@
-"""What is asked before a sheet for home or a letter is made of a report."""
+"""Dialogs before a home exercise sheet or a letter."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ LISTED_DAYS, MAX_TIME_LENGTH = 56, 12
 
 
 class AppointmentBox(Combo):
-    """The next appointment: one of the days to come, or typed; none is guessed."""
+    """Next appointment: one of the coming days, or a typed one; none is preselected."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -39,7 +39,7 @@ class AppointmentBox(Combo):
         self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
 
     def set_today(self, today: date) -> None:
-        """Offer the days after this one."""
+        """Offer the days after ``today``."""
         self._today = today
         days = [today + timedelta(days=number + 1) for number in range(LISTED_DAYS)]
         self.set_choices(
@@ -52,7 +52,7 @@ class AppointmentBox(Combo):
         return self.itemData(listed) if listed >= 0 else numbers.parse_date(self.currentText())
 
     def value(self) -> date | None:
-        """None for none, and for what is no day to come."""
+        """Return the day, None for none and for anything but a coming day."""
         day = self._day()
         return day if day is not None and day > self._today else None
 
@@ -62,16 +62,17 @@ class AppointmentBox(Combo):
             self.setEditText(numbers.format_date(day))
 
     def error_text(self) -> str:
-        """What is asked where something else is typed than a day to come."""
+        """Return what is wrong with the typed day."""
         if self.value() is not None or self.currentText().strip() in ("", self.itemText(0)):
             return ""
         return self.tr("When next? Day, month, year") if self._day() is None else self.tr("When next? That day is over")
 
 
 class HomeDialog(Dialog):
-    """``requested`` carries the sheet for home, but for the patient's own way. What a patient was last given is
-    proposed
-    again, day and line until that day has come."""
+    """Form of the home exercise sheet; ``requested`` carries the sheet without the patient's progress.
+
+    The patient's last plan is proposed again; appointment and note until that day.
+    """
 
     requested = Signal(object)
 
@@ -126,8 +127,7 @@ class HomeDialog(Dialog):
         self.accept_button.clicked.connect(self._accept)
 
     def open_form(self, report: SessionReport, today: date, last_plan: HomePlan | None = None) -> None:
-        """Ask; ``last_plan`` what the patient was given before, without which what was trained today is ticked.
-        No appointment is guessed."""
+        """Show the form for ``last_plan``, or without one for today's exercise."""
         self._report, self._today = report, today
         trained = (report.results.exercise.id,)
         plan = last_plan or HomePlan(trained, DEFAULT_TIMES, DEFAULT_ROUNDS, today, None, "", "", current_language())
@@ -145,7 +145,7 @@ class HomeDialog(Dialog):
         return [exercise for exercise in DRAWABLE_EXERCISES if self.exercise_checks[exercise.id].isChecked()]
 
     def _check(self, *_: object) -> None:
-        """No more than there is room for, and not none; what is still to be said stands on the button."""
+        """Limit the number of exercises; the button says what is still missing."""
         count, asked = len(self.selection()), self.form.find_error()[1]
         for tick in self.exercise_checks.values():
             tick.setEnabled(tick.isChecked() or count < MAX_TASKS)
@@ -168,7 +168,7 @@ ADDRESS_PX = 84
 
 
 class LetterDialog(Dialog):
-    """``requested`` carries the recipient, the language by two letters, and whether the real name is printed."""
+    """Form of the letter; ``requested`` carries recipient, language, and whether to print the real name."""
 
     requested = Signal(str, str, bool)
 
@@ -219,7 +219,7 @@ class LetterDialog(Dialog):
         self.accept_button.clicked.connect(self._accept)
 
     def open_form(self, recipients: Sequence[str], *, has_name: bool) -> None:
-        """Ask; the name is never ticked by itself."""
+        """Show the form; the real name is never preselected."""
         self.recipients.set_choices([(one, ", ".join(address_lines(one))) for one in recipients])
         self.recipients.setCurrentIndex(-1)
         self.recipients.setVisible(bool(recipients))

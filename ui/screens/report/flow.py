@@ -1,4 +1,4 @@
-"""The flow of reports: gathered beside the window, shown; letters and sheets for home made of them."""
+"""Flow of reports: built in the background, shown, and made into letters and home exercise sheets."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ T = TypeVar("T")
 
 
 class ReportFlow(Flow):
-    """One report of a session, of the progress."""
+    """Flow of session and progress reports."""
 
     screen_name, guide_page = "report", "figures"
     screen: ReportScreen
@@ -56,7 +56,7 @@ class ReportFlow(Flow):
         screen.saved.connect(self._register_file)
 
     def open(self, report: str | ProgressReport, sessions: Sequence[str] = ()) -> None:
-        """Of a session, by its identity; or one that is made, and the ``sessions`` that went into it."""
+        """Show the report of a session id, or one that was made of ``sessions``."""
         if isinstance(report, str):
             self._show_session(report)
         else:
@@ -111,7 +111,7 @@ class ReportFlow(Flow):
         self.context.recent_locations.save_folder("reports", str(Path(path).parent))
 
     def _run_or_report(self, action: Callable[[], T]) -> T | None:
-        """What the store answers; a fault of it is told."""
+        """Return the action's result, or report its fault and return None."""
         try:
             return action()
         except CarpusFault as fault:
@@ -129,7 +129,7 @@ class ReportFlow(Flow):
             )
 
     def _show_letter(self, recipient: str, language: str, has_real_name: bool) -> None:
-        """The real name goes no further than the letter's page."""
+        """Show the letter; the real name goes no further than its page."""
         row, report = self.context.current.patient, self._letter_source
         if row is None or report is None:
             return
@@ -150,8 +150,7 @@ class ReportFlow(Flow):
             self.home_dialog.open_form(report, self.context.today(), last)
 
     def _show_home(self, home: HomeReport) -> None:
-        """With the patient's own way where there is something good to say; what is on it is remembered with the
-        patient."""
+        """Store the plan with the patient, and show the sheet with the progress if it is good."""
         row, stored = self.context.current.patient, self.context.library
         if row is None:
             return
@@ -166,7 +165,7 @@ class ReportFlow(Flow):
 
 
 class ReportFormStore(QObject):
-    """The clinic's form of reports, kept in the store: ``form`` is what holds now; ``card`` is for the settings."""
+    """The clinic's report form: ``form`` is current, ``card`` edits it in the settings."""
 
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context.window)
@@ -182,12 +181,12 @@ class ReportFormStore(QObject):
         )
 
     def reload(self) -> None:
-        """The clinic's server is back."""
+        """Read the form again, when the clinic's server is back."""
         self.form = self._read()
         self.card.show_form(self.form)
 
     def save(self, form: ReportForm) -> None:
-        """Store it for all reports from now on; where somebody else has changed it meanwhile, theirs is shown."""
+        """Save the form for all reports; show the other one if somebody else has changed it."""
         before, self.form = self.form, form
         try:
             save_form(self._store, form, before)

@@ -1,4 +1,4 @@
-"""Beside a report: which parts it has, and the therapist's comment with sentences to write it from."""
+"""Panel beside a report: its parts, and the therapist's comment with stored sentences."""
 
 from __future__ import annotations
 
@@ -31,8 +31,7 @@ PREVIEW_AFTER_MS = 400
 
 
 class ReportPanel(QWidget):
-    """``changed`` carries the report as it is to be shown; ``form_saved`` a form for all reports; ``comment_saved`` the
-    session and its comment when that was written to its end."""
+    """Emits ``changed`` (report), ``form_saved`` (form) and ``comment_saved`` (session id, comment)."""
 
     changed = Signal(object)
     form_saved = Signal(ReportForm)
@@ -87,7 +86,6 @@ class ReportPanel(QWidget):
         self.use_button.clicked.connect(self._save_form)
 
     def _make_sentence_box(self) -> QComboBox:
-        """The sentences to choose from, found by any part of them."""
         box = Combo()
         box.setEditable(True)
         box.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
@@ -185,7 +183,7 @@ class ReportPanel(QWidget):
 
 
 class _CommentField(QPlainTextEdit):
-    """``focus_lost`` when another field is gone to."""
+    """Emits ``focus_lost`` when another field gets the keyboard."""
 
     focus_lost = Signal()
 
@@ -200,7 +198,7 @@ _PLACEHOLDER = re.compile(r"\{(\w+)\}")
 
 
 def default_sentences() -> tuple[str, ...]:
-    """Offered until the therapist has sentences of their own."""
+    """Return the sentences offered until the therapist has stored some."""
     return (
         tr("Flexion {flexion}, extension {extension}."),
         tr("The whole arc is {arc}. {change}"),
@@ -210,7 +208,7 @@ def default_sentences() -> tuple[str, ...]:
 
 
 def fill_sentence(sentence: str, report: SessionReport) -> str:
-    """The sentence with its places filled; a figure that is not known is said to be so, another place stays."""
+    """Replace the placeholders of a sentence; unknown values are said to be so."""
     return _PLACEHOLDER.sub(
         lambda found: _placeholder_text(found[1], report) if found[1] in PLACEHOLDERS else found[0], sentence
     )

@@ -1,4 +1,4 @@
-"""The report as it will be printed, and where it goes."""
+"""Report preview, and where it is saved and printed."""
 
 from __future__ import annotations
 
@@ -34,9 +34,10 @@ MAX_PAGE_PX = 980
 
 
 class ReportScreen(QWidget):
-    """Preview and saving. ``saved`` carries the path; ``letter_requested`` and ``home_sheet_requested`` the report
-    that a
-    letter or a sheet for home is to be made of; ``fault_raised`` a fault."""
+    """Preview of a report.
+
+    Emits ``saved`` (path), ``letter_requested`` and ``home_sheet_requested`` (report), ``fault_raised``.
+    """
 
     saved = Signal(str)
     letter_requested = Signal(object)
@@ -143,7 +144,7 @@ class ReportScreen(QWidget):
         return self._report
 
     def _show_saved(self) -> None:
-        """Where what is shown lies as a file, also after a letter or a sheet that was made of it."""
+        """Show the path of the report if it was saved, also after a letter was made of it."""
         path = self._saved_report[1] if self._saved_report is not None and self._saved_report[0] is self._report else ""
         words = self.tr("Saved") if path else self.tr("Not saved yet")
         self.save_state.show_state("good" if path else "none", words, icon="file-text", token="text")
@@ -166,7 +167,7 @@ class ReportScreen(QWidget):
             self.home_sheet_requested.emit(self._report)
 
     def show_parent_report(self) -> bool:
-        """Back from a letter or sheet to the report it was made of; whether there was one."""
+        """Return from a letter or home sheet to its report; False if there is none."""
         if not isinstance(self._report, LetterReport | HomeReport):
             return False
         self.show_report(self._report.report, self._folder)
@@ -183,7 +184,7 @@ class ReportScreen(QWidget):
                 self._finish_saving(self._report, printer.outputFileName())
 
     def save(self, path: str, *, may_replace: bool = False) -> None:
-        """Write the PDF beside the window's thread. The file dialog has asked before something is replaced."""
+        """Write the PDF in the background; the file dialog has asked before replacing a file."""
         self.panel.save_comment()
         report = self._report
         if report is None:
@@ -220,7 +221,7 @@ class ReportScreen(QWidget):
 
 
 def default_file_name(report: Report) -> str:
-    """``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: the made-up name, when, and what was done."""
+    """Return ``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: pseudonym, time and content."""
     name, when = report.pseudonym.replace(" ", "-"), max(figures.when for figures in report.sessions)
     if isinstance(report, ProgressReport):
         return f"{name}_{when:%Y-%m-%d}_{report.kind}.pdf"
@@ -229,7 +230,7 @@ def default_file_name(report: Report) -> str:
 
 
 def _write_file(content: bytes, target: Path, may_replace: bool) -> Path:
-    """Put in the place of an old file only where the person has agreed to that."""
+    """Write the file; replace an old one only if the person has agreed."""
     if may_replace and target.exists():
         replace_file(target, lambda place: save_pdf(place, content))
     else:
@@ -238,7 +239,7 @@ def _write_file(content: bytes, target: Path, may_replace: bool) -> Path:
 
 
 class PagePreview(QWidget):
-    """The pages as wide as the room, one under the other on the canvas."""
+    """The pages as wide as the room, one below the other."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -278,7 +279,6 @@ class PagePreview(QWidget):
         self._update_pages()
 
     def _update_pages(self) -> None:
-        """Paint each page anew, where anybody sees it."""
         self.updateGeometry()
         if not self.pages or not self.isVisible():
             return
@@ -306,12 +306,12 @@ class PagePreview(QWidget):
 
 
 PAGE_SIZES = {"a4": QPageSize.PageSizeId.A4, "letter": QPageSize.PageSizeId.Letter}
+# Shown in the printer's job list, so without a name.
 PRINT_JOB_NAME = "Carpus report"
-"""What a printer's list of jobs shows: nobody's name."""
 
 
 def make_printer(report: Report, count: int) -> QPrinter:
-    """The usual printer, set to the paper of a report with so many pages."""
+    """Return the default printer, set to the paper of a report with so many pages."""
     printer = QPrinter(QPrinter.PrinterMode.HighResolution)
     size = QPageSize(PAGE_SIZES[report.form.paper])
     printer.setPageLayout(QPageLayout(size, QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0)))
@@ -322,7 +322,7 @@ def make_printer(report: Report, count: int) -> QPrinter:
 
 
 def print_pages(printer: QPrinter, pages: Sequence[Page]) -> None:
-    """Print the pages that were asked for, smaller where the printer has other paper than the report."""
+    """Print the selected pages, scaled down if the printer has smaller paper."""
     first = max(printer.fromPage(), 1)
     last = printer.toPage() or len(pages)
     printer.setFullPage(True)

@@ -1,1 +1,1 @@
-"""A stored session: curves with a cursor, repetitions that can be corrected, range of motion."""
+"""Review of a stored session: curves, frames, repetitions and results."""

@@ -1,4 +1,4 @@
-"""The card of results: what was done, what can be made of it, and its tables."""
+"""Card of results: title, buttons and tables."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import range_table, repetition_words
 from carpus.ui.words.task_measures import task_table, task_title
 
+# The head of the table and two rows.
 MIN_TABLE_PX = 84
-"""The head of the table and two rows."""
 
 
 class ReviewCard(Card):
-    """``comparison_requested`` carries the session that this one is best held against."""
+    """Emits ``comparison_requested`` with the session that is best compared with this one."""
 
     comparison_requested = Signal(str)
 
@@ -81,15 +81,14 @@ class ReviewCard(Card):
         self._session_buttons = (self.include_button, self.compare_button, self.export_button, self.report_button)
 
     def show_reading(self, *, on: bool) -> None:
-        """While a session is read nothing is seen of the one before, which may be another patient's, and nothing can be
-        made of it; everything keeps its place."""
+        """Hide the session and disable its buttons while another one is read, without moving anything."""
         for widget in self._session_widgets:
             widget.setVisible(not on)
         for button in self._session_buttons:
             button.setEnabled(not on)
 
     def show_session(self, reviewed: ReviewedSession) -> None:
-        """What was done, with which hand and when, the figure that the list of sessions names, and the tables."""
+        """Show exercise, hand, time, main result and tables."""
         figures = reviewed.results
         self.show_reading(on=False)
         self.tables.show_session(reviewed)
@@ -106,7 +105,7 @@ class ReviewCard(Card):
         self.include_button.set_label(counts)
 
     def _show_partner(self, reviewed: ReviewedSession) -> None:
-        """What the session is best held against; without one the button says so."""
+        """Enable the comparison if there is a session to compare with."""
         partner = find_partner(reviewed.history, reviewed.results)
         self._partner_id = "" if partner is None else partner.session_id
         self.compare_button.setEnabled(partner is not None)
@@ -119,8 +118,7 @@ class ReviewCard(Card):
         self.compare_button.setToolTip(words)
 
     def fit(self, page: QLayout, height_px: int, *, tight: bool, whole_hand: bool) -> None:
-        """The tables take the rows they have, or scroll so that the curves keep their panels; with large text the page
-        scrolls with all of them."""
+        """Give the tables the rows they need, or let them scroll so that the curves keep their height."""
         self.report_button.set_label(self.report_button.text(), hint="" if tight else "Ctrl+P")
         self.export_button.set_label(self.export_button.text(), hint="" if tight else "Ctrl+E")
         self.repeat_button.set_label(self.repeat_button.text(), icon="" if tight else "plus")
@@ -141,7 +139,7 @@ class ReviewCard(Card):
         self.tables.setFixedHeight(round(max(min(needed, most, self._room_px(page, height_px)), fewest)))
 
     def _room_px(self, page: QLayout, height_px: int) -> int:
-        """What is left for the tables when all else keeps its least height; the card must not be pushed together."""
+        """Return the height left for the tables when all else has its minimum."""
         page.invalidate()  # the text may just have become larger
         width = page.geometry().width()
         least = page.minimumHeightForWidth(width) if page.hasHeightForWidth() else page.minimumSize().height()
@@ -149,7 +147,7 @@ class ReviewCard(Card):
 
 
 class ResultTables(ScrollArea):
-    """Range of motion, active and passive, further measures, notes, and other results of the recording."""
+    """Range of motion, active and passive range, task measures, notes and result versions."""
 
     def __init__(self, theme: Theme) -> None:
         column = ScrolledColumn()
@@ -210,7 +208,6 @@ class ResultTables(ScrollArea):
         self._show_notes(figures)
 
     def _show_active_passive(self, reviewed: ReviewedSession) -> None:
-        """The table of what was active, passive and measured by hand, where there is more than the first."""
         found = build_active_passive(reviewed.results, reviewed.manual_values)
         if found is not None:
             self.passive_text.setText(found.sentence)
@@ -244,9 +241,10 @@ class ResultTables(ScrollArea):
 
 
 class VersionChoice(QWidget):
-    """``chosen`` carries the identity of another result, ``restore_requested`` that of an older one that is to count
-    again. Hidden
-    while there is one only; the newest counts."""
+    """Buttons for the result versions of a recording, hidden if there is one only.
+
+    Emits ``chosen`` (session id), and ``restore_requested`` for an older version to become the newest.
+    """
 
     chosen = Signal(str)
     restore_requested = Signal(str)
@@ -259,7 +257,7 @@ class VersionChoice(QWidget):
         self.hide()
 
     def show_versions(self, results: Sequence[SessionEntry], current: str) -> None:
-        """All results of the recording, the first one first."""
+        """Show all versions, oldest first."""
         clear_layout(self._row)
         self.buttons = []
         if len(results) > 1:

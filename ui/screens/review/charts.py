@@ -1,4 +1,4 @@
-"""The curves of the review or the ways in their place, and the player under them."""
+"""Curves or paths of the review, and the player below them."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from carpus.ui.screens.review.reviewed_session import ReviewedSession
 from carpus.ui.words.finger_angles import FINGERS, find_finger_angle
 from carpus.ui.words.marker_words import finger_name
 
+# Instead of a finger's number: the three wrist angles.
 WRIST = -1
-"""Instead of a finger's number: the wrist's three angles."""
 
 
 class ReviewCharts(QWidget):
-    """``finger_chosen``: another finger is looked at."""
+    """Emits ``finger_chosen``."""
 
     finger_chosen = Signal()
 
@@ -49,13 +49,12 @@ class ReviewCharts(QWidget):
 
     @property
     def finger_number(self) -> int:
-        """The finger that is looked at, 0 for all, :data:`WRIST` for none."""
+        """Chosen finger, 0 for all, :data:`WRIST` for the wrist."""
         value = self.finger.value()
         return value if isinstance(value, int) else 0
 
     def fit(self, reviewed: ReviewedSession | None, *, above: QBoxLayout | None) -> bool:
-        """With large text fewer panels, and the fingers ``above`` everything; whether another finger had to be chosen
-        for that."""
+        """Show fewer panels for large text; return True if another finger had to be chosen."""
         tight, place = above is not None, above or self._column
         self.curves.show_single(tight)
         if place.indexOf(self.finger) < 0:
@@ -67,7 +66,7 @@ class ReviewCharts(QWidget):
         return False
 
     def show_plot(self, reviewed: ReviewedSession, view: str, current: int) -> SessionPlot:
-        """What is chosen of a session: its ``angles``, ``path``, ``place`` or ``zyz``."""
+        """Show the ``angles``, ``path``, ``place`` or ``zyz`` of a session."""
         shown = (reviewed.curves, reviewed.results.exercise, reviewed.results.repetitions, current)
         if view in ("place", "zyz"):
             plot: SessionPlot = MotionPlot(*shown, motion=reviewed.motion, kind="zyz" if view == "zyz" else "place")
@@ -100,7 +99,7 @@ class ReviewCharts(QWidget):
 
 
 class Player(Card):
-    """``view_chosen`` carries what is to be drawn; ``repetition_requested`` asks what the current repetition is."""
+    """Emits ``view_chosen`` (name) and ``repetition_requested``."""
 
     view_chosen = Signal(str)
     repetition_requested = Signal()
@@ -155,7 +154,7 @@ class Player(Card):
         self.view.setCurrentIndex((self.view.currentIndex() + 1) % self.view.count())
 
     def show_research(self, *, on: bool) -> None:
-        """Paths, places, speeds and ZYZ beside the angles, or these alone."""
+        """Offer paths, positions, speeds and ZYZ angles too, or the angles alone."""
         self._research = on
         if not on:
             self.view.setCurrentIndex(0)

@@ -1,4 +1,4 @@
-"""The flow of the review: which session, where one goes on from it, a frame as a picture of the hand."""
+"""Flow of the review: which session is shown, and what follows from it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from carpus.ui.shell.messages import Answer
 
 
 class ReviewFlow(Flow):
-    """One session of the patient who is open."""
+    """Flow of one session of the open patient."""
 
     screen_name, guide_page = "review", "figures"
     screen: ReviewScreen
@@ -39,7 +39,7 @@ class ReviewFlow(Flow):
         )
 
     def open(self, session_id: str = "", patient_id: str = "") -> None:
-        """Show one session, ``patient_id`` of a patient who is not open; without one the newest, if there is any."""
+        """Show a session, by default the newest one; ``patient_id`` if the patient is not open."""
         now, library = self.context.current, self.context.library
         if patient_id:
             self.open_patient(patient_id)
@@ -89,12 +89,12 @@ class ReviewFlow(Flow):
         self.screen.playing.stop()
 
     def show_research(self, *, on: bool) -> None:
-        """Paths, places and speeds besides the angles, and all formats of an export."""
+        """Show paths, positions and speeds besides the angles, and all export formats."""
         self.screen.player.show_research(on=on)
         self.exporting.dialog.show_research(on=on)
 
     def save_hand_image(self, hand_image: HandImage) -> None:
-        """Ask where, and write it; the name does not say whose hand it is."""
+        """Ask where to save the image and write it; the file name does not name the patient."""
         library, head = self.context.library, hand_image.session.header
         what = f"{head.exercise.lower().replace('_', '-')}_{head.hand}"
         name = f"carpus_{head.recording_time:%Y-%m-%d_%H-%M}_{what}_{hand_image.row}.png"

@@ -1,4 +1,4 @@
-"""The picture of the review: discs, way of the fingertips, angle, what is measured, and the buttons at its foot."""
+"""Frame of the review with markers, fingertip paths, angle and buttons."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from carpus.ui.picture.view import FrameView
 from carpus.ui.screens.review.hand_image import paint_angle
 from carpus.ui.screens.review.reviewed_session import ReviewedSession
 
+# Length of the fingertip paths.
 TRAIL_S = 1.0
-"""How far back the way of the fingertips is drawn."""
 
 
 class ReviewFrameView(SessionFrameView):
-    """``correction_requested`` asks to put markers right in the picture that is shown."""
+    """Emits ``correction_requested`` for the frame that is shown."""
 
     correction_requested = Signal()
 
@@ -53,7 +53,7 @@ class ReviewFrameView(SessionFrameView):
         theme.changed.connect(self._schedule_layout)
 
     def show_session(self, session: Session) -> None:
-        """Another session; its pictures follow."""
+        """Show another session; its frames follow."""
         self.set_session(session)
         self.set_hand_area(session.calibration.clicks.pixel)
         self.correct_button.show()
@@ -62,7 +62,7 @@ class ReviewFrameView(SessionFrameView):
         self._place_buttons()
 
     def show_repetition(self, reviewed: ReviewedSession, current: int, finger: int) -> None:
-        """What is known of the session, the current repetition, and the finger that is looked at, 0 for all."""
+        """Set the session's results, the current repetition, and the finger (0 for all)."""
         self._reviewed, self._current, self._finger = reviewed, current, finger
         self.update()
 
@@ -71,7 +71,7 @@ class ReviewFrameView(SessionFrameView):
         self.show_row(row)
         self.update()
 
-    def show_stored(self, picture: ByteImage | None) -> None:
+    def show_stored_frame(self, picture: ByteImage | None) -> None:
         if picture is not None:
             self.save_button.show()
         super().show_stored_frame(picture)
@@ -80,7 +80,7 @@ class ReviewFrameView(SessionFrameView):
         QTimer.singleShot(0, self, self._place_buttons)
 
     def _place_buttons(self) -> None:
-        """In a row at the foot of the picture, the hand above it."""
+        """Place the buttons at the foot, with shorter texts if there is little room."""
         buttons = (self.correct_button, self.angle_button, self.save_button)
         room = self.width() - 24
         words = self.tr("Put markers right…")
@@ -120,14 +120,13 @@ class ReviewFrameView(SessionFrameView):
         self._paint_labels(painter, reviewed, said)
 
     def _paint_trails(self, painter: QPainter, reviewed: ReviewedSession, modelled_px: FloatArray) -> None:
-        """The way of the fingertips in the second before."""
         times, session = reviewed.curves.time_s, reviewed.session
         recent = slice(int(np.searchsorted(times, times[self.row] - TRAIL_S)), self.row + 1)
         seen = np.isfinite(session.markers.measured_px[recent, :, 0])
         paint_trails(painter, self, session.header.protocol, modelled_px[recent], seen, self._finger)
 
     def _paint_angle(self, painter: QPainter, reviewed: ReviewedSession) -> str:
-        """The trained angle on the picture; what is said of it, or why it is not drawn."""
+        """Paint the trained angle; return its text, or why it is not drawn."""
         found = angle_overlay(reviewed.session, self.row, reviewed.results.exercise)
         if found is not None:
             paint_angle(painter, found, self.to_screen)
@@ -137,9 +136,7 @@ class ReviewFrameView(SessionFrameView):
         return self.tr("Towards the camera: measured, not drawn")
 
     def _paint_labels(self, painter: QPainter, reviewed: ReviewedSession, angle_text: str) -> None:
-        """Repetition and time, at the right what is measured, or below it where there is no room; then what is
-        ``angle_text``
-        of the angle that is drawn."""
+        """Paint repetition and time at the left, the status at the right or below, then ``angle_text``."""
         plate = paint_label(painter, self._theme, self._clock_words(reviewed), 12, 12)
         words = reviewed.status_words(self.row, self._time_s)
         left, top = self.width() - label_size(self._theme, words).width() - 12, 12.0
@@ -151,7 +148,7 @@ class ReviewFrameView(SessionFrameView):
             paint_label(painter, self._theme, angle_text, 12, plate.bottom() + 4)
 
     def _clock_words(self, reviewed: ReviewedSession) -> str:
-        """``Repetition 3 of 8 · 00:12.0``, the time alone between the repetitions."""
+        """Return ``Repetition 3 of 8 · 00:12.0``, or the time alone between repetitions."""
         clock = numbers.format_clock_tenths(self._time_s)
         if self._current not in reviewed.find_repetitions(self._time_s):
             return clock

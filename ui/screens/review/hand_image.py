@@ -1,4 +1,4 @@
-"""A frame of a session as a picture of the hand alone, with the trained angle drawn on it."""
+"""Frame of a session as an image of the hand alone, with the trained angle."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from carpus.ui.picture.overlay import ToScreen, draw_with_halo
 from carpus.ui.picture.photo import paint_label
 from carpus.ui.screens.review.reviewed_session import ReviewedSession
 
+# Radius of the arc as a share of the lines.
 ARC_FRACTION = 0.55
-"""Where the arc runs, as a part of the lines."""
+# A small hand is enlarged by whole factors up to this size.
 MIN_SIDE_PX = 640
-"""A small hand is shown larger, as far as whole multiples stay within this."""
 
 
 @dataclass(frozen=True, slots=True)
 class HandImage:
-    """Row of a session whose frame is wanted as a picture, and the words on it."""
+    """Frame of a session to be saved as an image, and the words on it."""
 
     session: Session
     row: int
@@ -40,7 +40,7 @@ class HandImage:
 
 
 def build_hand_image(reviewed: ReviewedSession, row: int, time_s: float) -> HandImage:
-    """The picture of a row at a time; its words say so where the angle is not the patient's own."""
+    """Return the image of a frame; its words say if the movement was passive or simulated."""
     words, figures = reviewed.angle_words(row), reviewed.results
     if words and any(figures.repetitions[number].is_passive for number in reviewed.find_repetitions(time_s)):
         words = tr("{angle}, passive").format(angle=words)
@@ -50,7 +50,7 @@ def build_hand_image(reviewed: ReviewedSession, row: int, time_s: float) -> Hand
 
 
 def paint_angle(painter: QPainter, angle: AngleOverlay, to_screen: ToScreen) -> None:
-    """Dashed where it is 0, a thick line where the hand stands, and the arc between them."""
+    """Paint a dashed line at zero, a thick one at the angle, and the arc between them."""
     vertex, zero, hand = (to_screen(*map(float, point)) for point in (angle.vertex, angle.zero, angle.hand))
     draw_with_halo(painter, ON_PICTURE_LINE, 2.0, lambda: painter.drawLine(vertex, zero), dash=True)
     draw_with_halo(painter, DARK.curve_b, 4.0, lambda: painter.drawLine(vertex, hand))
@@ -63,7 +63,7 @@ def paint_angle(painter: QPainter, angle: AngleOverlay, to_screen: ToScreen) -> 
 
 
 def draw_hand_image(theme: Theme, hand_image: HandImage, frame: ByteImage) -> QImage | None:
-    """Draw the hand alone, its angle where that lies in the image plane, and the words; None without a hand."""
+    """Draw the hand with its angle and words; None without a visible hand."""
     found = cut_out_hand(frame, hand_image.session, hand_image.row)
     if found is None:
         return None
@@ -83,7 +83,7 @@ def draw_hand_image(theme: Theme, hand_image: HandImage, frame: ByteImage) -> QI
 
 
 class HandImageDialog(Dialog):
-    """Emits ``accepted`` once a person has ticked that the patient agrees."""
+    """Emits ``accepted`` once the patient's consent is ticked."""
 
     accepted = Signal()
 
@@ -108,7 +108,7 @@ class HandImageDialog(Dialog):
         self.accept_button.clicked.connect(self._accept)
 
     def open_form(self, *, refused: bool = False) -> None:
-        """Ask for the patient's agreement, each time again; a frame that shows no sure hand is ``refused``."""
+        """Ask for consent, each time again; ``refused`` for a frame without a certain hand."""
         self._refusal.setVisible(refused)
         self.consent_check.setDisabled(refused)
         self.consent_check.setChecked(False)
@@ -116,7 +116,7 @@ class HandImageDialog(Dialog):
         self.open()
 
     def _check(self, agreed: bool) -> None:
-        """Without agreement nothing is saved, and Enter saves nothing."""
+        """Without consent nothing can be saved, not even by Enter."""
         self.accept_button.setEnabled(agreed)
         answer = self.accept_button if agreed else self.close_button
         self.set_default(answer)

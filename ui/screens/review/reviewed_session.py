@@ -1,4 +1,4 @@
-"""One session as it is looked at: read and worked out in the background, and what is said of it."""
+"""Session as shown in the review: read and analysed in the background."""
 
 from __future__ import annotations
 
@@ -33,8 +33,10 @@ if TYPE_CHECKING:  # it reads and writes files
 
 @dataclass(frozen=True, slots=True)
 class ReviewedSession:
-    """A session with the figures that a person's choices give; ``joints`` of the whole hand alone, and with them
-    ``modelled_px``, where the model has every marker in every picture."""
+    """Session with the results of the person's choices.
+
+    ``joints`` and ``modelled_px`` (markers as modelled, in every frame) exist for a whole hand only.
+    """
 
     session: Session
     choices: RepetitionChoices
@@ -49,7 +51,7 @@ class ReviewedSession:
 
     @classmethod
     def load(cls, store: Library, patient_id: str, session_id: str) -> ReviewedSession:
-        """All of it, in the background."""
+        """Read and analyse a session; call it in the background."""
         session, choices = store.session(session_id), store.choices(session_id)
         history = read_or_default(lambda: store.history(patient_id), ())
         values = read_or_default(lambda: store.manual_measurements(patient_id), ())
@@ -73,7 +75,7 @@ class ReviewedSession:
 
     @property
     def is_older(self) -> bool:
-        """Whether another result of the recording counts, which is newer."""
+        """Whether a newer result version of the recording exists."""
         return bool(self.versions) and self.versions[-1].session_id != self.id
 
     @property
@@ -89,7 +91,7 @@ class ReviewedSession:
 
     # --- what is said of a moment -------------------------------------------------------------------------
     def angle_words(self, row: int) -> str:
-        """``Flexion 24° ± 2°``: the trained angle of a row that was measured, else nothing."""
+        """Return the trained angle of a row, such as ``Flexion 24° ± 2°``; empty if not measured."""
         if self.curves.status[row] != TrackStatus.TRACKED:
             return ""
         exercise, joints = self.results.exercise, self.joints
@@ -103,7 +105,7 @@ class ReviewedSession:
         )
 
     def status_words(self, row: int, time_s: float) -> str:
-        """Of the whole hand how many discs are hidden, of the wrist its angle at a time."""
+        """Return how many markers are occluded, or for the wrist its angle."""
         if self.is_hand:
             hidden = int((~np.isfinite(self.session.markers.measured_px[row, :, 0])).sum())
             return _occlusion_words(hidden) if hidden else ""
@@ -126,7 +128,7 @@ class ReviewedSession:
         return replace(self.choices, excluded=reasons)
 
     def exclude_repetition(self, number: int, reason: str, *, and_after: bool) -> RepetitionChoices:
-        """A repetition, or all from it on, does not count for a reason, or counts as passive."""
+        """Return the choices with a repetition, or all from it on, excluded or passive."""
         last = len(self.results.repetitions) if and_after else number + 1
         reasons = {**self.choices.excluded, **dict.fromkeys(range(number, last), reason)}
         return replace(self.choices, excluded=reasons)

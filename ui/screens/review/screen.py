@@ -1,4 +1,4 @@
-"""The review: picture and curves in step, repetitions to correct, range of motion, on to the report."""
+"""Review screen: frames and curves in step, repetitions to correct, results."""
 
 from __future__ import annotations
 
@@ -36,14 +36,12 @@ EDGE_STEP_S = 0.1
 
 
 class ReviewScreen(FittedWidget):
-    """``report_requested`` and ``export_requested`` carry the session's identity, ``comparison_requested`` with it
-    that of the session to be held against
-    it; ``fault_raised`` a fault; ``repeat_requested`` asks for another set; ``session_shown`` when a session is on
-    the screen; ``correction_requested``
-    carries the session and the row whose markers are to be put right, ``version_chosen`` another result of the
-    recording,
-    ``restore_requested`` one that is to count again, ``hand_image_requested`` a frame to be saved as a
-    picture."""
+    """Review of one session.
+
+    Emits the session id for ``report_requested``, ``export_requested`` and ``comparison_requested`` (with that of the
+    other session); ``correction_requested`` with session and row; ``version_chosen`` and ``restore_requested`` with
+    the id of another result version.
+    """
 
     report_requested = Signal(str)
     comparison_requested = Signal(str, str)
@@ -62,8 +60,8 @@ class ReviewScreen(FittedWidget):
         self._session_id = ""
         self._whole_hand = self._tight = False
         self.reviewed: ReviewedSession | None = None
+        # Current repetition from 0, -1 for none.
         self.current = -1
-        """The chosen repetition, from 0; -1 for none."""
         self.playing = PlaybackClock(self)
         self.frame_view = ReviewFrameView(theme, background, store.read_frame)
         self.charts = ReviewCharts(theme)
@@ -140,8 +138,7 @@ class ReviewScreen(FittedWidget):
     def load_session(
         self, patient_id: str, session_id: str, *, may_repeat: bool = False, whole_hand: bool | None = None
     ) -> None:
-        """Read a session in the background, then show it. ``whole_hand`` where that is known: then everything has its
-        place at once."""
+        """Read a session in the background, then show it; ``whole_hand``, if known, fixes the layout at once."""
         self._session_id, self.reviewed = session_id, None
         for sheet in (self.exclusion_dialog, self.hand_image_dialog):
             sheet.close_dialog()  # what they ask about was of the session before
@@ -207,7 +204,7 @@ class ReviewScreen(FittedWidget):
 
     # --- time ---------------------------------------------------------------------------------------------
     def _show_time(self, time_s: float) -> None:
-        """The repetition under the cursor becomes the current one."""
+        """Show a time; the repetition under the cursor becomes the current one."""
         if self.reviewed is None:
             return
         under = self.reviewed.find_repetitions(time_s)
@@ -235,7 +232,7 @@ class ReviewScreen(FittedWidget):
 
     # --- picture of the hand ------------------------------------------------------------------------------
     def open_hand_image_dialog(self) -> None:
-        """Ask whether this frame becomes a picture; only where frames were kept."""
+        """Ask for consent to save the frame as an image, if frames were stored."""
         reviewed = self.reviewed
         if reviewed is None or self.frame_view.save_button.isHidden():
             return
@@ -249,7 +246,7 @@ class ReviewScreen(FittedWidget):
 
     # --- corrections --------------------------------------------------------------------------------------
     def toggle_excluded(self) -> None:
-        """Leave the current repetition out or let it count as passive (asks which), or take that back."""
+        """Ask how to exclude the current repetition, or include it again."""
         if self.reviewed is None or self.current < 0:
             return
         if self.reviewed.results.repetitions[self.current].exclusion_reason:
@@ -286,8 +283,7 @@ class ReviewScreen(FittedWidget):
 
 
 class ExclusionDialog(Dialog):
-    """Emits ``reason_chosen`` with the repetition's number, from 1, the reason, and whether it is that of all after
-    it too."""
+    """Emits ``reason_chosen`` with the repetition (from 1), the reason, and whether it applies to all later ones."""
 
     reason_chosen = Signal(int, str, bool)
 
@@ -333,7 +329,7 @@ class ExclusionDialog(Dialog):
         self.open()
 
     def _update_default(self, text: str) -> None:
-        """Who writes a reason means it; without one nothing is left out by Enter."""
+        """Make Enter exclude only after a reason was typed."""
         self._accept_button.setEnabled(bool(text.strip()))
         self.set_default(self._accept_button if text.strip() else self._cancel_button)
 

@@ -92,9 +92,9 @@ class ExerciseScreen(QWidget):
             Field(
                 "repetitions", self.tr("Repetitions"), number_field(theme, MAX_REPETITIONS, empty_text=self.tr("none"))
             ),
-            Field("target_positive_deg", " ", up, lambda _: up.problem if up.isVisibleTo(self) else ""),
+            Field("target_positive_deg", " ", up, lambda _: up.error if up.isVisibleTo(self) else ""),
             Field(
-                "target_negative_deg", " ", down, lambda _: down.problem if down.isVisibleTo(self) else "",
+                "target_negative_deg", " ", down, lambda _: down.error if down.isVisibleTo(self) else "",
                 continues_row=True,
             ),
             Field(
