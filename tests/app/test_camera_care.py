@@ -132,7 +132,7 @@ def test_settings_of_a_camera_that_was_out_say_so_with_the_date(qtbot: QtBot, de
     journey, last = desktop.controller, checked(out=True).last_check
     assert last is not None
     when = datetime.now().astimezone().isoformat()
-    add_check(checks_path(data, "77"), replace(last, serial="77", when=when))
+    add_check(checks_path(data, "77"), replace(last, serial="77", checked_at=when))
     journey.navigator.open_screen("settings")
     card = desktop.shell.findChild(CameraCard)
     disk, answers = maintenance_cameras.find_camera_serials, threading.Event()

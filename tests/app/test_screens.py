@@ -95,8 +95,8 @@ def test_esc_closes_the_patients_view_and_a_slow_source_is_said_of_the_simulated
             journey.top_bar.show_counters(replace(FakeFeed().counters(), fps=fps))
             assert desktop.shell.top_bar.camera.state == state
     before, during = (
-        replace(FakeFeed().counters(), missing=383, recording=False),
-        replace(FakeFeed().counters(), recording=True),
+        replace(FakeFeed().counters(), missing=383, is_recording=False),
+        replace(FakeFeed().counters(), is_recording=True),
     )
     for counters, lost in ((before, ""), (replace(during, missing=383), ""), (replace(during, missing=385), "2 lost")):
         journey.top_bar.show_counters(counters)

@@ -158,7 +158,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         set_up, source = journey.current.set_up, journey.current.source
         assert set_up is not None
         assert source is not None
-        source.measuring._set_up = replace(source.measuring._set_up, keep_pictures=pictures)
+        source.measuring._set_up = replace(source.measuring._set_up, stores_frames=pictures)
         walker.capture_frame()
         walker.click_markers(read_clicks(render_cached(spec_of(set_up)) / CLICKS_FILE).pixel)
         live, feed = journey.live.screen, source.measuring.feed

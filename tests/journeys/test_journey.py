@@ -135,7 +135,7 @@ def test_the_whole_journey_by_mouse(
     at(qtbot, desktop.controller, "live")
     assert desktop.shell.banner.text == f"Simulated hand: this is not {name}, and does not count."
     source = journey.current.source
-    journey.current.source = replace(source, rests=lambda: True)
+    journey.current.source = replace(source, is_hand_resting=lambda: True)
     wait(qtbot, lambda: "drawn" in desktop.shell.top_bar.camera.text())
     assert not journey.messages.is_busy, "a card would take Space from the recording"
     journey.current.source = source

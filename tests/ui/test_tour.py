@@ -95,7 +95,7 @@ def test_while_recording_nothing_speaks_of_beginning_one(moment: TourState, read
 
 @given(MOMENTS)
 def test_what_is_wrong_with_the_markers_is_the_screens_to_say(moment: TourState) -> None:
-    assert find_bubble(replace(moment, place="markers", work="doubtful")) is None
+    assert find_bubble(replace(moment, place="markers", label_stage="doubtful")) is None
 
 
 def test_each_says_one_plain_sentence() -> None:
