@@ -413,7 +413,7 @@ def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_
         return real(path, *told)  # type: ignore[arg-type]
 
     with monkeypatch.context() as patched:
-        patched.setattr(library.session_list, "enter", enter)
+        patched.setattr(library.session_list, "add", enter)
         new = kept.corrections.accept(kept.session_id, trial)
     assert taken[0].read_bytes() == b"another one's"
     assert library.entry(new).path != taken[0]

@@ -155,7 +155,7 @@ def test_a_client_that_is_killed_begins_again(made_in_python: str, recordings: P
 def test_a_scheduler_that_is_not_there_is_told(
     recordings: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("carpus.app.batch.worker_pool.PATIENCE_S", 1.0)
+    monkeypatch.setattr("carpus.app.batch.worker_pool.CONNECT_TIMEOUT_S", 1.0)
     with pytest.raises(SchedulerUnreachable):
         list(run_tasks_on_scheduler("tcp://127.0.0.1:9", []))
     words = ["track", str(recordings), "--output", str(tmp_path / "out"), "--scheduler", "nonsense://"]

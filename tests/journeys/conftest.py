@@ -38,7 +38,7 @@ def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested. Nor is how
     smoothly it is drawn: a core that draws thirty times a second is one less for all that is waited for."""
     monkeypatch.setattr(smoothing, "FINISH_TIMEOUT_S", 150.0)
-    monkeypatch.setattr(live_recording, "HASTY_S", 0.0)  # a take is over in a few seconds
+    monkeypatch.setattr(live_recording, "MIN_RECORDING_S", 0.0)  # a take is over in a few seconds
     monkeypatch.setattr(live_screen, "MIN_DRAW_INTERVAL_MS", DRAWN_EVERY_MS)
     monkeypatch.setattr(live_screen, "MAX_TICK_INTERVAL_MS", DRAWN_EVERY_MS)
     monkeypatch.setattr(markers_screen, "PREVIEW_EVERY_MS", DRAWN_EVERY_MS)

@@ -339,7 +339,7 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     goes_on(Qt.Key.Key_Space)  # "Go on measuring"
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)  # leaves no recording either
     goes_on(Qt.Key.Key_Escape)  # the answer that loses nothing
-    monkeypatch.setattr("carpus.ui.screens.live.recording.HASTY_S", 3600.0)
+    monkeypatch.setattr("carpus.ui.screens.live.recording.MIN_RECORDING_S", 3600.0)
     recording.toggle()
     goes_on(Qt.Key.Key_Return)
     feed.handle_notice(CameraLost("Xtion", "unplugged"))

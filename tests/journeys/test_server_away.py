@@ -51,7 +51,7 @@ def is_away(desktop: Desktop) -> bool:
 def test_a_server_that_stops_hides_the_list_and_measuring_goes_on(
     qtbot: QtBot, open_desktop: Open, take: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server_monitor, "LOOK_MS", 200)
+    monkeypatch.setattr(server_monitor, "CHECK_EVERY_MS", 200)
     settings = Settings(
         screen=ScreenSettings("light"), recording=RecordingSettings(keep_pictures=False),
         records=RecordsSettings(url=cluster.url()),

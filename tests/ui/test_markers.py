@@ -201,7 +201,7 @@ def test_what_is_still_worked_out_of_one_picture_measures_no_other(
         worked_out.wait(60.0)
         return FakeCalibrator().assess(clicks, angles)
 
-    monkeypatch.setattr(calibrator, "judge", judge)
+    monkeypatch.setattr(calibrator, "assess", judge)
     screen.open_calibrator(calibrator)
     screen.accept()
     qtbot.waitUntil(lambda: screen.labels is not None and bool(screen.labels.proposals))
