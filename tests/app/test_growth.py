@@ -86,10 +86,11 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for part in ("app", "ui", "resources"):
         (folder / part).symlink_to(ROOT / part)
     for part in (ROOT / "core").iterdir():
-        if part.name != "hand":
+        if part.name != "model":
             (folder / "core" / part.name).symlink_to(part)
-    shutil.copytree(ROOT / "core" / "hand", folder / "core" / "hand", ignore=shutil.ignore_patterns("__pycache__"))
-    register = folder / "core" / "hand" / "protocols.py"
+    model = folder / "core" / "model"
+    shutil.copytree(ROOT / "core" / "model", model, ignore=shutil.ignore_patterns("__pycache__"))
+    register = model / "hand" / "protocols.py"
     text = register.read_text(encoding="utf-8")
     assert text.count(BEFORE) == 1
     register.write_text(text.replace(BEFORE, BEFORE.replace(")", f", {FURTHER})")), encoding="utf-8")
