@@ -81,8 +81,8 @@ def is_plain_function(name: str) -> bool:
     words = bare.split("_")
     if words[0] in ("is", "has"):
         return True
-    if is_participle(words[0]):
-        return False
+    if is_participle(words[0]) and (len(words) == 1 or words[-1] in PREPOSITIONS or is_participle(words[-1])):
+        return False  # "told", "said_of"; an adjective before its noun ("selected_day") is a noun phrase
     if len(words) > 1 and bare.startswith(IDIOMS):
         return True
     if words[0] in FUNCTION_WORDS | THIRD_PERSON | ODD_VERBS:

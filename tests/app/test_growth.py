@@ -36,8 +36,8 @@ from pathlib import Path
 import carpus
 import numpy as np
 from carpus.app.__main__ import main
-from carpus.core.model.hand.protocols import protocol_named
-from carpus.core.model.hand.exercises import exercises_of
+from carpus.core.model.hand.protocols import get_protocol
+from carpus.core.model.hand.exercises import exercises_for_protocol
 from carpus.ui.words.terms import protocol_name
 
 
@@ -46,8 +46,8 @@ def done(*arguments):
 
 
 if __name__ == "__main__":
-    protocol = protocol_named("fingers18")
-    assert [one.id for one in exercises_of(protocol)] == ["FIST_COMPOSITE", "FIST_HOOK", "FINGER_ABAD"]
+    protocol = get_protocol("fingers18")
+    assert [one.id for one in exercises_for_protocol(protocol)] == ["FIST_COMPOSITE", "FIST_HOOK", "FINGER_ABAD"]
     assert protocol_name(protocol) == "Some fingers · 18 markers"
     done("simulate", "--output", "take", "--protocol", "fingers18", "--motion", "fist", "--seconds", "1.2",
          "--fps", "15", "--seed", "4")
