@@ -112,7 +112,7 @@ def write_apt(folder: Path, packages: list[Path], key: str) -> None:
 
 def release(key: str, *, with_tests: bool) -> list[Path]:
     """All of it; the files."""
-    version = version_of((ROOT / "core" / "version.py").read_text(encoding="utf-8"))
+    version = version_of((ROOT / "core" / "platform" / "version.py").read_text(encoding="utf-8"))
     changes_of((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), version)
     check_tree(asked("git", "status", "--porcelain"), asked("git", "tag"), version)
     if with_tests:

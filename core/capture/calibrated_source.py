@@ -158,7 +158,7 @@ def with_given_name(source: FrameSource, data_folder: Path) -> FrameSource:
 def normalize_name(text: str) -> str:
     """A name as it is kept.
 
-    >>> tidy_name("  room 3\\t left ")
+    >>> normalize_name("  room 3\\t left ")
     'room 3 left'
     """
     return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())[

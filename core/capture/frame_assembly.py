@@ -45,10 +45,10 @@ class ApproximateTimeSynchronizer(Generic[T]):
     The streams of a camera do not start at one time: up to ``start_limit`` colour pictures from before the first
     pair are left out, where a recording (0) keeps every one.
 
-    >>> pairing = NearestPairing[str](period_us=33_333)
-    >>> pairing.add_color(Stamped(0, 1, "red"))
+    >>> pairing = ApproximateTimeSynchronizer[str](period_us=33_333)
+    >>> pairing.add_color(TimestampedImage(0, 1, "red"))
     []
-    >>> [(color.picture, depth.picture) for color, depth in pairing.add_depth(Stamped(4_000, 1, "near"))]
+    >>> [(color.image, depth.image) for color, depth in pairing.add_depth(TimestampedImage(4_000, 1, "near"))]
     [('red', 'near')]
     """
 

@@ -176,7 +176,7 @@ def is_measured(session: Session) -> np.ndarray:
 def format_number(value: float, digits: int) -> str:
     """A number in a table; not known is empty, and nothing is minus nothing.
 
-    >>> number(-0.0001, 3), number(float("nan"), 3)
+    >>> format_number(-0.0001, 3), format_number(float("nan"), 3)
     ('0.000', '')
     """
     if value != value:

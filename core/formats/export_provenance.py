@@ -70,7 +70,7 @@ def build_provenance(session: Session, deidentified: bool = False) -> dict[str, 
 def generic_camera(camera: Camera) -> Camera:
     """A camera of this kind that could be any unit: no lens errors, the middle of the picture, a rounded focal length.
 
-    >>> camera = round_camera(Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.0, 0.001, 0.0)))
+    >>> camera = generic_camera(Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.0, 0.001, 0.0)))
     >>> camera.fx_px, camera.fy_px, camera.cx_px, camera.is_distorted
     (525.0, 525.0, 319.5, False)
     """

@@ -91,7 +91,7 @@ class TableDialect:
     def to_cell(self, text: str) -> str:
         """A cell as a spreadsheet shows it and does not calculate it, numbers with the form's decimal sign.
 
-        >>> TableForm(";", ",").to_cell("-1.5"), TableForm(";", ",").to_cell("=1+2")
+        >>> TableDialect(";", ",").to_cell("-1.5"), TableDialect(";", ",").to_cell("=1+2")
         ('-1,5', "'=1+2")
         """
         text = escape_formula(text)
@@ -129,7 +129,7 @@ def write_rows(
 def escape_formula(text: str) -> str:
     """A cell that a spreadsheet shows and does not calculate; numbers are left as they are.
 
-    >>> plain_cell("=1+2"), plain_cell("fist"), plain_cell("-1.5e3")
+    >>> escape_formula("=1+2"), escape_formula("fist"), escape_formula("-1.5e3")
     ("'=1+2", 'fist', '-1.5e3')
     """
     return text if text[:1] not in _FORMULA_STARTS or not text or _NUMBER_PATTERN.fullmatch(text) else f"'{text}"
@@ -147,7 +147,7 @@ def format_cell(value: Any) -> str:
 def nan_to_none(value: Any) -> Any:
     """The same with None for every number that is not finite, and plain numbers for NumPy's.
 
-    >>> without_nan({"a": [1.0, float("nan")]})
+    >>> nan_to_none({"a": [1.0, float("nan")]})
     {'a': [1.0, None]}
     """
     if isinstance(value, Mapping):

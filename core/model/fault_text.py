@@ -139,7 +139,7 @@ def shorten_path(text: str) -> str:
 def marker_name(marker: str, translate: Translate = str) -> str:
     """Clinical name of a marker; any other name stays.
 
-    >>> marker_in_words("MCP2"), marker_in_words("CMC1"), marker_in_words("PIP5")
+    >>> marker_name("MCP2"), marker_name("CMC1"), marker_name("PIP5")
     ('index knuckle', 'thumb base', 'little finger middle joint')
     """
     return translate(MARKERS[marker]) if marker in MARKERS else marker
@@ -148,7 +148,7 @@ def marker_name(marker: str, translate: Translate = str) -> str:
 def join_marker_names(markers: list[str] | tuple[str, ...], translate: Translate = str) -> str:
     """Several markers as a person says them.
 
-    >>> markers_in_words(("MCP2", "MCP3")), markers_in_words(("WRIST", "CMC1", "MCP4"))
+    >>> join_marker_names(("MCP2", "MCP3")), join_marker_names(("WRIST", "CMC1", "MCP4"))
     ('index and middle knuckle', 'wrist, thumb base and ring knuckle')
     """
     names = [marker_name(marker, translate) for marker in markers]

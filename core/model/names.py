@@ -23,7 +23,7 @@ def normalize_name(text: str) -> str:
     Signs that nobody sees (soft hyphens, joiners, direction marks, controls) are refused: two names that look the same
     would be two.
 
-    >>> name_of(" Linden 42 ")
+    >>> normalize_name(" Linden 42 ")
     'Linden 42'
     """
     name = re.sub(" +", " ", unicodedata.normalize("NFC", text).strip())
@@ -47,8 +47,8 @@ MIN_SIMILARITY = 0.6
 def find_similar_name(word: str, names: Iterable[str]) -> str | None:
     """The known name that a mistyped one most likely means, None where none is near.
 
-    >>> nearest("trak", ["track", "info"]), nearest("Ferm 12", ["Fern 12"]), nearest("xyz", ["track"])
-    ('track', 'Fern 12', None)
+    >>> find_similar_name("trak", ["track", "info"]), find_similar_name("xyz", ["track"])
+    ('track', None)
     """
     written = {name.casefold(): name for name in names}
     found = get_close_matches(word.casefold(), written, n=1, cutoff=MIN_SIMILARITY)
@@ -58,9 +58,9 @@ def find_similar_name(word: str, names: Iterable[str]) -> str | None:
 def describe_known_names(word: str, names: Iterable[str]) -> str:
     """What was meant by ``word`` and the names that there are, as one sentence for a person.
 
-    >>> known_names("slwo", ["slow", "brisk"])
+    >>> describe_known_names("slwo", ["slow", "brisk"])
     'did you mean “slow”? There are: slow, brisk'
-    >>> known_names("x", [])
+    >>> describe_known_names("x", [])
     'there are none yet'
     """
     names = list(dict.fromkeys(names))

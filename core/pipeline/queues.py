@@ -111,9 +111,9 @@ class BlockingQueue(_BaseQueue[T]):
 class Mailbox(Generic[T]):
     """A mailbox for one value: putting replaces it, looking leaves it there.
 
-    >>> box = Newest()
-    >>> box.put(1); box.put(2)
-    >>> box.look()
+    >>> box = Mailbox()
+    >>> box.post(1); box.post(2)
+    >>> box.peek()
     2
     """
 

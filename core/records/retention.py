@@ -39,7 +39,7 @@ class DuePatient:
 def retention_end(recorded: datetime, years: int) -> date | None:
     """The last day on which a record of that day must be there; None where no years are set.
 
-    >>> kept_until(datetime(2024, 2, 29), 10)
+    >>> retention_end(datetime(2024, 2, 29), 10)
     datetime.date(2034, 3, 1)
     """
     if years <= 0:

@@ -98,7 +98,7 @@ def summarise_values(
 def wrist_angle_index(subject: str) -> int:
     """Return the column of a wrist's angle, -1 for a joint or anything else.
 
-    >>> wrist_column("flexion"), wrist_column("PIP3_flexion")
+    >>> wrist_angle_index("flexion"), wrist_angle_index("PIP3_flexion")
     (1, -1)
     """
     return WRIST_ANGLES.index(subject) if subject in WRIST_ANGLES else -1

@@ -79,9 +79,9 @@ _TOTAL_MEASURES = {"arc": "total active motion", "extension": "extension deficit
 def positive_direction(angle: str) -> str:
     """What a larger angle means, of the wrist or of a joint by its name in every file.
 
-    >>> positive_of("deviation"), positive_of("MCP2_abduction"), positive_of("CMC1_extension")
+    >>> positive_direction("deviation"), positive_direction("MCP2_abduction"), positive_direction("CMC1_extension")
     ('radial', 'to the thumb', 'thumb away from the index finger in the plane of the palm')
-    >>> positive_of("pronosupination")
+    >>> positive_direction("pronosupination")
     'supinated, 0 is palm down'
     """
     if angle in WRIST_ANGLES:

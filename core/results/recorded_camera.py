@@ -26,7 +26,7 @@ def parse_camera(parameters: str) -> RecordedCamera:
     """What the parameters of a session say.
 
     >>> said = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
-    >>> camera_said(said) == CameraSaid("77", "2026-11-20T09:00+00:00", 5.0)
+    >>> parse_camera(said) == RecordedCamera("77", "2026-11-20T09:00+00:00", 5.0)
     True
     """
     source = parameter_section(parameters, "source")

@@ -62,7 +62,7 @@ class ReportForm:
 def default_paper(country: str) -> Paper:
     """The paper of a country by its two letters.
 
-    >>> usual_paper("US"), usual_paper("DE")
+    >>> default_paper("US"), default_paper("DE")
     ('letter', 'a4')
     """
     return "letter" if country.upper() in LETTER_COUNTRIES else "a4"

@@ -137,7 +137,7 @@ def _line(title: str, text: str) -> str:
 def _calibration_age(parameters: str) -> str:
     """When the camera was calibrated with a board and how old that was, where the session was measured with it.
 
-    >>> _calibrated('{"source": {"calibrated": "2026-11-20T08:00:00+00:00", "calibration_age_days": "2.0"}}')
+    >>> _calibration_age('{"source": {"calibrated": "2026-11-20T08:00:00+00:00", "calibration_age_days": "2.0"}}')
     '; calibrated 2026-11-20, 2 days before'
     """
     camera = parse_camera(parameters)

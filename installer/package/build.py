@@ -57,7 +57,7 @@ def run(*command: str | Path, **options: object) -> str:
 
 def version() -> str:
     """From the one place where it stands."""
-    face = (ROOT / "core" / "version.py").read_text(encoding="utf-8")
+    face = (ROOT / "core" / "platform" / "version.py").read_text(encoding="utf-8")
     found = re.search(r'^__version__ = "(.+)"', face, re.MULTILINE)
     assert found is not None
     return found[1]

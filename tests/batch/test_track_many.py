@@ -128,7 +128,7 @@ def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, command:
 
 
 def test_a_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(measures_files, "ROWS_AT_ONCE", 5)
+    monkeypatch.setattr(measures_files, "BATCH_ROWS", 5)
     kinds = {"str": "", "float": math.nan, "int": 0, "bool": False}
     row = MeasureRow(**{field.name: kinds[str(field.type)] for field in fields(MeasureRow)})  # type: ignore[arg-type]
     with measures_files.open_measures_file(tmp_path / "t.parquet") as take:

@@ -29,7 +29,7 @@ def release() -> ModuleType:
 
 
 def test_the_version_is_that_of_the_program(release: ModuleType) -> None:
-    assert release.version_of((ROOT / "core" / "version.py").read_text(encoding="utf-8")) == __version__
+    assert release.version_of((ROOT / "core" / "platform" / "version.py").read_text(encoding="utf-8")) == __version__
 
 
 @pytest.mark.parametrize(

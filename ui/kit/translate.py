@@ -21,7 +21,7 @@ def to_mid_sentence(words: str) -> str:
     """The words as they stand inside a sentence: with a small first letter where the language has it so. English and
     Italian have it for all words, German for a few that its translation lists; abbreviations keep theirs.
 
-    >>> inside("Right hand"), inside("TAM"), inside("")
+    >>> to_mid_sentence("Right hand"), to_mid_sentence("TAM"), to_mid_sentence("")
     ('right hand', 'TAM', '')
     """
     small = tr("words that lose their capital inside a sentence: *").rpartition(": ")[2].split()

@@ -42,7 +42,7 @@ def draw_with_halo(
 def covariance_ellipse(covariance_px2: FloatArray) -> tuple[float, float, float]:
     """Half axes in pixels and turn in degrees of the 2 sd ellipse of a Gaussian (2, 2) in the picture.
 
-    >>> ellipse(np.diag([25.0, 4.0]))
+    >>> covariance_ellipse(np.diag([25.0, 4.0]))
     (10.0, 4.0, 0.0)
     """
     a, b, c = float(covariance_px2[0, 0]), float(covariance_px2[0, 1]), float(covariance_px2[1, 1])

@@ -230,7 +230,7 @@ MAX_NAMES_SHOWN = 3
 def format_file_names(names: Sequence[str]) -> str:
     """Names for a card.
 
-    >>> shown(["a", "b"]), shown(list("abcdefgh"))
+    >>> format_file_names(["a", "b"]), format_file_names(list("abcdefgh"))
     ('a, b', 'a, b, c, …')
     """
     listed = [

@@ -67,7 +67,7 @@ class DepthCheck:
     def sentence(self) -> str:
         """One sentence for people.
 
-        >>> DepthCheck(0.996, 0.001, 0.0, float("nan"), np.zeros(2), 0.1, 0.001, 20).in_words()
+        >>> DepthCheck(0.996, 0.001, 0.0, float("nan"), np.zeros(2), 0.1, 0.001, 20).sentence()
         'Depth reads 0.4 % too short.'
         """
         share = 100.0 * (self.scale - 1.0)

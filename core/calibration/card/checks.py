@@ -169,7 +169,7 @@ def _examine_camera(status: CheckStatus) -> Finding:
 def _days_ago_text(days: float) -> str:
     """Days in words.
 
-    >>> _ago(0.2), _ago(1.3), _ago(12.9)
+    >>> _days_ago_text(0.2), _days_ago_text(1.3), _days_ago_text(12.9)
     ('today', 'yesterday', '12 days ago')
     """
     whole = int(days)

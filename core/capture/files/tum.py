@@ -223,7 +223,7 @@ def pair_by_time(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
 
     Both lists rise strictly; pairs further apart than 20 ms are none.
 
-    >>> nearest_pairs(np.array([0.0, 0.033]), np.array([0.004, 0.036]))
+    >>> pair_by_time(np.array([0.0, 0.033]), np.array([0.004, 0.036]))
     [0, 1]
     """
     limit_s = PAIRING_LIMIT_S + _TIME_ROUNDING_S
@@ -244,7 +244,7 @@ def pair_by_time(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
 def count_dropped_frames(timestamp_s: FloatArray) -> list[int]:
     """Frames missing before each one: a gap of about n median periods lacks n - 1.
 
-    >>> missing_before(np.array([0.0, 0.033, 0.066, 0.165, 0.198]))
+    >>> count_dropped_frames(np.array([0.0, 0.033, 0.066, 0.165, 0.198]))
     [0, 0, 0, 2, 0]
     """
     if len(timestamp_s) < 2:

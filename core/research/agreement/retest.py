@@ -53,8 +53,8 @@ class RetestResult:
 def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] = ()) -> RetestResult:
     """Of ``readings`` for each person in the order they were taken, and who took them; people with one are left out.
 
-    >>> found = retest([[60.0, 62.0], [71.0, 70.0], [55.0, 58.0], [64.0, 64.0]])
-    >>> round(found.sem, 3), round(found.mdc95, 3), round(found.icc, 3)
+    >>> results = compute_retest([[60.0, 62.0], [71.0, 70.0], [55.0, 58.0], [64.0, 64.0]])
+    >>> round(results.sem, 3), round(results.mdc95, 3), round(results.icc, 3)
     (1.323, 3.667, 0.951)
     """
     names = raters or [[""] * len(one) for one in readings]

@@ -313,12 +313,12 @@ def judge_agreement(agreement: Agreement, limit: float) -> AgreementVerdict:
     """``agree`` where both limits of agreement lie within ± ``limit``; ``not_judged`` where none was set (0). Too few
     to say: fewer pairs than :data:`MIN_PAIRS_TO_JUDGE`, or a limit known less well than the limit to be kept.
 
-    >>> from carpus.core.research.agreement.statistics import agreement
+    >>> from carpus.core.research.agreement.statistics import compute_agreement
     >>> import numpy as np
     >>> wave, off = np.sin(np.arange(40.0)) * 30.0, np.tile([-1.0, 1.0], 20)
-    >>> [judged(agreement(wave + off, wave, waveform=False), limit) for limit in (0.0, 1.5, 5.0)]
+    >>> [judge_agreement(compute_agreement(wave + off, wave, waveform=False), limit) for limit in (0.0, 1.5, 5.0)]
     ['not_judged', 'apart', 'agree']
-    >>> judged(agreement(wave[:9] + off[:9], wave[:9], waveform=False), 5.0)
+    >>> judge_agreement(compute_agreement(wave[:9] + off[:9], wave[:9], waveform=False), 5.0)
     'few'
     """
     if not limit > 0.0:
