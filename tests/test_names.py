@@ -46,7 +46,24 @@ FUNCTION_WORDS = words_in(
 )
 IDIOMS = tuple(
     f"{word}_"
-    for word in ("to", "from", "with", "is", "has", "on", "as", "without", "next", "last", "first", "new", "can", "all")
+    for word in (
+        "to",
+        "from",
+        "with",
+        "is",
+        "has",
+        "on",
+        "as",
+        "without",
+        "next",
+        "last",
+        "first",
+        "new",
+        "can",
+        "all",
+        "latest",
+        "nearest",
+    )
 )
 """A name of several words may begin with these: ``to_json``, ``with_clicks``, ``can_record``."""
 THIRD_PERSON = words_in(
@@ -67,8 +84,8 @@ PREPOSITIONS = words_in(
     of at in on by for to from with as against beside between over under within
     """
 )
-PHRASAL_VERBS = {"zoom_in"}
-"""What Qt and every chart call a verb."""
+TERMS = {"zoom_in", "back_up_file", "leave_one_out_misfit"}
+"""What Qt, disks and statistics call so."""
 LEAST = {"least", "most", "fewest"}
 
 
@@ -79,7 +96,7 @@ def is_participle(word: str) -> bool:
 def is_plain_function(name: str) -> bool:
     bare = name.strip("_")
     words = bare.split("_")
-    if words[0] in ("is", "has"):
+    if words[0] in ("is", "has") or bare in TERMS:
         return True
     if is_participle(words[0]) and (len(words) == 1 or words[-1] in PREPOSITIONS or is_participle(words[-1])):
         return False  # "told", "said_of"; an adjective before its noun ("selected_day") is a noun phrase
@@ -87,7 +104,7 @@ def is_plain_function(name: str) -> bool:
         return True
     if words[0] in FUNCTION_WORDS | THIRD_PERSON | ODD_VERBS:
         return False
-    return len(words) == 1 or bare in PHRASAL_VERBS or words[-1] not in PREPOSITIONS
+    return len(words) == 1 or words[-1] not in PREPOSITIONS
 
 
 def is_plain_class(name: str) -> bool:

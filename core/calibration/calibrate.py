@@ -126,7 +126,7 @@ def calibrate_hand(
     found = _find_clicked_markers(clicks, first, region, MAX_CLICK_DISTANCE_RADII * radius_px, camera, detection)
     appearance, blobs, taken, findings = found.appearance, found.blobs, found.blob_index, found.findings
     detector = Detector(appearance, camera, detection)
-    found_px = np.where((taken >= 0)[:, None], _take_rows(blobs.pixel, taken), np.nan)
+    found_px = np.where((taken >= 0)[:, None], _select_rows(blobs.pixel, taken), np.nan)
     if np.any(taken < 0):
         verdict = _empty_verdict(clicks, findings)
         return CalibrationOutcome(verdict, None, MeasurementNoise(), appearance, found_px, 0)
@@ -254,7 +254,7 @@ def _find_clicked_markers(
 def _snap_clicks(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
     """Clicks (M, 2) moved onto the blob that each means, all together; where there is none, as clicked."""
     taken = assign_nearest(np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1), reach_px)
-    return np.where((taken >= 0)[:, None], _take_rows(blobs.pixel, taken), pixel)
+    return np.where((taken >= 0)[:, None], _select_rows(blobs.pixel, taken), pixel)
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:
@@ -268,7 +268,7 @@ def require_calibration(outcome: CalibrationOutcome) -> Calibration:
     return outcome.calibration
 
 
-def _take_rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
+def _select_rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
     if values.shape[0] == 0:
         return np.full((index.size, *values.shape[1:]), np.nan)
     return values[np.maximum(index, 0)]

@@ -140,7 +140,7 @@ class Corrections:
         place = entry.path if is_listed else find_free_name(entry.path)
         copy = _copy_path(entry.path, header)
         try:
-            if not _holds_session(
+            if not _has_session(
                 place, header.session_id
             ):  # a program was killed before it could delete what it had copied
                 copy.unlink(missing_ok=True)
@@ -160,7 +160,7 @@ class Corrections:
                 try:
                     publish(copy, place)
                 except OutputExists:  # since it was looked for
-                    if not _holds_session(
+                    if not _has_session(
                         place, header.session_id
                     ):  # else a look for what waits has taken this one meanwhile
                         place = find_free_name(place)
@@ -236,7 +236,7 @@ def _copy_path(path: Path, header: SessionHeader) -> Path:
     return path.with_name(f".{path.stem}.{header.session_id[:8]}{PENDING_COPY_SUFFIX}")
 
 
-def _holds_session(path: Path, session_id: str) -> bool:
+def _has_session(path: Path, session_id: str) -> bool:
     with suppress(SessionUnreadable):
         return path.exists() and read_outline(path).header.session_id == session_id
     return False

@@ -80,7 +80,7 @@ class SessionDraft:
     def __init__(self, journal: Path) -> None:
         self._journal = JournalReader(journal)
         self._target = journal.with_suffix(".h5")
-        self._is_written = _holds_session(self._target, self._journal.session_id)
+        self._is_written = _has_session(self._target, self._journal.session_id)
         """Whether a program was killed after the session had its name, and before the journal went."""
         self._writer: SessionWriter | None = None
 
@@ -134,7 +134,7 @@ class SessionDraft:
             self._writer.abandon()
 
 
-def _holds_session(path: Path, session_id: str) -> bool:
+def _has_session(path: Path, session_id: str) -> bool:
     with suppress(SessionUnreadable):
         return path.exists() and read_outline(path).header.session_id == session_id
     return False

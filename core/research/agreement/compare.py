@@ -119,7 +119,7 @@ def compare_session(
     if not len(session):
         raise ReferenceUnsuited(reference.path, phrase("the session holds no picture"))
     if not (len(reference.time_s) or reference.readings):
-        raise _no_overlap_error(reference)
+        raise _overlap_error(reference)
     motion = motion_estimate(session) if smoothed else session.motion
     time_s = session.timestamp_s - session.timestamp_s[0]
     use = np.asarray(session.status) == TrackStatus.TRACKED
@@ -215,7 +215,7 @@ def _estimate_shift(
     return shift
 
 
-def _no_overlap_error(reference: Reference) -> ReferenceUnsuited:
+def _overlap_error(reference: Reference) -> ReferenceUnsuited:
     why = phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{MIN_OVERLAP_S:g}")
     return ReferenceUnsuited(reference.path, why)
 
@@ -223,7 +223,7 @@ def _no_overlap_error(reference: Reference) -> ReferenceUnsuited:
 def _check_match(reference: Reference, curves: AlignmentCurves, shift: ClockShift) -> None:
     """Cleared of drift, which over minutes blurs what is the same movement."""
     if math.isnan(shift.match):
-        raise _no_overlap_error(reference)
+        raise _overlap_error(reference)
     match = abs(shift.match)
     if math.isfinite(shift.residual_drift):
         cleared = ClockShift(shift.drift_free_lag_s, math.nan, drift=shift.drift + shift.residual_drift)

@@ -234,7 +234,7 @@ class SessionsScreen(QWidget):
             self.tr("To whom does this session belong?"),
             words.format(name=self._pseudonym),
             self.tr("Move it there"),
-            [one for one in self._store.patients_to_move_to(self._patient_id) if one[0] != self._patient_id],
+            [one for one in self._store.target_patients(self._patient_id) if one[0] != self._patient_id],
         )
 
     def _choose_exercise(self) -> None:
@@ -257,7 +257,7 @@ class SessionsScreen(QWidget):
 
     def _move(self, session_id: str, patient_id: str) -> str:
         self._store.move(session_id, patient_id)
-        return dict(self._store.patients_to_move_to(self._patient_id))[patient_id]
+        return dict(self._store.target_patients(self._patient_id))[patient_id]
 
     def _run_action(self, action, on_done=lambda _: None) -> None:  # type: ignore[no-untyped-def]
         line = self.current_line()

@@ -18,7 +18,7 @@ from carpus.ui.words.session import warning_lines
 
 
 class SessionStore:
-    """All sessions of a patient and what can be done with them. All but ``list_sessions`` and ``patients_to_move_to``
+    """All sessions of a patient and what can be done with them. All but ``list_sessions`` and ``target_patients``
     may read or
     write the disk: called in the background."""
 
@@ -55,7 +55,7 @@ class SessionStore:
             correction=correction_words(figures),
         )
 
-    def patients_to_move_to(self, patient_id: str) -> Sequence[tuple[str, str]]:
+    def target_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
         rows = self._library.patients.search()
         return [(row.patient_id, row.pseudonym) for row in rows if row.patient_id != patient_id]
 
