@@ -78,7 +78,7 @@ from carpus.core.tracking.filter.soft_tissue import (
     single_moving_mode,
     stationary_covariance,
 )
-from carpus.core.tracking.filter.surface_fit import reset_and_surface_update, surface_calibration_covariance
+from carpus.core.tracking.filter.surface_fit import SurfaceMeasurement, fit_surface, surface_calibration_covariance
 from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.smoother.palm_smoother import FilterStep
@@ -146,6 +146,8 @@ def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArr
 
 _TURN_VARIANCES = tuple((SIZE + 1) * row for row in range(TURN.start, TURN.stop))
 """Where they stand in the covariance, counted row by row."""
+JOINT_SD_RAD = 0.05
+"""Predicted less surely, the hand is turned by its markers before the surface is fitted."""
 PLACED_DISC_SD_M = 0.02
 """So far from where the one picture shows it a disc shown elsewhere may be: more than any depth errs."""
 _MIN_DEPTH_M = 0.1
@@ -180,14 +182,17 @@ def undistort_detections(detections: Detections, camera: Camera) -> Detections:
     return replace(detections, pixel=camera.undistort(detections.pixel), surface=surface, fingers=fingers)
 
 
+def _turn_sd_rad(predicted: PredictedMeasurement) -> float:
+    return math.sqrt(sum(map(predicted.nominal.covariance.item, _TURN_VARIANCES)))
+
+
 @dataclass(frozen=True, slots=True)
 class Posterior:
     """The hand updated by one scan from what was ``predicted``: the ``palm`` as associated, its modes as errors from
     ``estimate``, and the fingers on it.
 
     ``seen_count`` discs of the palm; ``unassigned`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are
-    the
-    fingers'; ``surface_used``: the back of the hand was measured too.
+    the fingers'.
     """
 
     predicted: PredictedMeasurement
@@ -198,12 +203,11 @@ class Posterior:
     fingers: DigitPosterior | None
     unassigned: NDArray[np.bool_]
     is_finger: NDArray[np.bool_]
-    surface_used: bool
 
     @property
     def turn_sd_rad(self) -> float:
         """How surely the hand's turn was predicted, all axes and modes together."""
-        return math.sqrt(sum(map(self.predicted.nominal.covariance.item, _TURN_VARIANCES)))
+        return _turn_sd_rad(self.predicted)
 
 
 class HandFilter:
@@ -307,12 +311,20 @@ class HandFilter:
 
     def update(self, predicted: PredictedMeasurement, scan: Scan) -> Posterior:
         """Associate the blobs with the discs that were predicted and update by them."""
-        blobs, enough = scan.blobs, MIN_PALM_MARKERS + 1
+        blobs, enough, is_sure = scan.blobs, MIN_PALM_MARKERS + 1, _turn_sd_rad(predicted) < JOINT_SD_RAD
+        if is_sure:
+            blobs = replace(blobs, surface=self._fit_surface(predicted.nominal, scan))
         palm = associate_and_update(predicted, blobs, enough, self._resolution_px2, self._noise_factor, self._settings)
-        estimate, mixture, levelled = reset_and_surface_update(
-            predicted.nominal, palm.mixture, scan.ideal.surface, self._surface, self.view, predicted.partial,
-            self._settings.surface,
-        )  # fmt: skip
+        estimate, mixture = reset_error(predicted.nominal, palm.mixture)
+        surface = None if is_sure else self._fit_surface(estimate, scan)
+        if surface is not None:
+            there = replace(predicted, nominal=estimate, mixture=mixture)
+            alone = Measurements(np.empty((0, 3)), np.empty((0, 3)), surface)
+            none: NDArray[np.int64] = np.full(palm.assigned.size, -1)
+            update = update_palm(there, alone, none, none >= 0, self._noise_factor)
+            if update.by_surface:
+                estimate, mixture = reset_error(estimate, update.mixture)
+                palm = replace(palm, by_surface=True)
         unassigned, is_finger = np.ones(len(blobs), dtype=bool), np.zeros(len(blobs), dtype=bool)
         is_named = palm.assigned >= 0
         unassigned[palm.assigned[is_named]] = False
@@ -323,9 +335,13 @@ class HandFilter:
             fingers = self.fingers.updater.update(predicted.digits, picture, scan.ideal.fingers)
             is_finger[fingers.blob[fingers.blob >= 0]] = True
         seen = int(np.count_nonzero(is_named))
-        return Posterior(
-            predicted, palm, estimate, mixture, seen, fingers, unassigned & ~is_finger, is_finger, levelled
-        )
+        return Posterior(predicted, palm, estimate, mixture, seen, fingers, unassigned & ~is_finger, is_finger)
+
+    def _fit_surface(self, estimate: PalmEstimate, scan: Scan) -> SurfaceMeasurement | None:
+        samples = scan.ideal.surface
+        if self._surface is None or samples is None:
+            return None
+        return fit_surface(estimate, samples, self._surface, self.view, self._settings.surface)
 
     def is_consistent(self, posterior: Posterior) -> bool:
         """Whether the discs lie where the updated pose puts them."""
@@ -338,7 +354,7 @@ class HandFilter:
 
     def is_rotation_measured(self, posterior: Posterior) -> bool:
         """Whether what was measured shows every turn of the hand."""
-        return posterior.surface_used or self._find_unobserved_turns(posterior) is None
+        return posterior.palm.by_surface or self._find_unobserved_turns(posterior) is None
 
     def _find_unobserved_turns(self, posterior: Posterior) -> NDArray[np.float64] | None:
         return find_unobserved_turns(self.view.palm_m[posterior.palm.assigned >= 0], COLLINEAR_RMS_M)
@@ -358,7 +374,7 @@ class HandFilter:
         unseen, self._unobserved_turns = self._unobserved_turns, None
         kept = float(np.exp(-scan.dt_s / RATE_MEMORY_S))
         estimate, mixture = posterior.estimate, posterior.mixture
-        if not posterior.surface_used:
+        if not posterior.palm.by_surface:
             self._unobserved_turns = self._find_unobserved_turns(posterior)
         if not is_seen:
             # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.

@@ -96,6 +96,10 @@ def test_correction_of_any_size_is_the_oracles(size: tuple[int, ...], unseen: fl
     shared = covariances(rng, chains, m) if extras else None
     partial = partial_update_shares(n, slice(1, 3), 0.3) if extras else None
     found = update_mixture(mixture, line, measured, variance, shared, partial)
+    for tested in (0, m - 1):
+        some = update_mixture(mixture, line, measured, variance, shared, partial, tested)
+        assert_same(some, oracle.corrected(mixture, line, measured, variance, shared, partial, tested))
+        assert_same(some.mixture, found.mixture)
     assert_same(found, oracle.corrected(mixture, line, measured, variance, shared, partial))
     assert (found.dof == np.isfinite(measured).sum(axis=1)).all()
 

@@ -13,9 +13,12 @@ from carpus.core.model import so3
 from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.model.hand.dorsal_surface import DorsalSurface
 from carpus.core.model.types import FloatArray, SurfaceSamples
+from carpus.core.tracking.association.palm_association import Measurements, update_palm
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
 from carpus.core.tracking.filter.palm_state import RELIEF, SIZE, SURFACE, PalmEstimate, PalmView
-from carpus.core.tracking.filter.predicted_measurement import shape_partial_update
-from carpus.core.tracking.filter.surface_fit import SurfaceSettings, reset_and_surface_update
+from carpus.core.tracking.filter.predicted_measurement import predict_measurement, shape_partial_update
+from carpus.core.tracking.filter.surface_fit import SurfaceSettings, fit_surface
+from carpus.core.tracking.filter.unscented import UnscentedParameters
 from tests.compiled.comparing import LAYOUTS, assert_same, laid_out
 from tests.compiled.oracle import surface as oracle
 from tests.compiled.test_palm import mixture_about
@@ -103,10 +106,13 @@ def test_a_surface_corrects_the_palm_only_where_it_can_be_this_one(surface: Dors
     off = mixture.mean + np.where(np.arange(SIZE) == RELIEF.start, 0.5, 0.0)
     far = replace(mixture, mean=off, covariance=1e-6 * mixture.covariance)
 
-    def levels(some: SurfaceSamples | None, of: object = mixture, partial: FloatArray | None = partial) -> bool:
-        return reset_and_surface_update(estimate, of, some, surface, view_by(), partial, SETTINGS)[2]  # type: ignore[arg-type]
+    def is_used(samples: SurfaceSamples, of: ModeMixture = mixture, partial: FloatArray | None = partial) -> bool:
+        predicted = predict_measurement(estimate, of, view_by(), UnscentedParameters(), partial)
+        found = fit_surface(estimate, samples, surface, view_by(), SETTINGS)
+        blobs = Measurements(np.empty((0, 3)), np.empty((0, 3)), found)
+        return update_palm(predicted, blobs, np.full(6, -1), np.zeros(6, dtype=bool), np.ones((6, 3))).by_surface
 
-    assert levels(samples)
-    assert levels(samples, partial=None)
-    assert not levels(samples, far)
-    assert not levels(None)
+    assert is_used(samples)
+    assert is_used(samples, partial=None)
+    assert not is_used(samples, far)
+    assert not is_used(replace(samples, pixel=samples.pixel + 1e4))

@@ -12,7 +12,7 @@ from carpus.core.model import so3
 from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.model.hand.dorsal_surface import DorsalSurface, fit_dorsal_surface
 from carpus.core.model.types import FloatArray, SurfaceSamples
-from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.mixture_filter import ModeMixture, Update, update_mixture
 from carpus.core.tracking.filter.palm_state import (
     POSITION,
     RELIEF,
@@ -25,11 +25,11 @@ from carpus.core.tracking.filter.palm_state import (
 )
 from carpus.core.tracking.filter.predicted_measurement import shape_partial_update
 from carpus.core.tracking.filter.surface_fit import (
+    NO_NOISE,
     SurfaceMeasurement,
     SurfaceSettings,
     fit_surface,
     surface_calibration_covariance,
-    update_by_surface,
 )
 from tests.suites import few
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
@@ -118,6 +118,12 @@ def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: DorsalSurface, seed
     assert abs(found.value[0]) > 1e-3 or abs(turn[0]) < 2e-3
 
 
+def update_by_surface(mixture: ModeMixture, found: SurfaceMeasurement) -> Update:
+    """The palm's modes corrected by the surface alone."""
+    partial = shape_partial_update(0.1)
+    return update_mixture(mixture, found.to_linearisation(), found.value[None], NO_NOISE, partial=partial)
+
+
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: DorsalSurface, sign: float) -> None:
     """Ten seconds of a back of the hand 1.2 degrees off its calibrated shape: pose and relief share what was seen as
@@ -130,9 +136,7 @@ def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: Dor
     mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), covariance[None], 2)
     for _ in range(300):
         found = measured(surface, seen, believed=estimate)
-        levelled = update_by_surface(mixture, found, shape_partial_update(0.1), SurfaceSettings())
-        assert levelled is not None
-        estimate, mixture = reset_error(estimate, levelled)
+        estimate, mixture = reset_error(estimate, update_by_surface(mixture, found).mixture)
     turned, relief = so3.log(estimate.rotation_w2_w0)[1], estimate.value[RELIEF][1]
     assert turned + relief == pytest.approx(off_rad, rel=0.02)
     assert turned / (turned + relief) == pytest.approx(turn_sd**2 / (turn_sd**2 + relief_sd**2), abs=0.02)
@@ -239,15 +243,16 @@ def test_too_few_readings_say_nothing(surface: DorsalSurface) -> None:
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
 def test_a_surface_far_from_what_was_believed_is_another(surface: DorsalSurface, off_sd: float, heard: bool) -> None:
     """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
-    settings, found = SurfaceSettings(), measured(surface)
+    found = measured(surface)
     covariance = 1e-12 * np.eye(SIZE)
     covariance[TURN, TURN] = 0.01**2 * np.eye(3)
     expected = np.linalg.inv(found.slope @ covariance @ found.slope.T + found.covariance)
     tilt = np.array([0.0, off_sd / np.sqrt(expected[1, 1]), 0.0])
     mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), covariance[None], 2)
-    levelled = update_by_surface(mixture, replace(found, value=tilt), shape_partial_update(0.1), settings)
-    assert (levelled is not None) == heard
-    if levelled is not None:
+    update = update_by_surface(mixture, replace(found, value=tilt))
+    assert (update.nis[0] <= found.max_nis) == heard
+    if heard:
+        levelled = update.mixture
         gain = covariance @ found.slope.T @ expected
         assert levelled.merge()[0][0, TURN] == pytest.approx((gain @ tilt)[TURN], rel=1e-4)
         left = covariance - gain @ found.slope @ covariance

@@ -17,6 +17,7 @@ from carpus.core.tracking.association.association import JointAssociation, assoc
 from carpus.core.tracking.filter.mixture_filter import ModeMixture, update_mixture
 from carpus.core.tracking.filter.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.filter.settings import AssociationSettings, MeasurementNoise, TrackerSettings
+from carpus.core.tracking.filter.surface_fit import SurfaceMeasurement
 
 # The centre of a partly covered disc may shift by this share of its radius times what is missing of its area below
 # MIN_WHOLE_AREA_SHARE.
@@ -26,10 +27,14 @@ MAX_OUTLIERS = 3  # measurements in a frame that are given the noise they show
 
 @dataclass(frozen=True, slots=True)
 class Measurements:
-    """Blobs as measurements (D, 3) of pixel u, v and depth (NaN when unknown), with variances (D, 3)."""
+    """Blobs as measurements (D, 3) of pixel u, v and depth (NaN when unknown), with variances (D, 3).
+
+    ``surface`` is what the back of the hand tells beside them, None where it tells nothing.
+    """
 
     value: FloatArray
     variance: FloatArray
+    surface: SurfaceMeasurement | None = None
 
     def __len__(self) -> int:
         return int(self.value.shape[0])
@@ -41,7 +46,7 @@ class UpdatedPalm:
 
     ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``is_measured`` (M, 3)
     components, and their ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
-    given more noise; both 0 where nothing was measured.
+    given more noise; both 0 where nothing was measured. ``by_surface`` whether the surface took part.
     """
 
     mixture: ModeMixture
@@ -51,6 +56,7 @@ class UpdatedPalm:
     is_measured: NDArray[np.bool_]
     residual: FloatArray
     raw_residual: FloatArray
+    by_surface: bool = False
 
 
 def measurements_from_blobs(
@@ -86,24 +92,30 @@ def update_palm(
     with_depth: NDArray[np.bool_],
     noise_factor: FloatArray,
 ) -> UpdatedPalm:
-    """Update every mode by the associated blobs; ``noise_factor`` (M, 3) multiplies the variances."""
+    """Update every mode by the associated blobs and the surface; ``noise_factor`` (M, 3) multiplies the variances.
+
+    A surface that is not this one, given the blobs, is left out.
+    """
     used = np.empty((assigned.size, 3), dtype=bool)
     used[:] = (assigned >= 0)[:, None]
     used[:, 2] &= with_depth
-    if not used.any():
+    surface = blobs.surface
+    value = variance = np.full((1, used.size), np.nan)
+    if used.any():
+        value = np.where(used, blobs.value.take(assigned, 0), np.nan).reshape(1, -1)
+        variance = (blobs.variance.take(assigned, 0) * noise_factor).reshape(1, -1)
+    elif surface is None:
         nothing = np.zeros(used.shape)
         return UpdatedPalm(predicted.mixture, assigned, float("nan"), 0, used, nothing, nothing)
-    value = np.where(used, blobs.value.take(assigned, 0), np.nan)
-    variance = blobs.variance.take(assigned, 0) * noise_factor
-    found = update_mixture(
-        predicted.mixture,
-        predicted.linearised,
-        value.reshape(1, -1),
-        variance.reshape(1, -1),
-        partial=predicted.partial,
-    )
-    residual = found.residual.reshape(used.shape)
-    return UpdatedPalm(found.mixture, assigned, float(found.nis[0]), int(found.dof[0]), used, residual, residual)
+    measurement = predicted.linearised, value, variance
+    if surface is not None:
+        measurement = surface.append_to(*measurement)
+    found = update_mixture(predicted.mixture, *measurement, partial=predicted.partial, tested=used.size)
+    if surface is not None and found.rest_nis[0] > surface.max_nis:
+        return update_palm(predicted, replace(blobs, surface=None), assigned, with_depth, noise_factor)
+    residual, dof = found.residual.reshape(used.shape), int(found.dof[0])
+    nis = float(found.nis[0]) if dof else float("nan")
+    return UpdatedPalm(found.mixture, assigned, nis, dof, used, residual, residual, surface is not None)
 
 
 def associate_and_update(

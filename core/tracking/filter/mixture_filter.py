@@ -98,14 +98,18 @@ class Linearisation:
 
 @dataclass(frozen=True, slots=True)
 class Update:
-    """Corrected ``mixture``; ``nis`` (C,) innovation' S^-1 innovation over all modes with ``dof`` (C,) components;
-    ``residual`` (C, m) of each component in its own standard deviations, N(0, 1) when all is right, 0 where nothing
-    was measured."""
+    """Corrected ``mixture``, and how well what was measured had been foreseen.
+
+    Of the tested numbers ``nis`` (C,), innovation' S^-1 innovation over all modes, with its degrees of freedom ``dof``
+    (C,) and the ``residual`` (C, m) of each number in its own standard deviations, N(0, 1) when all is right, 0 where
+    nothing was measured. ``rest_nis`` (C,) that of the other numbers, given those.
+    """
 
     mixture: ModeMixture
     nis: FloatArray
     dof: NDArray[np.int64]
     residual: FloatArray
+    rest_nis: FloatArray
 
 
 def partial_update_shares(size: int, rows: slice, share: float) -> FloatArray:
@@ -126,16 +130,17 @@ def update_mixture(
     variance: FloatArray,
     shared: FloatArray | None = None,
     partial: FloatArray | None = None,
+    tested: int | None = None,
 ) -> Update:
-    """Kalman correction of every chain and mode by ``measured`` (C, m), NaN where there is nothing.
+    """Correct every chain and mode by ``measured`` (C, m), NaN where there is nothing (Kalman).
 
     ``variance`` (C, m) of the measurements' own errors, ``shared`` (C, m, m) a covariance common to several of them;
-    ``partial`` of :func:`partial_update_shares`. Everything is taken in units of the noise, since pixels and metres
-    differ by
-    orders of magnitude.
+    ``partial`` of :func:`partial_update_shares`; the first ``tested`` numbers, or all, are tested by themselves.
+    Everything is taken in units of the noise, since pixels and metres differ by orders of magnitude.
     """
-    found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial, measured.shape[1])
-    return Update(ModeMixture(*found[:3]), *found[3:6])
+    tested = measured.shape[1] if tested is None else tested
+    found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial, tested)
+    return Update(ModeMixture(*found[:3]), *found[3:])
 
 
 def rts_step(

@@ -14,10 +14,11 @@ import numpy as np
 from carpus.core.compiled.surface import measure_surface
 from carpus.core.model.hand.dorsal_surface import DorsalSurface
 from carpus.core.model.types import FloatArray, SurfaceSamples
-from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, update_mixture
-from carpus.core.tracking.filter.palm_state import SIZE, PalmEstimate, PalmView, reset_error
+from carpus.core.tracking.filter.mixture_filter import Linearisation
+from carpus.core.tracking.filter.palm_state import SIZE, PalmEstimate, PalmView
 
-_NO_NOISE = np.full((1, 3), 1e-12)
+NO_NOISE = np.full((1, 3), 1e-12)
+"""Variances of a measurement whose covariance is all there is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,17 +47,39 @@ class SurfaceSettings:
 
 @dataclass(frozen=True, slots=True)
 class SurfaceMeasurement:
-    """What the surface says of an estimate's error: ``value`` (3,) turn about X and Y and height at the surface's
-    middle, its ``covariance`` (3, 3), as a ``slope`` (3, n) of the palm's error vector; ``count`` readings used."""
+    """Measurement of an estimate's error by the surface: turn about X and Y and height at the surface's middle.
+
+    ``value`` (3,) with ``covariance`` (3, 3), as a ``slope`` (3, n) of the palm's error vector; ``count`` readings were
+    used. Beyond a normalised innovation squared of ``max_nis`` it is another surface.
+    """
 
     value: FloatArray
     covariance: FloatArray
     slope: FloatArray
     count: int
+    max_nis: float
 
     def to_linearisation(self) -> Linearisation:
         """Linear about the estimate's mean."""
         return Linearisation(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
+
+    def append_to(
+        self, discs: Linearisation, measured: FloatArray, variance: FloatArray
+    ) -> tuple[Linearisation, FloatArray, FloatArray]:
+        """Append the three numbers to a measurement (1, m) about the same mean, for one correction by both."""
+        own, count = self.to_linearisation(), measured.shape[1]
+        error = np.zeros((1, count + 3, count + 3))
+        error[:, :count, :count], error[:, count:, count:] = discs.error, own.error
+        return (
+            Linearisation(
+                np.concatenate((discs.value, own.value), axis=1),
+                np.concatenate((discs.slope, own.slope), axis=1),
+                error,
+                discs.about,
+            ),
+            np.concatenate((measured, self.value[None]), axis=1),
+            np.concatenate((variance, NO_NOISE), axis=1),
+        )
 
 
 def fit_surface(
@@ -64,7 +87,10 @@ def fit_surface(
 ) -> SurfaceMeasurement | None:
     """Fit the surface to the readings, from the estimate's pose on; None where too few lie on it."""
     found = measure_surface(estimate, samples, surface, view, settings)
-    return None if found is None else SurfaceMeasurement(*found)
+    if found is None:
+        return None
+    value, covariance, slope, count = found
+    return SurfaceMeasurement(value, covariance, slope, count, settings.most_nis)
 
 
 def surface_calibration_covariance(surface: DorsalSurface, view: PalmView, settings: SurfaceSettings) -> FloatArray:
@@ -77,34 +103,3 @@ def surface_calibration_covariance(surface: DorsalSurface, view: PalmView, setti
     bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0)
     found = fit_surface(neutral, samples, surface, view, bare)
     return np.eye(3) if found is None else settings.stays**2 * found.covariance
-
-
-def update_by_surface(
-    mixture: ModeMixture, measurement: SurfaceMeasurement, partial: FloatArray | None, settings: SurfaceSettings
-) -> ModeMixture | None:
-    """The palm's modes corrected by what the surface says, numbers taking their ``partial``; None where it is so far
-    from what was believed that it is another surface."""
-    # Its noise has no scale of its own: the covariance is all there is.
-    update = update_mixture(
-        mixture, measurement.to_linearisation(), measurement.value[None], _NO_NOISE, partial=partial
-    )
-    return None if float(update.nis[0]) > settings.most_nis else update.mixture
-
-
-def reset_and_surface_update(
-    nominal: PalmEstimate,
-    mixture: ModeMixture,
-    samples: SurfaceSamples | None,
-    surface: DorsalSurface | None,
-    view: PalmView,
-    partial: FloatArray | None,
-    settings: SurfaceSettings,
-) -> tuple[PalmEstimate, ModeMixture, bool]:
-    """The palm after an update by its discs: :func:`reset_error`, then corrected by the surface of the back of the hand
-    and reset once more; and whether the surface said anything."""
-    estimate, mixture = reset_error(nominal, mixture)
-    if surface is None or samples is None:
-        return estimate, mixture, False
-    found = fit_surface(estimate, samples, surface, view, settings)
-    after = None if found is None else update_by_surface(mixture, found, partial, settings)
-    return (estimate, mixture, False) if after is None else (*reset_error(estimate, after), True)

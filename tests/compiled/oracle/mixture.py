@@ -77,6 +77,7 @@ def corrected(
     variance: FloatArray,
     shared: FloatArray | None = None,
     partial: FloatArray | None = None,
+    tested: int | None = None,
 ) -> Update:
     """Kalman correction of every chain and mode by ``measured`` (C, m), NaN where there is nothing.
 
@@ -108,16 +109,21 @@ def corrected(
     np.subtract(mixture.covariance, covariance, out=covariance)
     covariance += np.swapaxes(covariance, -1, -2).copy()
     covariance *= 0.5
-    nis = np.vecdot(apart, apart)
-    log_root = -np.log(whitening.diagonal(axis1=-2, axis2=-1)).sum(axis=-1)
-    probability = reweighed(mixture.probability, -0.5 * nis - log_root)
-    surprise = (apart[..., None, :] @ whitening)[..., 0, :]
-    residual = surprise / np.sqrt((whitening * whitening).sum(axis=-2))
+    tested = measured.shape[1] if tested is None else tested
+    first, rest = (np.vecdot(part, part) for part in (apart[..., :tested], apart[..., tested:]))
+    log_root = -np.log(whitening.diagonal(axis1=-2, axis2=-1))
+    weight = reweighed(mixture.probability, -0.5 * first - log_root[..., :tested].sum(axis=-1))
+    probability = reweighed(mixture.probability, -0.5 * (first + rest) - log_root.sum(axis=-1))
+    own_whitening, own_apart = whitening[..., :tested, :tested], apart[..., :tested]
+    surprise = (own_apart[..., None, :] @ own_whitening)[..., 0, :]
+    residual = surprise / np.sqrt((own_whitening * own_whitening).sum(axis=-2))
+    used = used[:, :tested]
     return Update(
         ModeMixture(mixture.mean + step, covariance, probability),
-        np.sum(probability * nis, axis=1),
+        np.sum(weight * first, axis=1),
         used.sum(axis=1),
-        np.where(used, np.sum(probability[..., None] * residual, axis=1), 0.0),
+        np.where(used, np.sum(weight[..., None] * residual, axis=1), 0.0),
+        np.sum(probability * rest, axis=1),
     )
 
 
