@@ -1,1 +1,1 @@
-"""Where frames come from: stored recordings, the camera, the simulated patient."""
+"""Sources of frames: cameras, stored recordings, the simulated patient."""

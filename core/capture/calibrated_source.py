@@ -1,5 +1,4 @@
-"""A source with what is kept of its camera: a stored calibration (intrinsics, and depth put right), and the name that a
-person gave to one that does not tell its serial number."""
+"""Sources with stored camera data: a camera calibration, and the name given to a camera without a serial number."""
 
 from __future__ import annotations
 
@@ -23,13 +22,13 @@ from carpus.core.platform.durable import replace_text, write_fault
 SUFFIX = ".camera_info.yaml"
 ORIGIN = "calibration"
 _DEPTH_STEP_M = 1e-4
-"""Corrected depth is kept in steps of this: 16 bits reach 6.5 m."""
+"""Step of corrected depth: 16 bits reach 6.5 m."""
 _MAX_COUNT = 65535
 _REPLACEABLE_ORIGINS = ("default", "driver", "factory")
 
 
 class CalibratedSource:
-    """``source`` with the intrinsics of ``info``, its depth corrected, and both said in its settings."""
+    """Source with the intrinsics of a stored calibration and corrected depth."""
 
     def __init__(self, source: FrameSource, info: CameraInfo) -> None:
         assert info.calibration is not None
@@ -45,7 +44,6 @@ class CalibratedSource:
         self._correction_table: tuple[float, DepthImage] | None = None
 
     def frames(self) -> Iterator[Frame]:
-        """As the source's, depth corrected."""
         for frame in self._source.frames():
             yield self._correct_depth(frame)
 
@@ -64,7 +62,20 @@ class CalibratedSource:
 
 
 def compute_correction_table(calibration: StoredCalibration, unit_m: float) -> DepthImage:
-    """True depth in steps of 0.1 mm for each count (65536,) that a camera may give; 0, no reading, stays 0."""
+    """Return corrected depth for each possible count.
+
+    Parameters
+    ----------
+    calibration : StoredCalibration
+        Scale and offset of the measured depth.
+    unit_m : float
+        Metres per count of the camera's depth.
+
+    Returns
+    -------
+    ndarray of uint16, shape (65536,)
+        True depth in steps of 0.1 mm; 0 (no reading) stays 0.
+    """
     measured_m = np.arange(_MAX_COUNT + 1) * unit_m
     true_m = (measured_m - calibration.depth_offset_m) / calibration.depth_scale
     counts = np.round(true_m / _DEPTH_STEP_M)
@@ -72,8 +83,10 @@ def compute_correction_table(calibration: StoredCalibration, unit_m: float) -> D
 
 
 def with_stored_calibration(source: FrameSource, data_folder: Path) -> FrameSource:
-    """``source`` as the newest stored calibration of its camera has it; itself where there is none, where nobody
-    knows which camera it was, or where it brings intrinsics of its own."""
+    """Return the source with the newest stored calibration of its camera.
+
+    The source itself is returned if there is none, if its camera is unknown, or if it has measured intrinsics.
+    """
     serial = source.info.serial
     if not serial or source.info.camera.origin not in _REPLACEABLE_ORIGINS:
         return source
@@ -85,7 +98,7 @@ def with_stored_calibration(source: FrameSource, data_folder: Path) -> FrameSour
 
 
 def load_stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None:
-    """The newest calibration of a camera that can be read; None where there is none."""
+    """Return the newest readable calibration of a camera, or None."""
     for path in reversed(list_calibration_files(data_folder, serial)):
         try:
             info = read_camera_info(path)
@@ -97,12 +110,12 @@ def load_stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None
 
 
 def list_calibration_files(data_folder: Path, serial: str) -> list[Path]:
-    """All stored calibrations of a camera, the oldest first."""
+    """Return all stored calibrations of a camera, oldest first."""
     return sorted((data_folder / CAMERAS_FOLDER).glob(f"{file_stem(serial)}_*{SUFFIX}"))
 
 
 def new_calibration_path(data_folder: Path, serial: str, time: datetime) -> Path:
-    """Where a calibration made at a time is stored: a free name; the names sort by time."""
+    """Return a free path for a calibration made at a time; names sort by time."""
     first = data_folder / CAMERAS_FOLDER / f"{file_stem(serial)}_{time.astimezone(UTC):%Y-%m-%d_%H%M%S}{SUFFIX}"
     stem = first.name.removesuffix(SUFFIX)
     further = (first.with_name(f"{stem}_{number:03d}{SUFFIX}") for number in count(2))  # in the same second
@@ -110,14 +123,14 @@ def new_calibration_path(data_folder: Path, serial: str, time: datetime) -> Path
 
 
 def age_days(moment: str, now: datetime) -> float:
-    """Days from a stored moment to now; NaN where it is none."""
+    """Return the days from a stored time until now; NaN if it is not a time."""
     if not is_moment(moment):
         return float("nan")
     return (now - datetime.fromisoformat(moment)).total_seconds() / 86400.0
 
 
 def _format_calibration_settings(calibration: StoredCalibration, info: SourceInfo, now: datetime) -> dict[str, str]:
-    """What a session says of the calibration that it used; its age counts to when the hand moved."""
+    """Return the settings that a session stores of its calibration."""
     measured = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else now
     return {
         "calibrated": calibration.calibrated,
@@ -133,7 +146,7 @@ _NAMES_FILE = "names.json"
 
 
 class NamedSource:
-    """``source`` with the name that a person gave to its camera."""
+    """Source with the name that a person gave to its camera."""
 
     def __init__(self, source: FrameSource, name: str) -> None:
         self._source = source
@@ -148,7 +161,10 @@ class NamedSource:
 
 
 def with_given_name(source: FrameSource, data_folder: Path) -> FrameSource:
-    """``source`` under the name that its kind of camera was given; itself where it tells its number, or has no name."""
+    """Return the source under the name given to its kind of camera.
+
+    The source itself is returned if the camera has a serial number or no name was given.
+    """
     if source.info.serial:
         return source
     name = _load_names(data_folder).get(source.info.name, "")
@@ -156,9 +172,9 @@ def with_given_name(source: FrameSource, data_folder: Path) -> FrameSource:
 
 
 def normalize_name(text: str) -> str:
-    """A name as it is kept.
+    r"""Return a name as it is stored: printable, single spaces, of limited length.
 
-    >>> normalize_name("  room 3\\t left ")
+    >>> normalize_name("  room 3\t left ")
     'room 3 left'
     """
     return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())[
@@ -167,10 +183,14 @@ def normalize_name(text: str) -> str:
 
 
 def save_camera_name(data_folder: Path, kind: str, name: str) -> str:
-    """From now on cameras of a kind that do not tell their number are called so: the name as it is kept. A name
-    that another kind has gets the kind added, else one would be seen through the other's calibration.
+    """Save a name for cameras of a kind that have no serial number; return the stored name.
 
-    Raises :class:`OutputNotWritable` or :class:`DiskFull`.
+    A name that another kind has gets the kind added, so that each keeps its own calibration.
+
+    Raises
+    ------
+    OutputNotWritable, DiskFull
+        The name could not be stored.
     """
     path = data_folder / CAMERAS_FOLDER / _NAMES_FILE
     others = {other: taken for other, taken in _load_names(data_folder).items() if other != kind}

@@ -1,4 +1,4 @@
-"""The intrinsics file: ROS camera calibration YAML, read and written."""
+"""Read and write camera intrinsics (ROS camera calibration YAML)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SCALE_RANGE, _MAX_OFFSET_M = (0.8, 1.25), 0.1
 _DEPTH_UNIT_RANGE_M = (1e-5, 1e-2)
 _MAX_ROUND_TRIP_PX = 2.0
 _FOCAL_LENGTH_RANGE = (0.2, 10.0)
-"""Focal length over the picture's width: beyond these a camera sees more than 136 or less than 6 degrees."""
+"""Focal length over image width: fields of view of 136 to 6 degrees."""
 
 
 _CALIBRATION = "carpus_calibration"
@@ -35,9 +35,21 @@ _SENSOR = "depth_sensor"
 
 @dataclass(frozen=True, slots=True)
 class StoredCalibration:
-    """What Carpus measured on a printed board: which camera (``serial``), ``calibrated`` when (ISO 8601 with zone), how
-    far depth was off (measured = ``depth_scale`` * true + ``depth_offset_m``; 1 and 0 where it was not checked), how
-    far the corners landed and with how many pictures of the board."""
+    """Calibration measured on a printed board.
+
+    Attributes
+    ----------
+    serial : str
+        Serial number of the camera.
+    calibrated : str
+        Time of the calibration, ISO 8601 with zone.
+    depth_scale, depth_offset_m : float
+        Measured depth = scale * true depth + offset; 1 and 0 if depth was not checked.
+    error_px : float
+        Reprojection error of the board's corners.
+    pictures : int
+        Number of images of the board.
+    """
 
     serial: str
     calibrated: str
@@ -49,9 +61,10 @@ class StoredCalibration:
 
 @dataclass(frozen=True, slots=True)
 class CameraInfo:
-    """What the file says. ``registered`` and ``mirrored`` are None where it does not say; ``simulated``: the pictures
-    beside it are of a simulated hand; ``depth_unit_m`` metres per count of the depth pictures, None as their form
-    has it."""
+    """Content of a camera calibration file.
+
+    ``registered``, ``mirrored`` and ``depth_unit_m`` (metres per count) are None if the file does not state them.
+    """
 
     camera: Camera
     registered: bool | None = None
@@ -95,7 +108,7 @@ def write_camera_info(
     simulated: bool = False,
     calibration: StoredCalibration | None = None,
 ) -> None:
-    """Write ``camera`` as a ROS camera calibration file; a file that is there already is kept."""
+    """Write the camera as a ROS camera calibration file; an existing file is kept."""
     k = [camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0]
     content: dict[str, Any] = {
         "image_width": camera.width_px,
@@ -127,7 +140,7 @@ def write_camera_info(
 
 
 def rescale_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
-    """``camera`` for pictures enlarged or shrunk to ``size_px``; None when they are of another shape."""
+    """Return the camera for images scaled to ``size_px``; None if the aspect ratio differs."""
     width, height = size_px
     if size_px == (camera.width_px, camera.height_px):
         return camera
@@ -200,7 +213,7 @@ def _parse_camera(path: Path, content: dict[str, Any]) -> Camera:
 
 
 def _is_distortion_invertible(camera: Camera) -> bool:
-    """Whether undistorted pixels of the picture find back, but for those at its very edge."""
+    """Return whether distorting the undistorted pixels returns them, up to the outer tenth."""
     across, down = (np.linspace(0.1, 0.9, 5) * size for size in (camera.width_px, camera.height_px))
     pixel = np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2)
     with np.errstate(all="ignore"):
@@ -287,5 +300,5 @@ def _parse_numbers(path: Path, content: dict[str, Any], key: str) -> list[float]
 
 
 def sidecar_path(path: Path) -> Path:
-    """Where the camera of a recording is written: ``NAME.camera_info.yaml`` beside ``NAME.oni``."""
+    """Return the camera file of a recording: ``NAME.camera_info.yaml`` beside ``NAME.oni``."""
     return path.with_name(path.stem + ".camera_info.yaml")

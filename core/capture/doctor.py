@@ -1,4 +1,4 @@
-"""Examines what Carpus needs on this computer: one finding per need, each with a remedy where one is due."""
+"""Checks of what Carpus needs on this computer: one finding per need, with a remedy if one is due."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ from carpus.core.platform.disks import check_disk_encryption, detect_encryption
 PACKAGES = ("numpy", "scipy", "opencv-python-headless", "h5py", "PyYAML", "platformdirs", "threadpoolctl")
 WINDOW_LIBRARIES = ("GL", "EGL", "fontconfig", "dbus-1", "xkbcommon", "xcb-cursor")
 SYSTEM_LIBRARIES = ("GL", "EGL")
-"""Of these what a packed program does not bring: they belong to the graphics card."""
+"""Libraries that a packaged program does not bring: they belong to the graphics card."""
 RULES_FOLDERS = tuple(Path(root) / "udev/rules.d" for root in ("/etc", "/run", "/usr/lib", "/lib"))
 RULE_FILE = "/etc/udev/rules.d/60-carpus-cameras.rules"
 LOW_DISK_BYTES = 2_000_000_000
@@ -69,11 +69,11 @@ _REMEDIES: dict[type[CarpusFault], str] = {
     CameraPermission: phrase("Install the camera rights named above and plug the camera in again."),
     CameraLost: phrase("Plug the camera in again, into another port, without a hub."),
 }
-"""Where the examination knows better than the words of every other place."""
+"""Remedies that are more specific here than the general texts."""
 
 
 def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: float = MEASURE_S) -> Iterator[Finding]:
-    """All findings, each as soon as it is known; the camera is opened for ``measure_s`` seconds at the end."""
+    """Yield all findings; at the end the camera is opened for ``measure_s`` seconds."""
     yield check_python(sys.version_info[:3])
     yield check_packages()
     yield check_compiled_parts()
@@ -95,9 +95,9 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
 
 
 def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterator[Finding]:
-    """What a person must know before the first session; nothing is opened, so it takes no time and disturbs nobody.
+    """Yield the findings that matter before the first session; nothing is opened.
 
-    ``data_folder`` need not be there yet. What only the window knows, its screen, is not among it.
+    ``data_folder`` may not exist yet. The window adds its own check of the screen.
     """
     on_linux = needs_camera and sys.platform.startswith("linux")
     if on_linux:  # elsewhere only opening it tells
@@ -112,7 +112,7 @@ def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterato
 
 
 def check_python(found: tuple[int, int, int]) -> Finding:
-    """Python itself."""
+    """Check the version of Python."""
     text = ".".join(map(str, found)) + f", {platform.system()} {platform.machine()}"
     if found < (3, 11, 0):
         return Finding(
@@ -122,7 +122,7 @@ def check_python(found: tuple[int, int, int]) -> Finding:
 
 
 def check_packages(names: tuple[str, ...] = PACKAGES) -> Finding:
-    """The packages that every command needs."""
+    """Check the packages that every command needs."""
     known, missing = [], []
     for name in names:
         try:
@@ -135,7 +135,7 @@ def check_packages(names: tuple[str, ...] = PACKAGES) -> Finding:
 
 
 def check_compiled_parts() -> Finding:
-    """Whether the steps that must be compiled are: without them nothing is tracked."""
+    """Check that the compiled modules are there: without them tracking is impossible."""
     try:
         import_module("carpus.core.compiled")
     except CompiledPartMissing as fault:
@@ -145,7 +145,7 @@ def check_compiled_parts() -> Finding:
 
 
 def check_window() -> Finding:
-    """What the desktop window needs, found out without loading it."""
+    """Check what the desktop window needs, without loading it."""
     try:
         qt = version("PySide6-Essentials")
         version("pyqtgraph")
@@ -177,7 +177,7 @@ def check_window() -> Finding:
 
 
 def check_fonts() -> Finding:
-    """The typefaces that come with Carpus."""
+    """Check the typefaces that come with Carpus."""
     folder = files("carpus.resources").joinpath("fonts")
     faces = [each.name for each in folder.iterdir() if each.name.endswith(".otf")] if folder.is_dir() else []
     if not faces:
@@ -191,7 +191,7 @@ def check_fonts() -> Finding:
 
 
 def check_data_folder(folder: Path) -> Finding:
-    """Whether recordings can be stored, and nobody else can read them."""
+    """Check that recordings can be stored, and that no other user can read them."""
     there = _existing_ancestor(folder)
     if not os.access(there, os.W_OK | os.X_OK) or not there.is_dir():
         remedy = phrase("Give yourself the right to write there, or choose another folder in the settings.")
@@ -214,7 +214,7 @@ def check_data_folder(folder: Path) -> Finding:
 
 
 def check_disk_space(folder: Path, free_bytes: int) -> Finding:
-    """Room for recordings."""
+    """Check the space for recordings."""
     minutes = free_bytes / (1e6 * MB_PER_MINUTE)
     text = phrase(
         "{free} GB free, about {minutes} minutes with pictures",
@@ -232,9 +232,10 @@ def check_disk_space(folder: Path, free_bytes: int) -> Finding:
 
 
 def check_drivers(*, loads_library: bool, wanted_kind: str = "") -> Iterator[Finding]:
-    """The libraries of all kinds, ``wanted_kind`` the one that is asked for. What another kind lacks is no obstacle
-    while one
-    is wanted that has all."""
+    """Check the libraries of all kinds of cameras.
+
+    A bad library of another kind is only a warning if a connected or wanted kind needs none of it.
+    """
     kinds = _camera_kinds()
     wanted = [
         bool(kind.find_connected()) or (wanted_kind != "" and kind is load_camera_kind(wanted_kind)) for kind in kinds
@@ -249,9 +250,10 @@ def check_drivers(*, loads_library: bool, wanted_kind: str = "") -> Iterator[Fin
 
 
 def check_permissions(folders: tuple[Path, ...], *, wanted_kind: str = "") -> Iterator[Finding]:
-    """Whether the system lets everybody open the cameras: those plugged in and the kind ``wanted_kind``, else the
-    usual one;
-    each by its own rules, since a rule for one kind says nothing of another."""
+    """Check that users may open the connected cameras and the wanted kind, else the default kind.
+
+    Each kind is checked by its own rules, since a rule for one kind does not cover another.
+    """
     asked = [
         kind
         for kind in _camera_kinds()
@@ -262,7 +264,7 @@ def check_permissions(folders: tuple[Path, ...], *, wanted_kind: str = "") -> It
 
 
 def check_udev_rules(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
-    """Whether the system lets everybody open a camera of this kind."""
+    """Check that udev rules let users open a camera of this kind."""
     name = phrase("Camera rights, {title}", title=kind.title)
     for folder in folders:
         for rules in sorted(folder.glob("*.rules")) if folder.is_dir() else []:
@@ -279,7 +281,7 @@ def check_udev_rules(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
 
 
 def check_cameras(connected: list[tuple[CameraKind, UsbCamera]], wanted_kind: str = "") -> list[Finding]:
-    """The cameras on the bus, before anything opens one; ``wanted_kind`` the kind that is asked for."""
+    """Check the cameras on the bus before any is opened."""
     if not connected:
         port = load_camera_kind(wanted_kind or parse_kind("")).port_advice
         remedy = phrase("Plug the camera in, at best straight into the computer. {port}", port=port)
@@ -288,7 +290,7 @@ def check_cameras(connected: list[tuple[CameraKind, UsbCamera]], wanted_kind: st
 
 
 def check_camera(kind: CameraKind, camera: UsbCamera) -> Finding:
-    """One camera on the bus."""
+    """Check a camera on the bus before it is opened."""
     text = phrase(
         "{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s",
         name=camera.name,
@@ -319,7 +321,7 @@ def check_camera(kind: CameraKind, camera: UsbCamera) -> Finding:
 
 
 def check_open_camera(uri: str, measure_s: float) -> list[Finding]:
-    """What really comes from the camera, and how it stands."""
+    """Check frames and settings of the opened camera."""
     frames: list[Frame] = []
     arrived_s: list[float] = []
     try:
@@ -346,7 +348,7 @@ def check_open_camera(uri: str, measure_s: float) -> list[Finding]:
 
 
 def check_frames(frames: list[Frame]) -> Finding:
-    """Rate, gaps and depth of some seconds of frames."""
+    """Check rate, gaps and depth of some seconds of frames."""
     if len(frames) < 2:
         remedy = phrase("Plug the camera in again, into another port, without a hub.")
         return Finding(phrase("Pictures"), "bad", phrase("{count} frames", count=len(frames)), remedy)
@@ -378,7 +380,7 @@ def check_frames(frames: list[Frame]) -> Finding:
 
 
 def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list[float]) -> list[Finding]:
-    """Registration, mirror and clock of a camera that ran for some seconds."""
+    """Check registration, mirroring and clock of a camera that ran for some seconds."""
     settings, findings = info.settings, []
     registered = settings.get("registered", "")
     if registered == "no":
@@ -397,7 +399,7 @@ def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list
 
 
 def check_clock(camera_s: float, computer_s: float, clock: str) -> Finding:
-    """The camera's times against the computer's over the same pictures. Pictures wait on their way, hence the room."""
+    """Check the camera's clock against the computer's; the tolerance covers the transfer of images."""
     text = phrase(
         "{own_s} s while {here_s} s passed here",
         own_s=format_rounded(camera_s, 2),
@@ -419,7 +421,7 @@ def _camera_kinds() -> list[CameraKind]:
 
 
 def _camera_fault_finding(fault: CarpusFault, uri: str) -> Finding:
-    """Why no picture came, in words; a driver that is missing is told as its own finding tells it."""
+    """Return the finding for a fault of the camera; a missing driver has the remedy of its own check."""
     words = format_fault(fault)
     remedy = _REMEDIES.get(type(fault), words.remedy)
     if isinstance(fault, DriverMissing | ExtraMissing):
@@ -429,5 +431,4 @@ def _camera_fault_finding(fault: CarpusFault, uri: str) -> Finding:
 
 
 def _existing_ancestor(folder: Path) -> Path:
-    """``folder`` or the nearest folder above it that is there."""
     return next((each for each in (folder, *folder.parents) if each.exists()), Path.cwd())

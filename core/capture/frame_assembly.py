@@ -1,4 +1,4 @@
-"""From the driver's pictures to frames: mirrored pictures turned back, unequal sizes made equal, gaps counted."""
+"""Frames from the driver's images: unmirrored, brought to one size, paired by time, gaps counted."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from carpus.core.model.types import Frame
 T = TypeVar("T")
 
 PAIRING_TOLERANCE_US = 20_000
-"""Farther apart in time, a colour picture has no depth."""
+"""A colour image without depth nearer in time than this has none."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimestampedImage(Generic[T]):
-    """A picture with its device time and its number in its stream."""
+    """Image with its device time and its number in the stream."""
 
     timestamp_us: int
     number: int
@@ -36,19 +36,19 @@ ImagePair = tuple[TimestampedImage[T], TimestampedImage[T] | None]
 
 
 class ApproximateTimeSynchronizer(Generic[T]):
-    """Pairs two rising streams as they come.
+    """Pairs images of two streams by nearest time.
 
-    A colour picture leaves as soon as its depth is certain: one nearer than half a period has come, or one that is
-    later. Bound: at most ``limit`` pictures of a stream wait; then the oldest colour picture leaves with the
-    nearest depth so far, or the oldest depth picture is forgotten. A depth picture serves one colour picture.
+    A colour image is released when its depth is certain: one nearer than half a period has come, or a later one. At
+    most ``limit`` images of a stream wait; then the oldest colour image is released with the nearest depth so far, or
+    the oldest depth image is dropped. A depth image serves one colour image.
 
-    The streams of a camera do not start at one time: up to ``start_limit`` colour pictures from before the first
-    pair are left out, where a recording (0) keeps every one.
+    The streams of a camera do not start at the same time: up to ``start_limit`` colour images before the first pair are
+    skipped; 0 keeps all, for a recording.
 
-    >>> pairing = ApproximateTimeSynchronizer[str](period_us=33_333)
-    >>> pairing.add_color(TimestampedImage(0, 1, "red"))
+    >>> synchronizer = ApproximateTimeSynchronizer[str](period_us=33_333)
+    >>> synchronizer.add_color(TimestampedImage(0, 1, "red"))
     []
-    >>> [(color.image, depth.image) for color, depth in pairing.add_depth(TimestampedImage(4_000, 1, "near"))]
+    >>> [(color.image, depth.image) for color, depth in synchronizer.add_depth(TimestampedImage(4_000, 1, "near"))]
     [('red', 'near')]
     """
 
@@ -72,7 +72,7 @@ class ApproximateTimeSynchronizer(Generic[T]):
         return decided
 
     def finish(self) -> list[ImagePair[T]]:
-        """No more pictures come: the pairs that were still open."""
+        """Return the pairs that were still open; no more images come."""
         self._has_depth = False
         return self._release_pairs()
 
@@ -106,14 +106,14 @@ class ApproximateTimeSynchronizer(Generic[T]):
 AnyImage = NDArray[Any]
 
 FILE_PAIRING_LIMIT = 64
-"""How far apart in a recording colour and depth of one moment may lie, in pictures."""
+"""Largest distance of colour and depth of one time within a recording, in images."""
 
 DEPTH_UNIT_M: dict[int, float] = {PixelFormat.DEPTH_1_MM: 1e-3, PixelFormat.DEPTH_100_UM: 1e-4}
 
 
 @dataclass(frozen=True, slots=True)
 class StreamLayout:
-    """Sizes (width, height) as they come, and which of the two are left for right; depth size None without depth."""
+    """Sizes (width, height) of the images as they come, and which are mirrored; depth size None without depth."""
 
     color_size_px: tuple[int, int]
     depth_size_px: tuple[int, int] | None
@@ -128,7 +128,7 @@ class StreamLayout:
 
     @property
     def format_enlargement(self) -> str:
-        """What is enlarged, in figures; empty when nothing is."""
+        """Description of what is enlarged; empty if nothing is."""
         width, height = self.size_px
         for name, size in (("colour", self.color_size_px), ("depth", self.depth_size_px)):
             if size is not None and size != (width, height):
@@ -136,7 +136,7 @@ class StreamLayout:
         return ""
 
     def describe_size_mismatch(self) -> str:
-        """Why these sizes cannot be brought together; empty when they can: equal, or one twice the other."""
+        """Return why these sizes cannot be combined; empty if they are equal or one is twice the other."""
         width, height = self.size_px
         for size in (self.color_size_px, self.depth_size_px or self.color_size_px):
             if size != (width, height) and (2 * size[0], 2 * size[1]) != (width, height):
@@ -145,7 +145,7 @@ class StreamLayout:
         return ""
 
     def convert_color(self, view: AnyImage) -> AnyImage:
-        """An own, read-only copy (H, W, 3) of a colour picture in the driver's memory."""
+        """Return a read-only copy (H, W, 3) of a colour image in the driver's memory."""
         if self.color_size_px != self.size_px:
             # half-pixel centres: pixel u of the small picture lies at 2 u + 0.5 of the large one
             turned = view[:, ::-1] if self.color_mirrored else view
@@ -155,7 +155,7 @@ class StreamLayout:
         return _make_read_only(cv2.flip(view, 1) if self.color_mirrored else view.copy())
 
     def convert_depth(self, view: AnyImage) -> AnyImage:
-        """An own, read-only copy (H, W) of a depth picture; enlarged by repetition, no depth is invented."""
+        """Return a read-only copy (H, W) of a depth image, enlarged by repetition: no depth is invented."""
         turned = view[:, ::-1] if self.depth_mirrored else view
         if self.depth_size_px != self.size_px:
             return _make_read_only(turned.repeat(2, axis=0).repeat(2, axis=1))
@@ -163,10 +163,10 @@ class StreamLayout:
 
 
 class FrameAssembler:
-    """Builds frames from pictures of one colour and one depth stream.
+    """Builder of frames from images of one colour and one depth stream.
 
-    ``period_us`` is the time between colour pictures. Frames are numbered from 0; a colour picture that does not
-    come later than the one before is left out; ``start_limit`` as for :class:`ApproximateTimeSynchronizer`.
+    ``period_us`` is the time between colour images. Frames are numbered from 0; a colour image that is not later than
+    the one before is skipped; ``start_limit`` as for :class:`ApproximateTimeSynchronizer`.
     """
 
     def __init__(self, layout: StreamLayout, period_us: float, limit: int, start_limit: int = 0) -> None:
@@ -198,7 +198,10 @@ class FrameAssembler:
         return self._build_frames(self._pairing.finish())
 
     def restart(self, layout: StreamLayout, first_us: int, gap_us: int) -> None:
-        """The device's clock began anew at ``first_us``, ``gap_us`` after the last frame: times keep rising."""
+        """Continue after the device's clock restarted at ``first_us``, ``gap_us`` after the last frame.
+
+        Times keep rising.
+        """
         self.layout = layout
         self._pairing = self._new_pairing()
         self._last_number = 0
@@ -224,7 +227,7 @@ class FrameAssembler:
 
 
 def camera_from_field_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, float] | None) -> Camera | None:
-    """Intrinsics from the driver's field of view, else the nominal ones; None for a shape that cannot be guessed."""
+    """Return intrinsics from the driver's field of view, else the default ones; None for another aspect ratio."""
     width, height = size_px
     if field_of_view_rad is None:
         return rescale_camera(DEFAULT_CAMERA, (width, height))
@@ -241,7 +244,7 @@ def camera_from_field_of_view(size_px: tuple[int, int], field_of_view_rad: tuple
 
 
 def camera_from_lens(size_px: tuple[int, int], lens: Lens) -> Camera:
-    """Intrinsics as the driver tells them, for pictures of ``size_px``; a model not known is taken as none."""
+    """Return the camera with the driver's intrinsics; an unknown distortion model is taken as none."""
     model: DistortionModel = next((each for each in DISTORTION_COEFFICIENT_COUNTS if each == lens.model), "plumb_bob")
     known = lens.model == model and len(lens.coefficients) == DISTORTION_COEFFICIENT_COUNTS[model]
     return Camera(
@@ -262,13 +265,13 @@ def _make_read_only(image: AnyImage) -> AnyImage:
 
 
 GRID_STEP_PX = 8
-"""Straightening a strong lens takes many rounds: it is done at each eighth pixel, and straight in between. The library
-that goes between counts in 1/32: eighths are exact."""
+"""Undistortion is iterative: it is done at each eighth pixel and interpolated. OpenCV interpolates in steps of 1/32, in
+which eighths are exact.
+"""
 
 
 def _undistort_pixels(camera: Camera, downscale: int = 1) -> NDArray[np.float32]:
-    """Where an ideal lens would show what this one shows at its pixels, (H, W, 2); ``downscale`` of its pixels, across
-    and down, are one of the picture asked about, whose middle is meant."""
+    """Return the undistorted position of each pixel centre (H, W, 2), for images downscaled by ``downscale``."""
     width, height = camera.width_px // downscale, camera.height_px // downscale
     across, down = (np.arange(0, side + GRID_STEP_PX, GRID_STEP_PX, dtype=np.float64) for side in (width, height))
     # half-pixel centres: the middle of a pixel lies at a whole number
@@ -279,9 +282,11 @@ def _undistort_pixels(camera: Camera, downscale: int = 1) -> NDArray[np.float32]
 
 
 class DepthDistorter:
-    """Takes depth (H, W) of ``camera`` without its distortion to colour pictures with it, whose pixels are
-    ``downscale``
-    as wide. Readings are moved, never mixed: a mean would lie between a finger and the table. Without a reading: 0."""
+    """Maps undistorted depth (H, W) to the distorted, downscaled colour image.
+
+    Readings are moved, never interpolated: a mean would be between a finger and the table. Pixels without a reading are
+    0.
+    """
 
     def __init__(self, camera: Camera, downscale: int = 1) -> None:
         self._maps: tuple[NDArray[np.float32], NDArray[np.float32]] | None = None
@@ -290,7 +295,7 @@ class DepthDistorter:
             self._maps = np.ascontiguousarray(ideal[..., 0]), np.ascontiguousarray(ideal[..., 1])
 
     def distort(self, depth: NDArray[Any]) -> NDArray[Any]:
-        """Depth (H, W) uint16 as the real lens shows it, (H / shrink, W / shrink)."""
+        """Return depth (H, W) uint16 as the distorted lens shows it, (H / downscale, W / downscale)."""
         if self._maps is None:
             return depth
         return np.asarray(

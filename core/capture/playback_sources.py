@@ -1,4 +1,4 @@
-"""Stored sources played as a camera sends: in real time, or as a simulated hand that waits to be told to move."""
+"""Stored sources played like a camera: in real time, or as a simulated hand that moves on command."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from carpus.core.model.types import Frame
 
 
 class PacedSource:
-    """Hands each frame of another source out when its time has come, counted from the first one.
+    """Source whose frames are released in real time, counted from the first one.
 
-    A frame that is late goes out at once; none is left out. ``speed`` 2 plays twice as fast. :meth:`close` ends a
-    wait, so a stop never takes longer than a frame takes to read.
+    A late frame is released at once; none is skipped. ``speed`` 2 plays twice as fast. :meth:`close` ends a wait.
     """
 
     def __init__(self, source: FrameSource, speed: float = 1.0) -> None:
@@ -29,12 +28,12 @@ class PacedSource:
 
     @property
     def info(self) -> SourceInfo:
-        """Facts of the source behind, at the rate that is played."""
+        """Facts of the source, with the rate at which it is played."""
         info = self._source.info
         return replace(info, nominal_fps=info.nominal_fps * self._speed)
 
     def frames(self) -> Iterator[Frame]:
-        """Frames from the first on, each at its time; ends early when closed."""
+        """Yield frames from the first on, each at its time; ends early when closed."""
         try:
             with self._playing:
                 started_s: float | None = None
@@ -50,9 +49,9 @@ class PacedSource:
                 self._source.close()
 
     def close(self) -> None:
-        """Ends the playing and closes the source behind; may be called twice and from another thread.
+        """End playing and close the source; may be called twice and from another thread.
 
-        While frames are being read by another thread, that thread closes the source on its way out.
+        While another thread reads frames, that thread closes the source on its way out.
         """
         self._closed.set()
         if self._playing.acquire(blocking=False):
@@ -61,51 +60,52 @@ class PacedSource:
 
 
 class PracticeSource:
-    """Frames without end, not paced, times rising by themselves.
+    """Endless source of frames of a simulated hand, not paced, with rising times.
 
-    The take begins with a hand that is still for ``still_s``: these pictures come again and again, forwards and
-    backwards, until :meth:`start_movement`. Then the take is played through, and the hand rests until let go again.
+    The recording starts with a still hand for ``still_s``: these frames are repeated, forwards and backwards, until
+    :meth:`start_movement`. Then the movement is played, and the hand rests until the next start.
     """
 
     def __init__(
         self, recording: FrameSource, still_s: float, *, is_still_only: bool = False, movement_count: int = 1
     ) -> None:
-        """``is_still_only``: the take is the still hand alone, which goes on resting until
-        :meth:`set_next_recording`. ``movement_count``
-        the movement is played whenever it is let go."""
+        """Play a recording whose movement is repeated ``movement_count`` times at each start.
+
+        With ``is_still_only`` the recording is the still hand alone, which rests until :meth:`set_next_recording`.
+        """
         self._movement_count = movement_count
         self._recording, self._recordings, self._is_still_only = recording, [recording], is_still_only
         self._still_s = still_s
         self._next_recording: FrameSource | None = None
         self._movement_requested, self._closed, self._can_move = threading.Event(), threading.Event(), threading.Event()
         self.still_hand_shown = threading.Event()
-        """Set once every picture of the still hand has been given."""
+        """Set when every frame of the still hand was released."""
         if not is_still_only:
             self._can_move.set()
 
     @property
     def can_move(self) -> bool:
-        """Whether there are pictures of the movement that comes next."""
+        """Whether frames of the next movement are available."""
         return self._can_move.is_set()
 
     @property
     def is_closed(self) -> bool:
-        """Whether nobody looks any more."""
         return self._closed.is_set()
 
     @property
     def info(self) -> SourceInfo:
-        """Facts of the take; its number of frames is unknown, as a camera's is."""
+        """Facts of the recording; the number of frames is unknown, as for a camera."""
         return replace(self._recording.info, frame_count=None)
 
     def start_movement(self) -> None:
-        """The hand moves once from now on, or goes on if it moves already; may be called from another thread."""
+        """Move the hand once, or continue if it moves already; may be called from another thread."""
         self._movement_requested.set()
 
     def set_next_recording(self, recording: FrameSource | None) -> None:
-        """Another take of the same hand at the same place, from the next :meth:`start_movement` on, closed with this;
-        None: it
-        is still to come, and the hand rests until then. May be called from another thread."""
+        """Set another recording of the same hand and place for the next :meth:`start_movement`.
+
+        None: it is still to come, and the hand rests until then. May be called from another thread.
+        """
         self._next_recording = recording
         if recording is None:
             self._can_move.clear()
@@ -159,7 +159,7 @@ class PracticeSource:
                 return
 
     def _play_still_hand(self, take: Iterator[Frame], still: list[Frame]) -> Iterator[Frame]:
-        """The still hand's pictures as they come, all kept in ``still``, then those to and fro."""
+        """Yield the frames of the still hand as they come, collected in ``still``, then back and forth."""
         yield still[0]
         for frame in take:
             still.append(frame)

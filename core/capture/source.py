@@ -1,5 +1,4 @@
-"""What every source of frames looks like to the rest of Carpus; which recording it is, and when the hand moved: facts
-of the recording, not of whoever reads it."""
+"""The protocol of all sources of frames, and identity and date of a recording."""
 
 from __future__ import annotations
 
@@ -21,23 +20,32 @@ from carpus.core.model.errors import CarpusFault
 from carpus.core.model.types import SIMULATED, Frame
 
 SERIAL, SERIAL_GIVEN = "serial", "serial_given"
-"""Settings of a source: which camera it is, and that its number is a name that a person gave."""
+"""Settings of a source: the camera's serial number, and whether a person gave it as a name."""
 NoticeHandler = Callable[[CarpusFault], None]
-"""Hears of faults that are told and not raised: the source goes on. Called where it is opened or frames are read."""
+"""Receives notices (faults that are not raised) while the source goes on."""
 
 
 def ignore_notice(_fault: CarpusFault) -> None:
-    """For those who do not want to be told."""
+    """Ignore a notice."""
 
 
 @dataclass(frozen=True, slots=True)
 class SourceInfo:
-    """Facts about a source. ``frame_count`` is None for a live camera; ``has_depth`` whether depth comes at all.
+    """Facts about a source.
 
-    ``settings`` (sensor name, driver, modes, registration ...) goes into the session's parameters; ``simulated`` is
-    "yes" there for pictures of a simulated hand. ``compute_recording_id`` and ``recorded`` (ISO 8601 with zone) where
-    the
-    recording says itself which it is and when the hand moved; empty where it does not.
+    Attributes
+    ----------
+    camera : Camera
+        Intrinsics of the colour images.
+    has_depth : bool
+        Whether there is any depth.
+    frame_count : int, optional
+        None for a live camera.
+    settings : mapping
+        Camera, driver, modes, registration ...; stored in the session's parameters. ``simulated`` is "yes" for a
+        simulated hand.
+    recording_id, recorded : str
+        Identity and date (ISO 8601 with zone) that the recording itself states, else empty.
     """
 
     name: str
@@ -51,7 +59,7 @@ class SourceInfo:
 
     @property
     def sensor(self) -> DepthSensor:
-        """The depth sensor; it goes with the camera to whoever weighs its readings."""
+        """Depth sensor, with its noise model."""
         return self.camera.sensor
 
     @property
@@ -60,45 +68,45 @@ class SourceInfo:
 
     @property
     def is_nameless(self) -> bool:
-        """Whether the camera does not tell its number by itself."""
+        """Whether the camera has no serial number of its own."""
         return not self.serial or SERIAL_GIVEN in self.settings
 
 
 def is_simulated(info: SourceInfo) -> bool:
-    """Whether a source shows a simulated hand."""
+    """Return whether a source shows a simulated hand."""
     return info.settings.get(SIMULATED) == "yes"
 
 
 class FrameSource(Protocol):
-    """Frames in order, each with its own time; iterating raises a typed fault, never yields a wrong picture."""
+    """Source of frames in order of time; iterating raises a fault rather than yielding a wrong image."""
 
     @property
     def info(self) -> SourceInfo: ...
 
     def frames(self) -> Iterator[Frame]:
-        """Frames from the first on. A stored recording may be walked through again; a camera may not."""
+        """Yield frames from the first on. A stored recording can be repeated, a camera cannot."""
         ...
 
     def close(self) -> None:
-        """Give back the device or files; may be called twice."""
+        """Release device or files; may be called twice."""
         ...
 
 
 DateSource = Literal["asked", "recording", "times", "file"]
-"""A person; the recording itself; the times of its pictures, which count from 1970; the date of its file."""
+"""Where the date comes from: a person, the recording itself, its times (counted from 1970), or the date of its file."""
 
 
 class RecordingDate(NamedTuple):
-    """``time`` the hand moved, ISO 8601 with zone, and who says so."""
+    """Time of a recording, ISO 8601 with zone, and its source."""
 
     time: str
     source: DateSource
 
 
 def compute_recording_id(info: SourceInfo, first: Frame) -> str:
-    """The identity of a recording: its own, else one made of its first frame, the same whenever it is read.
+    """Return the identity of a recording: its own, else a UUID made of its first frame.
 
-    Of the frame's time and depth, which are stored without loss everywhere; of the colour where there is no depth.
+    The UUID is made of time and depth, which are lossless in every format, or of colour if there is no depth.
     """
     with suppress(ValueError):
         return str(uuid.UUID(info.recording_id))
@@ -108,7 +116,7 @@ def compute_recording_id(info: SourceInfo, first: Frame) -> str:
 
 
 def find_recording_date(info: SourceInfo, first_s: float, path: Path | None) -> RecordingDate | None:
-    """When a stored recording was made; the date of its file is the last resort, None where there is none."""
+    """Return when a recording was made, as a last resort the date of its file; None if unknown."""
     if is_moment(info.recorded):
         return RecordingDate(info.recorded, "recording")
     by_times = moment_from_timestamp(first_s)

@@ -1,4 +1,4 @@
-"""What a stream of a camera sends: which sensor, size, rate and pixels. The numbers are OpenNI2's."""
+"""Video modes: sensor, size, rate and pixel format; the numbers are OpenNI2's."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class VideoMode:
 
 @dataclass(frozen=True, slots=True)
 class Lens:
-    """Intrinsics of the colour pictures as the driver tells them: pixels, and the lens's model with coefficients."""
+    """Intrinsics of the colour images as the driver states them, px, with distortion model and coefficients."""
 
     fx_px: float
     fy_px: float

@@ -1,1 +1,1 @@
-"""Live cameras: a driver is served in a process of its own."""
+"""Camera drivers, each served in a process of its own."""

@@ -1,7 +1,6 @@
-"""The live cameras that there are (one line here and one module for each), and what is known of a kind before one is
-opened: for `carpus doctor` its library, and once it is open its firmware and port.
+"""Registry of live cameras.
 
-A module has ``KIND``, a :class:`CameraKind`. Loading it loads no driver.
+A camera module has a ``KIND``, a :class:`CameraKind`. Importing it loads no driver.
 """
 
 from __future__ import annotations
@@ -28,9 +27,11 @@ if TYPE_CHECKING:
 def check_library(
     name: str, package: str, load: Callable[[], None], loads_library: bool = True, is_needed: bool = True
 ) -> Finding | None:
-    """The maker's library by its package; loaded, in a process of its own, where ``loads_library`` and ``is_needed``;
-    None where it
-    is missing and nothing wants it."""
+    """Check the camera maker's library by its package.
+
+    It is loaded, in a process of its own, if ``loads_library`` and ``is_needed``.
+    Returns None if it is missing and not needed.
+    """
     from importlib.metadata import PackageNotFoundError, version  # which every command would load here
 
     try:
@@ -50,7 +51,7 @@ def check_library(
 
 
 def _find_load_error(load: Callable[[], None]) -> str:
-    """Why the library cannot be loaded; empty when it can. Only who asks loads what starts processes."""
+    """Return why the library cannot be loaded; empty if it can."""
     from carpus.core.platform.child_process import ChildDiedError, call_in_child
 
     try:
@@ -66,7 +67,7 @@ USB_3 = phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub.
 
 
 def check_firmware_and_usb(settings: Mapping[str, str]) -> Sequence[Finding]:
-    """Firmware and port of an opened camera."""
+    """Check firmware and USB port of an opened camera."""
     findings = []
     firmware, wanted, usb = (settings.get(key, "") for key in ("firmware", "firmware_wanted", "usb"))
     if firmware and wanted and _parse_version(firmware) < _parse_version(wanted):
@@ -87,27 +88,33 @@ def _parse_version(version_text: str) -> list[int]:
 
 
 class CameraOpener(Protocol):
-    """Opens a camera. ``uri`` None: the first; ``camera``: measured intrinsics; ``patience_s``: how long it may be
-    away before that is a fault. Its driver is loaded then and not before."""
+    """Function that opens a camera and loads its driver.
+
+    ``uri`` None opens the first camera; ``camera`` are measured intrinsics; ``patience_s`` is how long the camera
+    may be absent before :class:`CameraLost` is raised.
+    """
 
     def __call__(
         self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: NoticeHandler
     ) -> ProcessCamera: ...
 
 
-def no_findings(_settings: Mapping[str, str]) -> Sequence[Finding]:
-    """Of a kind of which nothing more is known."""
-    return ()
-
-
 @dataclass(frozen=True, slots=True)
 class CameraKind:
-    """``models`` are names by USB vendor and product (four hexadecimal digits each).
+    """Kind of camera: its models, how it is opened and checked.
 
-    ``check_driver`` says how its library is, None where nothing need be said: whether its version is asked (in a
-    process
-    of its own, half a second), and whether a camera of the kind is wanted; ``check_settings`` what its settings, once
-    opened, tell of firmware and port.
+    Attributes
+    ----------
+    models : mapping
+        Name by USB vendor and product (four hexadecimal digits each).
+    check_driver : callable
+        Finding on the library. Arguments: whether to load it (half a second), whether the kind is needed.
+    needed_mbit : int
+        Bandwidth that its images need.
+    port_advice : str
+        Advice on the port to use.
+    check_settings : callable
+        Further findings from the settings of an opened camera.
     """
 
     title: str
@@ -116,11 +123,11 @@ class CameraKind:
     check_driver: Callable[[bool, bool], Finding | None]
     needed_mbit: int
     port_advice: Phrase
-    check_settings: Callable[[Mapping[str, str]], Sequence[Finding]] = no_findings
+    check_settings: Callable[[Mapping[str, str]], Sequence[Finding]] = lambda _settings: ()
 
     @property
     def udev_rules(self) -> str:
-        """For udev, a line for each vendor: whoever sits at the computer may open the camera."""
+        """Udev rules that let the logged-in user open the cameras, one line for each vendor."""
         lines = []
         for vendor in sorted({vendor for vendor, _ in self.models}):
             products = "|".join(product for of, product in self.models if of == vendor)
@@ -129,7 +136,7 @@ class CameraKind:
         return "\n".join(lines)
 
     def find_connected(self) -> list[UsbCamera]:
-        """Those plugged in; empty where the system does not tell."""
+        """Return the connected cameras of this kind; none on a system that does not list them."""
         return find_usb_cameras(self.models)
 
 
@@ -138,19 +145,19 @@ CAMERAS = {
     "realsense": "realsense",
     "orbbec": "orbbec",
 }
-"""Module by kind; the first is the usual one."""
+"""Module by kind; the first is the default."""
 
 
 def parse_kind(uri: str) -> str:
-    """Which kind a camera's address names before its first colon; the usual one where it names none."""
+    """Return the kind that a camera address names before its first colon, else the default."""
     named = uri.partition(":")[0]
     return named if named in CAMERAS else next(iter(CAMERAS))
 
 
 def validate_address(uri: str) -> None:
-    """Raise :class:`CameraUnknown` where ``uri`` names a kind that there is not.
+    """Raise :class:`CameraUnknown` if the address names an unknown kind.
 
-    Without a kind it is OpenNI2's own address, ``1d27/0601@1/7``, which has a stroke, or empty.
+    Without a kind it is an OpenNI2 address with a slash, such as ``1d27/0601@1/7``, or empty.
     """
     named = uri.partition(":")[0]
     if named and named not in CAMERAS and "/" not in uri:
@@ -158,23 +165,26 @@ def validate_address(uri: str) -> None:
 
 
 def load_camera_kind(name: str) -> CameraKind:
-    """The kind of that name."""
+    """Return the kind of a name."""
     kind: CameraKind = import_module(f"{__package__}.{CAMERAS[name]}").KIND
     return kind
 
 
 def format_udev_rules() -> str:
-    """Of all kinds, as the Debian package brings them."""
+    """Return the udev rules of all kinds, as the Debian package installs them."""
     return "".join(f"# {kind.title}\n{kind.udev_rules}\n" for kind in map(load_camera_kind, CAMERAS))
 
 
 def find_connected_cameras() -> list[tuple[str, UsbCamera]]:
-    """The cameras plugged in, of all kinds, with the names of their kinds; empty where the system does not tell."""
+    """Return kind and camera of all connected cameras; none on a system that does not list them."""
     return [(name, camera) for name in CAMERAS for camera in load_camera_kind(name).find_connected()]
 
 
 def find_camera_name(uri: str = "") -> str | None:
-    """Name of what :func:`open_camera` would open, empty where the system does not tell, None where there is none."""
+    """Return the name of the camera that :func:`open_camera` would open.
+
+    Empty on a system that does not list its cameras; None if there is no camera.
+    """
     wanted = [camera.name for name, camera in find_connected_cameras() if not uri or name == parse_kind(uri)]
     if wanted:
         return wanted[0]
@@ -182,17 +192,23 @@ def find_camera_name(uri: str = "") -> str | None:
 
 
 def choose_kind(uri: str = "") -> str:
-    """The kind that :func:`open_camera` opens: as named, else of the first that is plugged in, else the usual one."""
+    """Return the kind that :func:`open_camera` opens: the named, else the first connected, else the default."""
     return parse_kind(uri) if uri else next((name for name, _ in find_connected_cameras()), parse_kind(uri))
 
 
 def open_camera(
     uri: str = "", *, camera: Camera | None = None, patience_s: float = math.inf, notice: NoticeHandler = ignore_notice
 ) -> ProcessCamera:
-    """Open a camera by its address (``KIND``, or ``KIND:`` and what the kind calls it); empty: the first plugged in.
+    """Open a camera by its address: empty (the first connected), ``KIND``, or ``KIND:`` and the kind's own address.
 
-    Raises :class:`CameraUnknown`, the faults of its module, and :class:`CameraLost` when it is away for more than
-    ``patience_s``.
+    Raises
+    ------
+    CameraUnknown
+        The address names an unknown kind.
+    CameraLost
+        The camera was absent for more than ``patience_s``.
+    CarpusFault
+        Other faults of the camera's module.
     """
     validate_address(uri)
     name = choose_kind(uri)

@@ -1,11 +1,11 @@
-"""The capture process: owns a camera's driver, so that whatever kills or hangs it does not take Carpus along.
+"""The capture process: runs a camera's driver, so that a crash or a hang there does not affect Carpus.
 
-One thread makes every call of the driver. A second one only listens to the owner; when the owner is gone the process
-ends at once, even from within a call. Pictures are copied once into a shared ring and announced through the
-pipe, by which process and owner tell each other everything else.
+One thread makes every call of the driver. A second one listens to the owner; when the owner is gone the process ends
+at once, even from within a call. Images are copied once into a shared ring buffer and announced through the pipe;
+all other messages go through the pipe.
 
-Ring: bounded. A recording waits for a free slot, so nothing is lost. A camera does not wait: with no slot free the
-picture is dropped, and its number is missing.
+The ring buffer is bounded. A recording waits for a free slot, so nothing is lost. A camera does not wait: without a
+free slot the image is dropped, which shows as a gap in the image numbers.
 """
 
 from __future__ import annotations
@@ -38,12 +38,20 @@ from carpus.core.platform.child_process import end_with_owner
 
 @dataclass(frozen=True, slots=True)
 class CameraConfig:
-    """Open a live camera: the first, or the one with this serial number; ``models`` names what may be plugged in, by
-    USB vendor and product; ``uri`` is OpenNI2's address of the one to open, empty for any.
+    """Which camera to open and how.
 
-    ``make_context`` makes the library's context in the capture process; None: the one of the real bus. A stand-in
-    puts a
-    software device of the library there, which is then found, opened and read like a camera.
+    Attributes
+    ----------
+    serial : str
+        Serial number of the camera, empty for any.
+    size_px, fps
+        Size and rate of the images.
+    models : mapping
+        Name by USB vendor and product.
+    make_context : callable, optional
+        Makes the library's context in the capture process (tests use a software device); None for the real bus.
+    uri : str
+        OpenNI2 address, empty for any.
     """
 
     serial: str = ""
@@ -56,7 +64,7 @@ class CameraConfig:
 
 @dataclass(frozen=True, slots=True)
 class RingBuffer:
-    """The shared memory: ``slots`` pictures of at most ``slot_bytes``."""
+    """Shared memory of ``slots`` images of at most ``slot_bytes``."""
 
     name: str
     slots: int
@@ -65,14 +73,14 @@ class RingBuffer:
 
 @dataclass(frozen=True, slots=True)
 class Heartbeat:
-    """The process is up and not stuck in the driver."""
+    """Message: the process is up and not stuck in the driver."""
 
 
 @dataclass(frozen=True, slots=True)
 class DeviceOpened:
-    """The device is open and its streams run; ``modes`` are those of the pictures that come through the ring.
+    """Message: the device is open and streams ``modes``.
 
-    ``settings`` goes into the session; ``lens`` where the driver knows it, else perhaps the ``field_of_view_rad``.
+    ``settings`` goes into the session. ``lens`` if the driver states it, else ``field_of_view_rad`` if known.
     """
 
     modes: Mapping[Sensor, VideoMode]
@@ -85,7 +93,7 @@ class DeviceOpened:
 
 @dataclass(frozen=True, slots=True)
 class ImageArrived:
-    """A picture lies in ``slot`` until :class:`ReleaseSlot` gives it back; a ``number`` that is missing was dropped."""
+    """Message: an image is in ``slot`` until :class:`ReleaseSlot`; a missing ``number`` was dropped."""
 
     sensor: Sensor
     slot: int
@@ -95,19 +103,19 @@ class ImageArrived:
 
 @dataclass(frozen=True, slots=True)
 class ExposureLocked:
-    """Exposure and white balance are held from now on; ``is_locked`` whether the camera can."""
+    """Message: exposure and white balance are locked, if the camera can."""
 
     is_locked: bool
 
 
 @dataclass(frozen=True, slots=True)
 class StreamEnded:
-    """The recording is over, or the process was asked to stop."""
+    """Message: the recording has ended, or the process was asked to stop."""
 
 
 @dataclass(frozen=True, slots=True)
 class FaultReport:
-    """The process gives up; ``fault`` and ``detail`` say why."""
+    """Message: the process ends with this fault."""
 
     fault: type[CarpusFault]
     detail: str
@@ -115,19 +123,19 @@ class FaultReport:
 
 @dataclass(frozen=True, slots=True)
 class ReleaseSlot:
-    """To the process: ``slot`` may be written again."""
+    """Command: the slot may be overwritten."""
 
     slot: int
 
 
 @dataclass(frozen=True, slots=True)
 class LockExposure:
-    """To the process: keep exposure and white balance as they are."""
+    """Command: lock exposure and white balance."""
 
 
 @dataclass(frozen=True, slots=True)
 class StopCapture:
-    """To the process: close the device and end."""
+    """Command: close the device and end."""
 
 
 CaptureReport = Heartbeat | DeviceOpened | ImageArrived | ExposureLocked | StreamEnded | FaultReport
@@ -142,7 +150,7 @@ WARM_UP_S = 6.0
 
 
 class CaptureFailed(Exception):
-    """Ends the process with a fault for the owner."""
+    """Ends the capture process with a fault for the owner."""
 
     def __init__(self, fault: type[CarpusFault], detail: str) -> None:
         super().__init__(detail)
@@ -151,7 +159,7 @@ class CaptureFailed(Exception):
 
 
 class StreamWatchdog:
-    """When each picture sensor of a camera was last heard: it may warm up, then none may fall silent."""
+    """Fails if a sensor stops delivering images after its warm-up."""
 
     def __init__(self, sensors: Iterable[Sensor]) -> None:
         self._last_s = dict.fromkeys(sensors, time.monotonic() + WARM_UP_S - MAX_SILENCE_S)
@@ -160,17 +168,17 @@ class StreamWatchdog:
         self._last_s[sensor] = time.monotonic()
 
     def check(self) -> None:
-        """Raises :class:`CaptureFailed` where one has been silent for too long."""
+        """Raise :class:`CaptureFailed` if a sensor has been silent for too long."""
         for sensor, last_s in self._last_s.items():
             if time.monotonic() - last_s > MAX_SILENCE_S:
                 raise CaptureFailed(CameraLost, f"no {sensor.name.lower()} pictures for {MAX_SILENCE_S:g} s")
 
 
 class CaptureOutlet:
-    """What a driver's code in the capture process hands pictures and reports to, and hears commands from.
+    """The driver's connection to the owner: publishes images and reports, receives commands.
 
-    ``lock_exposure`` is called when exposure and white balance are to stay as they are; it answers whether the camera
-    can, or None where that is reported later.
+    ``lock_exposure`` is called to lock exposure and white balance. It returns whether the camera can, or None if that
+    is reported later.
     """
 
     def __init__(self, link: Connection, commands: queue.SimpleQueue[CaptureCommand], ring: RingBuffer) -> None:
@@ -188,11 +196,10 @@ class CaptureOutlet:
 
     @property
     def has_free_slot(self) -> bool:
-        """Whether the next picture finds a slot."""
         return bool(self._free)
 
     def retain(self, *objects: object) -> None:
-        """A driver's threads call back and copy until the very end: what they use lives as long as the process."""
+        """Keep objects alive until the process ends, since the driver's threads may use them until then."""
         self._retained += objects
 
     def send(self, report: CaptureReport) -> None:
@@ -200,17 +207,24 @@ class CaptureOutlet:
         self._last_sent = time.monotonic()
 
     def send_heartbeat(self) -> None:
-        """Tell the owner now and then that the driver is not stuck."""
+        """Tell the owner once a second that the driver is not stuck."""
         if time.monotonic() - self._last_sent > HEARTBEAT_S:
             self.send(Heartbeat())
 
     def run(
         self, sensors: Iterable[Sensor], unplugged: threading.Event, forward_images: Callable[[StreamWatchdog], None]
     ) -> None:
-        """The loop of every camera, until it is to stop: ``forward_images`` waits a moment for pictures, hands on
-        what came
-        and notes which sensor was heard; ``unplugged`` is set by the driver's own threads when the camera was
-        unplugged."""
+        """Run the loop of a camera until it is to stop.
+
+        Parameters
+        ----------
+        sensors : iterable of Sensor
+            Sensors that must deliver images.
+        unplugged : threading.Event
+            Set by the driver's threads when the camera was unplugged.
+        forward_images : callable
+            Waits briefly for images, publishes them and resets the watchdog of their sensor.
+        """
         heard = StreamWatchdog(sensors)
         while not self.is_stopping:
             self.handle_commands(block=False)
@@ -221,7 +235,7 @@ class CaptureOutlet:
             self.send_heartbeat()
 
     def publish(self, sensor: Sensor, number: int, timestamp_us: int, image: memoryview) -> None:
-        """Copy one picture (contiguous bytes) and announce it; dropped when no slot is free or it is too large."""
+        """Copy one image (contiguous bytes) and announce it; dropped if no slot is free or it is too large."""
         if self._free and image.nbytes <= self._ring.slot_bytes:
             slot = self._free.pop()  # the one freed last: what is never needed takes no memory
             start = slot * self._ring.slot_bytes
@@ -229,7 +243,7 @@ class CaptureOutlet:
             self.send(ImageArrived(sensor, slot, number, timestamp_us))
 
     def handle_commands(self, *, block: bool) -> None:
-        """Carry out what the owner asked for; with ``block`` wait a moment for it."""
+        """Carry out the owner's commands; with ``block`` wait briefly for one."""
         while True:
             try:
                 command = self._commands.get(timeout=POLL_MS / 1000) if block else self._commands.get_nowait()
@@ -247,12 +261,11 @@ class CaptureOutlet:
 
 
 ServeFunction = Callable[[CaptureOutlet, Any], None]
-"""A driver's code: serves a plan until its end or ``outlet.is_stopping``; raises :class:`CaptureFailed` or
-DriverMissing."""
+"""A driver's code: serves a camera until ``outlet.is_stopping``; raises :class:`CaptureFailed` or DriverMissing."""
 
 
 def run(link: Connection, serve: ServeFunction, plan: object, ring: RingBuffer) -> None:
-    """Entry of the process: serve ``plan`` until its end, a :class:`StopCapture`, or the death of the owner."""
+    """Serve a camera until it ends, :class:`StopCapture` comes, or the owner dies (entry point of the process)."""
     end_with_owner()
     commands: queue.SimpleQueue[CaptureCommand] = queue.SimpleQueue()
     threading.Thread(target=_receive_commands, args=(link, commands), name="commands", daemon=True).start()
@@ -286,10 +299,16 @@ _PERMISSION_WORDS = ("permission", "access denied", "usb_status_access", "errno=
 
 
 def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] = ()) -> CaptureFailed:
-    """Of the cameras ``connected`` on the bus the driver lists only ``listed`` (in words), and the wanted is not
-    among them.
+    """Return why the driver does not list the wanted camera.
 
-    The bus does not tell the serial numbers that drivers tell: a camera that is not listed may be the wanted one.
+    The bus does not state the serial numbers that drivers do: an unlisted camera may be the wanted one.
+
+    Parameters
+    ----------
+    connected : sequence of UsbCamera
+        Cameras on the bus.
+    listed : sequence of str
+        Cameras that the driver lists.
     """
     if len(connected) > len(listed):
         for camera in connected:
@@ -303,8 +322,10 @@ def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] 
 
 
 def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CaptureFailed:
-    """The driver could not open a camera it lists, for this reason in its own words. Who holds it is no help here: the
-    driver that failed may have taken it itself."""
+    """Return why the driver could not open a listed camera, from its own error message.
+
+    Which driver claims the camera is no help: the driver that failed may have claimed it itself.
+    """
     said = reason.lower()
     if any(word in said for word in _BUSY_WORDS):
         return CaptureFailed(CameraBusy, reason)

@@ -1,4 +1,4 @@
-"""The owner's end of a capture process: starts it, listens to it, ends it."""
+"""The owner's side of a capture process."""
 
 from __future__ import annotations
 
@@ -29,21 +29,18 @@ from carpus.core.model.phrase import phrase
 from carpus.core.platform.child_process import ChildProcess
 
 SLOTS = 8
-"""Pictures of a recording, which waits."""
+"""Slots for a recording, which waits for a free one."""
 START_TIMEOUT_S = 30.0
-"""A loaded computer may take long to start a process; this is not the driver's fault."""
+"""A busy computer may take long to start a process; this is not the driver's fault."""
 REPORT_TIMEOUT_S = 4.5
 """The process reports each second; silent for longer, it is stuck in the driver."""
 STOP_TIMEOUT_S = 3.0
 POLL_S = 0.1
-"""How often a wait looks whether it is still wanted."""
+"""How often a wait checks whether it is cancelled."""
 
 
 class CaptureProcess:
-    """A running capture process, in which ``serve`` carries out ``plan``, and the memory it shares.
-
-    One thread at a time calls it.
-    """
+    """Running capture process and the memory shared with it; to be called by one thread at a time."""
 
     def __init__(self, serve: ServeFunction, plan: object, subject: str, slot_bytes: int, slots: int = SLOTS) -> None:
         self._subject = subject
@@ -64,7 +61,7 @@ class CaptureProcess:
         return self._child.pid
 
     def receive_opened(self, closing: threading.Event, timeout_s: float) -> DeviceOpened | None:
-        """What was opened, at most ``timeout_s`` after the process is up; None when ``closing``."""
+        """Wait until the device is open; None if ``closing`` is set."""
         if self.receive_report(closing, START_TIMEOUT_S) is None:
             return None
         while (report := self.receive_report(closing, timeout_s)) is not None:
@@ -75,7 +72,7 @@ class CaptureProcess:
         return None
 
     def receive_report(self, closing: threading.Event, timeout_s: float = REPORT_TIMEOUT_S) -> CaptureReport | None:
-        """The next report; None when ``closing``. Raises the fault that ended the process."""
+        """Wait for the next report; None if ``closing`` is set. Raises the fault that ended the process."""
         deadline = time.monotonic() + timeout_s
         while not closing.is_set():
             try:
@@ -93,7 +90,13 @@ class CaptureProcess:
         return None
 
     def view_image(self, arrived: ImageArrived, mode: VideoMode) -> NDArray[Any]:
-        """The picture in the ring, a view that lives until :meth:`release_slot`: (H, W, 3) uint8 or (H, W) uint16."""
+        """Return a view of the image in the ring buffer, valid until :meth:`release_slot`.
+
+        Returns
+        -------
+        ndarray
+            Colour (H, W, 3) uint8 or depth (H, W) uint16.
+        """
         offset = arrived.slot * self._slot_bytes
         height, width = mode.height_px, mode.width_px
         if arrived.sensor == Sensor.COLOR:
@@ -104,14 +107,14 @@ class CaptureProcess:
         self.send_command(ReleaseSlot(arrived.slot))
 
     def send_command(self, command: CaptureCommand) -> None:
-        """Pass a command on; a dead process is noticed by the next :meth:`receive_report`."""
+        """Send a command; a dead process is noticed by the next :meth:`receive_report`."""
         try:
             self._link.send(command)
         except OSError:
             return
 
     def close(self, *, gently: bool) -> None:
-        """End the process, ``gently`` so that a camera is given back; may be called twice."""
+        """End the process; ``gently`` lets it release the camera. May be called twice."""
         if self._closed:
             return
         if gently:
@@ -124,7 +127,7 @@ class CaptureProcess:
         self._release_memory()
 
     def discard_images(self) -> None:
-        """Forget the pictures that wait: they are old. Other reports are kept."""
+        """Discard the queued images, which are old; other reports are kept."""
         try:
             while self._link.poll(0):
                 report: CaptureReport = self._link.recv()
@@ -136,7 +139,7 @@ class CaptureProcess:
             return  # the next look for a report tells why
 
     def _drain_pipe(self) -> None:
-        """Read on, so that the process is not stuck in a full pipe."""
+        """Empty the pipe, so that the process does not block on it."""
         try:
             while self._link.poll(0):
                 self._link.recv()

@@ -1,6 +1,6 @@
-"""Holds exposure and white balance of a camera that does not tell what its automatics have chosen.
+"""Lock exposure and white balance of a camera that does not report the values its automatic has chosen.
 
-Automatics are switched off, then values are looked for at which the pictures look as before.
+The automatic is switched off, then values are searched at which the images look as before.
 """
 
 from __future__ import annotations
@@ -13,24 +13,25 @@ from typing import Protocol
 from carpus.core.capture.devices.capture_child import CaptureOutlet, ExposureLocked
 
 EXPOSURE_SHARE = 0.9
-"""Of a picture's time the longest exposure: a longer one would slow the camera down."""
+"""Longest exposure as a share of the frame period: a longer one would slow the camera down."""
 EXPOSURE_UNIT_S = 1e-4
-"""In which both makers count exposure."""
+"""Unit in which both makers count exposure."""
 PIXEL_STEP = 97
-"""Every so-many-th pixel is looked at."""
+"""Every so-many-th pixel is sampled."""
 EFFECT_DELAY_FRAMES = 7
-"""Pictures until a change is seen for certain: some are on their way."""
+"""Images until a change is certain to be visible."""
 DONE_TOLERANCE, HELD_TOLERANCE = 0.02, 0.10
-"""Share by which brightness, and red against blue, may differ: to be done, and to count as held at all."""
+"""Relative difference of brightness and of red/blue: at which the search ends, and up to which colours count as held.
+"""
 MAX_ROUNDS = 12
 FIRST_STEP_K = 300.0
 MAX_LOG_STEP = 1.0
-"""Of the logarithm of the exposure in one round."""
+"""Largest change of the logarithm of the exposure in one round."""
 
 
 @dataclass(frozen=True, slots=True)
 class ColorStatistics:
-    """Mean brightness (0 to 255), and the logarithm of red against blue."""
+    """Mean brightness (0 to 255) and logarithm of red over blue."""
 
     brightness: float
     red_blue: float
@@ -38,22 +39,24 @@ class ColorStatistics:
 
 @dataclass(frozen=True, slots=True)
 class ColorSettings:
-    """What to set next; ``kelvin`` 0 where white balance cannot be set."""
+    """Exposure and white balance to set; ``kelvin`` 0 if white balance cannot be set."""
 
     exposure: float
     kelvin: float
 
 
 def measure_colors(image: Sequence[int]) -> ColorStatistics:
-    """Of the bytes of an RGB picture."""
+    """Return the colour statistics of an RGB image (bytes)."""
     red, green, blue = (sum(image[channel :: 3 * PIXEL_STEP]) + 1.0 for channel in range(3))
     count = len(range(0, len(image), 3 * PIXEL_STEP))
     return ColorStatistics((red + green + blue) / (3.0 * count), math.log(red / blue))
 
 
 class ColorController:
-    """Steps towards the pictures of before. Brightness follows the exposure; how red against blue follows the colour
-    temperature is learnt by a first step."""
+    """Iterative search for the exposure and white balance of a reference image.
+
+    Brightness is proportional to exposure. How red/blue depends on the colour temperature is learnt by a first step.
+    """
 
     def __init__(
         self,
@@ -72,7 +75,7 @@ class ColorController:
         self.has_converged = False
 
     def update(self, measured: ColorStatistics) -> ColorSettings | None:
-        """One more picture: what to set, None for nothing now."""
+        """Add one image; return what to set, or None for nothing now."""
         if self._rounds == self._frames == 0:
             self._frames = 1
             return ColorSettings(self._exposure, self._kelvin)
@@ -107,13 +110,13 @@ def _clamp(value: float, reach: tuple[float, float]) -> float:
 
 
 def max_exposure(fps: float) -> float:
-    """In :data:`EXPOSURE_UNIT_S`."""
+    """Return the longest exposure at a frame rate, in units of :data:`EXPOSURE_UNIT_S`."""
     return EXPOSURE_SHARE / fps / EXPOSURE_UNIT_S
 
 
 @dataclass(frozen=True, slots=True)
 class Control:
-    """A value that can be set, and between which it can be; the unit is the camera's own."""
+    """Value and range of a camera control, in the camera's own unit."""
 
     value: float
     min_value: float
@@ -121,27 +124,27 @@ class Control:
 
 
 class ColorControls(Protocol):
-    """What a driver can set of its colour camera."""
+    """Colour controls of a camera driver."""
 
     def disable_automatic(self) -> tuple[bool, bool]:
-        """Switch automatic exposure and white balance off; which of both took it."""
+        """Switch automatic exposure and white balance off; return for each whether it was."""
         ...
 
     def read_exposure(self) -> Control | None:
-        """None where it cannot be set."""
+        """Return the exposure; None if it cannot be set."""
         ...
 
     def read_white_balance(self) -> Control | None:
-        """Colour temperature in kelvin; None where it cannot be set."""
+        """Return the colour temperature in kelvin; None if it cannot be set."""
         ...
 
     def apply(self, step: ColorSettings) -> None:
-        """Set both to the nearest that the camera takes."""
+        """Set both to the nearest values that the camera accepts."""
         ...
 
 
 class ColorLock:
-    """Lets the camera follow the light until it is to hold; that it holds is reported to the owner of the process."""
+    """Lock of exposure and white balance; its success is reported to the owner of the process."""
 
     def __init__(self, outlet: CaptureOutlet, controls: ColorControls) -> None:
         self._outlet, self._controls = outlet, controls
@@ -149,7 +152,7 @@ class ColorLock:
         self._last_image: bytes | None = None
 
     def start(self) -> bool | None:
-        """Begin to hold, which is reported when it is done."""
+        """Start to lock; return whether it succeeded, or None if that is reported later."""
         self._controller = None
         took = self._controls.disable_automatic()
         if self._last_image is None:
@@ -167,7 +170,7 @@ class ColorLock:
         return None
 
     def add_frame(self, image: Sequence[int]) -> None:
-        """The bytes of one more colour picture, red first."""
+        """Take one more colour image (RGB bytes)."""
         if self._controller is None:
             self._last_image = bytes(image)
             return

@@ -1,9 +1,8 @@
-"""The OpenNI2 C library: types, calls, statuses, nothing else.
+"""Bindings to the OpenNI2 C library: types, calls and statuses.
 
-One thread makes all calls. The library can take its process down (a close in the wrong order, a bad file), so it
-is used in a process of its own: see :mod:`core.capture.devices.openni2_camera`. Seeking is left out on purpose:
-in the
-builds that systems ship, the call never returns.
+One thread makes all calls. The library can crash its process (a close in the wrong order, a bad file), so it is used in
+a process of its own, see :mod:`core.capture.devices.openni2_camera`. There is no seeking: in the builds that systems
+ship, the call never returns.
 """
 
 from __future__ import annotations
@@ -27,12 +26,15 @@ API_VERSION = 2002
 LIBRARY_NAMES = {"win32": ("OpenNI2.dll",), "darwin": ("libOpenNI2.dylib",)}
 LINUX_NAMES = ("libOpenNI2.so.0", "libOpenNI2.so")
 SETTLE_S = 0.08
-"""Pause between stopping streams and destroying them. The drivers do not wait for their own threads: the player's
-may be 10 ms, the dummy device's 33 ms behind, and then touches memory that is gone."""
+"""Pause between stopping streams and destroying them.
+
+The drivers do not wait for their own threads, which may be 10 ms (player) or 33 ms (dummy device) behind and then
+touch freed memory.
+"""
 
 
 class Status(IntEnum):
-    """What a call returns."""
+    """Return value of a call."""
 
     OK = 0
     ERROR = 1
@@ -69,7 +71,7 @@ class StreamProperty(IntEnum):
 
 
 class OpenNI2Error(Exception):
-    """A call of the library that did not succeed; ``reason`` is the library's own text."""
+    """Failed call of the library; ``reason`` is the library's own text."""
 
     def __init__(self, call: str, status: int, reason: str) -> None:
         super().__init__(f"{call}: {status}: {reason}")
@@ -156,7 +158,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
 
 @dataclass(frozen=True, slots=True)
 class DeviceInfo:
-    """A device as the library lists it."""
+    """Device as the library lists it."""
 
     uri: str
     vendor: str
@@ -167,7 +169,7 @@ class DeviceInfo:
 
 @dataclass(frozen=True, slots=True)
 class VideoFrame:
-    """One picture of a stream. ``address`` points into the library's memory, valid until the picture is released."""
+    """One image of a stream; ``address`` is in the library's memory, valid until it is released."""
 
     sensor: int
     index: int
@@ -185,10 +187,14 @@ DisconnectHandler = Callable[[str], None]
 
 
 def load_library() -> ctypes.CDLL:
-    """The library with all signatures set; raises :class:`DriverMissing`.
+    """Load the library and set all signatures.
 
-    Looked for where the system's loader looks, then where the vendors' installers say
-    (``OPENNI2_REDIST64``, ``OPENNI2_REDIST``).
+    It is searched by the system's loader, then in the vendors' folders (``OPENNI2_REDIST64``, ``OPENNI2_REDIST``).
+
+    Raises
+    ------
+    DriverMissing
+        No library was found, or it lacks a function.
     """
     names = LIBRARY_NAMES.get(sys.platform, LINUX_NAMES)
     folders = [os.environ[key] for key in ("OPENNI2_REDIST64", "OPENNI2_REDIST") if os.environ.get(key)]
@@ -212,8 +218,10 @@ def load_library() -> ctypes.CDLL:
 
 
 def library_version() -> str:
-    """Version of the library, to be asked in a process of its own: where a thread that is no more has loaded it, being
-    asked ends the process."""
+    """Return the version of the library; to be called in a process of its own.
+
+    If the thread that loaded the library has ended, the call ends the process.
+    """
     return _read_version(load_library())
 
 
@@ -223,7 +231,7 @@ def _read_version(library: ctypes.CDLL) -> str:
 
 
 class Context:
-    """The initialised library. Use as ``with Context() as library:``; one per process."""
+    """Initialised library, one per process: ``with Context() as library:``."""
 
     def __init__(self) -> None:
         self._c = load_library()
@@ -259,9 +267,9 @@ class Context:
             self._c.oniReleaseDeviceList(first)
 
     def register_disconnect_handler(self, on_disconnect: DisconnectHandler) -> None:
-        """Hear of unplugged devices, by uri.
+        """Call ``on_disconnect`` with the URI of each unplugged device.
 
-        The handler runs on a thread of the library: it may only note the fact, never call back.
+        It runs on a thread of the library: it may only note the fact and must not call the library.
         """
 
         def handle_disconnect(info: Any, _cookie: int | None) -> None:
@@ -275,7 +283,10 @@ class Context:
         self.check("oniRegisterDeviceCallbacks", status)
 
     def open(self, uri: str | bytes) -> Device:
-        """Open a device or a recording. A path must be plain ASCII and shorter than 256 bytes, or the library dies."""
+        """Open a device or a recording.
+
+        A path must be plain ASCII and shorter than 256 bytes; others crash the library.
+        """
         name = uri.encode() if isinstance(uri, str) else uri
         if not name.isascii() or len(name) >= 256:
             raise ValueError(f"not a name that OpenNI2 survives: {name!r}")
@@ -284,7 +295,7 @@ class Context:
         return Device(self, handle)
 
     def poll_streams(self, streams: Sequence[Stream], timeout_ms: int) -> int | None:
-        """Position in ``streams`` of one that has a picture; None when none came in time."""
+        """Return the index of a stream that has an image; None after the timeout."""
         handles = (c_void_p * len(streams))(*[stream.handle for stream in streams])
         ready = c_int(-1)
         status = self._c.oniWaitForAnyStream(handles, len(streams), byref(ready), timeout_ms)
@@ -294,7 +305,7 @@ class Context:
         return ready.value
 
     def shutdown(self) -> None:
-        """Leave the library; every device must be closed."""
+        """Shut the library down; every device must be closed."""
         if self._callback_handle.value:
             self._c.oniUnregisterDeviceCallbacks(self._callback_handle)
             self._callback_handle = c_void_p()
@@ -302,7 +313,7 @@ class Context:
 
 
 class Device:
-    """An open device or recording."""
+    """Open device or recording."""
 
     def __init__(self, context: Context, handle: c_void_p) -> None:
         self.context = context
@@ -315,12 +326,15 @@ class Device:
         return _device_info(found)
 
     def list_modes(self, sensor: Sensor) -> list[VideoMode]:
-        """Modes offered for ``sensor``; empty when the device has no such sensor."""
+        """Return the modes of a sensor; empty if the device has no such sensor."""
         found = self.context.api.oniDeviceGetSensorInfo(self.handle, sensor)
         return [_video_mode(found[0].modes[i]) for i in range(found[0].mode_count)] if found else []
 
     def create_stream(self, sensor: Sensor) -> Stream:
-        """A stream, not yet started. Create only what will be started: in lockstep it would eat pictures."""
+        """Create a stream, not yet started.
+
+        In lockstep playback a stream that is never started would consume images.
+        """
         handle = c_void_p()
         status = self.context.api.oniDeviceCreateStream(self.handle, sensor, byref(handle))
         self.context.check("oniDeviceCreateStream", status)
@@ -329,14 +343,14 @@ class Device:
         return stream
 
     def read_text(self, key: DeviceProperty) -> str:
-        """A property that is text; empty when the device does not have it."""
+        """Return a text property; empty if the device lacks it."""
         buffer = ctypes.create_string_buffer(256)
         size = c_int(len(buffer))
         status = self.context.api.oniDeviceGetProperty(self.handle, key, buffer, byref(size))
         return buffer.value.decode("utf-8", "replace") if status == Status.OK else ""
 
     def read_version(self, key: DeviceProperty) -> str:
-        """A property that is a version; empty when the device does not have it."""
+        """Return a version property; empty if the device lacks it."""
         found = _Version()
         size = c_int(ctypes.sizeof(found))
         status = self.context.api.oniDeviceGetProperty(self.handle, key, byref(found), byref(size))
@@ -349,15 +363,15 @@ class Device:
         return self._set(key, c_float(value))
 
     def can_register_depth(self) -> bool:
-        """Whether depth can be laid on colour by the device."""
+        """Return whether the device can register depth to colour."""
         return bool(self.context.api.oniDeviceIsImageRegistrationModeSupported(self.handle, 1))
 
     def enable_sync(self) -> bool:
-        """Ask for depth and colour at the same instants; whether the device can."""
+        """Synchronise depth and colour; return whether the device can."""
         return bool(self.context.api.oniDeviceEnableDepthColorSync(self.handle) == Status.OK)
 
     def close(self) -> None:
-        """Stop and destroy all streams, then close; in the one order that the library survives."""
+        """Stop and destroy all streams, then close: the one order that the library survives."""
         for stream in self.streams:
             stream.stop()
         if self.streams:
@@ -373,7 +387,7 @@ class Device:
 
 
 class Stream:
-    """One stream of a device."""
+    """Stream of a device."""
 
     def __init__(self, context: Context, handle: c_void_p, sensor: Sensor) -> None:
         self.context = context
@@ -384,7 +398,7 @@ class Stream:
         self.context.check("oniStreamStart", self.context.api.oniStreamStart(self.handle))
 
     def stop(self) -> None:
-        """No more pictures. Stop all streams of a device before destroying any: see :meth:`Device.close`."""
+        """Stop the stream. Stop all streams of a device before destroying any, see :meth:`Device.close`."""
         self.context.api.oniStreamStop(self.handle)
 
     def destroy(self) -> None:
@@ -405,22 +419,22 @@ class Stream:
         )
 
     def get_int(self, key: StreamProperty) -> int | None:
-        """A property that is a number; None when the stream does not have it."""
+        """Return an integer property; None if the stream lacks it."""
         found = c_int()
         return int(found.value) if self._get(key, found) else None
 
     def get_float(self, key: StreamProperty) -> float | None:
-        """A property that is a real number; None when the stream does not have it."""
+        """Return a float property; None if the stream lacks it."""
         found = c_float()
         return float(found.value) if self._get(key, found) else None
 
     def set_int(self, key: StreamProperty, value: int) -> bool:
-        """Whether the stream took the value."""
+        """Set an integer property; return whether the stream accepted it."""
         return self._set(key, c_int(value))
 
     @contextmanager
     def read_frame(self) -> Iterator[VideoFrame | None]:
-        """The next picture, released on leaving; call only after :meth:`Context.poll_streams` named this stream."""
+        """Yield the next image, released on leaving; only after :meth:`Context.poll_streams` returned this stream."""
         pointer = POINTER(_Frame)()
         status = self.context.api.oniStreamReadFrame(self.handle, byref(pointer))
         self.context.check("oniStreamReadFrame", status)
@@ -455,7 +469,7 @@ class Stream:
 
 
 def _ignore_event(*_: object) -> None:
-    """A device came, which the next enumeration sees, or told its state."""
+    """Ignore a connected device, which the next listing shows, or a change of state."""
 
 
 def _device_info(found: _DeviceInfo) -> DeviceInfo:

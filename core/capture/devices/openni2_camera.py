@@ -1,5 +1,4 @@
-"""The ASUS Xtion and its PrimeSense relatives, by OpenNI2: the library on this computer, how the camera is opened
-inside the capture process and why it could not be, and what is handed on of what it sends."""
+"""Asus Xtion and other PrimeSense cameras, by OpenNI2."""
 
 from __future__ import annotations
 
@@ -57,7 +56,7 @@ MODELS = {
 
 
 def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpened]:
-    """Open a live camera, start colour and depth, lay depth on colour."""
+    """Open a live camera, start colour and depth, register depth to colour."""
     device = _find_device(library, plan)
     streams: dict[Sensor, Stream] = {}
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
@@ -103,8 +102,10 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
 
 
 def _find_device(library: Context, plan: CameraConfig) -> Device:
-    """The one at the plan's address, else the first of its models, or the one of these with its serial number: only an
-    open device tells it."""
+    """Open the device at the configured address, else the first of its models with the wanted serial number.
+
+    Only an open device states its serial number.
+    """
     if plan.uri:
         found = [plan.uri]
     else:
@@ -129,7 +130,7 @@ def _find_device(library: Context, plan: CameraConfig) -> Device:
 def choose_mode(
     modes: Sequence[VideoMode], pixel_format: PixelFormat, size_px: tuple[int, int], fps: int
 ) -> VideoMode | None:
-    """The mode of this format nearest to what is wanted: same size and rate, else the largest that is not larger.
+    """Return the mode of a pixel format nearest to the wanted size and rate, but not larger; None if there is none.
 
     >>> offered = [VideoMode(200, 320, 240, 60), VideoMode(200, 320, 240, 30), VideoMode(200, 1280, 1024, 30)]
     >>> choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
@@ -156,7 +157,7 @@ BYTES_PER_PIXEL: dict[int, int] = {PixelFormat.RGB888: 3, PixelFormat.DEPTH_1_MM
 
 
 def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
-    """Serve a plan in the capture process."""
+    """Serve a camera in the capture process."""
     try:
         _serve(outlet, plan)
     except OpenNI2Error as failure:
@@ -194,7 +195,7 @@ def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
 
 
 class _UnplugEvent(threading.Event):
-    """Set by the library's own threads when the device at ``uri`` was unplugged."""
+    """Event set by the library's threads when the device at ``uri`` is unplugged."""
 
     uri = ""
 
@@ -204,7 +205,6 @@ class _UnplugEvent(threading.Event):
 
 
 def _publish_image(outlet: CaptureOutlet, stream: Stream, mode: VideoMode) -> None:
-    """Pass one picture on, where there is one; the memory of one that is not as agreed is not read."""
     with stream.read_frame() as picture:
         if picture is None:
             return
@@ -215,9 +215,9 @@ def _publish_image(outlet: CaptureOutlet, stream: Stream, mode: VideoMode) -> No
 
 
 def frame_size_bytes(frame: VideoFrame, mode: VideoMode) -> int | None:
-    """Bytes that may be read of ``frame``: None unless size, format and stride are those of its stream.
+    """Return the bytes that may be read of an image; None if it does not match the mode of its stream.
 
-    A driver may hand out any width and height with any number of bytes behind them.
+    A driver may announce any width and height with any number of bytes behind them.
     """
     row = mode.width_px * BYTES_PER_PIXEL.get(mode.pixel_format, 0)
     size = row * mode.height_px
@@ -240,14 +240,14 @@ def open_openni2(
     patience_s: float = math.inf,
     notice: NoticeHandler = ignore_notice,
 ) -> ProcessCamera:
-    """The first camera of :data:`MODELS`, or the one at OpenNI2's ``uri``."""
+    """Open the first camera of :data:`MODELS`, or the one at an OpenNI2 address."""
     plan = CameraConfig(size_px=SIZE_PX, models=MODELS, uri=uri or "")
     name = uri or "camera"
     return ProcessCamera(serve, plan, name, lambda _: PRIMESENSE, camera=camera, patience_s=patience_s, notice=notice)
 
 
 def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding:
-    """The OpenNI2 library; loaded, but not started. ``loads_library``, in a process of its own, takes half a second."""
+    """Check the OpenNI2 library; asking its version takes half a second in a process of its own."""
     try:
         load_library()
     except DriverMissing as fault:

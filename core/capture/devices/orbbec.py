@@ -1,4 +1,4 @@
-"""Orbbec's newer cameras (Femto Bolt and Mega, Gemini 2 and 330, Astra 2), by the maker's library pyorbbecsdk2."""
+"""Orbbec cameras (Femto Bolt and Mega, Gemini 2 and 330, Astra 2), by the maker's library pyorbbecsdk2."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ from carpus.core.model.phrase import phrase
 
 MODULE, PACKAGE = "pyorbbecsdk", "pyorbbecsdk2"
 DEPTH_SIZE_PX = (640, 480)
-"""Near this the Femto cameras measure at full size and the Gemini cameras at their best."""
+"""Near this size the Femto cameras measure at full size and the Gemini cameras at their best."""
 
 
 def import_sdk() -> Any:
-    """The maker's library, told to write no log; raises :class:`DriverMissing` where it cannot be loaded."""
+    """Import the maker's library with logging disabled; raises :class:`DriverMissing`."""
     try:
         with _silence_stdout():
             import pyorbbecsdk
@@ -56,13 +56,13 @@ def import_sdk() -> Any:
 
 
 def load_library() -> None:
-    """Load the library and no more, to see whether it can be; raises :class:`DriverMissing`."""
+    """Check that the library can be loaded; raises :class:`DriverMissing`."""
     import_sdk()
 
 
 @contextmanager
 def _silence_stdout() -> Iterator[None]:
-    """The library says on the process's own output where it lies."""
+    """Suppress the process's standard output, on which the library prints its own path."""
     sys.stdout.flush()
     kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
@@ -76,7 +76,7 @@ def _silence_stdout() -> Iterator[None]:
 
 @dataclass(frozen=True, slots=True)
 class OrbbecStreams:
-    """The chosen profiles. ``downscale``: how many pixels of the camera's picture, across and down, become one."""
+    """Chosen profiles; ``downscale`` camera pixels, across and down, become one."""
 
     color: Any
     depth: Any
@@ -84,7 +84,7 @@ class OrbbecStreams:
 
     @property
     def modes(self) -> dict[Sensor, VideoMode]:
-        """Of the pictures that are handed on: depth is laid on colour, so it has its size."""
+        """Modes of the published images; registered depth has the size of colour."""
         width, height = (int(side) // self.downscale for side in (self.color.get_width(), self.color.get_height()))
         return {
             Sensor.COLOR: VideoMode(PixelFormat.RGB888, width, height, int(self.color.get_fps())),
@@ -93,7 +93,7 @@ class OrbbecStreams:
 
 
 def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
-    """The device to open; raises :class:`CaptureFailed` with why there is none."""
+    """Return the device to open; raises :class:`CaptureFailed` if there is none."""
     state = ob.OBDeviceAccessState
     held = (state.OB_DEVICE_ACCESS_STATE_CONTROLLED, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE)
     listed = context.query_devices()
@@ -110,8 +110,10 @@ def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
 
 
 def choose_streams(ob: Any, pipeline: Any, plan: CameraConfig) -> OrbbecStreams:
-    """Colour of the wanted size, or of twice that to be shrunk, and depth at the same rate; raises
-    :class:`CaptureFailed`."""
+    """Choose colour of the wanted size, or of twice that to be downscaled, and depth at the same rate.
+
+    Raises :class:`CaptureFailed` if the camera has none.
+    """
     width, height = plan.size_px
     colors = [each for each in _list_profiles(ob, pipeline, ob.OBSensorType.COLOR_SENSOR) if _is_color(ob, each)]
     depths = [each for each in _list_profiles(ob, pipeline, ob.OBSensorType.DEPTH_SENSOR) if _is_depth(ob, each)]
@@ -130,7 +132,7 @@ def choose_streams(ob: Any, pipeline: Any, plan: CameraConfig) -> OrbbecStreams:
 
 
 def configure(ob: Any, device: Any) -> dict[str, str]:
-    """What a camera is set to before it streams; what of it took, for the session."""
+    """Configure the camera before it streams; return what it accepted, for the session."""
     prop = ob.OBPropertyID
     done: dict[str, str] = {}
     for mirror in (prop.OB_PROP_COLOR_MIRROR_BOOL, prop.OB_PROP_DEPTH_MIRROR_BOOL):
@@ -149,7 +151,7 @@ def configure(ob: Any, device: Any) -> dict[str, str]:
 
 
 def set_property(ob: Any, device: Any, prop: Any, value: float) -> bool:
-    """Set a property, of the kind that its name ends with; whether the device has it and took it."""
+    """Set a property of the type that its name ends with; return whether the device accepted it."""
     if not device.is_property_supported(prop, ob.OBPermissionType.PERMISSION_WRITE):
         return False
     with suppress(RuntimeError, ob.OBError):
@@ -162,7 +164,7 @@ def set_property(ob: Any, device: Any, prop: Any, value: float) -> bool:
 
 
 def read_full_size_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
-    """Size and intrinsics of the colour pictures as the camera sends them."""
+    """Return size and intrinsics of the colour images as the camera sends them."""
     found, bent = color.get_intrinsic(), color.get_distortion()
     model = ob.OBCameraDistortionModel
     five = (bent.k1, bent.k2, bent.p1, bent.p2, bent.k3)
@@ -178,7 +180,7 @@ def read_full_size_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
 
 
 def read_lens(ob: Any, streams: OrbbecStreams) -> Lens:
-    """Intrinsics of the colour pictures that are handed on."""
+    """Return the intrinsics of the published colour images."""
     _, lens = read_full_size_lens(ob, streams.color)
     scale = 1.0 / streams.downscale
     # half-pixel centres: the middle of a pixel lies at a whole number
@@ -187,7 +189,7 @@ def read_lens(ob: Any, streams: OrbbecStreams) -> Lens:
 
 
 def describe_device(ob: Any, device: Any, streams: OrbbecStreams) -> dict[str, str]:
-    """What a session says of the camera; only what is known."""
+    """Return what a session stores of the camera; unknown entries are omitted."""
     info = device.get_device_info()
     name = str(info.get_name())
     settings = {
@@ -236,7 +238,7 @@ UNIT_DIGITS = 7
 
 
 def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
-    """Serve a plan in the capture process."""
+    """Serve a camera in the capture process."""
     ob = import_sdk()
     try:
         _serve_camera(ob, outlet, plan)
@@ -245,7 +247,6 @@ def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
 
 
 def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
-    """The newest pictures, whenever there are any."""
     context = plan.make_context() if plan.make_context is not None else ob.Context()
     device = find_device(ob, context, plan)
     serial = device.get_device_info().get_serial_number()
@@ -294,7 +295,7 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
 
 
 class _OrbbecImages:
-    """Passes colour on, and depth, laid on colour by the library; both with the camera's own times."""
+    """Publisher of colour and of depth registered to it, both with the camera's times."""
 
     def __init__(self, ob: Any, outlet: CaptureOutlet, streams: OrbbecStreams) -> None:
         self._outlet, self._shrink = outlet, streams.downscale
@@ -308,7 +309,7 @@ class _OrbbecImages:
         outlet.retain(self)
 
     def forward_color(self, frame: Any) -> memoryview | None:
-        """Hand a colour picture on; its bytes, None of one that arrived damaged: it is left out, and counted."""
+        """Publish a colour image; return its bytes, or None if it arrived damaged and is skipped."""
         width, height = frame.get_width(), frame.get_height()
         picture = frame.get_data()
         if self._is_jpeg:
@@ -322,7 +323,7 @@ class _OrbbecImages:
         return self._publish(Sensor.COLOR, frame, picture)
 
     def forward_depth(self, frame: Any) -> None:
-        """Hand a depth picture on; one that cannot be laid on colour is left out, and its frame has none."""
+        """Publish a depth image; one that cannot be registered is skipped, and its frame has no depth."""
         laid = self._align.process(frame)
         if laid is None:
             return
@@ -397,9 +398,9 @@ MODELS = {
     ("2bc5", "0808"): "Orbbec Gemini 215",
     ("2bc5", "0809"): "Orbbec Gemini 210",
 }
-"""Product numbers as in the udev rules that come with the library."""
+"""Product numbers from the udev rules of the library."""
 _WIDE_BASELINE_MODELS = ("330L", "335L", "336L", "GEMINI 2")
-"""Their eyes stand some 100 mm apart, those of the other Gemini cameras about 50 mm."""
+"""Baseline of about 100 mm; the other Gemini cameras have about 50 mm."""
 
 
 def open_orbbec(
@@ -410,26 +411,28 @@ def open_orbbec(
     notice: NoticeHandler = ignore_notice,
     context: Callable[[], Any] | None = None,
 ) -> ProcessCamera:
-    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraConfig`.
+    """Open the first camera, or the one with the serial number ``uri``.
 
     Raises :class:`DriverMissing` without the library.
     """
     if find_spec(MODULE) is None:
         raise DriverMissing(PACKAGE, PACKAGE)
     plan = CameraConfig(uri or "", SIZE_PX, models=MODELS, make_context=context)
+
+    def opened_sensor(opened: DeviceOpened) -> DepthSensor:
+        return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
+
     return ProcessCamera(
-        serve, plan, uri or "Orbbec", _opened_sensor, camera=camera, patience_s=patience_s, notice=notice
+        serve, plan, uri or "Orbbec", opened_sensor, camera=camera, patience_s=patience_s, notice=notice
     )
 
 
-def _opened_sensor(opened: DeviceOpened) -> DepthSensor:
-    """By the camera's name, and how its depth pictures see."""
-    return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
-
-
 def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
-    """The depth sensor of a camera with these settings: a Femto's is the Azure Kinect's; two eyes and a projector are
-    assumed to be as sure as a RealSense's with eyes as far apart, for want of figures."""
+    """Return the depth sensor of a camera with these settings.
+
+    A Femto has the sensor of the Azure Kinect. For want of data, stereo cameras are taken to be as accurate as a
+    RealSense of the same baseline.
+    """
     name = settings.get("camera", "").upper()
     if "FEMTO" in name:
         return AZURE_KINECT

@@ -1,4 +1,4 @@
-"""A live camera, driven in a process of its own, as a source of frames: it comes back by itself when unplugged."""
+"""A live camera, driven in a process of its own, as a source of frames; it reconnects when plugged in again."""
 
 from __future__ import annotations
 
@@ -44,30 +44,41 @@ from carpus.core.model.types import Frame
 
 SIZE_PX = (640, 480)
 RING_SLOTS = 60
-"""Of a camera, which does not: a second in which a busy computer does not let us look. 55 MB, used only then."""
+"""Slots for a camera, which does not wait: two seconds of images for a busy computer (55 MB, used only then)."""
 OPEN_TIMEOUT_S = 15.0
 MAX_WAITING_IMAGES = 3
-"""A tenth of a second: longer than that a colour picture does not wait for its depth."""
+"""A colour image waits no longer than a tenth of a second for its depth."""
 MAX_START_DROPS = 30
-"""Colour pictures left out at the start while there is no depth yet; after a second without any, pictures go on."""
+"""Colour images skipped at the start while there is no depth yet; after a second images go on without it."""
 RETRY_S = 1.0
 MAX_CRASHES = 3
 """Restarts in a row without a single frame."""
 SETTLE_FRAMES = 45
 """Frames until automatic exposure has settled, when a lock has to be set again."""
 _RECOVERABLE_FAULTS = (CameraBusy, CameraLost, CameraMissing, CameraPermission, DriverFailed)
-"""Faults that plugging in again, or waiting, can mend."""
+"""Faults that reconnecting or waiting can resolve."""
 
 
 class ProcessCamera:
-    """Frames of a live camera: 640x480 RGB with depth laid on it, at 30 fps, in the device's own time.
+    """Frames of a live camera: 640x480 RGB with registered depth, at 30 fps, in the device's own time.
 
-    The camera runs from construction on, until :meth:`close`: ``serve`` carries out ``plan`` in the capture process.
-    ``subject`` names it in faults until it has told its name; ``sensor`` says what the depth of the opened one is
-    worth; ``camera`` are measured intrinsics, otherwise the driver's lens, or its field of view, is taken. When the
-    camera is lost, ``notice`` hears :class:`CameraLost`, then :class:`CameraReturned`; it is raised when the camera
-    stays away for ``patience_s``. Meanwhile another one may be plugged in: that is told (:class:`CameraMismatch`) and
-    waited on. Frames that were missed are counted in the next one.
+    The camera runs from construction until :meth:`close`. When it is lost, ``notice`` receives :class:`CameraLost`,
+    then :class:`CameraReturned`; if it is absent for ``patience_s``, :class:`CameraLost` is raised. If another camera
+    is plugged in meanwhile, ``notice`` receives :class:`CameraMismatch` and the wait goes on. Missed frames are counted
+    in the next one.
+
+    Parameters
+    ----------
+    serve : callable
+        Serves ``plan`` in the capture process.
+    plan : CameraConfig
+        Which camera to open.
+    subject : str
+        Name of the camera in faults until it is open.
+    sensor : callable
+        Returns the depth sensor of the opened camera.
+    camera : Camera, optional
+        Measured intrinsics; default are those of the driver, or those from its field of view.
     """
 
     def __init__(
@@ -107,13 +118,15 @@ class ProcessCamera:
         return self._info
 
     def lock_exposure(self) -> None:
-        """Hold exposure and white balance as they are now, so that the markers keep their colours; a camera that cannot
-        is told as a notice."""
+        """Lock exposure and white balance, so that the markers keep their colours.
+
+        A camera that cannot is reported by a notice.
+        """
         self._is_exposure_locked = True
         self._process.send_command(LockExposure())
 
     def frames(self) -> Iterator[Frame]:
-        """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
+        """Yield frames from now on until :meth:`close`; images from before are discarded."""
         with self._lock:
             if not self._closing.is_set():
                 self._process.discard_images()
@@ -137,7 +150,7 @@ class ProcessCamera:
             self._notice(CameraReturned(self._info.name, f"{format_rounded(away_s)} s"))
 
     def close(self) -> None:
-        """Give the camera back; may be called twice, and while another thread waits for a frame."""
+        """Release the camera; may be called twice, and while another thread waits for a frame."""
         self._closing.set()
         with self._lock:
             self._process.close(gently=True)
@@ -147,7 +160,7 @@ class ProcessCamera:
         return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3, RING_SLOTS)
 
     def _read_frames(self) -> Iterator[Frame]:
-        """Frames of the process that runs now, until it ends or :meth:`close`."""
+        """Yield the frames of the running process."""
         modes = self._opened.modes
         while True:
             frames: list[Frame] = []
@@ -174,14 +187,17 @@ class ProcessCamera:
                 yield frame
 
     def _relock_exposure(self) -> None:
-        """A camera that came back has forgotten its lock: set it when its automatics have settled."""
+        """Lock the exposure of a camera that was reconnected, once its automatic has settled."""
         if self._frames_to_relock:
             self._frames_to_relock -= 1
             if self._frames_to_relock == 0 and self._is_exposure_locked:
                 self._process.send_command(LockExposure())
 
     def _reconnect(self, lost: CarpusFault) -> float | None:
-        """Seconds the camera was away; None when closed meanwhile. Raises ``lost`` when patience ends."""
+        """Wait for the camera; return the seconds of its absence, or None if closed.
+
+        Raises ``lost`` after ``patience_s``.
+        """
         start_s = time.monotonic()
         other = ""
         self._plan = replace(self._plan, serial=_read_serial(self._opened))  # the same one, and no other
@@ -212,7 +228,7 @@ class ProcessCamera:
         return None
 
     def _check_same_camera(self, opened: DeviceOpened) -> None:
-        """Raises what is to be mended where this is not the camera that went away, or not as it was."""
+        """Raise :class:`CameraMismatch` if this is not the same camera with the same modes."""
         if _format_camera(opened) != _format_camera(self._opened):
             raise CameraMismatch(_format_camera(self._opened), _format_camera(opened))
         if opened.modes != self._opened.modes:
@@ -220,7 +236,7 @@ class ProcessCamera:
             raise CameraMismatch(_format_camera(self._opened), f"{_format_camera(opened)}: {shown}")
 
     def _receive_first_image(self) -> ImageArrived | None:
-        """The first picture after a restart, for its time only."""
+        """Return the first image after a restart, for its time only."""
         while (report := self._process.receive_report(self._closing, REPORT_TIMEOUT_S)) is not None:
             if isinstance(report, ImageArrived):
                 self._process.release_slot(report)
@@ -249,12 +265,10 @@ class ProcessCamera:
 
 
 def _format_camera(opened: DeviceOpened) -> str:
-    """A camera by its name and serial number."""
     return f"{opened.settings.get('camera', 'camera')} {_read_serial(opened)}".strip()
 
 
 def _read_serial(opened: DeviceOpened) -> str:
-    """Empty where the camera does not tell it."""
     return opened.settings.get("serial", "")
 
 

@@ -44,15 +44,15 @@ from carpus.core.model.phrase import phrase
 
 PACKAGE = "pyrealsense2"
 DEPTH_SIZE_PX = (848, 480)
-"""The depth picture that the D435 and D455 measure best with."""
+"""Depth size at which the D435 and D455 measure best."""
 _IDENTITY_ROTATION = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
 _INTRINSIC_NAMES = ("width", "height", "fx", "fy", "ppx", "ppy", "model", "coeffs")
 UNIT_DIGITS = 7
-"""The library keeps the unit of depth as a 32-bit number: 0.001 comes back as 0.00100000005."""
+"""The library stores the depth unit as a 32-bit number: 0.001 comes back as 0.00100000005."""
 
 
 def import_sdk() -> Any:
-    """The maker's library; raises :class:`DriverMissing` where it cannot be loaded."""
+    """Import the maker's library; raises :class:`DriverMissing`."""
     try:
         import pyrealsense2
     except ImportError as cause:
@@ -61,13 +61,13 @@ def import_sdk() -> Any:
 
 
 def load_library() -> None:
-    """Load the library and no more, to see whether it can be; raises :class:`DriverMissing`."""
+    """Check that the library can be loaded; raises :class:`DriverMissing`."""
     import_sdk()
 
 
 @dataclass(frozen=True, slots=True)
 class RealsenseStreams:
-    """The chosen colour profile and depth profile (None without depth), and which sensor opens which."""
+    """Chosen colour profile and depth profile (None without depth), and the profiles that each sensor opens."""
 
     color: Any
     depth: Any | None
@@ -75,7 +75,7 @@ class RealsenseStreams:
 
     @property
     def modes(self) -> dict[Sensor, VideoMode]:
-        """Of the pictures that are handed on: depth is laid on colour, so it has its size."""
+        """Modes of the published images; registered depth has the size of colour."""
         width, height = self.color.width(), self.color.height()
         modes = {Sensor.COLOR: VideoMode(PixelFormat.RGB888, width, height, self.color.fps())}
         if self.depth is not None:
@@ -84,7 +84,7 @@ class RealsenseStreams:
 
 
 def find_device(rs: Any, context: Any, plan: CameraConfig) -> Any:
-    """The device to open; raises :class:`CaptureFailed` with why there is none."""
+    """Return the device to open; raises :class:`CaptureFailed` if there is none."""
     listed = list(context.query_devices())
     for device in listed:
         if not plan.serial or read_device_info(rs, device, "serial_number") == plan.serial:
@@ -97,13 +97,16 @@ def find_device(rs: Any, context: Any, plan: CameraConfig) -> Any:
 
 
 def read_device_info(rs: Any, device: Any, fact: str) -> str:
-    """What a device says of itself, by the library's name of the fact; empty where it says nothing."""
+    """Return a fact of the device by the library's name of it; empty if unknown."""
     info = getattr(rs.camera_info, fact)
     return str(device.get_info(info)) if device.supports(info) else ""
 
 
 def choose_streams(rs: Any, device: Any, plan: CameraConfig) -> RealsenseStreams:
-    """Colour of the wanted size and rate, depth as the camera measures it best; raises :class:`CaptureFailed`."""
+    """Choose colour of the wanted size and rate, and depth as the camera measures it best.
+
+    Raises :class:`CaptureFailed` if the camera has none.
+    """
     offered = _list_profiles(rs, device)
     width, height = plan.size_px
 
@@ -123,7 +126,7 @@ def choose_streams(rs: Any, device: Any, plan: CameraConfig) -> RealsenseStreams
 
 
 def choose_recording_streams(rs: Any, playback: Any) -> RealsenseStreams:
-    """Colour and, where there is any, depth of a recording; raises :class:`CaptureFailed`."""
+    """Return colour and, if there is any, depth of a recording; raises :class:`CaptureFailed`."""
     offered = _list_profiles(rs, playback)
     colors = [pair for pair in offered if _is_color(rs, pair[1])]
     readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
@@ -135,7 +138,7 @@ def choose_recording_streams(rs: Any, playback: Any) -> RealsenseStreams:
 
 
 def configure(rs: Any, streams: RealsenseStreams) -> dict[str, str]:
-    """What a camera is set to before it streams; what of it took, for the session."""
+    """Configure the camera before it streams; return what it accepted, for the session."""
     option = rs.option
     done: dict[str, str] = {}
     for sensor, profiles in streams.opening:
@@ -155,7 +158,7 @@ def configure(rs: Any, streams: RealsenseStreams) -> dict[str, str]:
 
 
 def set_option(sensor: Any, option: Any, value: float) -> bool:
-    """Set an option; whether the sensor has it and took it."""
+    """Set an option; return whether the sensor accepted it."""
     if not sensor.supports(option) or sensor.is_option_read_only(option):
         return False
     with suppress(RuntimeError):
@@ -165,7 +168,7 @@ def set_option(sensor: Any, option: Any, value: float) -> bool:
 
 
 def set_nearest_option(sensor: Any, option: Any, value: float) -> bool:
-    """Set an option to the value nearest to this that the sensor takes: it refuses all between its steps."""
+    """Set an option to the nearest accepted value: the sensor rejects values between its steps."""
     if not sensor.supports(option):
         return False
     reach = sensor.get_option_range(option)
@@ -175,7 +178,7 @@ def set_nearest_option(sensor: Any, option: Any, value: float) -> bool:
 
 
 def read_depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
-    """Metres per count of depth."""
+    """Return metres per count of depth."""
     for sensor, profiles in streams.opening:
         if streams.depth in profiles and sensor.supports(rs.option.depth_units):
             return round(float(sensor.get_option(rs.option.depth_units)), UNIT_DIGITS)
@@ -183,7 +186,7 @@ def read_depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
 
 
 def read_lens(rs: Any, profile: Any) -> Lens:
-    """Intrinsics of a profile."""
+    """Return the intrinsics of a profile."""
     found = profile.get_intrinsics()
     coefficients = tuple(float(each) for each in found.coeffs)
     model = {
@@ -197,7 +200,7 @@ def read_lens(rs: Any, profile: Any) -> Lens:
 
 
 def is_depth_registered(streams: RealsenseStreams) -> bool:
-    """Whether depth lies on colour as it comes; laying it there once more would only tear holes into it."""
+    """Return whether depth is registered to colour already; doing it again would only tear holes into it."""
     if streams.depth is None:
         return True
     towards = streams.depth.get_extrinsics_to(streams.color)
@@ -207,7 +210,7 @@ def is_depth_registered(streams: RealsenseStreams) -> bool:
 
 
 def describe_device(rs: Any, device: Any, streams: RealsenseStreams) -> dict[str, str]:
-    """What a session says of the camera; only what is known."""
+    """Return what a session stores of the camera; unknown entries are omitted."""
     settings = {
         "camera": read_device_info(rs, device, "name") or "RealSense",
         "serial": read_device_info(rs, device, "serial_number"),
@@ -243,7 +246,7 @@ def _is_depth(rs: Any, profile: Any) -> bool:
 
 
 def _group_by_sensor(chosen: Sequence[tuple[Any, Any]]) -> RealsenseStreams:
-    """A sensor that sends both (the D405's) is opened once, for both."""
+    """Group the profiles by sensor: one that sends both (D405) is opened once."""
     by_name: dict[str, tuple[Any, list[Any]]] = {}
     for number, (sensor, profile) in enumerate(chosen):
         by_name.setdefault(sensor.name or str(number), (sensor, []))[1].append(profile)
@@ -261,7 +264,7 @@ FILE_SILENCE_S = 5.0
 
 
 def serve(outlet: CaptureOutlet, plan: CameraConfig | Path) -> None:
-    """Serve a plan in the capture process."""
+    """Serve a camera or a recording in the capture process."""
     rs = import_sdk()
     try:
         if isinstance(plan, Path):
@@ -276,7 +279,6 @@ def serve(outlet: CaptureOutlet, plan: CameraConfig | Path) -> None:
 
 
 def _serve_camera(rs: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
-    """A camera: the newest pictures, whenever there are any."""
     context = plan.make_context() if plan.make_context is not None else rs.context()
     device = find_device(rs, context, plan)
     gone = threading.Event()
@@ -320,7 +322,6 @@ def _serve_camera(rs: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
 
 
 def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
-    """A recording: each picture, the next only when there is room for it."""
     try:
         playback = rs.context().load_device(str(path))
         playback.set_real_time(False)
@@ -389,7 +390,7 @@ def _frame_sensor(rs: Any, frame: Any) -> Sensor:
 
 
 def _clock_name(rs: Any, frame: Any) -> str:
-    """Whose time stamps are: the camera's, or those of arrival."""
+    """Return the clock of the time stamps: the camera's, or the computer's (time of arrival)."""
     return "computer" if frame.get_frame_timestamp_domain() == rs.timestamp_domain.system_time else "camera"
 
 
@@ -401,7 +402,7 @@ def _build_report(rs: Any, streams: RealsenseStreams, settings: dict[str, str]) 
 
 
 class _RealSenseImages:
-    """Passes colour on, and depth, laid on colour by the library; both with their own times."""
+    """Publisher of colour and of depth registered to it, both with their own times."""
 
     def __init__(self, rs: Any, outlet: CaptureOutlet, streams: RealsenseStreams) -> None:
         self._rs, self._outlet = rs, outlet
@@ -415,7 +416,7 @@ class _RealSenseImages:
         outlet.retain(self)
 
     def forward(self, frame: Any) -> None:
-        """One picture; depth from before the first colour waits for it."""
+        """Publish one image; depth from before the first colour image waits for it."""
         if _frame_sensor(self._rs, frame) == Sensor.DEPTH:
             if self._is_registered:
                 self._publish(Sensor.DEPTH, frame, memoryview(frame.get_data()).cast("B"))
@@ -447,7 +448,6 @@ class _RealSenseImages:
 
 
 def _bgr_to_rgb(blue_first: memoryview) -> memoryview:
-    """Red first."""
     out = bytearray(blue_first.nbytes)
     out[0::3], out[1::3], out[2::3] = blue_first[2::3], blue_first[1::3], blue_first[0::3]
     return memoryview(out)
@@ -494,7 +494,7 @@ MODELS = {
     ("8086", "0b5c"): "Intel RealSense D455",
     ("8086", "1155"): "Intel RealSense D421",
 }
-"""The D421 has no colour camera: it is named, and opening it says so."""
+"""The D421 has no colour camera; opening it reports so."""
 SENSORS = {"D415": D415, "D435": D435, "D455": D455, "D456": D455, "D457": D455}
 
 
@@ -506,31 +506,32 @@ def open_realsense(
     notice: NoticeHandler = ignore_notice,
     context: Callable[[], Any] | None = None,
 ) -> ProcessCamera:
-    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraConfig`.
+    """Open the first camera, or the one with the serial number ``uri``.
 
     Raises :class:`ExtraMissing` without the library.
     """
     require_library()
     plan = CameraConfig(uri or "", SIZE_PX, models=MODELS, make_context=context)
+
+    def opened_sensor(opened: DeviceOpened) -> DepthSensor:
+        return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
+
     return ProcessCamera(
-        serve, plan, uri or "RealSense", _opened_sensor, camera=camera, patience_s=patience_s, notice=notice
+        serve, plan, uri or "RealSense", opened_sensor, camera=camera, patience_s=patience_s, notice=notice
     )
 
 
-def _opened_sensor(opened: DeviceOpened) -> DepthSensor:
-    """By the camera's name, and how its depth pictures see."""
-    return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
-
-
 def require_library() -> None:
-    """Raises :class:`ExtraMissing` where the maker's library is not installed; loads nothing."""
+    """Raise :class:`ExtraMissing` if the maker's library is not installed; loads nothing."""
     if find_spec(PACKAGE) is None:
         raise ExtraMissing(PACKAGE)
 
 
 def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
-    """The depth sensor of a camera with these settings; assumed like a D435's where the name is not known. Its noise is
-    in the geometry of its own depth pictures; only its window is counted in pixels of colour."""
+    """Return the depth sensor of a camera with these settings; an unknown camera is taken for a D435.
+
+    The noise is that of its own depth images; only the window is counted in pixels of colour.
+    """
     name = settings.get("camera", "").upper()
     known = next((sensor for model, sensor in SENSORS.items() if model in name), None)
     sensor = replace(D435, origin=ASSUMED) if known is None else known

@@ -1,4 +1,4 @@
-"""What the operating system knows of cameras that are plugged in, whether a driver can open them or not."""
+"""USB cameras as the operating system lists them, whether a driver can open them or not."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ DEVICE_NODES = Path("/dev/bus/usb")
 
 @dataclass(frozen=True, slots=True)
 class UsbCamera:
-    """One camera on the bus. ``speed_mbit`` is what the port gives it."""
+    """Camera on the bus; ``speed_mbit`` is the speed of its port."""
 
     name: str
     vendor: str
@@ -27,9 +27,9 @@ class UsbCamera:
 def find_usb_cameras(
     models: Mapping[tuple[str, str], str], sysfs: Path = SYSFS, nodes: Path = DEVICE_NODES
 ) -> list[UsbCamera]:
-    """The cameras plugged in among ``models`` (names by USB vendor and product, four hexadecimal digits each).
+    """Return the connected cameras among ``models`` (name by USB vendor and product, four hexadecimal digits each).
 
-    Empty where the system does not tell (no Linux).
+    Empty on systems without sysfs (no Linux).
     """
     found = []
     for device in sorted(sysfs.glob("*")) if sysfs.is_dir() else []:

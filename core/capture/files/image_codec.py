@@ -1,8 +1,8 @@
-"""Single pictures as bytes: depth as PNG without loss, colour as JPEG or as PNG without loss; a damaged one is told,
-never half of it given. Or as a grid of tiles, each packed by itself: only what is looked at needs to be unpacked.
+"""Encoded images: depth as lossless PNG, colour as JPEG or lossless PNG, whole or in tiles.
 
-Layout of tiles, little-endian: u16 width, u16 height, u32 size of each tile, row by row, then the tiles. One that is
-all zero has no byte. JPEG's blocks are of 8 pixels, so a colour picture is the same by tiles as it is whole.
+In tiles only the region that is needed has to be decoded. Layout, little-endian: u16 width, u16 height, u32 size of
+each tile, row by row, then the tiles. A tile of zeros has no bytes. JPEG's blocks are of 8 pixels, so a colour image is
+the same in tiles as whole.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ from carpus.core.model.types import ByteImage, DepthImage, Region
 
 JPEG_QUALITY = 95
 _JPEG = [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY, cv2.IMWRITE_JPEG_SAMPLING_FACTOR, 0x111111]
-"""No chroma subsampling: the markers' edges keep their colour."""
+"""No chroma subsampling, so that the markers' edges keep their colour."""
 _PNG = [cv2.IMWRITE_PNG_COMPRESSION, 1, cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
-"""Fast, and what is black or has no depth costs next to nothing; searching for repetitions finds none in noise."""
+"""Fast; areas that are black or without depth cost next to nothing, and noise has no repetitions to search for."""
 
 
 def encode_color(color_rgb: ByteImage, *, lossless: bool = False) -> bytes:
-    """A colour picture (H, W, 3) as JPEG of quality 95, or as PNG."""
+    """Encode a colour image (H, W, 3) as JPEG of quality 95, or as PNG."""
     bgr = cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR)
     return _encode(".png", bgr, _PNG) if lossless else _encode(".jpg", bgr, _JPEG)
 
 
 def encode_depth(depth_raw: DepthImage) -> bytes:
-    """A depth picture (H, W) uint16 as PNG."""
+    """Encode a depth image (H, W) uint16 as PNG."""
     return _encode(".png", depth_raw, _PNG)
 
 
 def decode_color(data: bytes | memoryview) -> ByteImage | None:
-    """Inverse of :func:`encode_color`, read-only; None when it is no colour picture."""
+    """Decode a colour image, read-only; None if it is not one."""
     picture = _decode(data, cv2.IMREAD_COLOR_RGB)
     return picture if picture is not None and picture.ndim == 3 and picture.dtype == np.uint8 else None
 
 
 def decode_depth(data: bytes | memoryview) -> DepthImage | None:
-    """Inverse of :func:`encode_depth`, read-only; None when it is no depth picture."""
+    """Decode a depth image, read-only; None if it is not one."""
     picture = _decode(data, cv2.IMREAD_UNCHANGED)
     return picture if picture is not None and picture.ndim == 2 and picture.dtype == np.uint16 else None
 
@@ -73,7 +73,7 @@ def _decode(data: bytes | memoryview, flags: int) -> NDArray[Any] | None:
 
 
 TILE_PX = 80
-"""Smaller ones cost more bytes and calls, larger ones more pixels that nobody looks at."""
+"""Smaller tiles cost more bytes and calls, larger ones more pixels that are not needed."""
 MAX_IMAGE_BYTES = 1 << 27
 _SIZE = struct.Struct("<HH")
 
@@ -87,7 +87,7 @@ def _tile_slices(width: int, height: int) -> tuple[tuple[slice, slice], ...]:
 
 
 def pack_tiles(image: NDArray[Any], encode: Callable[[Any], bytes]) -> bytes:
-    """The picture's tiles, each as ``encode`` packs it."""
+    """Return the tiles of an image, each encoded by ``encode``."""
     height, width = image.shape[:2]
     each = (image[row, column] for row, column in _tile_slices(width, height))
     tiles = [encode(tile) if tile.any() else b"" for tile in each]
@@ -95,9 +95,10 @@ def pack_tiles(image: NDArray[Any], encode: Callable[[Any], bytes]) -> bytes:
 
 
 class TiledImage(Generic[AnyImage]):
-    """A packed picture. ``blank`` is an empty one of its kind, ``decode`` the inverse of what packed its tiles.
+    """Image in encoded tiles.
 
-    Raises :class:`RecordingUnreadable`, which names ``path``, here or where a tile is unpacked.
+    ``blank`` is an empty image of the same kind, ``decode`` decodes a tile. Raises :class:`RecordingUnreadable` with
+    ``path``, here or when a tile is decoded.
     """
 
     def __init__(
@@ -130,7 +131,7 @@ class TiledImage(Generic[AnyImage]):
         return width, height
 
     def decode(self, region: Region | None) -> AnyImage:
-        """The picture, read-only, unpacked at least within ``region``, or all of it."""
+        """Return the image, read-only, decoded at least within the region; None for all of it."""
         width, height = self.size_px
         region = Region(0, 0, width, height) if region is None else region.clip(width, height)
         for row in range(region.top // TILE_PX, -(-region.bottom // TILE_PX)):
@@ -157,7 +158,7 @@ _GREY_TYPES = (0, 4)
 
 
 def read_color(path: Path) -> ByteImage:
-    """Colour picture (H, W, 3) uint8 RGB, read-only."""
+    """Read a colour image (H, W, 3) uint8 RGB, read-only."""
     data = _read_checked_bytes(path)
     if data.startswith(_PNG_START):
         bits, color_type = data[24], data[25]
@@ -169,7 +170,7 @@ def read_color(path: Path) -> ByteImage:
 
 
 def read_depth(path: Path) -> DepthImage:
-    """Depth picture (H, W) uint16, read-only."""
+    """Read a depth image (H, W) uint16, read-only."""
     depth = _decode_or_raise(path, _read_checked_bytes(path), cv2.IMREAD_UNCHANGED)
     if depth.ndim != 2:
         raise FrameDamaged(path, phrase("in colour, a depth picture of 16 bits is expected"))
@@ -181,7 +182,10 @@ def read_depth(path: Path) -> DepthImage:
 
 
 def _read_checked_bytes(path: Path) -> bytes:
-    """The file's bytes; of a PNG every checksum is compared, for a decoder may fill a damaged rest with grey."""
+    """Return the bytes of a file; all checksums of a PNG are verified.
+
+    A decoder may fill a damaged rest with grey.
+    """
     try:
         data = path.read_bytes()
     except FileNotFoundError as cause:

@@ -1,8 +1,8 @@
-"""The .oni file format, version 1.0.1.0: records, names, codecs. Little-endian, packed.
+"""The .oni file format, version 1.0.1.0: records, names and codecs; little-endian, packed.
 
-A file is a header and a chain of records; a record is a header, fields, and a payload. Streams are nodes:
-added, given properties, ready, then data in time order, removed; ``END`` closes the file.
-Depth is packed as differences of indices into a table of the picture's own values ("16zT"), or of values.
+A file is a header and a chain of records; a record is a header, fields, and a payload. Streams are nodes: added, given
+properties, ready, then data in time order, removed; ``END`` closes the file. Depth is packed as differences of indices
+into a table of the image's own values ("16zT"), or of values.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ RECORD_MAGIC = 0x0052494E
 RECORD_HEADER = struct.Struct("<IIIIIQ")
 """magic, type, node id, size of header and fields, size of payload, position of the record that this one replaces."""
 OLD_RECORD_HEADER = struct.Struct("<IIIIII")
-"""The same before version 1.0.1.0, with 32-bit positions."""
+"""Before version 1.0.1.0, with 32-bit positions."""
 
 NODE_ADDED_FIELDS = struct.Struct("<I4sIQQQ")
-"""After the name: node type, codec, pictures, least and greatest timestamp, position of the seek table."""
+"""After the name: node type, codec, number of images, first and last timestamp, position of the seek table."""
 NEW_DATA_FIELDS = struct.Struct("<QI")
-"""timestamp (microseconds), picture number from 1."""
+"""timestamp (microseconds), image number from 1."""
 
 
 class RecordType(IntEnum):
@@ -52,7 +52,7 @@ class RecordType(IntEnum):
 
 
 class NodeType(IntEnum):
-    """Kinds of nodes; only these three carry pictures."""
+    """Kinds of nodes that carry images."""
 
     DEPTH = 2
     IMAGE = 3
@@ -60,7 +60,7 @@ class NodeType(IntEnum):
 
 
 class Codec:
-    """How payloads are packed; four letters."""
+    """Codecs of payloads (four letters)."""
 
     RAW = b"NONE"
     JPEG = b"JPEG"
@@ -83,11 +83,12 @@ MEDIUM_STEP = 63
 
 
 def decode_depth(data: bytes, codec: bytes, shape: tuple[int, int]) -> DepthImage | None:
-    """One depth picture (H, W), packed with a table of its values, without one, or not at all; None where damaged.
+    """Decode one depth image (H, W); None if it is damaged.
 
-    Count and table of the values, first index, then for each pixel d = index before - index now: |d| <= 6 half a
-    byte (d + 6), two pixels a byte; k times two unchanged pixels 0xE0 + k; else an escape (0xFF, or 0xF in the
-    lower half of a begun byte) with 192 + d for |d| <= 63, or the index itself in two bytes, high byte first.
+    It holds count and table of the values (``16zT`` only), the first index, then for each pixel d = previous index -
+    index: |d| <= 6 takes half a byte (d + 6), two pixels a byte; 2k unchanged pixels are 0xE0 + k; others are an escape
+    (0xFF, or 0xF in the lower half of a byte) with 192 + d for |d| <= 63, or with the index in two bytes, high byte
+    first.
     """
     count = shape[0] * shape[1]
     if codec == Codec.RAW:
@@ -107,7 +108,7 @@ def _read_value_table(data: bytes) -> tuple[NDArray[np.uint16], int]:
 
 
 def _build_byte_tables() -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
-    """Of each byte (256, 2): the two steps of the index that it holds, and how many pixels each is good for."""
+    """Return for each byte the two index steps that it holds and the number of pixels of each, both (256, 2)."""
     byte = np.arange(256, dtype=np.int32)
     step = np.stack((SMALL_STEP - (byte >> 4), SMALL_STEP - (byte & 0x0F)), 1)
     times = np.ones((256, 2), np.uint8)
@@ -121,7 +122,7 @@ _BYTE_STEPS, _BYTE_COUNTS = _build_byte_tables()
 
 
 def _decode_indices(data: bytes, first: int) -> NDArray[np.int32]:
-    """The index of each pixel (P,): steps summed up since the last index that was written in full."""
+    """Return the index of each pixel (P,): cumulative steps since the last index written in full."""
     coded = np.frombuffer(data, np.uint8)
     escapes, end = [], 0
     for place in np.flatnonzero(((coded & 0x0F) == 0x0F) & (coded != 0xEF)).tolist():

@@ -1,5 +1,8 @@
-"""An .oni recording as a source of frames, read without the OpenNI2 library, which dies of some damaged files: first
-what it holds and where in the file each picture lies, then picture by picture."""
+"""An .oni recording as a source of frames.
+
+It is read without the OpenNI2 library, which crashes on some damaged files: first the structure of the file, then
+image by image.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +51,7 @@ from carpus.core.model.types import SIMULATED, Frame
 MAX_WIDTH_PX, MAX_HEIGHT_PX, MAX_FPS = 1600, 1200, 120
 MAX_TIME_US = 1 << 60
 HEADER_READ_BYTES = 160
-"""Holds the header and fields of nearly every record."""
+"""Holds header and fields of nearly every record."""
 
 _NODE_ADDED_RECORDS = (RecordType.NODE_ADDED, RecordType.NODE_ADDED_1_0_0_5, RecordType.NODE_ADDED_1_0_0_4)
 _PROPERTY_RECORDS = (RecordType.INT_PROPERTY, RecordType.GENERAL_PROPERTY)
@@ -62,15 +65,15 @@ _FORMATS = {
 }
 _OLD_FORMATS = {1: PixelFormat.RGB888, 2: PixelFormat.YUV422, 3: PixelFormat.GRAY8, 4: PixelFormat.GRAY16}
 _CONSTANT_PROPERTIES = (oni.MAP_OUTPUT_MODE, oni.CROPPING, oni.PIXEL_FORMAT_1, oni.PIXEL_FORMAT_2, oni.MIRROR)
-"""Properties that must not change once pictures come."""
+"""Properties that must not change once there are images."""
 
 
 @dataclass(frozen=True, slots=True)
 class OniStream:
     """One stream of a recording.
 
-    ``number`` (N,) of each picture, rising; ``timestamp_us`` (N,); ``position`` (N,) in the file and ``size_bytes``
-    (N,) of the coded pictures.
+    ``number`` (N,) rises; ``timestamp_us`` (N,); ``position`` (N,) in the file and ``size_bytes`` (N,) of the encoded
+    images.
     """
 
     width_px: int
@@ -91,7 +94,7 @@ class OniStream:
 
 @dataclass(frozen=True, slots=True)
 class OniContents:
-    """What a sound recording holds. ``identity`` (size, time of change) tells whether the file is still the same."""
+    """Structure of a complete recording; ``identity`` (size, time of change) shows whether the file was changed."""
 
     path: Path
     identity: tuple[int, int]
@@ -129,16 +132,18 @@ class _Record:
 
 
 def read_file_identity(path: Path) -> tuple[int, int]:
-    """Size and time of the last change."""
+    """Return size and time of the last change."""
     found = path.stat()
     return found.st_size, found.st_mtime_ns
 
 
 def read_contents(path: Path) -> OniContents:
-    """The contents of an .oni file that was recorded to its end.
+    """Read the structure of a complete .oni file.
 
-    Raises :class:`RecordingMissing`, :class:`RecordingUnreadable`, :class:`RecordingDamaged`,
-    :class:`RecordingUnsupported`, :class:`RecordingEmpty` or :class:`TimesUnordered`.
+    Raises
+    ------
+    RecordingMissing, RecordingUnreadable, RecordingDamaged, RecordingUnsupported, RecordingEmpty, TimesUnordered
+        The file cannot be played.
     """
     if not path.is_file():
         raise RecordingMissing(path)
@@ -178,11 +183,8 @@ class _ContentsReader:
     def _damage_error(self, what: str, position: int) -> CarpusFault:
         return RecordingDamaged(self._path, phrase("{what}, at byte {position}", what=what, position=position))
 
-    def _unsupported(self, what: str) -> CarpusFault:
-        return RecordingUnsupported(self._path, what)
-
     def _read_records(self) -> Iterator[_Record]:
-        """All records up to END; raises when the chain breaks."""
+        """Yield all records up to END; raises if the chain breaks."""
         position, header = oni.FILE_HEADER.size, self._header
         while True:
             self._file.seek(position)
@@ -222,7 +224,7 @@ class _ContentsReader:
             self._index_image(node, record)
 
     def _read_text(self, record: _Record) -> tuple[str, int]:
-        """The string that fields begin with, and the offset behind it."""
+        """Return the text at the start of the fields, and the offset behind it."""
         (size,) = struct.unpack_from("<I", record.fields)
         raw = record.fields[4 : 4 + size]
         if len(raw) != size or raw[-1:] != b"\0":
@@ -236,7 +238,9 @@ class _ContentsReader:
             raise self._damage_error("two streams of one name", record.position)
         if kind in _CODECS and codec not in _CODECS[kind]:
             shown = codec.decode("ascii", "replace")
-            raise self._unsupported(phrase("codec {codec} for {name}", codec=shown, name=NodeType(kind).name))
+            raise RecordingUnsupported(
+                self._path, phrase("codec {codec} for {name}", codec=shown, name=NodeType(kind).name)
+            )
         self._nodes[record.node] = _Node(NodeType(kind), codec) if kind in _CODECS else None
 
     def _set_property(self, node: _Node, record: _Record) -> None:
@@ -246,7 +250,7 @@ class _ContentsReader:
         if len(data) != size:
             raise self._damage_error(f"property {name} of the wrong size", record.position)
         if node.images and name in _CONSTANT_PROPERTIES and node.properties.get(name) != data:
-            raise self._unsupported(phrase("{name} changes on the way", name=name))
+            raise RecordingUnsupported(self._path, phrase("{name} changes on the way", name=name))
         node.properties[name] = data
 
     def _index_image(self, node: _Node, record: _Record) -> None:
@@ -269,9 +273,9 @@ class _ContentsReader:
             for kind in (NodeType.IMAGE, NodeType.DEPTH)
         )
         if not images:
-            raise self._unsupported(phrase("no colour pictures"))
+            raise RecordingUnsupported(self._path, phrase("no colour pictures"))
         if len(images) > 1 or len(depths) > 1:
-            raise self._unsupported(phrase("more than one camera"))
+            raise RecordingUnsupported(self._path, phrase("more than one camera"))
         if not images[0].images:
             raise RecordingEmpty(self._path)
         try:
@@ -287,12 +291,12 @@ class _ContentsReader:
         if not (1 <= width <= MAX_WIDTH_PX and 1 <= height <= MAX_HEIGHT_PX and 1 <= fps <= MAX_FPS):
             raise self._damage_error(f"pictures of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
         if any(told.get(oni.CROPPING, b"")[:4]):
-            raise self._unsupported(phrase("cropped pictures"))
+            raise RecordingUnsupported(self._path, phrase("cropped pictures"))
         if pixel_format not in _FORMATS[node.kind]:
             name = next((each.name for each in PixelFormat if each == pixel_format), str(pixel_format))
             is_depth = node.kind == NodeType.DEPTH
-            raise self._unsupported(
-                phrase("depth as {name}", name=name) if is_depth else phrase("colour as {name}", name=name)
+            raise RecordingUnsupported(
+                self._path, phrase("depth as {name}", name=name) if is_depth else phrase("colour as {name}", name=name)
             )
         view: tuple[float, float] | None = None
         if oni.FIELD_OF_VIEW in told:
@@ -304,12 +308,11 @@ class _ContentsReader:
 
 
 class OniSource:
-    """Frames of an .oni file, all of them, in order, as fast as they are read.
+    """Frames of an .oni file, in order, as fast as they are read.
 
-    The file's structure is read at once; :meth:`frames` may be repeated, one walk at a time. ``registered`` answers
-    for a file without a sidecar; without an answer depth is taken to lie on colour and ``notice`` hears
-    :class:`RegistrationAssumed`. Damaged pictures are left out: ``notice`` hears :class:`DamagedFramesExcluded` at
-    the end.
+    The structure is read at once; :meth:`frames` may be repeated, one pass at a time. ``registered`` states whether
+    depth is registered, for a file without a sidecar; None assumes so and notifies :class:`RegistrationAssumed`.
+    Damaged images are skipped and notified at the end (:class:`DamagedFramesExcluded`).
     """
 
     def __init__(self, path: Path, *, registered: bool | None = None, notice: NoticeHandler = ignore_notice) -> None:
@@ -333,7 +336,7 @@ class OniSource:
         return self._info
 
     def frames(self) -> Iterator[Frame]:
-        """All frames from the first on; a walk under way ends when another begins."""
+        """Yield all frames from the first on; a pass in progress ends when another begins."""
         walk = self._current_pass = object()
         assembler = FrameAssembler(self._layout, self._period_us, FILE_PAIRING_LIMIT)
         takes = {Sensor.COLOR: assembler.add_color, Sensor.DEPTH: assembler.add_depth}
@@ -360,7 +363,7 @@ class OniSource:
         self._is_closed = True
 
     def _images_by_position(self) -> list[tuple[Sensor, int]]:
-        """Each picture by its stream and place there, as they follow each other in the file."""
+        """Return stream and index of each image in the order of the file."""
         places = [
             (position, sensor, place)
             for sensor, stream in self._streams.items()
@@ -369,7 +372,7 @@ class OniSource:
         return [(sensor, place) for _, sensor, place in sorted(places)]
 
     def _read_image(self, file: BinaryIO, stream: OniStream, place: int) -> NDArray[Any] | None:
-        """One picture, (H, W, 3) uint8 or (H, W) uint16; None where it is damaged."""
+        """Return one image, (H, W, 3) uint8 or (H, W) uint16; None if it is damaged."""
         size = int(stream.size_bytes[place])
         file.seek(int(stream.position[place]))
         data = file.read(size)

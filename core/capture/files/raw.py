@@ -1,11 +1,10 @@
-"""The application's own raw recording: colour and depth pictures in one file that only grows.
+"""The application's own raw recording: colour and depth in one file that only grows.
 
-Nothing that was written is touched again, so a crash or a full disk costs at most the last frame, and writing needs
-no lock that others wait for. Layout, little-endian: ``CARPUSRW``, u32 version, then records. A record is a header of
-32 bytes (4 letters, u32 check sum of all that follows, f64 time in seconds, u32 frames missing before, u32 number,
-u32 size of colour, u32 size of depth) and the two pictures in tiles (:mod:`.pictures`), JPEG or PNG each. ``HEAD``
-comes first with JSON instead of colour, ``FRAM`` is a frame, numbered from 0; ``DONE`` ends a recording that was closed
-and has the count of its frames as number.
+Written data are never changed, so a crash or a full disk costs at most the last frame. Layout, little-endian:
+``CARPUSRW``, u32 version, then records. A record is a header of 32 bytes (4 letters, u32 checksum of all that follows,
+f64 time in seconds, u32 frames missing before, u32 number, u32 size of colour, u32 size of depth) and the two images in
+tiles (:mod:`.image_codec`), JPEG or PNG each. ``HEAD`` comes first with JSON instead of colour, ``FRAM`` is a frame,
+numbered from 0; ``DONE`` ends a complete recording and has the count of its frames as number.
 """
 
 from __future__ import annotations
@@ -52,8 +51,9 @@ from carpus.core.platform.durable import FileWriter, open_private, write_fault
 
 SUFFIX = ".carpusraw"
 BYTES_PER_FRAME = 62_000
-"""Colour and depth of a hand and its surroundings, the most of what the simulated camera gave: 58 000 to 62 000 of a
-whole hand, 34 000 to 50 000 of a wrist; a whole picture takes 203 000 to 326 000."""
+"""Colour and depth of the hand and its surroundings: 58 000 to 62 000 bytes for a simulated whole hand, 34 000 to 50
+000 for a wrist; a whole image takes 203 000 to 326 000.
+"""
 MB_PER_MINUTE = round(60 * 30 * BYTES_PER_FRAME / 1e6, -1)
 MAGIC = b"CARPUSRW"
 VERSION = 2
@@ -63,14 +63,13 @@ _CHECKSUM_START = 8
 SYNC_EVERY_S = 0.5
 MAX_IMAGE_BYTES = 1 << 27
 MAX_FRAMES = 1 << 24
-"""Six days at 30 a second: a record that says more, of frames or of missing ones, is damaged."""
+"""Six days at 30 fps; a record with a larger number is damaged."""
 _RECORD_TAG = re.compile(b"HEAD|FRAM|DONE")
 _NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)
 
 
 class RawWriter(FileWriter):
-    """Writes one raw recording. Use as a context manager, or end it by :meth:`close`. Twice a second what was taken is
-    synchronised."""
+    """Writer of one raw recording: a context manager, or ended by :meth:`close`; synchronised twice a second."""
 
     def __init__(
         self,
@@ -97,7 +96,7 @@ class RawWriter(FileWriter):
         return self._count
 
     def append_frame(self, frame: Frame) -> None:
-        """Store one frame: depth without loss, colour as JPEG 95 or without loss. Times rise strictly."""
+        """Append one frame: depth lossless, colour as JPEG 95 or lossless. Times must rise."""
         if self._count == 0:
             self._depth_unit_m = frame.depth_unit_m
             self._write(_pack_record(b"HEAD", 0.0, 0, 0, self._build_header(), b""))
@@ -109,7 +108,7 @@ class RawWriter(FileWriter):
         self._count += 1
 
     def close(self) -> None:
-        """Mark the recording as whole and bring it to the disk; may be called twice."""
+        """Mark the recording as complete and synchronise it; may be called twice."""
         if self._file is None:
             return
         if self._count:
@@ -178,7 +177,7 @@ class RawWriter(FileWriter):
 
 @dataclass(frozen=True, slots=True)
 class _RecordEntry:
-    """Where one record lies in the file."""
+    """Header and position of one record."""
 
     position: int
     kind: bytes
@@ -196,7 +195,7 @@ class _RecordEntry:
 
 @dataclass(frozen=True, slots=True)
 class LazyFrame:
-    """A frame whose pictures are unpacked where they are looked at."""
+    """Frame whose images are decoded when they are needed."""
 
     index: int
     timestamp_s: float
@@ -206,7 +205,7 @@ class LazyFrame:
     dropped_before: int
 
     def decode(self, region: Region | None) -> Frame:
-        """The frame for who looks at a part of the pictures, None for all of them; the rest may still be empty."""
+        """Return the frame, decoded at least within the region; None for all of it."""
         depth_raw = None if self.depth is None else self.depth.decode(region)
         return Frame(
             self.index, self.timestamp_s, self.color.decode(region), depth_raw, self.depth_unit_m, self.dropped_before
@@ -214,11 +213,10 @@ class LazyFrame:
 
 
 class RawRecording:
-    """A raw recording as a source of frames. One that was cut short is read up to its last whole frame.
+    """Raw recording as a source of frames; an interrupted one is read up to its last complete frame.
 
-    Frames that do not pass their check sum are left out: the next one counts them, and those that are gone, as missing,
-    and ``notice`` hears :class:`DamagedFramesExcluded` at the end; :class:`RecordingDamaged` where something follows
-    the end.
+    Frames with a wrong checksum are skipped and count as missing before the next one; ``notice`` receives
+    :class:`DamagedFramesExcluded` at the end, and :class:`RecordingDamaged` if data follow the end.
     """
 
     def __init__(self, path: Path, *, notice: NoticeHandler = ignore_notice) -> None:
@@ -267,12 +265,12 @@ class RawRecording:
         return self._info
 
     def frames(self) -> Iterator[Frame]:
-        """All frames from the first on; may be walked through again."""
+        """Yield all frames from the first on; may be repeated."""
         for frame in self.lazy_frames():
             yield frame.decode(None)
 
     def lazy_frames(self) -> Iterator[LazyFrame]:
-        """As :meth:`frames`, each unpacked only where somebody looks."""
+        """Yield all frames, each decoded only where it is needed."""
         left_out = index = number = 0
         last_s = -math.inf
         camera = self._info.camera
@@ -308,7 +306,7 @@ class RawRecording:
             self._notice(RecordingDamaged(self._path, detail))
 
     def load_color(self, timestamp_s: float) -> ByteImage | None:
-        """The colour picture of that time, None when it was not stored or is damaged."""
+        """Return the colour image at a time; None if it was not stored or is damaged."""
         place = int(np.searchsorted(self._times_s, timestamp_s - 1e-6))
         if place == len(self._times_s) or self._times_s[place] > timestamp_s + 1e-6:
             return None
@@ -321,11 +319,11 @@ class RawRecording:
         return TiledImage(self._path, pictures[: entry.color_size], _NO_COLOR, decode_color)
 
     def close(self) -> None:
-        """Nothing is held open between two walks."""
+        """Do nothing: no file is open between two passes."""
 
 
 def is_raw_recording(path: Path) -> bool:
-    """Whether a file begins like a raw recording."""
+    """Return whether a file starts like a raw recording."""
     try:
         with path.open("rb") as file:
             return file.read(len(MAGIC)) == MAGIC
@@ -342,7 +340,7 @@ def _pack_record(kind: bytes, time_s: float, dropped: int, number: int, color: b
 def _build_index(
     path: Path, file: BinaryIO
 ) -> tuple[_RecordEntry | None, list[_RecordEntry], _RecordEntry | None, int]:
-    """Head, frames, end where the recording was closed, and how many bytes follow it; a torn end is passed over."""
+    """Return header, frames, end record (None if interrupted) and number of bytes after it."""
     size = file.seek(0, os.SEEK_END)
     file.seek(0)
     start = file.read(_START.size)
@@ -366,10 +364,10 @@ def _build_index(
 
 
 def _scan_records(file: BinaryIO, size: int) -> Iterator[_RecordEntry]:
-    """Each record where the one before ends; where none with the next number begins, the next with a right check sum.
+    """Yield each record at the end of the one before; after damage the next one with a right checksum.
 
-    Its search begins in the one before when that is damaged: it may be its size. What is summed in vain stays within
-    four times the size of the file.
+    The search starts within the record before if that is damaged, since its size may be. Checksums tried in vain cover
+    at most four times the size of the file.
     """
     left = 4 * size
 
@@ -395,7 +393,7 @@ def _scan_records(file: BinaryIO, size: int) -> Iterator[_RecordEntry]:
 
 
 def _read_record_header(file: BinaryIO, position: int, size: int) -> _RecordEntry | None:
-    """The record there, whatever its check sum; None for what can be none."""
+    """Return the record header at a position, whatever its checksum; None if it cannot be one."""
     file.seek(position)
     data = file.read(_RECORD.size)
     if len(data) < _RECORD.size or not _RECORD_TAG.match(data):
@@ -407,7 +405,7 @@ def _read_record_header(file: BinaryIO, position: int, size: int) -> _RecordEntr
 
 
 def _find_record_tags(file: BinaryIO, position: int) -> Iterator[int]:
-    """Where the letters of a record are, from a place on; little is read where they are near."""
+    """Yield the positions of record tags from a position on, in growing blocks."""
     length = 256
     while True:
         file.seek(position)
@@ -421,7 +419,7 @@ def _find_record_tags(file: BinaryIO, position: int) -> Iterator[int]:
 
 
 def _validate_camera(camera: Camera, depth_unit_m: float) -> None:
-    """Raises ``TypeError`` or ``ValueError`` for what no camera is."""
+    """Raise ``ValueError`` for impossible camera values."""
     if not all(map(math.isfinite, (camera.cx_px, camera.cy_px, *camera.distortion))):
         raise ValueError("no camera's middle or lens")
     sizes = (camera.fx_px, camera.fy_px, camera.width_px, camera.height_px, depth_unit_m)
@@ -430,7 +428,7 @@ def _validate_camera(camera: Camera, depth_unit_m: float) -> None:
 
 
 def _read_payload(file: BinaryIO, entry: _RecordEntry) -> bytes | None:
-    """Both pictures of a frame, one after the other; None when the check sum differs."""
+    """Return the two images of a frame as bytes; None if the checksum differs."""
     file.seek(entry.position + _CHECKSUM_START)
     rest = file.read(entry.end - entry.position - _CHECKSUM_START)
     return rest[_RECORD.size - _CHECKSUM_START :] if zlib.crc32(rest) == entry.checksum else None

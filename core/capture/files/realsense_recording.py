@@ -21,13 +21,13 @@ from carpus.core.model.types import Frame
 MAX_IMAGE_BYTES = 1920 * 1080 * 3
 SLOTS = 4
 OPEN_TIMEOUT_S = 20.0
-"""A long recording is indexed before its first picture comes."""
+"""A long recording is indexed before its first image comes."""
 
 
 class FilePlayer:
-    """Plays ``path`` by ``serve``; pictures have at most ``slot_bytes``, :data:`SLOTS` of them wait.
+    """Player of a file in a capture process; at most :data:`SLOTS` images wait.
 
-    :meth:`open` starts a process and ends the one before; :meth:`frames` then walks through its pictures once.
+    :meth:`open` starts a process and ends the one before; :meth:`frames` then plays it once.
     """
 
     def __init__(self, serve: ServeFunction, path: Path, slot_bytes: int) -> None:
@@ -37,9 +37,7 @@ class FilePlayer:
         self._process: CaptureProcess | None = None
 
     def open(self, plan: object, timeout_s: float) -> DeviceOpened | None:
-        """What the library found in the file, at most ``timeout_s`` after the process is up; None when closed
-        meanwhile.
-        Raises the fault that ended the process."""
+        """Open the file in a new process; None if closed meanwhile. Raises the fault that ended the process."""
         self._stop()
         if self._closing.is_set():
             return None
@@ -56,8 +54,7 @@ class FilePlayer:
         return opened
 
     def frames(self, assembler: FrameAssembler, modes: Mapping[Sensor, VideoMode]) -> Iterator[Frame]:
-        """Frames of what was opened last. A walk ends early when another file, or the same once more, is opened, or at
-        :meth:`close`."""
+        """Yield the frames of the file opened last, until it is opened again or :meth:`close`."""
         process = self._process
         if process is None:
             return
@@ -89,7 +86,6 @@ class FilePlayer:
         self._stop()
 
     def _stop(self) -> None:
-        """End the process that runs, and with it a walk under way; another may be opened."""
         with self._lock:
             if self._process is not None:
                 self._process.close(gently=False)
@@ -97,10 +93,16 @@ class FilePlayer:
 
 
 class RealSenseRecording:
-    """Frames of a recording, all of them, in order, as fast as they are read; depth is laid on colour.
+    """Frames of a recording, in order, as fast as they are read; depth is registered to colour.
 
-    Opening it plays up to the first picture. :meth:`frames` may be repeated, one walk at a time. Raises
-    :class:`ExtraMissing` without the library, :class:`RecordingDamaged` or :class:`RecordingUnsupported`.
+    Opening it plays up to the first image. :meth:`frames` may be repeated, one pass at a time.
+
+    Raises
+    ------
+    ExtraMissing
+        The library is not installed.
+    RecordingDamaged, RecordingUnsupported
+        The file cannot be played.
     """
 
     def __init__(self, path: Path) -> None:
@@ -117,7 +119,7 @@ class RealSenseRecording:
         return self._info
 
     def frames(self) -> Iterator[Frame]:
-        """All frames from the first on; a walk under way ends when another begins."""
+        """Yield all frames from the first on; a pass in progress ends when another begins."""
         opened, self._opened = self._opened or self._open(), None
         if opened is None:
             return
@@ -134,7 +136,6 @@ class RealSenseRecording:
         self._player.close()
 
     def _open(self) -> DeviceOpened | None:
-        """Start the process anew; None when closed meanwhile."""
         return self._player.open(self._path.resolve(), OPEN_TIMEOUT_S)
 
     def _build_info(self, opened: DeviceOpened) -> SourceInfo:
@@ -150,9 +151,9 @@ class RealSenseRecording:
 
 
 def count_color_frames(path: Path) -> int | None:
-    """How many colour pictures a ``.db3`` holds, None where it does not say. Raises :class:`RecordingDamaged`.
+    """Return the number of colour images of a ``.db3``; None if unknown. Raises :class:`RecordingDamaged`.
 
-    The library takes any file for empty or waits on it for ever; what is no database is told here.
+    The library takes any file for an empty recording or waits on it for ever; a file that is no database is found here.
     """
     try:
         with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:

@@ -1,4 +1,4 @@
-"""A recording as a TUM RGB-D folder, read and written: two lists, two folders of pictures, perhaps a camera file."""
+"""A recording as a TUM RGB-D folder, read and written."""
 
 from __future__ import annotations
 
@@ -45,20 +45,20 @@ DEPTH_LIST = "depth.txt"
 DEPTH_UNIT_M = 1.0 / 5000.0
 _MILLIMETRE_M = 1e-3
 _TIME_UNITS = ((2e6, 1e-9, "ns"), (2e3, 1e-6, "µs"), (2.0, 1e-3, "ms"))
-"""From such a step between two pictures on, which no camera takes in seconds, times are in these parts of one."""
+"""Unit of the times by the median step between two images: no camera takes so long in seconds."""
 _MIN_DISTANCE_SHARE = 0.5
-"""Of the sensor's nearest distance: where half of the readings are nearer, their unit is another."""
+"""Share of the sensor's nearest distance: if half of the readings are nearer, the depth unit is another."""
 _UNIT_SAMPLE_FRAMES = 5
-"""Depth pictures looked at for their unit."""
+"""Depth images used to find the unit."""
 PAIRING_LIMIT_S = 0.020
 _TIME_ROUNDING_S = 1e-6
 """The lists give microseconds; two times 20 ms apart may differ by a little more in floating point."""
 SIMULATED_REMARK = "# simulated by Carpus"
-"""A line among the remarks of the lists of a simulated recording."""
+"""Comment line in the lists of a simulated recording."""
 RECORDED_REMARK, RECORDING_ID_REMARK = "# carpus recorded ", "# carpus recording_id "
 """Such lines say when the hand moved and which recording it is."""
 _Entry = tuple[float, Path, str]
-"""Time, picture and where the list names it."""
+"""Time, image file and its place in the list."""
 _DecodedFrame = tuple[Frame | None, bool]
 _READING_THREADS = 2
 _FPS_OF_ONE_PICTURE = 30.0
@@ -66,7 +66,7 @@ _FPS_OF_ONE_PICTURE = 30.0
 
 @dataclass(frozen=True, slots=True)
 class StoredFrame:
-    """One colour picture of the list, the depth picture nearest to it, and the frames missing before it."""
+    """Colour image of the list, the nearest depth image, and the frames missing before it."""
 
     timestamp_s: float
     color: Path
@@ -75,13 +75,18 @@ class StoredFrame:
 
 
 class TumFolder:
-    """A TUM RGB-D folder as a :class:`core.capture.source.FrameSource`.
+    """TUM RGB-D folder as a :class:`core.capture.source.FrameSource`.
 
-    Every colour picture is yielded once. With ``requires_depth`` a folder without usable depth is a fault. With
-    ``read_ahead`` > 0 that many frames are decoded in advance by two threads. Opening reads the lists, checks
-    that every picture is there, and decodes the first; the others are decoded, and checked, as they come. A picture
-    that is missing or damaged is a fault; with ``skip_damaged`` only the first colour picture is, the frames of
-    others count as missing, a depth picture as none, and ``notice`` hears :class:`DamagedFramesExcluded`.
+    Opening reads the lists, checks that all images exist, and decodes the first; the others are decoded as they come.
+
+    Parameters
+    ----------
+    requires_depth : bool
+        A folder without usable depth is a fault.
+    read_ahead : int
+        Number of frames decoded in advance by two threads.
+    skip_damaged : bool
+        Skip missing or damaged images (but the first colour image) and notify :class:`DamagedFramesExcluded`.
     """
 
     def __init__(
@@ -142,18 +147,18 @@ class TumFolder:
         )
 
     def frames(self) -> Iterator[Frame]:
-        """The frames in order; may be asked for again."""
+        """Yield the frames in order; may be repeated."""
         decoded = self._prefetch_frames(self._read_ahead) if self._read_ahead > 0 else self._load_frames()
         return self._number_frames(decoded)
 
     def close(self) -> None:
-        """Nothing is held open between two frames."""
+        """Do nothing: no file is open between two frames."""
 
     def _load_frames(self) -> Iterator[_DecodedFrame]:
         return (self._load_frame(index) for index in range(len(self.stored_frames)))
 
     def _number_frames(self, decoded: Iterator[_DecodedFrame]) -> Iterator[Frame]:
-        """The frames that could be decoded, one after another; those left out are missing before the next."""
+        """Yield the decoded frames, numbered; skipped ones count as missing before the next."""
         number, color_lost, depth_lost, missing = 0, 0, 0, 0
         with closing(decoded) as all_of_them:  # type: ignore[type-var]
             for frame, depth_is_lost in all_of_them:
@@ -168,7 +173,7 @@ class TumFolder:
             self._notice(DamagedFramesExcluded(self._folder, _format_counts(color_lost, depth_lost, "damaged")))
 
     def _load_frame(self, index: int) -> _DecodedFrame:
-        """A frame, None where its colour picture is left out, and whether a depth picture was."""
+        """Return a frame, or None if its colour image is skipped, and whether its depth image was."""
         if not self._skip_damaged:
             return self._read_frame(index, with_depth=True), False
         try:
@@ -219,9 +224,9 @@ class TumFolder:
 
 
 def pair_by_time(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
-    """For each colour time the depth picture that belongs to it: nearest pairs first, each depth used once.
+    """Return for each colour time the index of its depth image: nearest pairs first, each used once.
 
-    Both lists rise strictly; pairs further apart than 20 ms are none.
+    Both lists rise strictly; pairs more than 20 ms apart are not made.
 
     >>> pair_by_time(np.array([0.0, 0.033]), np.array([0.004, 0.036]))
     [0, 1]
@@ -242,7 +247,7 @@ def pair_by_time(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
 
 
 def count_dropped_frames(timestamp_s: FloatArray) -> list[int]:
-    """Frames missing before each one: a gap of about n median periods lacks n - 1.
+    """Return the frames missing before each one: a gap of about n median periods lacks n - 1.
 
     >>> count_dropped_frames(np.array([0.0, 0.033, 0.066, 0.165, 0.198]))
     [0, 0, 0, 2, 0]
@@ -264,8 +269,7 @@ def _read_depth_list(folder: Path, need_depth: bool, notice: NoticeHandler) -> l
 
 
 def _estimate_depth_unit_m(folder: Path, stored: Sequence[StoredFrame], camera: Camera, notice: NoticeHandler) -> float:
-    """Metres per count of the depth pictures: as the format has it, or a millimetre, of which ``notice`` hears, where
-    half of what is seen would else be far nearer than the sensor sees."""
+    """Return metres per count: the format's 1/5000, or 1 mm if half of the readings would be far too near."""
     for frame in [frame for frame in stored if frame.depth is not None][:_UNIT_SAMPLE_FRAMES]:
         assert frame.depth is not None
         try:
@@ -282,8 +286,10 @@ def _estimate_depth_unit_m(folder: Path, stored: Sequence[StoredFrame], camera: 
 
 
 def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
-    """Times in seconds, picture files and lines of ``rgb.txt`` or ``depth.txt``; the times rise strictly. ``notice``
-    hears of times in another unit, and of lines with the time of the one before, which are left out."""
+    """Return times, image files and lines of ``rgb.txt`` or ``depth.txt``; the times must rise.
+
+    Times in another unit are notified; lines with the time of the line before are skipped and notified.
+    """
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as cause:
@@ -324,7 +330,7 @@ def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
 
 
 def _check_files(entries: list[_Entry], leave_out: bool, *, first: bool) -> tuple[list[tuple[float, Path]], int]:
-    """Times and pictures that are there, and how many are not; the ``first``, where it is clicked on, must be."""
+    """Return the entries whose files exist, and the number of others; the first colour image must exist."""
     out: list[tuple[float, Path]] = []
     for time_s, picture, place in entries:
         if _is_file(picture):
@@ -349,14 +355,13 @@ def _format_counts(color: int, depth: int, how: str) -> str:
 
 
 def _read_simulated_setting(color_list: Path) -> dict[str, str]:
-    """The setting that says so, for a list that has been read already."""
     with color_list.open(encoding="utf-8-sig") as lines:
         remarks = (line.strip() for line in lines if line.startswith("#"))
         return {SIMULATED: "yes"} if SIMULATED_REMARK in remarks else {}
 
 
 def _read_remark(color_list: Path, remark: str) -> str:
-    """What follows a remark of a list that has been read already, else nothing."""
+    """Return what follows a remark in a list, else an empty text."""
     with color_list.open(encoding="utf-8-sig") as lines:
         return next((line.removeprefix(remark).strip() for line in lines if line.startswith(remark)), "")
 
@@ -412,7 +417,7 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
 
 
 class TumWriter(FileWriter):
-    """Writes one folder. A picture enters its list only when its file is whole, so a crash costs one frame."""
+    """Writer of one folder. An image enters its list when its file is complete, so a crash costs one frame."""
 
     def __init__(self, path: Path, info: SourceInfo) -> None:
         self._path = path
@@ -484,7 +489,7 @@ class TumWriter(FileWriter):
 
 
 def _append(file: FileIO, text: str) -> None:
-    """Write a text at the end, all of it or nothing. Raises OSError."""
+    """Append a text completely or not at all; raises OSError."""
     data, begin = text.encode(), file.tell()
     if file.write(data) < len(data):
         file.truncate(begin)
@@ -497,7 +502,7 @@ def _recording_remarks(info: SourceInfo) -> tuple[tuple[str, str], ...]:
 
 
 def to_tum_depth(depth_raw: DepthImage, depth_unit_m: float) -> DepthImage:
-    """Depth in the format's 5000 counts per metre; what lies beyond its 13.1 m becomes 0, no reading."""
+    """Return depth in 5000 counts per metre; more than 13.1 m becomes 0 (no reading)."""
     scale = depth_unit_m / DEPTH_UNIT_M
     if abs(scale - 1.0) < 1e-9:
         return depth_raw
