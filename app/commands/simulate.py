@@ -13,7 +13,7 @@ from carpus.core.model.depth_sensor import SENSORS
 from carpus.core.model.hand.protocols import protocol_names
 from carpus.core.model.names import describe_known_names
 from carpus.core.simulation.motions import MOTIONS
-from carpus.core.simulation.spec import HABITS, NONE, WORN_ITEMS, RecordingSpec
+from carpus.core.simulation.spec import ACCESSORIES, HABITS, NONE, RecordingSpec
 
 
 def parse_number_or_drawn(text: str) -> float | None:
@@ -74,9 +74,9 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     (
         "worn",
         {
-            "type": names_type((NONE, *WORN_ITEMS)),
+            "type": names_type((NONE, *ACCESSORIES)),
             "metavar": "WORN+...",
-            "help": f"with + between: {', '.join(WORN_ITEMS)}",
+            "help": f"with + between: {', '.join(ACCESSORIES)}",
         },
     ),
     ("pen-marks", {"type": whole_number, "help": "blue dots of a pen on the skin"}),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand, check_hand_length
-from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, nearest_blob
+from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, find_nearest_blob
 from carpus.core.calibration.label_proposal import propose_labels
 from carpus.core.calibration.result import ALL_STRAIGHT, Calibration, Clicks
 from carpus.core.detection.appearance import estimate_radius_px
@@ -111,7 +111,7 @@ class HandCalibrator:
             return None
         frame, detection = self._held_frames[0], self._settings.detection
         radius_px = estimate_radius_px(frame, pixel, self._camera, detection)
-        found = nearest_blob(self._candidates, pixel, radius_px, detection)
+        found = find_nearest_blob(self._candidates, pixel, radius_px, detection)
         if not len(found):
             found = find_marker_at_click(frame, pixel, self._camera, detection)
         if not len(found):

@@ -1,1 +1,1 @@
-"""From clicks on the first frame to the hand's geometry and the neutral pose, with a verdict."""
+"""Calibration of the hand: from clicks on the first frame to its geometry and neutral pose."""

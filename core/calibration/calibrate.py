@@ -1,4 +1,4 @@
-"""From a person's clicks to a measured hand at its neutral pose (wrist paper II-C and III-D)."""
+"""Calibration of the hand at its neutral pose from a person's clicks (wrist paper II-C and III-D)."""
 
 from __future__ import annotations
 
@@ -50,21 +50,27 @@ _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""
 _TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
 MAX_STILL_MOTION_PX = 0.7
-"""By how much the discs of a still hand may have moved."""
+"""Motion of the markers up to which the hand is still."""
 STILL_GATE_PX, MIN_STILL_MARKERS = 4.0, 3
-"""While the hand is still a disc lies so near to where it was clicked, so many of them at least."""
+"""While the hand is still, at least so many markers lie within this distance of their click."""
 MIN_NEUTRAL_FRAMES = 5
-"""For a neutral pose worth its name."""
+"""Fewer still frames give a finding."""
 DEFAULT_PIXEL_SD_PX, SYSTEMATIC_PIXEL_SD_PX = 0.3, 0.1
-"""Of a disc's centre where the frames are too few to show it, and what of it no averaging removes."""
+"""Noise of a marker's centre if too few frames show it; the part that averaging does not remove."""
 MAX_HAND_LENGTH_CHANGE = 0.15
-"""Of a hand since last time: discs put on anew lie up to half a centimetre elsewhere on the 8 cm that are measured."""
+"""Markers placed anew lie up to half a centimetre off on the 8 cm that are measured."""
 
 
 @dataclass(frozen=True, slots=True)
 class NeutralCapture:
-    """The discs over the still first frames: pixels (F, M, 2), depths (F, M), what the detector said of the
-    depths' sd (F, M), and areas (F, M); NaN where not seen; ``duration_s`` from the first to the last."""
+    """Measurements of the M markers over the F still frames; NaN where not measured.
+
+    Attributes
+    ----------
+    pixel : (F, M, 2)
+    depth_m, depth_sd_m, area_px : (F, M); standard deviation as stated by the detector
+    duration_s : from the first to the last still frame
+    """
 
     pixel: FloatArray
     depth_m: FloatArray
@@ -79,9 +85,10 @@ class NeutralCapture:
 
 @dataclass(frozen=True, slots=True)
 class MeasurementNoise:
-    """Standard deviation of one picture's centres and depths on a still hand, ``depth_ratio`` of the latter to that
-    of a single reading by the book: NaN when there were too few frames. ``marker_radius_m`` of the palm's discs as
-    they appear."""
+    """Noise of one frame's marker centres and depths on a still hand; NaN with too few frames.
+
+    ``depth_ratio`` is the depth noise over that of the sensor model, ``marker_radius_m`` the palm markers' radius.
+    """
 
     pixel_sd_px: float = float("nan")
     depth_sd_m: float = float("nan")
@@ -91,7 +98,7 @@ class MeasurementNoise:
 
 @dataclass(frozen=True, slots=True)
 class MeasuredHand:
-    """The verdict on a neutral capture, the calibration unless a finding blocks, and the noise of one picture."""
+    """Verdict on a neutral capture, its noise, and the calibration unless a finding blocks it."""
 
     verdict: Verdict
     calibration: Calibration | None
@@ -100,8 +107,10 @@ class MeasuredHand:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationOutcome(MeasuredHand):
-    """What there is to judge of pictures: besides the measured hand what its discs look like, ``pixel`` (M, 2) where
-    they were found, NaN where not, and ``capture_frames`` still frames used, from the first on."""
+    """Measured hand with the appearance of its markers.
+
+    ``pixel`` (M, 2) is where they were found, NaN where not; ``capture_frames`` is the number of still frames used.
+    """
 
     appearance: MarkerAppearance
     pixel: FloatArray
@@ -116,9 +125,18 @@ def calibrate_hand(
     detection: DetectionSettings,
     start_angles_rad: FloatArray | None = None,
 ) -> CalibrationOutcome:
-    """Find the clicked discs, average them while the hand is still, measure the palm, judge the result.
+    """Find the clicked markers, average them while the hand is still, measure and check the palm.
 
-    ``frame_count``: the clicked frame first, then those that follow it.
+    Parameters
+    ----------
+    clicks
+        labelled pixels on the first frame
+    frames
+        the clicked frame, then those that follow it
+    camera, settings, detection
+        camera model, limits of the calibration, settings of the detector
+    start_angles_rad
+        (3,) deviation, flexion and pronosupination of the neutral pose; None for zero
     """
     first = frames[0]
     radius_px = np.array([estimate_radius_px(first, click, camera, detection) for click in clicks.pixel])
@@ -166,7 +184,7 @@ def _add_odd_marker_finding(
     camera: Camera,
     detection: DetectionSettings,
 ) -> MeasuredHand:
-    """The measured hand, doubted where a disc makes no palm, or where a spot that nobody named fits better."""
+    """Add a finding if a marker makes no palm, or an unlabelled spot fits better."""
     palm = list(clicks.protocol.palm)
     taken = np.linalg.norm(all_blobs.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < SAME_SPOT_PX
     depth_m = float(hand.verdict.distance_m)
@@ -194,7 +212,7 @@ def _add_near_spot_finding(
     radius_px: FloatArray,
     all_blobs: Detections,
 ) -> MeasuredHand:
-    """The measured hand, doubted where a spot that nobody named lies so near to a disc that it may be the disc."""
+    """Add a finding if an unlabelled spot is so near to a marker that it may be the marker."""
     apart = np.linalg.norm(all_blobs.pixel[:, None] - found_px[None], axis=-1)
     # A disc is its own nearest blob.
     apart[apart.argmin(axis=0)] = np.inf
@@ -217,8 +235,7 @@ def _add_finding(hand: _HandT, finding: CalibrationFinding) -> _HandT:
 
 @dataclass(frozen=True, slots=True)
 class _ClickedMarkers:
-    """Colours of the discs, blobs of the clicked frame, blob ``blob_index`` (M,) of every click or -1, what was
-    wrong."""
+    """Appearance, blobs of the clicked frame, blob of each click (M,) or -1, findings."""
 
     appearance: MarkerAppearance
     blobs: Detections
@@ -234,10 +251,8 @@ def _find_clicked_markers(
     camera: Camera,
     detection: DetectionSettings,
 ) -> _ClickedMarkers:
-    """The discs of the clicked frame under the clicks."""
-
     def detect_at_pixels(pixel: FloatArray) -> _ClickedMarkers:
-        """The colours learnt where the discs are taken to be, at ``pixel`` (M, 2)."""
+        """Learn the appearance at ``pixel`` (M, 2) and assign the blobs."""
         appearance, _ = learn_appearance(frame, pixel, camera, detection)
         blobs = Detector(appearance, camera, detection).detect(frame, region)
         return _ClickedMarkers(appearance, blobs, *_assign_clicks(clicks, blobs, reach_px))
@@ -252,13 +267,13 @@ def _find_clicked_markers(
 
 
 def _snap_clicks(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
-    """Clicks (M, 2) moved onto the blob that each means, all together; where there is none, as clicked."""
+    """Move clicks (M, 2) onto their blobs, all together; those without a blob stay."""
     taken = assign_nearest(np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1), reach_px)
     return np.where((taken >= 0)[:, None], _select_rows(blobs.pixel, taken), pixel)
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:
-    """The calibration, or the typed fault of the first finding that blocks it."""
+    """Return the calibration. Raises the error of the first finding that blocks it."""
     for finding in outcome.verdict.findings:
         if finding.blocks:
             fault = MarkerWithoutDepth if finding.kind == "no_depth" else ClickOnNoMarker
@@ -282,7 +297,7 @@ def _bounding_region(pixel: FloatArray, margin_px: float, camera: Camera) -> Reg
 def _assign_clicks(
     clicks: Clicks, blobs: Detections, reach_px: FloatArray
 ) -> tuple[NDArray[np.int64], list[CalibrationFinding]]:
-    """Blob of every click (M,), -1 for none, each blob once, nearest overall; and what was wrong."""
+    """Return the blob of each click (M,) or -1, by the smallest total distance, and the findings."""
     names = clicks.protocol.markers
     findings: list[CalibrationFinding] = []
     distance = np.linalg.norm(clicks.pixel[:, None] - blobs.pixel[None], axis=-1)
@@ -300,9 +315,16 @@ def _assign_clicks(
 def capture_neutral_pose(
     detections: Iterable[tuple[float, Detections]], blob_index: NDArray[np.int64], settings: CalibrationSettings
 ) -> NeutralCapture:
-    """The discs from the first frame on for as long as the hand stays still.
+    """Collect the markers from the first frame on until the hand moves.
 
-    ``seen``: time and blobs of every frame in order; ``blob_index`` (M,) the first frame's blob of every marker.
+    Parameters
+    ----------
+    detections
+        time and blobs of each frame, in order
+    blob_index
+        (M,) blob of each marker in the first frame
+    settings
+        limits of the calibration
     """
     frames = iter(detections)
     begin_s, blobs = next(frames)
@@ -339,7 +361,7 @@ def measure_hand(
     earlier_findings: Iterable[CalibrationFinding] = (),
     start_angles_rad: FloatArray | None = None,
 ) -> MeasuredHand:
-    """Average the discs of the still hand, measure its shape and pose, judge them."""
+    """Average the markers of the still hand, estimate shape and neutral pose, check them."""
     names = clicks.protocol.markers
     findings = list(earlier_findings)
     palm = np.array(clicks.protocol.palm)
@@ -400,7 +422,7 @@ def _nanmean(values: FloatArray) -> FloatArray:
 
 
 def _estimate_noise(capture: NeutralCapture, sensor: DepthSensor) -> MeasurementNoise:
-    """Noise of one picture on the still hand, common drift of the centres removed; NaN where too little was seen."""
+    """Estimate the noise of one frame without the common drift; NaN with too few frames."""
     if capture.frame_count < 4:
         return MeasurementNoise()
     about = capture.pixel - np.nanmean(capture.pixel, axis=0)  # first: a disc not seen must not move the median
@@ -414,13 +436,13 @@ def _estimate_noise(capture: NeutralCapture, sensor: DepthSensor) -> Measurement
 
 
 def _mean_variance(series: FloatArray) -> float:
-    """Mean variance over time of the columns of (F, ...) that were seen more than once; NaN when none was."""
+    """Return the mean variance over time of series (F, ...) seen more than once, else NaN."""
     often = np.isfinite(series).sum(axis=0) > 1
     return float(np.mean(np.nanvar(series[:, often], axis=0, ddof=1))) if often.any() else math.nan
 
 
 def _marker_radius_m(capture: NeutralCapture, camera: Camera, palm: NDArray[np.int64]) -> float:
-    """Of round discs that had the area of the palm's: children wear smaller ones (reference 2)."""
+    """Return the median radius of the palm's markers by their area: children wear smaller ones."""
     radius_px = np.sqrt(_nanmean(capture.area_px[:, palm]) / np.pi)
     return float(np.nanmedian(radius_px * _nanmean(capture.depth_m[:, palm]) / camera.fx_px))
 
@@ -435,7 +457,7 @@ def _marker_covariances(
     noise: MeasurementNoise,
     camera: Camera,
 ) -> FloatArray:
-    """Covariance (M, 3, 3) in W0 of the averaged disc places: across by the pixels, along the ray by the depth."""
+    """Return covariances (M, 3, 3) in W0: lateral from the pixels, along the ray from the depth."""
     z = point_cam[:, 2]
     book_m = camera.sensor.disc_sd_m(z, area_px)
     scatter_m = noise.depth_sd_m if np.isfinite(noise.depth_sd_m) else book_m
@@ -456,7 +478,7 @@ def _residuals_mm(
     rotation: FloatArray,
     translation: FloatArray,
 ) -> FloatArray:
-    """Root mean square distance (M,) of each disc from its fitted place over the captured frames."""
+    """Return the RMS distance (M,) of each marker from its fitted place."""
     placed = marker_w0_m @ rotation.T + translation
     flat = capture.pixel.reshape(-1, 2)
     ideal = camera.undistort(np.nan_to_num(flat)).reshape(capture.pixel.shape)
@@ -509,7 +531,7 @@ def _empty_verdict(clicks: Clicks, findings: list[CalibrationFinding]) -> Verdic
 
 
 def check_hand_length(outcome: CalibrationOutcome, previous_length_mm: float) -> CalibrationOutcome:
-    """The outcome, doubted where the hand is not as long as the same hand was; NaN: there is none to compare with."""
+    """Add a finding if the hand's length differs from the previous one; NaN means there is none."""
     now_mm = outcome.verdict.hand_length_mm
     if not (math.isfinite(previous_length_mm) and math.isfinite(now_mm)):
         return outcome

@@ -1,4 +1,4 @@
-"""Discs of a held picture before anything is known of today's colours: what a click can snap to."""
+"""Marker candidates in a frozen frame, before the appearance of markers is learnt."""
 
 from __future__ import annotations
 
@@ -18,35 +18,35 @@ from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, Detections, FloatArray, Frame
 
 PAPER_HSV_RANGE: tuple[tuple[int, ...], ...] = ((90, 60, 30), (130, 255, 255))
-"""Lowest and highest hue, saturation and value of blue paper in any usual light (OpenCV's scales)."""
+"""Lowest and highest hue, saturation and value of blue paper in usual light (OpenCV's scales)."""
 TINGED_HSV_RANGE: tuple[tuple[int, ...], ...] = ((85, 50, 25), (145, 255, 255))
-"""The same of discs so small that they take on some of the skin; with it a sleeve falls into specks."""
+"""The same for markers so small that they mix with the skin; a sleeve falls into specks."""
 MIN_AREA_RATIO = 0.3
-"""Area of a spot over a disc's."""
+"""Area of a spot over that of a marker."""
 MIN_TINGED_AREA_RATIO = 0.2
-"""The same of a tinged one."""
+"""The same for a tinged spot."""
 MAX_CANDIDATES = 400
-"""In cloth of the paper's hue there are more spots than discs; so many are looked at."""
+"""Cloth of the paper's hue has more spots than there are markers."""
 MIN_CANDIDATES = 3
 """Fewer spots are no marked hand."""
 CLICK_WINDOW_RADII = 8.0
-"""So far about a click is searched."""
+"""Half width of the search around a click."""
 MAX_BACKGROUND_SIMILARITY = 0.6
-"""Bhattacharyya coefficient of a spot to what lies around it, above which it is no paper."""
+"""Bhattacharyya coefficient of spot and surroundings above which it is no paper."""
 MIN_CHROMA = 24.0
-"""Strongest channel less the weakest, of 255: coloured paper in a dim room has 60, a dark pullover up to 15."""
+"""Strongest less weakest channel of 255: paper in a dim room has 60, a dark pullover up to 15."""
 MIN_VALUE = 60.0
-"""Strongest channel of a spot: 90 on paper in a dim room; darker nothing has such a colour but by chance."""
+"""Strongest channel of a spot: 90 on paper in a dim room; the hue of darker spots is random."""
 MIN_COLOUR_CONTRAST = 50.0
-"""Distance in colour (RGB) of most of the ring about a disc from the disc: 65 in a dim room, in cloth rarely 45."""
+"""RGB distance of most of the surrounding ring: 65 in a dim room, in cloth rarely 45."""
 MIN_CHROMA_SHARE = 0.35
-"""All discs are of one paper: a spot with less than this share of the usual colour of the spots is none of them."""
+"""All markers are of one paper: spots with less of the median chroma are none."""
 
 
 def find_marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings) -> Detections:
-    """Every blue disc-sized blob of a picture, exactly placed; none where fewer than three are seen.
+    """Detect all blue blobs of a marker's size in a frame; none if fewer than three are found.
 
-    A first, wide search for blue shows what today's paper and skin look like; the detector then finds the discs.
+    A first, wide search for blue shows the appearance of paper and skin; the detector then finds the markers.
     """
     hsv = appearance.to_hsv(frame.color_rgb)
     blue = cv2.inRange(hsv, *(np.array(limit) for limit in PAPER_HSV_RANGE))
@@ -79,10 +79,12 @@ def _paper(pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, sett
 def is_paper(
     pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings
 ) -> NDArray[np.bool_]:
-    """Which spots (B, 2) have a colour of their own, other than what lies around them, and about as much of it as
-    the others. Dark cloth falls into specks whose hue is blue by chance; they have hardly any colour."""
+    """Select the spots (B, 2) that have a colour unlike their surroundings, and about as much as the others.
+
+    Dark cloth falls into specks whose hue is blue by chance; they have hardly any chroma.
+    """
     colour = np.zeros(len(pixel))
-    for i, (at, radius_px) in enumerate(zip(pixel, _expected_radii_px(frame, pixel, camera, settings), strict=True)):
+    for i, (at, radius_px) in enumerate(zip(pixel, _marker_radii_px(frame, pixel, camera, settings), strict=True)):
         others = pixel[(np.abs(pixel - at).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
         colour[i] = _chroma(frame.color_rgb, hsv, at, radius_px, others)
     coloured = colour >= MIN_CHROMA
@@ -97,7 +99,7 @@ def _chroma(
     radius_px: float,
     neighbours_px: FloatArray,
 ) -> float:
-    """Strongest channel less the weakest of a spot, 0 for one that looks like what lies around it."""
+    """Return the chroma of a spot, 0 if it looks like its surroundings."""
     half = int(3.0 * radius_px) + 2
     left, top = (max(0, round(float(value)) - half) for value in centre_px)
     rows, columns = slice(top, top + 2 * half + 1), slice(left, left + 2 * half + 1)
@@ -125,16 +127,16 @@ def _chroma(
 def _find_marker_sized_spots(
     mask: Any, min_area_ratio: float, frame: Frame, camera: Camera, settings: DetectionSettings
 ) -> FloatArray:
-    """Middles (B, 2) of the mask's components that are as large as a disc there, or ``min_area_ratio`` of it."""
-    found = find_components((mask > 0).astype(np.uint8), lambda at: _expected_radii_px(frame, at, camera, settings))
+    """Return the centres (B, 2) of the mask's components that have about a marker's area."""
+    found = find_components((mask > 0).astype(np.uint8), lambda at: _marker_radii_px(frame, at, camera, settings))
     full = np.pi * found.radius_px**2
     return found.centre_px[(found.area_px > min_area_ratio * full) & (found.area_px < 2.0 * full)]
 
 
 def find_marker_at_click(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> Detections:
-    """The disc that covers a pixel (2,), whatever its colour: one blob, or none.
+    """Detect the marker that covers a pixel (2,), whatever its colour: one blob, or none.
 
-    Only a small window is looked at. A spot that looks like all that lies around it is no disc.
+    Only a small window is searched. A spot that looks like its surroundings is no marker.
     """
     radius_px = estimate_radius_px(frame, pixel, camera, settings)
     half = CLICK_WINDOW_RADII * radius_px
@@ -160,16 +162,18 @@ def find_marker_at_click(frame: Frame, pixel: FloatArray, camera: Camera, settin
         return Detections.none()
     window = Detector(looks, camera, settings).compute_search_region(centre, np.zeros((1, 2, 2)), np.array([0.5]))
     found = Detector(looks, camera, settings).detect(part, window)
-    return nearest_blob(replace(found, pixel=found.pixel + corner), pixel, radius_px, settings)
+    return find_nearest_blob(replace(found, pixel=found.pixel + corner), pixel, radius_px, settings)
 
 
-def nearest_blob(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
-    """The blob within a click's reach of a pixel (2,), the nearest one: one blob, or none."""
+def find_nearest_blob(
+    blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings
+) -> Detections:
+    """Return the nearest blob within a click's reach of a pixel (2,): one blob, or none."""
     distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
     if not distance.size or float(distance.min()) > MAX_CLICK_DISTANCE_RADII * radius_px:
         return Detections.none()
     return blobs.subset(np.arange(distance.size) == distance.argmin())
 
 
-def _expected_radii_px(frame: Frame, centre_px: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
+def _marker_radii_px(frame: Frame, centre_px: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
     return np.array([estimate_radius_px(frame, at, camera, settings) for at in centre_px])

@@ -1,4 +1,4 @@
-"""The file of first-frame clicks: JSON with hand, protocol and one pixel for each marker."""
+"""Clicks file: JSON with hand, protocol and one pixel for each marker."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from carpus.core.model.types import FloatArray, Side
 from carpus.core.platform.durable import open_private, write_fault
 
 _MAX_BYTES = 1_000_000
-"""Clicks take some hundred bytes; more is another file, or one that never ends."""
+"""Clicks take some hundred bytes; a larger file is another one, or endless."""
 _MAX_PIXEL_PX = 1e9
-"""Beyond any picture; also keeps NaN, infinity and integers too long for a float out."""
+"""Excludes NaN, infinity and integers too long for a float."""
 
 
 def read_clicks(path: Path, width_px: int | None = None, height_px: int | None = None) -> Clicks:
-    """The clicks of a file; where the size of the first picture is given each must lie inside it.
+    """Read clicks from a file; with the size of the first frame each must lie inside it.
 
     Raises :class:`ClicksUnreadable`, :class:`ProtocolUnknown` or :class:`ClickOutsideImage`.
     """
@@ -41,7 +41,7 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
 
 
 def write_clicks(path: Path, clicks: Clicks) -> None:
-    """Write clicks in the agreed form; a file that is there already is kept."""
+    """Write a clicks file; an existing one is not replaced (:class:`OutputExists`)."""
     markers = dict(zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True))
     content: dict[str, Any] = {"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}
     if clicks.straight_fingers:
@@ -97,7 +97,7 @@ def _read_json_object(path: Path) -> dict[str, Any]:
 
 
 class _DuplicateKeyError(Exception):
-    """A name that a JSON object holds twice; JSON itself would silently take the second."""
+    """A key that a JSON object holds twice, of which JSON would silently take the second."""
 
 
 def _reject_duplicate_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -126,7 +126,7 @@ def _parse_straight_fingers(path: Path, value: Any) -> tuple[bool, ...]:
 
 
 def _parse_pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
-    """Pixels (M, 2) in the order of the protocol."""
+    """Return the pixels (M, 2) in the order of the protocol."""
     if not isinstance(markers, dict):
         raise ClicksUnreadable(path, phrase("no markers"))
     for problem, some in (("no click for", set(names) - set(markers)), ("unknown marker", set(markers) - set(names))):

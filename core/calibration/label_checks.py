@@ -1,11 +1,10 @@
-"""What speaks against the names that discs were given.
+"""Checks of marker labels.
 
-The palm: every other way to give its six names is tried, since six discs are few. WRIST clicked on the little knuckle
-and every other name one disc further on is a palm to whoever only asks whether two were exchanged, or whether they stay
-together; of the 720 ways to give six names only one fits.
+The palm: all 720 ways to label its six markers are compared, since a shift of all labels (WRIST clicked on the MCP5) is
+still a palm to a check of exchanged pairs.
 
-The digits: a hand at its neutral pose has its fingers beside each other, straight or bent. Bending shortens a finger's
-line on the picture but does not turn it aside; only wrong names let it turn back, cross another or jump to a neighbour.
+The digits: at the neutral pose fingers lie side by side. Flexion shortens the line of a finger in the image but does
+not turn it aside; only wrong labels make it turn back, cross another line or jump to a neighbour.
 """
 
 from __future__ import annotations
@@ -27,29 +26,28 @@ _OTHER_SIDE: dict[Side, Side] = {"right": "left", "left": "right"}
 
 
 MAX_TURN_DEG = 50.0
-"""A line of discs that turns aside by more at one disc is no finger."""
+"""A finger's line turns by less at each marker."""
 MAX_THUMB_TURN_DEG = 75.0
-"""As :data:`MAX_TURN_DEG` of the thumb, whose base lies freely."""
+"""The same for the thumb, whose base is free."""
 MAX_LENGTH: tuple[float, ...] = (1.25, 0.85, 0.62, 0.45)
-"""Longest pieces of a finger, wrist to tip, over the length from WRIST to the middle knuckle."""
+"""Longest segments of a finger, wrist to tip, over the distance from WRIST to MCP3."""
 MAX_THUMB_LENGTH: tuple[float, ...] = (0.6, 0.95, 0.75, 0.62)
-"""As :data:`MAX_LENGTH` of the thumb."""
+"""The same for the thumb."""
 SHORT_LENGTH = 0.08
-"""Pieces as short on that scale have no direction worth judging."""
+"""Shorter segments on that scale have no direction to check."""
 LENGTH_WEIGHT = 4.0
-"""Faults counted for each such length too much; a crossing is one."""
+"""Penalty for each such length too much; a crossing costs 1."""
 TURN_PENALTY_DEG = 45.0
-"""Turned aside by so much too far is one fault."""
+"""So much turn beyond the limit costs 1."""
 ORDER_WEIGHT = 1.5
-"""Faults counted for a knuckle out of order."""
+"""Penalty for an MCP out of order."""
 MIN_DOUBTFUL_PENALTY = 1.2
-"""With so many faults names are doubted: two bent fingers may cross once by themselves."""
+"""Labels are questioned from here on: two bent fingers may cross once."""
 
 
 @dataclass(frozen=True, slots=True)
 class _FingerLines:
-    """The lines that a protocol's discs make: ``chains`` by digit; pieces of them, and which pairs of pieces of
-    different digits should not cross; the four ``knuckles``."""
+    """Lines of a protocol: chain of each digit, segments, pairs that should not cross, the four MCPs."""
 
     chains: dict[int, tuple[int, ...]]
     segments: tuple[tuple[int, int, int], ...]
@@ -75,15 +73,14 @@ def _finger_lines(protocol: MarkerProtocol) -> _FingerLines:
 
 @dataclass(frozen=True, slots=True)
 class LabelFault:
-    """Names that stand in for each other (``swapped``, two of equal length), or one that fits nowhere
-    (``misplaced``)."""
+    """Labels that are exchanged (``swapped``, two of equal length), or a ``misplaced`` one."""
 
     swapped: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
     misplaced: str = ""
 
 
 def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> LabelFault | None:
-    """What is wrong with the names of a ``plan`` (M, 2) seen from the camera, y up; None when nothing is."""
+    """Find what is wrong with the labels of a plan view (M, 2), y up; None if nothing is."""
     lines = _finger_lines(protocol)
     now = _label_penalty(lines, side, plan)
     if now < MIN_DOUBTFUL_PENALTY:
@@ -110,14 +107,14 @@ def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> 
 
 
 def _possible_swaps(lines: _FingerLines, count: int) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
-    """Two discs, or two whole fingers."""
+    """Return all pairs of markers, and of whole fingers."""
     fingers = [chain[1:] for digit, chain in lines.chains.items() if digit != _THUMB]
     single = [((i,), (j,)) for i, j in combinations(range(count), 2)]
     return [*single, *combinations(fingers, 2)]
 
 
 def _find_misplaced_marker(lines: _FingerLines, side: Side, plan: FloatArray) -> tuple[int, float]:
-    """The disc without which least is wrong, and how much: laid between its neighbours on the line, as if it fitted."""
+    """Return the marker whose removal leaves the least penalty, and that penalty."""
     left = np.full(len(plan), np.inf)
     for chain in lines.chains.values():
         for place in range(1, len(chain)):
@@ -132,7 +129,7 @@ def _find_misplaced_marker(lines: _FingerLines, side: Side, plan: FloatArray) ->
 
 
 def _label_penalty(lines: _FingerLines, side: Side, plan: FloatArray) -> float:
-    """Sum of all that speaks against the names, 0 for a usual hand."""
+    """Return the penalty of the labels, 0 for a usual hand."""
     size = float(np.median([np.hypot(*(plan[k] - plan[0])) for k in lines.knuckles]))
     if not size > 0.0:
         return 0.0
@@ -156,7 +153,7 @@ def _label_penalty(lines: _FingerLines, side: Side, plan: FloatArray) -> float:
 
 
 def find_crossings(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Which of the ``pairs`` (K, 2) of pieces cut each other, which run from ``start`` (P, 2) to ``end`` (P, 2)."""
+    """Select the ``pairs`` (K, 2) of segments, from ``start`` to ``end`` (P, 2), that cross."""
 
     def orientation(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
         return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
@@ -168,7 +165,7 @@ def find_crossings(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64])
 
 
 def _count_unordered_knuckles(lines: _FingerLines, side: Side, plan: FloatArray) -> int:
-    """Neighbouring knuckles that follow each other the wrong way about the wrist."""
+    """Count the neighbouring MCPs in the wrong order around the wrist."""
     ray = plan[list(lines.knuckles)] - plan[0]
     turn = ray[:-1, 0] * ray[1:, 1] - ray[:-1, 1] * ray[1:, 0]
     onwards = turn < 0.0 if side == "right" else turn > 0.0
@@ -179,18 +176,19 @@ _PALM_PERMUTATIONS = np.array(list(permutations(range(len(PALM_MARKERS)))))
 
 
 GOOD_PALM_MISFIT = 0.08
-"""Share of the palm's size below which its names are not questioned: hands differ from the average by up to 0.05,
-and the next best order of the names of a right palm leaves 0.25."""
+"""Share of the palm's size below which its labels are accepted.
+
+Hands differ from the average by up to 0.05; the next best labelling of a right palm leaves 0.25.
+"""
 BETTER_LABELS_SHARE = 0.6
-"""Another order must leave less than this share of the misfit of the names as clicked."""
+"""Another labelling must leave less than this share of the misfit."""
 
 
 def find_shifted_labels(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
-    """The wrong names among the palm's, empty when another order does not fit clearly better.
+    """Return the wrong labels of a palm, empty if no other labelling fits clearly better.
 
-    ``palm_plan`` (6, 2) the discs in the order of ``PALM_MARKERS``, seen from the camera, y up. The first disc that
-    was given a wrong name comes first, and after each name the one that its disc should have: WRIST, MCP5 say that
-    the disc clicked as wrist is the little knuckle. Two names only are two that were exchanged.
+    ``palm_plan`` (6, 2) is the plan view in the order of ``PALM_MARKERS``. Each label is followed by the right one for
+    its marker: WRIST, MCP5 means that the marker clicked as WRIST is MCP5. Two labels are exchanged.
     """
     misfits = misfit(average_palm(side), palm_plan[_PALM_PERMUTATIONS])
     best = int(misfits.argmin())
@@ -203,26 +201,25 @@ def find_shifted_labels(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
 
 
 def is_plausible_palm(side: Side, palm_plan: FloatArray) -> bool:
-    """Whether six names, given by nobody yet, lie where a palm of this hand has them, and not better on the other
-    hand. ``palm_plan`` as in :func:`find_shifted_labels`."""
+    """True if six proposed labels fit a palm of this hand better than any other, or the other hand."""
     misfits, others = (misfit(average_palm(one), palm_plan[_PALM_PERMUTATIONS]) for one in (side, _OTHER_SIDE[side]))
     return bool(misfits[0] < GOOD_PALM_MISFIT and misfits[0] == misfits.min() < others.min())
 
 
 @lru_cache(maxsize=8)
 def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
-    """The discs (M, 2) of the average hand, seen from the camera, y up, in metres."""
+    """Return the plan view (M, 2) of the average hand, m."""
     discs = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
     return discs[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
 
 
 def average_palm(side: Side) -> FloatArray:
-    """The discs (6, 2) of the average palm in the order of ``PALM_MARKERS``, seen from the camera, y up, in metres."""
+    """Return the plan view (6, 2) of the average palm in the order of ``PALM_MARKERS``, m."""
     return _average_plan(WRIST6, side)
 
 
 def misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
-    """Residual share (...) of the best similarity (turn, scale, shift; no mirror) of discs (..., M, 2) as named."""
+    """Return the residual share (...) of the best similarity (no mirror) of plan views (..., M, 2)."""
     axes = np.array([1.0, 1j])
     mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=-2, keepdims=True)) @ axes
     factor = theirs @ mine.conj() / np.vdot(mine, mine)
@@ -230,14 +227,14 @@ def misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
     return np.asarray(off / np.maximum(np.linalg.norm(theirs, axis=-1), 1e-12))
 
 
-def leave_one_out_misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
-    """The :func:`misfit` (M,) that is left without each of the discs (M, 2)."""
+def misfit_per_removed_marker(average: FloatArray, plan: FloatArray) -> FloatArray:
+    """Return the misfit (M,) that is left without each marker."""
     each = range(len(plan))
     return np.array([misfit(np.delete(average, k, axis=0), np.delete(plan, k, axis=0)) for k in each])
 
 
 def _permutation_cycles(right_name: NDArray[np.int64]) -> list[int]:
-    """The wrong ones, each followed by what it should be."""
+    """Return the wrong labels, each followed by the right one."""
     out: list[int] = []
     for start in range(len(right_name)):
         while right_name[start] != start and start not in out:
@@ -247,18 +244,18 @@ def _permutation_cycles(right_name: NDArray[np.int64]) -> list[int]:
 
 
 GOOD_SIDE_MISFIT = 0.05
-"""Share of the constellation's size below which the side is not questioned: hands differ by up to so much."""
+"""Misfit below which the side is accepted: hands differ by up to so much."""
 OTHER_SIDE_SHARE = 0.6
-"""The other hand must leave less than this share of the misfit to be called the likelier one."""
+"""The other hand must leave less than this share of the misfit to be more likely."""
 
 
 def plan_view(point_cam_m: FloatArray) -> FloatArray:
-    """Points (M, 3) of the camera as a drawing (M, 2) seen from the camera, y up."""
+    """Project camera points (M, 3) to a plan view (M, 2), y up."""
     return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
 
 
 def is_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
-    """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
+    """True if the markers are clearly the other hand's, not this one's with two labels swapped."""
     average = _average_plan(protocol, side)
     own, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER_SIDE[side]), plan)
     if own < GOOD_SIDE_MISFIT or mirrored >= OTHER_SIDE_SHARE * own:
@@ -271,27 +268,29 @@ def is_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> boo
 
 
 QUESTIONED_MISFIT = 0.08
-"""Share of the palm's size from which a spot without a name may stand in for a disc."""
+"""Misfit from which an unlabelled spot may replace a marker."""
 BETTER_SPOT_SHARE = 0.6
-"""What stands in for a disc must leave less than this share of the misfit."""
+"""A spot that replaces a marker must leave less than this share of the misfit."""
 MAX_PALM_MISFIT = 0.17
-"""A misfit that no palm has: hands differ by up to 0.05, discs stuck 4 mm off by up to 0.12."""
+"""Hands differ by up to 0.05, markers placed 4 mm off by up to 0.12."""
 PALM_MARGIN_SHARE = 0.18
-"""A spot as near to the palm's discs, a share of its length, lies on the palm: there is one disc too many."""
+"""Spots within this share of the palm's length lie on the palm: one marker too many."""
 MAX_SPARE_SPOTS = 2
-"""More of these are the discs of a whole hand, or a pattern: nobody is asked of each."""
+"""More spots are the markers of a whole hand, or a pattern."""
 SAME_SPOT_PX = 4.0
-"""A spot as near to a disc is that disc."""
+"""A spot within this distance of a marker is that marker."""
 MAX_DEPTH_OFFSET_M = 0.06
 """A spot farther from the depth of the palm lies on something else."""
 SAME_MARKER_RADII = 1.6
-"""A spot within so many radii of a disc's middle may be the disc itself."""
+"""A spot within so many radii of a marker may be the marker itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class OddMarker:
-    """``marker`` the row of the palm's disc in question, -1 for none; ``spot`` the row of the spot that may be it, or
-    that is one too many, -1 for none; ``is_spot_better`` whether the spot makes a better palm than the disc."""
+    """Marker of the palm in question, or a spare spot; rows, -1 for none.
+
+    ``is_spot_better``: the spot makes a better palm than the marker.
+    """
 
     marker: int
     spot: int
@@ -299,7 +298,7 @@ class OddMarker:
 
 
 def find_odd_marker(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddMarker | None:
-    """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
+    """Find an odd marker of a palm (6, 2) among the unlabelled spots (S, 2), plan views."""
     average = average_palm(side)
     own = misfit(average, palm_plan)
     best = (float(own), -1, -1)
@@ -312,7 +311,7 @@ def find_odd_marker(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -
     if best[0] < BETTER_SPOT_SHARE * own:
         return OddMarker(best[1], best[2], is_spot_better=True)
     if own >= MAX_PALM_MISFIT:
-        return OddMarker(int(leave_one_out_misfit(average, palm_plan).argmin()), -1, is_spot_better=False)
+        return OddMarker(int(misfit_per_removed_marker(average, palm_plan).argmin()), -1, is_spot_better=False)
     spare = _spots_on_palm(palm_plan, spots_plan)
     if 0 < len(spare) <= MAX_SPARE_SPOTS:
         return OddMarker(-1, int(spare[0]), is_spot_better=False)
@@ -329,7 +328,7 @@ def _spots_on_palm(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.
 
 
 def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
-    """Whether a point lies inside the ring of points: seen from it they go all the way round."""
+    """True if the corners go all the way round the point."""
     angles = np.sort(np.arctan2(corners[:, 1] - spot[1], corners[:, 0] - spot[0]))
     gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
     return bool(gaps.max() < np.pi)

@@ -1,8 +1,8 @@
-"""Names for the discs of a flat hand, proposed from where its blobs lie to each other: a person confirms them.
+"""Label proposal for the markers of a flat hand; a person confirms them.
 
-The average hand in several postures is laid over the blobs by turning, shifting and scaling it in the plane of the
-picture, in metres where depth is known; then every finger is let turn and stretch by itself. The back of the hand
-faces the camera, so the side decides which of two mirror images it is.
+The average hand in several postures is fitted to the blobs by rotation, shift and scale in the image plane, in metres
+where depth is known; then each finger may turn and stretch. The back of the hand faces the camera, so the side decides
+which of two mirror images it is.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.label_checks import average_palm, is_plausible_palm, leave_one_out_misfit, misfit
+from carpus.core.calibration.label_checks import average_palm, is_plausible_palm, misfit, misfit_per_removed_marker
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand.anatomy import anatomy_from_size
 from carpus.core.model.hand.kinematics import disc_centres
@@ -26,32 +26,36 @@ IntArray = NDArray[np.int64]
 
 
 REFERENCE_HAND_M = 0.180
-"""Length of the average hand that is laid over the blobs."""
+"""Length of the average hand that is fitted."""
 MIN_SCALE = 0.62
 """With :data:`MAX_SCALE`: hands 112 to 225 mm long."""
 MAX_SCALE = 1.25
 """Largest scale of the average hand."""
 GATE_M = 0.016
-"""Reach of the first, rough laying-over, for a hand of the average length."""
+"""Gate of the first, rough fit, for a hand of average length."""
 MAX_REFINED_FITS = 24
-"""So many of the best rough fits are refined; more only cost time."""
+"""Number of rough fits that are refined; more only cost time."""
 MAX_FIT_DISTANCE_M = 0.011
-"""A disc farther from where the fitted hand has it is not given its name."""
+"""A blob farther from the fitted marker does not get its label."""
 MIN_LABEL_MARGIN_M = 0.006
-"""By so much another disc must be farther away than the named one."""
+"""Another blob must be farther away by this for a sure label."""
 MAX_PROPOSED_MISFIT = 0.12
-"""Share of the palm's size from which one of its discs is something else: simulated hands leave up to 0.05, discs
-stuck 4 mm off up to 0.12."""
+"""Palm misfit from which one of its markers is something else: simulated hands leave up to 0.05."""
 MAX_DEPTH_OFFSET_M = 0.030
-"""A disc farther from the depth of the others lies on something else."""
+"""A blob farther from the depth of the others lies on something else."""
 DEFAULT_DEPTH_M = 0.7
-"""Distance of the hand where no depth is read."""
+"""Distance of the hand if no depth is measured."""
 
 
 @dataclass(frozen=True, slots=True)
 class LabelProposal:
-    """``blob`` (M,) index of the blob proposed for each marker, -1 for none; ``is_sure`` (M,) where no other name is
-    nearly as good; ``misfit_m`` (M,) how far the blob lies from where the average hand has it, NaN without one.
+    """Proposed blob of each marker.
+
+    Attributes
+    ----------
+    blob : (M,) index, -1 for none
+    is_sure : (M,) no other label is nearly as good
+    misfit_m : (M,) distance of the blob from its place on the average hand, NaN without one
     """
 
     blob: IntArray
@@ -66,11 +70,10 @@ def propose_labels(
     protocol: MarkerProtocol,
     given_labels: Mapping[int, int] | None = None,
 ) -> LabelProposal:
-    """Names for the blobs of a flat, neutral hand with its back to the camera.
+    """Propose labels for the blobs of a flat, neutral hand with its back to the camera.
 
-    ``given_labels``: blobs (values) that a person has named already (keys, rows of ``protocol``); they keep their
-    names and
-    decide between hands that fit alike. Without a likely hand nothing but these is named.
+    ``given_labels`` are blobs (values) that a person has labelled (keys, rows of ``protocol``); they stay and decide
+    between hands that fit alike. Without a likely hand only these are labelled.
     """
     fixed = dict(given_labels or {})
     rows = np.array(protocol.sites)
@@ -105,8 +108,10 @@ def _drop_implausible_palm_labels(
     side: Side,
     protocol: MarkerProtocol,
 ) -> IntArray:
-    """Names (M,) without those on spots that lie where no palm has the disc, which is not in the picture; a person's
-    own names stay. Four discs fit too many things to say which of them is odd."""
+    """Remove labels (M,) from spots where no palm has the marker; a person's own labels stay.
+
+    Four markers fit too many things to tell which of them is odd.
+    """
     out, rows = blob.copy(), np.array(protocol.palm)
     free = np.array([row not in given_labels for row in rows])
     while np.count_nonzero(out[rows] >= 0) > 4:
@@ -119,7 +124,7 @@ def _drop_implausible_palm_labels(
             average, plan = average_palm(side)[named], np.stack((position[spots].real, position[spots].imag), axis=1)
             if misfit(average, plan) < MAX_PROPOSED_MISFIT:
                 break
-            badness = 1.0 - leave_one_out_misfit(average, plan)
+            badness = 1.0 - misfit_per_removed_marker(average, plan)
         badness = np.where(free[named], badness, -1.0)
         if badness.max() < 0.0:
             break
@@ -134,7 +139,7 @@ def _proposal_from_given(given_labels: Mapping[int, int], count: int) -> LabelPr
 
 
 def _image_plane_positions(blobs: Detections, camera: Camera, default_depth_m: float) -> FloatArray:
-    """Places (D,) as complex numbers x - iy in metres, x right and y down in the camera's axes."""
+    """Return positions (D,) as complex x - iy in metres, x right and y down in the camera."""
     known = np.isfinite(blobs.depth_m)
     usual_m = float(np.median(blobs.depth_m[known])) if known.any() else default_depth_m
     point = camera.backproject(camera.undistort(blobs.pixel), np.where(known, blobs.depth_m, usual_m))
@@ -143,7 +148,7 @@ def _image_plane_positions(blobs: Detections, camera: Camera, default_depth_m: f
 
 @dataclass(frozen=True, slots=True)
 class _HandFit:
-    """A posture laid over the blobs: places (M,) of the markers, complex, and the scale it took."""
+    """Posture fitted to the blobs: positions (M,), complex, and its scale."""
 
     position: FloatArray
     scale: float
@@ -159,7 +164,7 @@ class _LabelledFit:
 
 @lru_cache(maxsize=4)
 def _flat_postures(side: Side, reference_m: float) -> FloatArray:
-    """Places (P, 21), complex x + iy in W, of the discs of the average hand in usual flat postures."""
+    """Return positions (P, 21), complex x + iy in W, of the average hand in usual flat postures."""
     names = joint_angle_names()
     hand = anatomy_from_size(reference_m, side=side, nail_discs=True)
     out = []
@@ -176,7 +181,7 @@ def _flat_postures(side: Side, reference_m: float) -> FloatArray:
 def _find_rough_fits(
     position: FloatArray, rows: IntArray, side: Side, given_labels: Mapping[int, int]
 ) -> list[_HandFit]:
-    """The likeliest ways to lay a posture over the blobs, best first: two of its discs on two of the blobs."""
+    """Return the best rough fits, best first: two markers of a posture on two blobs."""
     if position.size < 3:
         return []
     first, second = (
@@ -207,7 +212,7 @@ def _find_rough_fits(
 
 
 def _anchor_pairs(rows: IntArray, given_labels: Mapping[int, int]) -> list[tuple[int, int]]:
-    """Pairs of markers, far apart, on which a posture is laid; those already named where there are two."""
+    """Return pairs of markers, far apart, on which a posture is placed; given ones if there are two."""
     if len(given_labels) >= 2:
         named = list(given_labels)
         return [(named[0], other) for other in named[1:]]
@@ -220,7 +225,7 @@ def _anchor_pairs(rows: IntArray, given_labels: Mapping[int, int]) -> list[tuple
 def _anchor_blobs(
     a: int, b: int, first: IntArray, second: IntArray, given_labels: Mapping[int, int]
 ) -> tuple[IntArray, IntArray]:
-    """Blobs on which the markers a and b are laid."""
+    """Return the blobs for the markers a and b."""
     if a in given_labels and b in given_labels:
         return np.array([given_labels[a]]), np.array([given_labels[b]])
     return first, second
@@ -229,7 +234,7 @@ def _anchor_blobs(
 def _refine_fit(
     position: FloatArray, fit: _HandFit, given_labels: Mapping[int, int], chains: Sequence[IntArray]
 ) -> _LabelledFit:
-    """Named by the nearest overall; the whole hand, then each of its digits, moved to what was named."""
+    """Assign blobs by least distance, while first the whole hand and then each digit moves to them."""
     laid = fit.position
     reach = 2.2 * GATE_M * fit.scale
     for step in range(6):
@@ -250,7 +255,7 @@ def _refine_fit(
 def _assign_blobs(
     position: FloatArray, predicted: FloatArray, gate: float, given_labels: Mapping[int, int]
 ) -> IntArray:
-    """Blob of every marker (M,), -1 where none is within ``gate``; each blob once, nearest overall."""
+    """Return the blob of each marker (M,), -1 if none is within the gate, by the least total cost."""
     from scipy.optimize import linear_sum_assignment  # a third of a second to load
 
     distance = np.abs(predicted[:, None] - position)
@@ -269,7 +274,7 @@ def _assign_blobs(
 
 
 def _fit_similarity(predicted: FloatArray, position: FloatArray, blob: IntArray) -> FloatArray:
-    """The markers turned, shifted and scaled as one, so that the named ones lie on their blobs as well as they can."""
+    """Fit the markers to their blobs by one rotation, shift and scale."""
     named = blob >= 0
     if np.count_nonzero(named) < 2:
         return predicted
@@ -281,7 +286,7 @@ def _fit_similarity(predicted: FloatArray, position: FloatArray, blob: IntArray)
 
 
 def _fit_digits(predicted: FloatArray, position: FloatArray, blob: IntArray, chains: Sequence[IntArray]) -> FloatArray:
-    """Each digit turned and stretched about its first named disc, the rest of it following."""
+    """Fit each digit by itself; its unassigned markers follow."""
     out = predicted.copy()
     if not chains:
         return _fit_similarity(predicted, position, blob)

@@ -1,5 +1,4 @@
-"""What the depth pictures of the still hand at the start tell: whether depth lies on colour (the hand's outline in the
-one against its outline in the other), and the surface of the back of the hand."""
+"""Depth of the still hand: registration of depth to colour, and the surface of the back of the hand."""
 
 from __future__ import annotations
 
@@ -21,16 +20,18 @@ _CORNERS = 4
 
 
 SURFACE_MARGIN_PX = 14.0
-"""Readings of the back of the hand are taken so far around the discs."""
+"""Margin around the markers for readings of the back of the hand."""
 MIN_READING_SHARE = 0.5
-"""Share of the still pictures that must have a reading at a place."""
+"""Share of the still frames that must have a reading at a pixel."""
 
 
 def estimate_back_surface(
     calibration: Calibration, still_frames: Sequence[Frame], camera: Camera
 ) -> DorsalSurface | None:
-    """The surface over capitate, second and third metacarpal, from the mean of the still frames' depths; None where
-    too little of it was seen."""
+    """Fit the surface over capitate and metacarpals 2 and 3 to the mean depth of the still frames.
+
+    None if too little of it was seen.
+    """
     corner = calibration.marker_position_w0_m[list(calibration.clicks.protocol.palm[:_CORNERS])]
     in_camera = corner @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
     pixel = camera.distort(camera.project(in_camera))
@@ -57,32 +58,31 @@ Image = NDArray[np.float32]
 
 
 COMPARED_WIDTH_PX = 640
-"""Width at which the outlines are compared."""
+"""Image width at which the outlines are compared."""
 MAX_OFFSET_PX = 40
-"""Largest shift that is looked for."""
+"""Largest offset that is searched."""
 MARKER_MARGIN_PX = 80
-"""So far about the discs is looked."""
+"""Margin around the markers that is searched."""
 SKIN_RADIUS_PX = 14
-"""Skin is what lies as near to a disc."""
+"""Skin lies within this distance of a marker."""
 MIN_SKIN_PX = 50
-"""Pixels of skin without which nothing is said."""
+"""Fewer pixels of skin give no result."""
 HAND_ABOVE_M = 0.02
-"""Depths so far above the discs and nearer are the hand; between the two in part."""
+"""Depths nearer than this to the markers are the hand; in between in part."""
 GROUND_BELOW_M = 0.04
-"""Depths so far below the discs and deeper are the ground."""
+"""Depths farther than this below the markers are the ground."""
 MIN_CORRELATION = 0.7
-"""Correlation of the outlines below which the skin does not stand out well enough to say anything."""
+"""Below it the skin does not stand out well enough."""
 MIN_CORRELATION_GAIN = 0.08
-"""By so much they must lie better on each other elsewhere."""
+"""Gain in correlation for an offset to count."""
 MIN_OFFSET_PX = 8.0
-"""Further apart, at :data:`COMPARED_WIDTH_PX`, they are off: the sensor's shadow beside the hand alone moves the
-outline by up to that."""
+"""The sensor's shadow beside the hand alone moves the outline by up to this."""
 
 
 def estimate_depth_offset_px(frame: Frame, marker_appearance: MarkerAppearance, marker_px: FloatArray) -> float:
-    """By how many pixels depth lies beside colour; 0 when it does not, or when the pictures do not say.
+    """Estimate the offset of depth against colour in pixels; 0 if there is none or it is unknown.
 
-    ``marker_px`` (M, 2) the discs in the colour picture.
+    ``marker_px`` (M, 2) are the markers in the colour image.
     """
     if frame.depth_raw is None or not len(marker_px):
         return 0.0
@@ -119,7 +119,7 @@ def _skin_probability(
     spots: NDArray[np.int64],
     ground: NDArray[np.bool_],
 ) -> Image:
-    """How much likelier, 0 to 1, each pixel (H, W) is skin such as lies about the discs, or paper, than ground."""
+    """Return the probability (H, W) of skin, as around the markers, or paper, against ground."""
     hsv = appearance.to_hsv(color_rgb)
     paper = np.asarray(appearance.backproject_histogram(hsv, marker_appearance.paper_lookup) >= 128, dtype=np.float32)
     near = np.zeros(paper.shape, dtype=np.uint8)
@@ -135,7 +135,7 @@ def _skin_probability(
 
 
 def _negative_log_likelihood(hue: Image, sample: Image) -> FloatArray:
-    """Minus the logarithm (H, W) of a normal distribution through the sample (N, 2), up to a constant."""
+    """Return that (H, W) of a normal distribution through the sample (N, 2), up to a constant."""
     away = hue - sample.mean(axis=0)
     spread = np.cov(sample.T) + 2.0 * np.eye(2)
     squared = np.einsum("hwi,ij,hwj->hw", away, np.linalg.inv(spread).astype(np.float32), away)
@@ -143,7 +143,7 @@ def _negative_log_likelihood(hue: Image, sample: Image) -> FloatArray:
 
 
 def _hand_probability(depth_m: Image, spots: NDArray[np.int64]) -> Image | None:
-    """Whether each pixel (H, W) is as near as the discs, 0 to 1; holes are ground. None without depth at the discs."""
+    """Return the probability (H, W) of being as near as the markers; None without their depth."""
     at_discs = [depth_m[max(v - 5, 0) : v + 6, max(u - 5, 0) : u + 6] for u, v in spots.tolist()]
     middle = [float(np.median(patch[patch > 0.0])) for patch in at_discs if (patch > 0.0).any()]
     if not middle:

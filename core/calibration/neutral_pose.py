@@ -1,4 +1,4 @@
-"""Pose of the neutral wrist frame before the camera by least squares: eq. (13) to (20) of the wrist paper."""
+"""Neutral pose of W0 in the camera by least squares: eq. (13) to (20) of the wrist paper."""
 
 from __future__ import annotations
 
@@ -27,11 +27,23 @@ def estimate_neutral_pose(
     pixel_sd_px: float = 0.3,
     depth_sd_m: float = 0.002,
 ) -> tuple[FloatArray, FloatArray]:
-    """Rotation (3, 3) and translation (3,) of g_w0c that best explain pixels (M, 2) and depths (M,).
+    """Estimate rotation (3, 3) and translation (3,) of g_w0c from pixels and depths.
 
-    Minimises (15), pixels and depths weighed by their standard deviations; the linear step (19), (20) is
-    repeated to convergence from the given start. Depths that are NaN are left out. The orientation is
-    moved by a turn on the right, R Exp(d), not through angles.
+    Minimises (15), weighted by the standard deviations; the linear step (19), (20) is repeated until it converges. The
+    orientation is updated on the right, R Exp(d).
+
+    Parameters
+    ----------
+    camera
+        camera model
+    marker_w0_m
+        (M, 3) markers in W0
+    pixel, depth_m
+        (M, 2) undistorted, (M,) with NaN where unknown
+    rotation_w0_cam, translation_w0_cam_m
+        start, (3, 3) and (3,)
+    pixel_sd_px, depth_sd_m
+        standard deviations of the measurements
     """
     rotation, translation = rotation_w0_cam, translation_w0_cam_m
     weight = np.concatenate((np.full(pixel.size, 1.0 / pixel_sd_px), np.full(depth_m.size, 1.0 / depth_sd_m)))
@@ -63,14 +75,14 @@ TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
 
 
 def marker_positions_cam_m(calibration: Calibration) -> FloatArray:
-    """The measured discs (M, 3) in camera axes, NaN where the depth is unknown."""
+    """Return the measured markers (M, 3) in the camera, NaN where the depth is unknown."""
     return np.asarray(
         calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
     )
 
 
 def with_w0_from_markers(calibration: Calibration) -> Calibration:
-    """The calibration with W0 built from the measured discs again (reference 1.1), as every other filter has it."""
+    """Rebuild W0 from the measured markers (reference 1.1), as all filters but the first use it."""
     disc_cam_m = marker_positions_cam_m(calibration)
     palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
     return with_w0_pose(calibration, disc_cam_m, wrist_axes(palm_cam_m, TOWARDS_CAMERA), palm_cam_m[0])
@@ -79,7 +91,7 @@ def with_w0_from_markers(calibration: Calibration) -> Calibration:
 def with_w0_pose(
     calibration: Calibration, marker_cam_m: FloatArray, rotation: FloatArray, translation: FloatArray
 ) -> Calibration:
-    """The calibration with W0 at another pose; the measured discs (M, 3) stay where they are in space."""
+    """Move W0 to another pose; the markers (M, 3) keep their place in space."""
     turn = rotation.T @ calibration.rotation_w0_cam
     return replace(
         calibration,

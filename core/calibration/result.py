@@ -1,4 +1,4 @@
-"""What calibration hands on: the clicks, the measured palm or hand, the neutral pose, the verdict."""
+"""Values of the hand calibration: clicks, measured hand, neutral pose, verdict."""
 
 from __future__ import annotations
 
@@ -36,15 +36,14 @@ FindingKind = Literal[
 ]
 
 ALL_STRAIGHT = (True, True, True, True, True)
-"""Thumb to little; what is taken for granted of a hand unless a person says otherwise."""
+"""Thumb to little finger; assumed unless a person says otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
 class Clicks:
-    """A person's clicks on the first colour frame: ``pixel`` (M, 2), in the order of the protocol.
+    """Labelled pixels (M, 2) on the first frame, in the order of the protocol.
 
-    ``straight_fingers`` thumb to little: what the person says of each finger at the neutral pose; empty where nobody
-    said anything.
+    ``straight_fingers``: thumb to little finger, empty if nothing was entered.
     """
 
     side: Side
@@ -55,10 +54,10 @@ class Clicks:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationFinding:
-    """One thing that is not as it should be. ``value`` in ``unit`` against ``limit``; words are elsewhere.
+    """Problem of a calibration: ``value`` in ``unit`` against ``limit``.
 
-    ``markers`` of "swapped": those of one finger, then as many of the other, each for each; of "shifted": after each
-    name the one that its disc should have.
+    ``markers`` of "swapped": those of one finger, then as many of the other; of "shifted": each label is followed by
+    the right one.
     """
 
     kind: FindingKind
@@ -67,9 +66,9 @@ class CalibrationFinding:
     limit: float = float("nan")
     unit: str = ""
     blocks: bool = False
-    """True when no tracking can start from it (a click with no blob, a marker with no depth)."""
+    """True if tracking cannot start (a click without a blob, a marker without depth)."""
     spot_px: tuple[float, ...] = ()
-    """Pixel (u, v) of the spot in question that has no name; nothing where it is about the markers themselves."""
+    """Pixel (u, v) of the unlabelled spot, empty if there is none."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "spot_px", tuple(self.spot_px))  # a list in the session file
@@ -77,11 +76,15 @@ class CalibrationFinding:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Plain values on which a person judges the calibration.
+    """Values by which a person accepts the calibration.
 
-    ``residual_mm`` (M,) distance of each disc from the fitted place, averaged over the frames used;
-    ``hand_length_mm`` estimated from the palm; ``tilt_deg`` of the palm's normal to the camera's axis;
-    ``distance_m`` of WRIST; ``frames_used`` still frames averaged.
+    Attributes
+    ----------
+    residual_mm : (M,) mean distance of each marker from its fitted place
+    hand_length_mm : estimated from the palm
+    tilt_deg : of the palm's normal to the camera's axis
+    distance_m : of WRIST
+    frames_used : still frames that were averaged
     """
 
     residual_mm: FloatArray
@@ -97,20 +100,21 @@ class Verdict:
 
     @property
     def can_start(self) -> bool:
-        """Whether a person may measure although there are findings: not with names that are surely wrong."""
+        """True if tracking may start despite the findings: not with labels that are surely wrong."""
         return not any(finding.blocks or finding.kind == "shifted" for finding in self.findings)
 
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """The measured hand at its neutral pose.
+    """Measured hand at its neutral pose.
 
-    ``marker_position_w0_m`` (M, 3) disc centres in W0; ``rotation_w0_cam`` (3, 3) and
-    ``translation_w0_cam_m`` (3,) the pose g_w0c of the wrist paper; ``marker_covariance_w0_m2`` (M, 3, 3)
-    how well each disc's place is known, which every later angle inherits;
-    ``start_angles_rad`` (3,) deviation, flexion, pronosupination given by the therapist for a patient who
-    cannot lie neutral, zero otherwise; ``surface`` of the back of the hand over its fixed unit, None where too little
-    of it was seen.
+    Attributes
+    ----------
+    marker_position_w0_m : (M, 3) marker centres in W0
+    rotation_w0_cam, translation_w0_cam_m : (3, 3), (3,) pose g_w0c of the wrist paper
+    marker_covariance_w0_m2 : (M, 3, 3) uncertainty of the markers, which all later angles inherit
+    start_angles_rad : (3,) deviation, flexion, pronosupination of a hand that cannot lie neutral, else zero
+    surface : back of the hand over its fixed unit, None if too little of it was seen
     """
 
     clicks: Clicks
@@ -124,7 +128,7 @@ class Calibration:
 
     @property
     def straight_fingers(self) -> tuple[bool, ...]:
-        """Thumb to little: False for a finger that could not lie straight at the neutral pose."""
+        """Thumb to little finger: False for one that could not lie straight."""
         return self.clicks.straight_fingers or ALL_STRAIGHT
 
 
@@ -208,19 +212,18 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
         phrase("Switch on registration in the camera, or track without depth."),
     ),
 }
-"""What is not as it should be, and how to mend it, for every kind of finding of calibration."""
+"""Problem and remedy of each kind of finding."""
 
 
 def finding_words(
     finding: CalibrationFinding, translate: Translate = str, format_number: Callable[[float], str] = "{:.3g}".format
 ) -> MessageText:
-    """What a finding says and how to mend it; ``translate`` says a phrase in another language, ``format_number``
-    writes figures."""
+    """Return problem and remedy of a finding in another language."""
     headline, remedy = map(translate, FINDING_TEXTS[finding.kind])
     if math.isnan(finding.value) and " (" in headline:
         headline = headline[: headline.index(" (")] + "."
     text = headline.format(
-        markers=_swapped_fingers_text(finding, translate)
+        markers=_finger_swap_text(finding, translate)
         or join_marker_names(finding.markers, translate)
         or translate(_HAND),
         first=marker_name(finding.markers[0], translate) if finding.markers else "",
@@ -232,8 +235,8 @@ def finding_words(
     return MessageText(text[0].upper() + text[1:], "", remedy)
 
 
-def _swapped_fingers_text(finding: CalibrationFinding, translate: Translate) -> str:
-    """``middle finger and ring finger`` where all names of two fingers stand in for each other."""
+def _finger_swap_text(finding: CalibrationFinding, translate: Translate) -> str:
+    """Return the names of two fingers whose labels are all exchanged."""
     if finding.kind != "swapped" or len(finding.markers) <= 2:
         return ""
     firsts = (finding.markers[0], finding.markers[len(finding.markers) // 2])
@@ -241,6 +244,6 @@ def _swapped_fingers_text(finding: CalibrationFinding, translate: Translate) -> 
 
 
 def finding_sentence(finding: CalibrationFinding) -> str:
-    """What it says and how to mend it on one line."""
+    """Return problem and remedy in one line."""
     words = finding_words(finding)
     return join_sentences(words.summary, words.remedy)

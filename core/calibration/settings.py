@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class CalibrationSettings:
-    """``still_s`` longest stretch averaged; ``least_distance_m`` of the wrist paper (II-C); ``most_tilt_deg`` of the
-    palm to the picture; ``most_residual_mm`` of a disc; ``hand_length_mm`` shortest and longest believed (a child of
-    six to a tall man)."""
+    """Limits of the hand calibration.
+
+    ``still_s`` is the longest time averaged, ``least_distance_m`` that of the wrist paper (II-C), ``most_tilt_deg`` of
+    the palm to the image, ``hand_length_mm`` of a child of six to a tall man.
+    """
 
     still_s: float = 0.5
     least_distance_m: float = 0.6

@@ -1,5 +1,4 @@
-"""What may be called a change between two sessions (clinical reference 6), by default limits or by those that a clinic
-has measured itself, by test and retest."""
+"""Limits of a change between two sessions (clinical reference 6): defaults, or a clinic's own test-retest study."""
 
 from __future__ import annotations
 
@@ -7,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 MDC95_FACTOR = 1.96 * math.sqrt(2.0)
-"""Minimal detectable change at 95 % per standard error of measurement: 2.77."""
+"""MDC95 over the standard error of measurement: 2.77."""
 TOTAL_ACTIVE_MOTION = "TAM"
 
 _DEFAULT_LIMIT_DEG = {
@@ -25,14 +24,14 @@ _DEFAULT_LIMIT_DEG = {
 }
 
 ARC_LIMIT_FACTOR = math.sqrt(2.0)
-"""Error limit of an arc against that of one of its two ends, whose errors are independent; of TAM there is an own."""
+"""Error limit of an arc over that of one end, whose errors are independent; TAM has its own."""
 
 
 def change_limit_rad(angle_name: str) -> float:
-    """Difference of two sessions' means above which it exceeds measurement error, for an angle of the session file.
+    """Return the difference of two sessions' means above which it exceeds the measurement error.
 
-    Defaults of the reference, which are its authors' choice and no published figures, until a clinic has
-    test-retest data of its own; the free DIP takes the PIP's. Raises KeyError for an unknown name.
+    Defaults of the clinical reference, its authors' choice, until a clinic has test-retest data. A free DIP takes the
+    limit of the PIP. Raises KeyError for an unknown angle.
 
     >>> round(math.degrees(change_limit_rad("MCP4_flexion")))
     12
@@ -45,14 +44,15 @@ def change_limit_rad(angle_name: str) -> float:
 
 
 MIN_PEOPLE = 10
-"""With fewer a study puts no limit in force (clinical reference 6)."""
+"""A study with fewer people sets no limit (clinical reference 6)."""
 
 
 @dataclass(frozen=True, slots=True)
 class MeasuredLimit:
-    """One figure of a study, degrees: ``movement`` of an angle or joint ``angle_or_joint``; ``sem_deg`` the standard
-    error of
-    measurement, ``mdc95_deg`` the smallest real change, with their 95 % intervals."""
+    """Measurement error of one movement of the angle or joint ``of``, in degrees.
+
+    Standard error of measurement and MDC95 with their 95 % intervals.
+    """
 
     of: str
     movement: str
@@ -64,13 +64,13 @@ class MeasuredLimit:
 
     @property
     def limit_deg(self) -> float:
-        """What a change must exceed: whole degrees, upwards."""
+        """What a change must exceed, rounded up to whole degrees."""
         return float(math.ceil(self.mdc95_deg - 1e-9))
 
 
 @dataclass(frozen=True, slots=True)
 class RetestStudy:
-    """What a clinic found of one exercise with one set of discs; ``made`` the date as 2026-11-27."""
+    """Test-retest study of one exercise with one marker protocol; ``made`` is its ISO date."""
 
     protocol: str
     exercise: str
@@ -83,23 +83,23 @@ class RetestStudy:
 
     @property
     def is_in_force(self) -> bool:
-        """Whether enough people were measured for any of its limits."""
+        """True if enough people were measured for any of its limits."""
         return any(limit.people >= MIN_PEOPLE for limit in self.limits)
 
     def limit_deg(self, angle_or_joint: str, movement: str) -> float | None:
-        """The clinic's limit of one figure, None where it has none of its own."""
+        """Return the clinic's limit of a movement, None if it has none."""
         same = (one for one in self.limits if (one.of, one.movement) == (angle_or_joint, movement))
         return next((one.limit_deg for one in same if one.people >= MIN_PEOPLE), None)
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorLimits:
-    """The clinic's studies, one for each exercise and set of discs; none: the default limits hold everywhere."""
+    """The clinic's studies, one for each exercise and marker protocol; default limits apply without."""
 
     studies: tuple[RetestStudy, ...] = ()
 
     def study(self, protocol: str, exercise: str, angle_order: str) -> RetestStudy | None:
-        """The study in force for sessions of a kind."""
+        """Return the study in force for sessions of a kind."""
         wanted = (protocol, exercise, angle_order)
         same = (one for one in self.studies if (one.protocol, one.exercise, one.angle_order) == wanted)
         return next((one for one in same if one.is_in_force), None)

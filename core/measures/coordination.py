@@ -1,5 +1,4 @@
-"""How fingers move together and tremble (clinical reference 5), and whether the pose of a digit that the camera does
-not see holds together all the same (hand paper, figure 2)."""
+"""Finger coordination and tremor (clinical reference 5), coherence of occluded digits (hand paper, figure 2)."""
 
 from __future__ import annotations
 
@@ -14,19 +13,24 @@ from carpus.core.model.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.model.types import FloatArray
 
 MAX_KNOWN_SD_RAD = math.radians(15.0)
-"""A hidden joint known worse than this is a guess."""
+"""An occluded joint with a larger standard deviation is a guess."""
 LIMIT_TOLERANCE_RAD = math.radians(5.0)
-"""So far an error of tracking may carry a joint beyond what any hand does (clinical reference 4.1)."""
+"""Tracking error allowed beyond the anatomical limits (clinical reference 4.1)."""
 MAX_JOINT_SPEED_RAD_S = math.radians(1000.0)
-"""No joint turns faster; a pose that does has jumped (clinical reference 4.4)."""
+"""A pose that turns faster has jumped (clinical reference 4.4)."""
 MIN_OCCLUSION_S = 0.1
 
 
 @dataclass(frozen=True, slots=True)
 class Coherence:
-    """``occluded_share`` of the frames in which something is known of the hand at all; of those hidden ones
-    ``coherent_share`` and ``known_share``; ``jumps_m`` of the digit's tip in the hand's own axes at each frame in which
-    it was seen again."""
+    """Plausibility of an occluded digit's pose.
+
+    Attributes
+    ----------
+    occluded_share : of the tracked frames
+    coherent_share, known_share : of the occluded frames
+    jumps_m : jump of the fingertip, in the hand's axes, at each reappearance
+    """
 
     occluded_share: float
     coherent_share: float
@@ -43,12 +47,21 @@ def digit_coherence(
     is_occluded: BoolArray,
     is_tracked: BoolArray,
 ) -> Coherence:
-    """Of joints ``names`` (J) with ``angles_rad`` and ``sds_rad`` (N, J) and a tip (N, 3) in the hand's axes.
+    """Assess the pose of one digit while it is occluded.
 
-    ``is_occluded`` (N,) where the camera does not see the digit, ``is_tracked`` (N,) where the hand is tracked. A
-    frame is
-    coherent whose joints stay in the limits of a hand and do not jump, and known whose joints are so to 15 degrees, by
-    their own account. As the filter told it at the time: looking back knows already where the digit was seen again.
+    A frame is coherent if its joints stay within anatomical limits and do not jump. It is known if their standard
+    deviations are at most 15 degrees. Use the filter's result: the smoother already knows the reappearance.
+
+    Parameters
+    ----------
+    time_s, names
+        (N,) and the J joints
+    angles_rad, sds_rad
+        (N, J)
+    tip_w2_m
+        (N, 3) fingertip in the hand's axes
+    is_occluded, is_tracked
+        (N,) of the digit, of the hand
     """
     is_occluded = np.logical_and(is_occluded, is_tracked)
     limits = np.array([HARD_LIMITS_RAD[name] for name in names])
@@ -73,28 +86,28 @@ def digit_coherence(
 
 
 MIN_SD_RAD = math.radians(2.0)
-"""A channel that moves less says nothing of moving together."""
+"""A joint that moves less shows no coordination."""
 MAX_LAG_S = 0.5
 TREMOR_BAND_HZ = (3.0, 12.0)
 TREMOR_WINDOW_S, MIN_TREMOR_S = 2.0, 6.0
 MIN_TREMOR_FPS = 2.0 * TREMOR_BAND_HZ[1]
-"""Below it a tremor of the band looks like a slower one, or like none (Nyquist)."""
+"""Nyquist limit of the tremor band."""
 MIN_TREMOR_TO_NOISE = 3.0
 DRIFT_HZ = 1.0
 MAX_HOLD_SPEED_RAD_S = math.radians(6.0)
-"""An angle that moves on faster is not held; a tremor goes to and fro about where it is."""
+"""A held angle drifts no faster; tremor oscillates about its place."""
 
 
 @dataclass(frozen=True, slots=True)
 class CoFlexion:
-    """``correlation`` (Pearson) of two joints; ``lag_s`` by which the second follows the first."""
+    """Pearson correlation of two joints, and the lag of the second behind the first."""
 
     correlation: float
     lag_s: float
 
 
 def co_flexion(first: FloatArray, second: FloatArray, rate_hz: float) -> CoFlexion:
-    """Of two evenly sampled angles (n,), rad; NaN where one of them hardly moves or too little is known."""
+    """Correlate two evenly sampled angles (n,), rad; NaN if one hardly moves or too little is known."""
     good = np.isfinite(first) & np.isfinite(second)
     if int(good.sum()) < 8 or min(first[good].std(), second[good].std()) < MIN_SD_RAD:
         return CoFlexion(math.nan, math.nan)
@@ -114,7 +127,10 @@ def co_flexion(first: FloatArray, second: FloatArray, rate_hz: float) -> CoFlexi
 
 
 def synergy_share(angles: FloatArray) -> float:
-    """Share of the variance of several angles (n, k) in their first principal component; NaN where nothing moves."""
+    """Return the variance share of the first principal component of angles (n, k).
+
+    NaN if nothing moves.
+    """
     known = angles[np.isfinite(angles).all(axis=1)]
     if len(known) < 8:
         return math.nan
@@ -123,15 +139,21 @@ def synergy_share(angles: FloatArray) -> float:
 
 
 def enslaving_share(instructed: FloatArray, other: FloatArray) -> float:
-    """Mean movement of a finger not asked for over that of the one asked for; NaN where that hardly moves."""
+    """Return the mean movement of another finger over that of the instructed one.
+
+    NaN if the instructed finger hardly moves.
+    """
     asked, follows = (np.abs(values - np.nanmedian(values)) for values in (instructed, other))
     return float(np.nanmean(follows) / np.nanmean(asked)) if np.nanstd(instructed) >= MIN_SD_RAD else math.nan
 
 
 @dataclass(frozen=True, slots=True)
 class Tremor:
-    """``rms_rad`` between 3 and 12 Hz in the steadiest stretch, ``peak_hz`` where it is strongest. ``is_tremor``: three
-    times what the tracker's own noise would show, or more. ``has_few_frames``: held, but the band is not seen."""
+    """RMS amplitude between 3 and 12 Hz in the steadiest run, and its peak frequency.
+
+    ``is_tremor``: at least three times the tracker's own noise. ``has_few_frames``: held, but the frame rate is too
+    low.
+    """
 
     rms_rad: float
     peak_hz: float
@@ -140,15 +162,17 @@ class Tremor:
 
 
 def _is_held(angle: Signal) -> BoolArray:
-    """Samples (n,) at which the angle goes nowhere: of a brisk exercise the quick part is no tremor."""
+    """Select samples (n,) at which the angle does not drift."""
     slow = rate_of_change(low_pass(angle, DRIFT_HZ)).value
     with np.errstate(invalid="ignore"):
         return np.asarray(angle.is_finite & (np.abs(slow) <= MAX_HOLD_SPEED_RAD_S), dtype=np.bool_)
 
 
 def measure_tremor(angle: Signal, noise_rms_rad: float) -> Tremor:
-    """Of an angle (rad, not low-passed) held for 6 s or longer; ``noise_rms_rad`` of the same band without a hand's
-    tremor. NaN where nothing was held for so long, and below :data:`MIN_TREMOR_FPS`."""
+    """Measure the tremor of an angle (rad, not low-passed) that is held for 6 s or longer.
+
+    ``noise_rms_rad`` is the tracker's noise in the same band. NaN if nothing was held so long, or at a low frame rate.
+    """
     from scipy import signal as sps  # half a second to load
 
     longest = max(find_runs(_is_held(angle)), key=lambda part: part.stop - part.start, default=slice(0, 0))

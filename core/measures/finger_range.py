@@ -1,8 +1,8 @@
-"""Range of the joints of the fingers and total active motion (TAM), clinical reference 4.3; hidden joints do not count.
+"""Range of the finger joints and total active motion (TAM), clinical reference 4.3.
 
-A joint is seen where both discs that show it, the one over it and the next one outwards, have a blob. Repetitions are
-cut on the tracked angle, also through hidden stretches, because a fist goes out of sight at its very end; figures
-come from seen samples alone, and say where the hidden rest may have gone further.
+A joint is visible if both markers that show it, the one over it and the next distal one, are measured. Repetitions come
+from the tracked angle, also while occluded, because a fist is occluded at its very end. Values come from visible
+samples only, with a note where the joint may have gone further.
 """
 
 from __future__ import annotations
@@ -24,18 +24,21 @@ from carpus.core.model.hand.protocols import markers_at_joint
 from carpus.core.model.types import FloatArray, TrackStatus
 
 MIN_VISIBLE_SHARE = 0.3
-"""A repetition in which a joint was seen for less says nothing of that joint."""
+"""A joint that is visible for less of a repetition is not measured in it."""
 LIMIT_TOLERANCE_RAD = math.radians(15.0)
-"""So far beyond the limits of a joint an error of tracking may carry its angle."""
+"""Tracking error allowed beyond the anatomical limits."""
 MIN_FURTHER_RAD = math.radians(5.0)
-"""How far a hidden joint must have been able to go beyond what was seen to be told."""
+"""An occluded joint counts as limited if it may have gone further by this."""
 FINGERS = (1, 2, 3, 4, 5)
 
 
 @dataclass(frozen=True, slots=True)
 class JointTrack:
-    """One joint over the recording: ``visible`` low-passed angle and its sd with gaps where hidden, ``tracked`` the
-    filter's angle and sd whether seen or not, all rad; ``visible_share`` of all frames."""
+    """Angle of one joint over the recording, rad.
+
+    ``visible`` is low-passed, with gaps where occluded; ``tracked`` is the filter's. ``smoothed`` is True for the
+    smoother's angle, False for the filter's, None for an angle without tracking noise.
+    """
 
     name: str
     visible: Signal
@@ -44,7 +47,6 @@ class JointTrack:
     tracked_sd: Signal
     visible_share: float
     smoothed: bool | None = None
-    """Whether the smoother tracked it, or the filter; None for an angle without noise of tracking."""
 
     @property
     def is_known(self) -> bool:
@@ -52,8 +54,7 @@ class JointTrack:
 
 
 def visible_joints(joint_names: Sequence[str], markers: Sequence[str], measured_px: FloatArray) -> BoolArray:
-    """Frames and joints (N, J) with a blob at both discs that show the joint; ``measured_px`` (N, M, 2) of
-    ``markers``."""
+    """Select frames and joints (N, J) whose two markers are measured in ``measured_px`` (N, M, 2)."""
     has_blob = np.isfinite(measured_px[..., 0])
     rows = [[markers.index(disc) for disc in markers_at_joint(name)] for name in joint_names]
     at, past = np.array(rows, dtype=np.int64).reshape(-1, 2).T
@@ -63,15 +64,17 @@ def visible_joints(joint_names: Sequence[str], markers: Sequence[str], measured_
 def valid_joints(
     status: NDArray[np.integer], visible: BoolArray, angles_rad: FloatArray, angles_sd_rad: FloatArray
 ) -> BoolArray:
-    """Samples (N, J) that count: tracked, seen, known, and sure enough."""
+    """Select tracked, visible samples (N, J) with a small standard deviation."""
     with np.errstate(invalid="ignore"):
         sure = np.isfinite(angles_rad) & (angles_sd_rad <= MAX_ANGLE_SD_RAD)
     return np.asarray(visible & sure & (status == TrackStatus.TRACKED)[:, None], dtype=np.bool_)
 
 
 def plausible_joints(names: Sequence[str], angles_rad: FloatArray) -> BoolArray:
-    """Angles (N, J) that a hand can have: within the limits of the model or a little beyond. What lies outside is no
-    angle, whatever its standard deviation, such as the first frames after pictures were missing for long."""
+    """Select angles (N, J) within the anatomical limits and their tolerance.
+
+    Others are no angles, whatever their standard deviation, such as the first frames after a long loss.
+    """
     low, high = np.array([HARD_LIMITS_RAD[name] for name in names]).T
     with np.errstate(invalid="ignore"):
         return np.asarray(
@@ -87,7 +90,7 @@ def joint_track(
     valid: BoolArray,
     smoothed: bool | None = None,
 ) -> JointTrack:
-    """One joint from its columns (N,) of the session."""
+    """Build the track of one joint from its columns (N,) of the session."""
     both = np.column_stack((angle_rad, sd_rad))
     seen, tracked = resample_evenly(timestamp_s, both, valid), resample_evenly(timestamp_s, both)
     return JointTrack(
@@ -102,11 +105,10 @@ def joint_track(
 
 
 def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionRange:
-    """Largest, smallest angle and arc over the repetitions in which the joint was seen, or over the whole recording
-    where nothing was repeated.
+    """Measure maximum, minimum and arc over the repetitions in which the joint is visible, or the whole recording.
 
-    Three repetitions or more whose extremes were surely seen stand for all; else all count, and ``top_limited`` and
-    ``bottom_limited`` say that the joint may have gone further while hidden.
+    If the extremes are certainly visible in three or more repetitions, these are used. Else all are, and
+    ``top_limited`` or ``bottom_limited`` tells that the joint may have gone further while occluded.
     """
     usable = _usable_repetitions(track.visible, repetitions)
     if not track.is_known or (repetitions and not usable):
@@ -115,7 +117,7 @@ def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionR
     limits = []
     for start_s, end_s in _windows(track.visible, usable):
         part = track.visible.crop(start_s, end_s).value
-        hidden = _occluded_samples(track.tracked, track.visible, start_s, end_s)
+        hidden = _find_occluded_samples(track.tracked, track.visible, start_s, end_s)
         angle, sd = track.tracked.value[hidden], track.tracked_sd.value[hidden]
         limits.append((_is_exceeded(angle - np.nanmax(part) + sd), _is_exceeded(np.nanmin(part) - angle + sd)))
     whole = tuple(rep for rep, limit in zip(usable, limits, strict=False) if not any(limit))
@@ -131,8 +133,7 @@ def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionR
 
 
 def flexion_weights(count: int, *, inferred: bool) -> FloatArray:
-    """Of the joints (count,) of a finger in its bending, base first; an end joint that is inferred counts with the one
-    before it."""
+    """Return the weights (count,) of a finger's joints, base first; an inferred DIP adds to the PIP."""
     weights = np.ones(count)
     weights[-1] += DIP_PER_PIP if inferred else 0.0
     return weights
@@ -141,13 +142,20 @@ def flexion_weights(count: int, *, inferred: bool) -> FloatArray:
 def total_active_motion(
     tracks: Sequence[JointTrack], repetitions: Sequence[Repetition], *, inferred: bool
 ) -> MotionRange:
-    """TAM of one finger (``arc``) from its bending joints, base first: MCP, PIP and, if measured, DIP; of the thumb MCP
-    and IP; with the flexion and the deficit that it is made of (``maximum``, ``minimum``).
+    """Compute the TAM of one finger (``arc``) with its flexion (``maximum``) and extension deficit (``minimum``).
 
-    In each repetition: the sum of the joints' bending at the moment it is largest, less the sum of what is missing to
-    straight at the moment it is smallest; bending backwards counts 0 in both. Both moments need all joints seen. With
-    ``inferred`` the end joint is taken as two thirds of the last joint given. Limited where hidden stretches may hold
-    more, in more repetitions than may be left out.
+    In each repetition: the largest sum of the joints' flexion less the smallest sum, which is the extension deficit;
+    hyperextension counts as 0. Both need all joints visible. The values are limited where occlusions may hide more in
+    more repetitions than can be excluded.
+
+    Parameters
+    ----------
+    tracks
+        flexion joints from the base: MCP, PIP and, if measured, DIP; MCP and IP of the thumb
+    repetitions
+        repetitions of the exercise
+    inferred
+        True if the DIP is taken as two thirds of the PIP
     """
     weight = flexion_weights(len(tracks), inferred=inferred)
     nothing = RangeStatistics(np.empty(0), math.nan, math.nan)
@@ -185,7 +193,7 @@ def total_active_motion(
 
 
 def _usable_repetitions(signal: Signal, repetitions: Sequence[Repetition]) -> tuple[Repetition, ...]:
-    """The repetitions of which enough was seen, with full marks."""
+    """Return the repetitions that are visible enough, marked as valid."""
     out = []
     for repetition in repetitions:
         finite = signal.crop(repetition.start_s, repetition.end_s).is_finite
@@ -203,7 +211,7 @@ def _windows(signal: Signal, repetitions: Sequence[Repetition]) -> list[tuple[fl
 
 
 def _is_exceeded(further_rad: FloatArray) -> bool:
-    """Whether a hidden joint may have gone further than was seen; where nothing at all is known it may."""
+    """True if an occluded joint may have gone further, also if nothing is known of it."""
     return bool((~np.isfinite(further_rad) | (further_rad > MIN_FURTHER_RAD)).any())
 
 
@@ -220,12 +228,12 @@ def _is_sum_exceeded(
     bend = (np.maximum(angle, 0.0) * weight).sum(axis=1)
     spread = np.sqrt(((sd * weight) ** 2).sum(axis=1))
     base = Signal(time_s, bend, tracks[0].tracked.rate_hz, 1.0, np.empty((0, 2)))
-    hidden = _occluded_samples(base, visible, start_s, end_s)
+    hidden = _find_occluded_samples(base, visible, start_s, end_s)
     return _is_exceeded(np.maximum(bend[hidden] - top, low - bend[hidden]) + spread[hidden])
 
 
-def _occluded_samples(base: Signal, visible: Signal, start_s: float, end_s: float) -> NDArray[np.intp]:
-    """Samples of a base inside a window at which a signal has nothing."""
+def _find_occluded_samples(base: Signal, visible: Signal, start_s: float, end_s: float) -> NDArray[np.intp]:
+    """Return the samples of ``base`` in a window at which the visible signal has none."""
     inside = np.flatnonzero((base.time_s >= start_s) & (base.time_s <= end_s))
     known = visible.time_s[visible.is_finite]
     if not len(known):
@@ -237,7 +245,7 @@ def _occluded_samples(base: Signal, visible: Signal, start_s: float, end_s: floa
 
 
 def _align_signals(values: Sequence[Signal], sds: Sequence[Signal]) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Several signals on the first one's times: times (n,), values (n, k) and sds (n, k), NaN where one has a gap."""
+    """Return times (n,), values and standard deviations (n, k) at the first signal's times."""
     time_s = values[0].time_s
     return time_s, _interpolate_columns(time_s, values), _interpolate_columns(time_s, sds)
 

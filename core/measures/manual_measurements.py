@@ -1,8 +1,7 @@
-"""What can be measured by hand, one line each; what was entered, what counts of it, and whether a change is one.
+"""Manual measurements: what can be measured, the values entered, and their change.
 
-Licensed questionnaires are entered as their totals only. ``min_real_change`` is what a change must exceed to be
-called one;
-it is of that way of measuring, and says nothing of ours. NaN where no figure was found: then nothing is judged.
+Questionnaires under licence are entered as totals only. ``min_real_change`` is specific to the way of measuring and not
+to Carpus; NaN where no published value was found, then changes are not assessed.
 """
 
 from __future__ import annotations
@@ -23,22 +22,24 @@ Unit = Literal["deg", "kg", "cm", "ml", "points"]
 Mode = Literal["active", "passive", ""]
 
 GONIOMETER_DEG = 10.0
-"""A change commonly asked for per joint; two days apart 12 to 30 degrees were found (clinical reference 6.3, C30)."""
+"""Commonly required change per joint; 12 to 30 degrees were found over two days (reference 6.3, C30)."""
 ANGLE_SOURCE = "commonly quoted for one rater"
 SCORE_SOURCE = "Sorensen 2013"
 
 
 @dataclass(frozen=True, slots=True)
 class ManualMeasure:
-    """One thing that can be measured by hand.
+    """Quantity that can be measured manually.
 
-    ``min_value`` and ``most`` can be entered at all; outside ``usual_range`` the person is asked to look again.
-    ``tries`` are
-    averaged. ``is_per_hand``: it is of one hand, else of the person. ``measure_id`` is empty of angles: it follows
-    from the id.
-    ``session_measure`` is what Carpus measures of the same: angle or joint, and movement. ``is_default``: on the form
-    without
-    being asked for.
+    Attributes
+    ----------
+    min_value, max_value : limits of an entry
+    usual_range : outside it the person is asked to check the value
+    trial_count : number of trials that are averaged
+    is_per_hand : True for a measure of one hand, False for one of the person
+    session_measure : (angle or joint, movement) that Carpus measures too
+    is_default : True if it is on the form without being chosen
+    name : empty for angles, whose name follows from the id
     """
 
     id: str
@@ -184,7 +185,7 @@ MEASURES: tuple[ManualMeasure, ...] = (
 
 
 def find_manual_measure(measure_id: str) -> ManualMeasure:
-    """A measure by its id. Raises KeyError for one that this Carpus does not know."""
+    """Return a measure by its id. Raises KeyError for an unknown one."""
     for measure in MEASURES:
         if measure.id == measure_id:
             return measure
@@ -193,16 +194,17 @@ def find_manual_measure(measure_id: str) -> ManualMeasure:
 
 ChangeVerdict = Literal["improved", "worse", "within_error", "not_judged"]
 MAX_LOCATION_LENGTH = 60
-"""Letters of where a size was taken."""
+"""Characters of the place where a size was measured."""
 MeasureKey = tuple[str, Mode, str]
-"""Measure, way and hand (empty: of the person)."""
+"""Measure, mode and hand (empty for a measure of the person)."""
 
 
 @dataclass(frozen=True, slots=True)
 class ManualValue:
-    """One entry. ``tries`` in the measure's unit, none when an earlier entry was taken back; ``side`` empty for what is
-    of the person; ``rater`` initials, ``entered_at`` when it was written down, which is not when it was measured:
-    ``day``."""
+    """One entry, in the measure's unit; without trials it withdraws an earlier entry.
+
+    ``side`` is empty for a measure of the person. ``day`` is when it was measured, ``entered_at`` when it was written.
+    """
 
     measure: str
     mode: Mode
@@ -224,18 +226,17 @@ class ManualValue:
 
     @property
     def key(self) -> MeasureKey:
-        """What it is a value of."""
         return self.measure, self.mode, self.side
 
     @property
     def value(self) -> float:
-        """Mean of the tries; NaN where it was taken back."""
+        """Mean of the trials; NaN for a withdrawn entry."""
         return statistics.fmean(self.trials) if self.trials else math.nan
 
 
 @dataclass(frozen=True, slots=True)
 class ManualChange:
-    """Between two days, by one way: ``min_real_change`` what it had to exceed, NaN for nobody knows."""
+    """Change between two days; ``min_real_change`` is what it had to exceed, NaN if unknown."""
 
     first: ManualValue
     last: ManualValue
@@ -244,46 +245,48 @@ class ManualChange:
 
 
 def current_values(entries: Iterable[ManualValue]) -> list[ManualValue]:
-    """Of every measure, way, hand and day what was entered last, by day; without what was taken back.
+    """Return the latest entry of each measure, mode, hand and day, sorted by day, without withdrawn ones.
 
     ``entries`` are in the order in which they were entered.
     """
-    return sorted((entry for entry in latest_entries(entries).values() if entry.trials), key=lambda entry: entry.day)
+    return sorted(
+        (entry for entry in find_latest_entries(entries).values() if entry.trials), key=lambda entry: entry.day
+    )
 
 
-def latest_entries(entries: Iterable[ManualValue]) -> dict[tuple[MeasureKey, date], ManualValue]:
-    """Of every measure, way, hand and day what was entered last, also where that took it back."""
+def find_latest_entries(entries: Iterable[ManualValue]) -> dict[tuple[MeasureKey, date], ManualValue]:
+    """Return the latest entry of each measure, mode, hand and day, also if it withdraws the value."""
     return {(entry.key, entry.day): entry for entry in entries}
 
 
 def session_values(entries: Iterable[ManualValue], side: Side, day: date) -> tuple[ManualValue, ...]:
-    """What counts of one day, of one hand and of the person."""
+    """Return the current values of one day, of one hand and of the person."""
     return tuple(one for one in current_values(entries) if one.day == day and one.side in (side, ""))
 
 
 def value_history(entries: Iterable[ManualValue], key: MeasureKey) -> list[ManualValue]:
-    """What counts of one measure, way and hand, by day."""
+    """Return the current values of one measure, mode and hand, sorted by day."""
     return [entry for entry in current_values(entries) if entry.key == key]
 
 
 def previous_value(entries: Iterable[ManualValue], key: MeasureKey, day: date) -> ManualValue | None:
-    """What was measured last before a day."""
+    """Return the last value before a day."""
     return next((entry for entry in reversed(value_history(entries, key)) if entry.day < day), None)
 
 
 def value_on_day(entries: Iterable[ManualValue], key: MeasureKey, day: date) -> ManualValue | None:
-    """What counts of one day."""
-    found = latest_entries(entries).get((key, day))
+    """Return the current value of one day."""
+    found = find_latest_entries(entries).get((key, day))
     return found if found is not None and found.trials else None
 
 
-def superseded_entries(entries: Sequence[ManualValue], key: MeasureKey, day: date) -> list[ManualValue]:
-    """What was entered for the same before, in order; it stays readable."""
+def find_superseded_entries(entries: Sequence[ManualValue], key: MeasureKey, day: date) -> list[ManualValue]:
+    """Return the earlier entries of the same day, in order."""
     return [entry for entry in entries if entry.key == key and entry.day == day][:-1]
 
 
 def compute_change(history: Sequence[ManualValue]) -> ManualChange | None:
-    """First to last of one course, judged by what that way of measuring must exceed; None with fewer than two."""
+    """Assess the change from the first to the last value; None with fewer than two."""
     if len(history) < 2:
         return None
     first, last = history[0], history[-1]
@@ -296,7 +299,7 @@ def compute_change(history: Sequence[ManualValue]) -> ManualChange | None:
 
 
 def is_unusual(measure: ManualMeasure, value: float) -> bool:
-    """Whether a person should look at a number again before it is kept."""
+    """True if a person should check the value before it is saved."""
     low, high = measure.usual_range
     return not low <= value <= high
 
@@ -316,7 +319,7 @@ COLUMNS = {
 
 
 def to_rows(values: Iterable[ManualValue]) -> list[list[str]]:
-    """One row of texts for each value, in the order of :data:`COLUMNS`."""
+    """Return one row of texts for each value, in the order of :data:`COLUMNS`."""
     return [
         [
             "" if one.day == date.min else one.day.isoformat(), one.side, one.measure, one.mode,

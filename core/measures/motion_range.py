@@ -1,4 +1,4 @@
-"""Active range of motion of one angle over its repetitions, with honest error bars (clinical reference 5 and 6)."""
+"""Range of motion of one angle over its repetitions, with error bars (clinical reference 5 and 6)."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.model.types import FloatArray
 
 MIN_REPETITIONS_FOR_SD = 3
-"""Fewer repetitions are listed one by one: they have no mean worth a spread."""
+"""Fewer repetitions have no standard deviation and are listed one by one."""
 DEFAULT_STROKE_S = 1.5
-"""How long one movement takes where nothing was repeated."""
+"""Duration of one movement where nothing was repeated."""
 MIN_VALID_SHARE = 0.7
-"""A repetition seen for less than this is not measured."""
+"""Repetitions with a smaller visible share are not measured."""
 
 
 @dataclass(frozen=True, slots=True)
 class RangeStatistics:
-    """One quantity over the repetitions: ``values`` (n,), in order, rad.
+    """One quantity over the repetitions: ``values`` (n,) in order, rad.
 
-    ``measurement_sd`` is the standard deviation of one value by the filter's own account, calibration included.
+    ``measurement_sd`` is the filter's standard deviation of one value, calibration included.
     """
 
     values: FloatArray
@@ -33,7 +33,7 @@ class RangeStatistics:
 
     @property
     def mean(self) -> float:
-        """Mean over the repetitions, NaN when there is none."""
+        """Mean over the repetitions, NaN if there is none."""
         return float(self.values.mean()) if len(self.values) else math.nan
 
     @property
@@ -44,11 +44,10 @@ class RangeStatistics:
 
 @dataclass(frozen=True, slots=True)
 class MotionRange:
-    """Range of one angle. The arc comes first: it does not depend on the day's neutral pose.
+    """Range of motion of one angle; the arc does not depend on the day's neutral pose.
 
-    ``repetitions`` is 0 when nothing was repeated; the figures then hold the one range of the whole recording.
-    ``top_limited`` and ``bottom_limited``: the hand went out of sight next to the extreme, so the true one may lie
-    further out ("limited by camera view").
+    ``repetitions`` is 0 if nothing was repeated; the values are then those of the whole recording. ``top_limited`` and
+    ``bottom_limited``: the hand was occluded next to the extreme, so the true one may lie further out.
     """
 
     arc: RangeStatistics
@@ -62,11 +61,16 @@ class MotionRange:
 def motion_range(
     angle: Signal, sd: Signal, repetitions: tuple[Repetition, ...], *, smoothed: bool | None = None
 ) -> MotionRange:
-    """Maximum, minimum and arc of an angle (rad, low-passed) in each repetition that was seen well enough.
+    """Measure maximum, minimum and arc of an angle in each repetition that was visible enough.
 
-    ``sd`` has the angle's standard deviation on the same time base. ``smoothed``: whether the smoother tracked it, or
-    the filter; then what noise adds to an extreme is taken off it, and each figure has the deviation of its noise. None
-    for an angle without noise of tracking.
+    Parameters
+    ----------
+    angle, sd
+        low-passed angle and its standard deviation on the same time base, rad
+    repetitions
+        repetitions found in the angle
+    smoothed
+        True for the smoother's angle, False for the filter's: their noise bias of an extreme is removed; None without
     """
     usable = [rep for rep in repetitions if rep.valid_share >= MIN_VALID_SHARE]
     windows = [(rep.start_s, rep.end_s) for rep in usable]

@@ -1,8 +1,8 @@
-"""What the tracker's noise does to a measure, and how much smoothing it asks for.
+"""Effect of tracking noise on the measures, and the smoothing that it requires.
 
-The error of a tracked angle that moves (not the calibration's, which stays) is taken for a first-order process: a
-share of the stated standard deviation, with a correlation time of the filter or of the smoother. Both figures were
-fitted to simulated sessions with truth. Where the data are quieter than that, the data are believed.
+The varying part of a tracked angle's error (the calibration's is constant) is modelled as a first-order process: a
+share of the stated standard deviation, with the correlation time of the filter or the smoother. Both were fitted to
+simulated sessions with truth. Where the data are quieter, the data are believed.
 """
 
 from __future__ import annotations
@@ -16,55 +16,55 @@ from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.model.types import FloatArray
 
 MOVING_SHARE_OF_SD = 0.5
-"""Share of a stated standard deviation that moves from frame to frame; the rest is the calibration's."""
+"""Share of a stated standard deviation that varies over time; the rest is the calibration's."""
 STATIC_SHARE_OF_SD = math.sqrt(1.0 - MOVING_SHARE_OF_SD**2)
 FILTER_CORRELATION_S, SMOOTHER_CORRELATION_S = 0.06, 0.20
 TARGET_SPEED_ERROR_SHARE = 0.01
-"""Noise that a speed may have, as a share of the stroke's peak; more smoothing is chosen until it has no more."""
+"""Noise allowed in a speed, as a share of the peak; smoothing is increased until it is met."""
 MAX_SPEED_ERROR_SHARE = 0.10
-"""A stroke that needs more than this is too slow to judge."""
+"""A stroke with more noise than this is too slow to assess."""
 MAX_SPECTRUM_NOISE = 0.012
-"""Noise that the normalised spectrum of a speed may have where SPARC follows it down to 0.05."""
+"""Noise allowed in the normalised speed spectrum, which SPARC follows down to 0.05."""
 MAX_CUTOFF_HZ = 10.0
 CYCLES_PER_STROKE = 3.0
-"""A low-pass below this many cycles in the time of a stroke takes more than 1 % off a minimum-jerk peak."""
+"""A lower cut-off, in cycles per stroke, takes more than 1 % off a minimum-jerk peak."""
 CYCLES_PER_SUBMOVEMENT = 2.0
-"""The spectrum of a sub-movement has fallen to nothing at so many cycles in its time."""
+"""At so many cycles per sub-movement its spectrum has fallen to zero."""
 MIN_SMOOTHNESS_CUTOFF_HZ = 2.0
-"""Sub-movements last half a second or less: with less of the spectrum a jerky movement would pass for a smooth one."""
+"""Sub-movements last up to half a second: a lower cut-off would hide a jerky movement."""
 MIN_JERK_CUTOFF_HZ = 4.0
 MAX_JERK_NOISE = 0.01
 _DRAWS = 64
 HOLD_BAND_SDS = 4.0
-"""A hold, seen through noise, stays within so many of its standard deviations of its extreme."""
+"""A noisy hold stays within so many standard deviations of its extreme."""
 DIP_SDS = 4.0
-"""Noise makes dips in a speed up to so many of its standard deviations."""
+"""Noise makes dips in a speed of up to so many standard deviations."""
 
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """A first-order process: ``sd`` in the unit of the signal, ``correlation_s`` after which it has fallen to 1/e."""
+    """First-order process: ``sd`` in the unit of the signal, ``correlation_s`` until it falls to 1/e."""
 
     sd: float
     correlation_s: float
 
     def speed_sd(self, cutoff_hz: float) -> float:
-        """Standard deviation of its rate of change below a cut-off; unit per second."""
+        """Return the standard deviation of its rate of change below a cut-off, unit per second."""
         turn = 2.0 * math.pi * cutoff_hz * self.correlation_s
         return self.sd / self.correlation_s * math.sqrt(2.0 / math.pi * max(turn - math.atan(turn), 0.0))
 
     def spectrum_share(self, frequency_hz: float, duration_s: float, arc: float) -> float:
-        """Its part in the normalised amplitude spectrum of the speed of a stroke of this duration over this arc."""
+        """Return its part in the normalised speed spectrum of a stroke of this duration and arc."""
         turn2 = (2.0 * math.pi * frequency_hz * self.correlation_s) ** 2
         density = 4.0 * self.sd**2 / self.correlation_s * turn2 / (1.0 + turn2)
         return math.sqrt(0.5 * density * duration_s) / arc
 
     def share_above_cutoff(self, cutoff_hz: float) -> float:
-        """Share of its variance above a frequency."""
+        """Return the share of its variance above a frequency."""
         return 1.0 - 2.0 / math.pi * math.atan(2.0 * math.pi * cutoff_hz * self.correlation_s)
 
     def sample(self, count: int, rate_hz: float) -> FloatArray:
-        """Always the same samples of it, (draws, count)."""
+        """Return reproducible samples (draws, count)."""
         chance = np.random.default_rng(0)
         kept = math.exp(-1.0 / (rate_hz * self.correlation_s))
         white = chance.standard_normal((_DRAWS, count))
@@ -75,7 +75,7 @@ class Noise:
 
 
 def moving_noise(part: Signal, sd: Signal, stroke_s: float, *, smoothed: bool) -> Noise:
-    """The noise of a part of an angle with its stated sd; ``stroke_s`` is how long one movement in it takes."""
+    """Return the noise of a part of an angle; ``stroke_s`` is the duration of one movement in it."""
     correlation_s = SMOOTHER_CORRELATION_S if smoothed else FILTER_CORRELATION_S
     known = sd.value[np.isfinite(sd.value)]
     stated = Noise(MOVING_SHARE_OF_SD * float(np.median(known)) if len(known) else 0.0, correlation_s)
@@ -83,9 +83,10 @@ def moving_noise(part: Signal, sd: Signal, stroke_s: float, *, smoothed: bool) -
 
 
 def limit_noise(stated: Noise, part: Signal, stroke_s: float) -> Noise:
-    """The noise of a part, (n,) or (n, k) of which the worst column counts: ``stated``, or less where the part is
-    quieter
-    above all that a movement of ``stroke_s`` has."""
+    """Limit the stated noise to what a part, (n,) or (n, k), shows above the band of its movement.
+
+    The worst column counts. ``stroke_s`` is the duration of one movement.
+    """
     split_hz = clean_cutoff_hz(stroke_s)
     if split_hz >= 0.4 * part.rate_hz:
         return stated
@@ -98,12 +99,12 @@ def limit_noise(stated: Noise, part: Signal, stroke_s: float) -> Noise:
 
 
 def clean_cutoff_hz(stroke_s: float) -> float:
-    """Below this lies all of a movement that takes ``stroke_s``, holds and hesitations included."""
+    """Return the frequency below which all of a movement lies, with holds and hesitations."""
     return max(2.0 * CYCLES_PER_STROKE / max(stroke_s, 1e-3), 1.0)
 
 
 def cutoff_for_speed(noise: Noise, peak_speed: float, stroke_s: float) -> float:
-    """Cut-off (Hz) of the low-pass for a speed; NaN where the stroke is too slow to judge."""
+    """Return the low-pass cut-off (Hz) for a speed; NaN if the stroke is too slow to assess."""
     lowest = CYCLES_PER_STROKE / stroke_s
     if noise.speed_sd(lowest) > MAX_SPEED_ERROR_SHARE * peak_speed:
         return math.nan
@@ -114,15 +115,17 @@ def cutoff_for_speed(noise: Noise, peak_speed: float, stroke_s: float) -> float:
 
 
 def max_cutoff_for_speed(noise: Noise, peak_speed: float) -> float:
-    """The highest cut-off (Hz) at which a stroke's speed can still be told from the noise; 0 where none is."""
+    """Return the highest cut-off (Hz) at which the speed exceeds the noise; 0 if there is none."""
     tried = np.geomspace(MAX_CUTOFF_HZ, 0.1, 80)
     return float(next((hz for hz in tried if noise.speed_sd(hz) <= MAX_SPEED_ERROR_SHARE * peak_speed), 0.0))
 
 
 def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float, submovement_s: float = math.inf) -> float:
-    """Cut-off (Hz) of the low-pass for SPARC of a stroke whose quickest part, if it has stops, takes
-    ``submovement_s``; NaN
-    where noise would be taken for jerk: in a stroke with stops, with its long spectrum, twice as much is little."""
+    """Return the low-pass cut-off (Hz) for the SPARC of a stroke; NaN where noise would pass for jerk.
+
+    ``submovement_s`` is the duration of the quickest part of a stroke with stops. Its spectrum is long, so twice the
+    noise is allowed.
+    """
     lowest = max(CYCLES_PER_STROKE / stroke_s, CYCLES_PER_SUBMOVEMENT / submovement_s, MIN_SMOOTHNESS_CUTOFF_HZ)
     if lowest >= MAX_CUTOFF_HZ:
         return lowest
@@ -132,8 +135,10 @@ def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float, submovement
 
 
 def cutoff_for_jerk(noise: Noise, submovement_arc: float, submovement_s: float, stroke_s: float) -> float:
-    """Cut-off (Hz) below which noise has at most a small share of the least jerk (720 arc^2 / T^5) that a stroke with
-    such a quickest part can have; NaN where that leaves nothing to compare with published figures."""
+    """Return the cut-off (Hz) below which noise is a small share of the least jerk, 720 arc^2 / T^5.
+
+    NaN if the cut-off leaves nothing that compares with published values.
+    """
     lowest = max(CYCLES_PER_STROKE / submovement_s, MIN_JERK_CUTOFF_HZ)
     if not noise.sd > 0.0:
         return max(MAX_CUTOFF_HZ, lowest)
@@ -146,11 +151,10 @@ def cutoff_for_jerk(noise: Noise, submovement_arc: float, submovement_s: float, 
 def estimate_extreme(
     part: FloatArray, clean: FloatArray, noise: Noise, rate_hz: float, *, largest: bool
 ) -> tuple[float, float]:
-    """Largest or smallest angle (n,) of a part without what noise adds to it, and its standard deviation.
+    """Estimate the largest or smallest angle of a part (n,) without the bias of noise, with its standard deviation.
 
-    The largest of noisy values lies too far out, the further the longer a hand holds: so it is the mean of the middle
-    half of the time in which the ``clean`` curve stays within the noise of its extreme. A hold is averaged, a quick
-    turn is as good as flat there. Gaps are NaN.
+    The maximum of noisy values is biased outwards, the more the longer a hold. So the middle half of the time in which
+    the ``clean`` curve stays within the noise of its extreme is averaged. A quick turn is flat there. Gaps are NaN.
     """
     sign = 1.0 if largest else -1.0
     curve = sign * np.where(np.isfinite(part) & np.isfinite(clean), clean, np.nan)

@@ -1,6 +1,6 @@
-"""Reaches of the hand: where each begins and ends, its path, its time, and how far thumb and index finger open.
+"""Reaches of the hand: onset, offset, path and duration (hand paper, figures 2 and 3).
 
-Hand paper, figures 2 and 3; clinical reference 5 and 8.2.
+Clinical reference 5 and 8.2.
 """
 
 from __future__ import annotations
@@ -27,19 +27,21 @@ from carpus.core.model.types import FloatArray
 MIN_CHORD_M = 0.050
 MIN_PEAK_RISE_M_S = 0.020
 WRIST_NOISE = {True: Noise(0.0005, 0.08), False: Noise(0.0007, 0.05)}
-"""The most that the WRIST disc's place is off from frame to frame, looked back at (True) and live; what is systematic
-of its error goes with the movement. Fitted to simulated reaches with truth, pictures included, at 0.65 to 0.75 m."""
+"""Largest noise of the WRIST marker's position, smoothed (True) and live (False).
+
+Systematic error moves with the hand. Fitted to simulated reaches with truth at 0.65 to 0.75 m.
+"""
 TIP_NOISE = {True: Noise(0.0012, 0.12), False: Noise(0.0017, 0.08)}
-"""The same of a tip of the fingers in the hand's own axes."""
+"""The same for a fingertip in the hand's axes."""
 NO_NOISE = Noise(0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
 class PathMeasures:
-    """``length_m`` along the path; ``straightness`` = length / chord, 1 is straight; ``time_to_peak_share`` 0 to 1.
+    """Measures of one path; all NaN if it has a gap.
 
-    Straightness is NaN for a chord below 50 mm; ``peaks`` and ``sparc`` are where the noise would be taken for jerk,
-    ``peaks`` also where nothing rises by 20 mm/s; all are NaN where the part has a gap.
+    ``straightness`` is length over chord (1 is straight), NaN for a chord below 50 mm. ``peaks`` and ``sparc`` are NaN
+    where noise would pass for jerk, ``peaks`` also if none rises by 20 mm/s. ``time_to_peak_share`` is 0 to 1.
     """
 
     length_m: float = math.nan
@@ -53,9 +55,10 @@ class PathMeasures:
 def measure_path(
     position: Signal, start_s: float, end_s: float, cutoff_hz: float = math.inf, noise: Noise = NO_NOISE
 ) -> PathMeasures:
-    """Measures of a position (n, 3), metres, from onset ``start_s`` to offset ``end_s``.
+    """Measure a position (n, 3) in metres from onset ``start_s`` to offset ``end_s``.
 
-    Noise lengthens a path, so it is low-passed at ``cutoff_hz``; smoothness and peaks as much as ``noise`` asks for.
+    Noise lengthens a path, so it is low-passed at ``cutoff_hz``. Peaks and smoothness are low-passed as ``noise``
+    requires.
     """
     smooth = low_pass(position, cutoff_hz)
     part = smooth.crop(start_s, end_s)
@@ -85,7 +88,7 @@ def measure_path(
 
 
 def _cutoff_for_peaks(noise: Noise, max_hz: float) -> float:
-    """The highest cut-off at which noise alone makes no unit; NaN where that would take units away too."""
+    """Return the highest cut-off at which noise alone makes no peak; NaN if real peaks would be lost too."""
     if not noise.sd > 0.0:
         return max_hz
     top = min(max(max_hz, MIN_SMOOTHNESS_CUTOFF_HZ), MAX_CUTOFF_HZ)
@@ -94,21 +97,20 @@ def _cutoff_for_peaks(noise: Noise, max_hz: float) -> float:
 
 
 def compute_speed(position: Signal, start_s: float = -math.inf, end_s: float = math.inf) -> FloatArray:
-    """Speeds (n,) of a position (n, 3) between two times, metres per second."""
+    """Return the speed (n,) of a position (n, 3) between two times, m/s."""
     return np.asarray(np.linalg.norm(rate_of_change(position).crop(start_s, end_s).value, axis=1))
 
 
 MIN_REACH_M = 0.05
-"""A shorter way is no reach (the chord that straightness asks for)."""
+"""A shorter movement is no reach (the chord that straightness requires)."""
 START_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """One way out (``is_outward``) or back, from 5 % to 5 % of its peak speed, with its path.
+    """One reach out or back, from 5 % to 5 % of its peak speed, with its path.
 
-    Of some no more is known than from which turning point to which they go: ``is_too_slow``, whose speed is lost in the
-    noise, and ``is_occluded``, of which a part was not seen.
+    ``is_too_slow`` (speed lost in noise) and ``is_occluded`` reaches have turning points as start and end, and no path.
     """
 
     is_outward: bool
@@ -120,19 +122,25 @@ class Reach:
 
     @property
     def movement_time_s(self) -> float:
-        """NaN where the speed, and so its beginning and end, is not known."""
+        """Movement time; NaN if onset and offset are unknown."""
         return math.nan if self.is_too_slow or self.is_occluded else self.end_s - self.start_s
 
 
 def find_reaches(
     position: Signal, direction: FloatArray | None = None, noise: Noise = NO_NOISE, occluded_s: FloatArray | None = None
 ) -> tuple[Reach, ...]:
-    """Ways out and back of a position (n, 3) as tracked, metres, from where it was in the first half second.
+    """Find the reaches out and back of a position, starting from its place in the first half second.
 
-    How much each is smoothed the noise decides: at most ``noise``, and no more than is seen. With ``direction`` (3,),
-    for
-    a point that swings to both sides of where it was: to and fro along the line on which it moves most, out being the
-    way that goes with that direction. ``occluded_s`` (g, 2) from when to when the point was hidden, though tracked.
+    Parameters
+    ----------
+    position
+        (n, 3) tracked position, m
+    direction
+        (3,) for a point that swings to both sides of its start: reaches go along its main axis, out is this way
+    noise
+        largest noise; less is assumed where the data are quieter
+    occluded_s
+        (g, 2) start and end of occlusions, although tracked
     """
     unseen = position.gaps_s if occluded_s is None else np.vstack((position.gaps_s, occluded_s))
     smooth = low_pass(position)
@@ -184,7 +192,7 @@ def _is_overlapping(occluded_s: FloatArray, start_s: float, end_s: float) -> boo
 
 
 def _movement_interval(position: Signal, stroke: Stroke) -> tuple[float, float] | None:
-    """When a stroke's speed leaves 5 % of its peak and comes back to it."""
+    """Return when the speed of a stroke leaves 5 % of its peak and comes back to it."""
     speed = compute_speed(position)
     inside = (position.time_s >= stroke.start_s) & (position.time_s <= stroke.end_s) & np.isfinite(speed)
     if not inside.any():
@@ -203,5 +211,5 @@ def _find_slow_sample(speed: FloatArray, peak_at: int, step: int, level: float) 
 
 
 def distance_m(one_m: FloatArray, other_m: FloatArray) -> FloatArray:
-    """Distances (N,) of two points (N, 3): the aperture of TIP1 and TIP2, the span of TIP1 and TIP5."""
+    """Return the distances (N,) of two points (N, 3): grip aperture (TIP1, TIP2), hand span (TIP1, TIP5)."""
     return np.asarray(np.linalg.norm(one_m - other_m, axis=-1), dtype=np.float64)

@@ -1,4 +1,4 @@
-"""Repetitions of an exercise in one angle, by its turning points (clinical reference 5)."""
+"""Repetitions and strokes of an exercise, from the turning points of one angle (clinical reference 5)."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ COUNTING_CUTOFF_HZ = 4.0
 MIN_RANGE_RAD = math.radians(10.0)
 MIN_DURATION_S = 0.4
 MAX_OCCLUSION_S = 1.0
-"""Who sees nothing for longer does not know what the hand did."""
+"""Nothing is counted across a longer occlusion."""
 MIN_RECORDING_S = 1.0
 _MIN_AMPLITUDE_SHARE = 0.3
 _HYSTERESIS_SHARE = 0.15
 _NOISE_RANGE = 4.5
-"""Range of what is left of white noise after the low-pass, in standard deviations of what the low-pass took away."""
+"""Range of low-passed white noise, in standard deviations of what the low-pass removed."""
 _MIN_HYSTERESIS_RAD = math.radians(2.5)
 _STILL_S, _STILL_SHARE = 0.3, 0.03
-"""Who moves by no more of the usual swing for so long stands."""
+"""The hand is still if it moves by no more than this share of the usual swing for so long."""
 
 CutReason = Literal["", "cut_by_start", "cut_by_gap", "cut_by_end"]
-"""What hid the rest of a repetition: the recording began or ended in it, or the hand was out of sight."""
+"""What hid the rest of a repetition: the start or end of the recording, or an occlusion."""
 
 
 @dataclass(frozen=True, slots=True)
 class Repetition:
-    """One repetition, there and back, from ``start_s`` to ``end_s``; ``valid_share`` of its samples are no gap.
+    """One repetition, there and back; ``valid_share`` is the share of its samples outside gaps.
 
-    One that is ``partial_repetitions``, at ``cut_s``, is the piece that was seen of it.
+    A partial repetition has a ``cut`` reason and the time ``cut_s`` at which it was cut.
     """
 
     start_s: float
@@ -48,9 +48,10 @@ class Repetition:
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """One movement in one direction between two neighbouring turning points; ``is_half``: of motion to both sides the
-    way
-    from the rest in the middle, or back to it."""
+    """Movement in one direction between two neighbouring turning points.
+
+    ``is_half``: in a motion to both sides, the way from the middle to one side or back.
+    """
 
     start_s: float
     end_s: float
@@ -65,10 +66,13 @@ class Stroke:
 
 @dataclass(frozen=True, slots=True)
 class RepetitionAnalysis:
-    """What was found in one angle; all empty where nothing was repeated. ``partial_repetitions`` are repetitions of
-    which a piece was
-    seen, which count nowhere; ``occluded_s`` from when to when nothing was seen for so long that nothing is counted
-    across it."""
+    """Repetitions and strokes of one angle.
+
+    Attributes
+    ----------
+    partial_repetitions : repetitions of which only a part was visible; they are not counted
+    occluded_s : (start, end) of the occlusions across which nothing is counted
+    """
 
     repetitions: tuple[Repetition, ...]
     strokes: tuple[Stroke, ...]
@@ -78,9 +82,10 @@ class RepetitionAnalysis:
 
 @dataclass(frozen=True, slots=True)
 class _TurningPoint:
-    """A turning point: the sample ``turn`` of an extreme. ``is_seen``: the angle came and went; else what was seen
-    begins
-    or ends there, ``is_still`` or moving."""
+    """Extreme of the curve at index ``sample``.
+
+    ``is_seen``: the angle came and went there. Otherwise it is an end of the visible part, ``is_still`` or moving.
+    """
 
     is_high: bool
     sample: int
@@ -89,7 +94,7 @@ class _TurningPoint:
     is_still: bool = True
 
     def distance_beyond(self, level: float) -> float:
-        """How far it lies beyond a level, to its side."""
+        """Return how far the point lies beyond a level, to its own side."""
         return self.value - level if self.is_high else level - self.value
 
 
@@ -97,17 +102,17 @@ NO_REPETITIONS = RepetitionAnalysis((), ())
 
 
 def find_repetitions(angle: Signal) -> RepetitionAnalysis:
-    """Repetitions and strokes in an angle (rad).
+    """Find the repetitions and strokes in an angle (rad).
 
-    A turning point is where the angle turns back over max(10 degrees, 0.3 R) or more, R being the usual swing: the
-    median of the swings of 10 degrees or more, weighed by how long they take, so that neither a rest nor a hand taken
-    away changes it. A repetition goes there and back and takes 0.4 s or longer: from one extreme to the next of the
-    side on which the hand began, or ended; of motion to both sides from passing the middle to passing it that way
+    A turning point is where the angle turns back by max(10 degrees, 0.3 R) or more. R is the usual swing: the median of
+    the swings of 10 degrees or more, weighted by their duration, so that neither rest nor an absent hand changes it. A
+    repetition goes there and back and takes 0.4 s or longer: from one extreme to the next one on the side where the
+    hand began or ended. In a motion to both sides it goes from passing the middle to passing it in that direction
     again.
 
-    What is missing makes nothing else vanish: a repetition in which something is missing has its ``valid_share``; what
-    lies before and after a longer gap is counted by itself, what such a gap or an end of the recording left of a
-    repetition is ``partial_repetitions``; :func:`explain_no_repetitions` says why there is none.
+    Gaps hide nothing else: a repetition with a gap has a lower ``valid_share``; the parts before and after a long
+    occlusion are counted separately; what an occlusion or an end of the recording left of a repetition is partial.
+    :func:`explain_no_repetitions` gives the reason where there is none.
     """
     known = np.flatnonzero(np.isfinite(angle.value))
     if len(known) < 2 or angle.time_s[-1] - angle.time_s[0] < MIN_RECORDING_S:
@@ -161,7 +166,7 @@ def _find_strokes(segment: _Segment, rest: _RestPosition, time_s: FloatArray, mi
 
 
 def _make_repetition(angle: Signal, start: int, end: int, cut_at: int | None = None) -> Repetition:
-    """The repetition from one sample to another, cut at a sample where it is."""
+    """Build the repetition between two samples, cut at ``cut_at`` if given."""
     time = angle.time_s
     one = Repetition(float(time[start]), float(time[end]), float(np.isfinite(angle.value[start : end + 1]).mean()))
     if cut_at is None:
@@ -172,12 +177,14 @@ def _make_repetition(angle: Signal, start: int, end: int, cut_at: int | None = N
 
 
 NoRepetitionReason = Literal["too_short", "nothing_seen", "small_range", "cut_by_gap", "no_return", "too_quick"]
-"""Why there is none: hardly a recording, hardly a frame seen, less than 10 degrees, one with a piece out of
-sight, never there and back, or each in less than 0.4 s."""
+"""Why there is no repetition.
+
+Recording too short, hand hardly visible, range below 10 degrees, occluded, no return, or each quicker than 0.4 s.
+"""
 
 
 def explain_no_repetitions(angle: Signal, analysis: RepetitionAnalysis) -> NoRepetitionReason | None:
-    """Why an angle has no repetition; None where it has some."""
+    """Return the reason why an angle has no repetition, None if it has some."""
     if analysis.repetitions:
         return None
     known = angle.value[np.isfinite(angle.value)]
@@ -195,7 +202,7 @@ def explain_no_repetitions(angle: Signal, analysis: RepetitionAnalysis) -> NoRep
 
 
 def _split_at_long_gaps(angle: Signal) -> list[slice]:
-    """The samples between gaps that are too long to count across."""
+    """Return the samples between gaps that are too long to count across."""
     finite = angle.is_finite
     parts = find_runs(finite)
     out: list[slice] = []
@@ -208,16 +215,16 @@ def _split_at_long_gaps(angle: Signal) -> list[slice]:
 
 
 def _residual_sd(value: FloatArray, smooth: FloatArray) -> float:
-    """Robust standard deviation of what a low-pass took away."""
+    """Return the robust standard deviation of what a low-pass removed."""
     rest = value - smooth
     rest = rest[np.isfinite(rest)]
     return 1.4826 * float(np.median(np.abs(rest))) if len(rest) else 0.0
 
 
 def _find_turning_points(value: FloatArray, min_swing: float, part: slice = slice(None)) -> list[_TurningPoint]:
-    """Where a curve (n,) turns back over ``min_swing`` or more, highs and lows in turn; both ends are among them.
+    """Find where a curve (n,) turns back by ``min_swing`` or more, highs and lows in turn, with both ends.
 
-    Whatever comes later leaves a turning point as it is, once the curve has come back from it.
+    Later samples do not change a turning point once the curve has come back from it.
     """
     known = (part.start or 0) + np.flatnonzero(np.isfinite(value[part]))
     if len(known) < 2:
@@ -249,7 +256,7 @@ def _turning_point(known: NDArray[np.intp], curve: FloatArray, index: int, *, is
 
 
 def _median_swing(turns_of_parts: list[list[_TurningPoint]]) -> float:
-    """Median size of the swings, each weighed by its samples; NaN without any."""
+    """Return the median swing, weighted by its number of samples; NaN without any."""
     pairs = (pair for turns in turns_of_parts for pair in pairwise(turns))
     swings = sorted((abs(b.value - a.value), b.sample - a.sample) for a, b in pairs)
     half, so_far = 0.5 * sum(length for _, length in swings), 0
@@ -262,7 +269,7 @@ def _median_swing(turns_of_parts: list[list[_TurningPoint]]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _Segment:
-    """What was seen without a long gap: the whole curve (n,), the run's part of it, and where that turns."""
+    """Part of the curve (n,) without a long gap, with its turning points."""
 
     curve: FloatArray
     part: slice
@@ -272,8 +279,10 @@ class _Segment:
     def with_end_points(
         cls, curve: FloatArray, part: slice, turns: list[_TurningPoint], near: float, still_rad: float, rate_hz: float
     ) -> _Segment:
-        """With the ends of what was seen, and whether the hand stood there: an end turn from which the angle came back,
-        though by too little for another turn, was seen."""
+        """Add the ends of the visible part, and whether the hand was still there.
+
+        An end from which the angle came back by too little for a turning point replaces it.
+        """
         known = part.start + np.flatnonzero(np.isfinite(curve[part]))
         count = 1 + round(_STILL_S * rate_hz)
         for at, samples in ((0, known[:count]), (-1, known[: -count - 1 : -1])):
@@ -287,7 +296,7 @@ class _Segment:
         return cls(curve, part, turns)
 
     def find_crossing(self, level: float, point: _TurningPoint, *, before: bool) -> int | None:
-        """The sample nearest to a turn, before or after it, that is not beyond a level; None without one."""
+        """Return the sample nearest to a turning point, before or after it, that is not beyond a level."""
         side = slice(self.part.start, point.sample) if before else slice(point.sample, self.part.stop)
         off = (self.curve[side] - level) * (1.0 if point.is_high else -1.0)
         found = side.start + np.flatnonzero(off <= 0.0)
@@ -299,9 +308,10 @@ _Position = Literal["low", "high", "middle", "elsewhere"]
 
 @dataclass(frozen=True, slots=True)
 class _RestPosition:
-    """Where a motion turns, about ``low`` and ``is_high``, each ``tolerance`` by so much, and from where it goes
-    there and
-    back: from its high or its low ``side``, or, to both sides, from the middle (None)."""
+    """Where a motion turns (``low``, ``high``, each within ``tolerance``) and where it starts.
+
+    ``side``: True from its high side, False from its low side, None to both sides from the middle.
+    """
 
     low: float
     high: float
@@ -310,7 +320,7 @@ class _RestPosition:
 
     @classmethod
     def from_segments(cls, segments: Sequence[_Segment], tolerance: float) -> _RestPosition:
-        """By where the hand stood at the beginning, or at the end; else by where it was."""
+        """Estimate from where the hand was still at the start or the end, else from where it was."""
         usual = [
             _typical_extreme([turn for run in segments for turn in run.turning_points if turn.is_high is high])
             for high in (False, True)
@@ -327,7 +337,7 @@ class _RestPosition:
         return 0.5 * (self.low + self.high)
 
     def classify(self, point: _TurningPoint) -> _Position:
-        """Where a turning point lies; one at which what was seen begins or ends may lie anywhere."""
+        """Classify the position of a turning point; an end of the visible part may lie elsewhere."""
         beyond_middle = point.distance_beyond(self.middle)
         if not point.is_seen and abs(beyond_middle) < self.tolerance:
             return "middle"
@@ -337,14 +347,14 @@ class _RestPosition:
         return "elsewhere"
 
     def is_at_rest(self, point: _TurningPoint) -> bool:
-        """Whether no repetition is under way where what was seen begins or ends."""
+        """True if no repetition is under way at an end of the visible part."""
         place = self.classify(point)
         if place in ("middle", "elsewhere"):
             return point.is_still or (self.side is None and place == "middle")
         return point.is_high is self.side
 
     def repetition_boundaries(self, segment: _Segment, segments: Sequence[_Segment]) -> list[int]:
-        """The samples at which a repetition begins or ends."""
+        """Return the samples at which a repetition begins or ends."""
         if self.side is not None:
             at_home = "high" if self.side else "low"
             return [turn.sample for turn in segment.turning_points if self.classify(turn) == at_home]
@@ -369,7 +379,7 @@ class _RestPosition:
         return found
 
     def _is_first_high(self, segments: Sequence[_Segment]) -> bool:
-        """To which side a repetition from the middle goes first; of several runs the first that shows it."""
+        """True if repetitions from the middle go to the high side first."""
         for run in segments:
             if self.classify(run.turning_points[0]) == "middle":
                 return run.turning_points[1].is_high
@@ -380,7 +390,7 @@ class _RestPosition:
 
 
 def _typical_extreme(turns: Sequence[_TurningPoint]) -> float:
-    """The median of the turning points of one side: of those that were seen, else at which the hand stood."""
+    """Return the median turning point of one side: of those seen, else those where the hand was still."""
     chosen = [turn for turn in turns if turn.is_seen] or [turn for turn in turns if turn.is_still]
     if chosen:
         return float(np.median([turn.value for turn in chosen]))

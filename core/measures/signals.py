@@ -1,5 +1,7 @@
-"""Signals fit for measuring: valid samples (clinical reference 7.4 and 1.2) on an even time base, low-passed without
-delay."""
+"""Evenly sampled signals for the measures: valid samples, resampling, low-pass, derivative.
+
+Validity rules: clinical reference 7.4 and 1.2.
+"""
 
 from __future__ import annotations
 
@@ -14,21 +16,24 @@ from carpus.core.model.types import FloatArray, TrackStatus
 BoolArray = NDArray[np.bool_]
 
 MAX_FILLED_GAP_S = 0.2
-"""Gaps up to this are filled by straight lines, longer ones stay gaps (reference 5)."""
+"""Gaps up to this length are interpolated, longer ones stay gaps (reference 5)."""
 SPEED_CUTOFF_HZ = 6.0
-"""Low-pass before any speed or smoothness is taken (reference 4.4)."""
+"""Low-pass cut-off before speed or smoothness is computed (reference 4.4)."""
 _TWO_PASS_FACTOR = (math.sqrt(2.0) - 1.0) ** 0.25
-"""Cut-off of both passes of a second-order filter against that of each."""
+"""Cut-off of two passes of a second-order filter over the cut-off of each pass."""
 _MIN_FILTERED_SAMPLES = 4
-"""Samples between two gaps below which there is nothing to filter."""
+"""Shorter runs between two gaps are not filtered."""
 
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """Evenly spaced samples: ``time_s`` (n,), ``value`` (n,) or (n, k) with NaN in gaps, ``rate_hz``.
+    """Evenly sampled signal; gaps are NaN.
 
-    ``valid_share`` is the share of the original frames that were valid; ``gaps_s`` (g, 2) the first and last time of
-    each gap, also of one before the first or after the last valid sample.
+    Attributes
+    ----------
+    time_s, value : (n,), and (n,) or (n, k)
+    valid_share : share of the original frames that were valid
+    gaps_s : (g, 2) first and last time of each gap, also before the first and after the last valid sample
     """
 
     time_s: FloatArray
@@ -39,7 +44,7 @@ class Signal:
 
     @property
     def is_finite(self) -> BoolArray:
-        """Samples (n,) that are no gap."""
+        """Samples (n,) outside gaps."""
         flat = self.value.reshape(len(self.value), math.prod(self.value.shape[1:]))
         return np.asarray(np.isfinite(flat).all(axis=1), dtype=np.bool_)
 
@@ -47,28 +52,36 @@ class Signal:
         return replace(self, value=self.value[:, k])
 
     def is_near_gap(self, time_s: float, reach_s: float = MAX_FILLED_GAP_S) -> bool:
-        """Whether a gap begins or ends within ``reach_s`` of a time."""
+        """True if a gap begins or ends within ``reach_s`` of a time."""
         return bool((np.abs(self.gaps_s - time_s) <= reach_s).any())
 
     def crop(self, start_s: float, end_s: float) -> Signal:
-        """The samples from ``start_s`` to ``end_s``, both included."""
+        """Return the samples from ``start_s`` to ``end_s``, both included."""
         inside = _time_slice(self.time_s, start_s - 0.25 / self.rate_hz, end_s + 0.25 / self.rate_hz)
         return replace(self, time_s=self.time_s[inside], value=self.value[inside])
 
 
 def _time_slice(time_s: FloatArray, start_s: float, end_s: float) -> slice:
-    """The times from ``start_s`` to ``end_s``, both included, of rising ones, none where either is not known: a long
-    recording is not gone through for each of its repetitions."""
+    """Return the slice of sorted times from ``start_s`` to ``end_s``, both included; empty if one is NaN.
+
+    Binary search, because a long recording is cropped for each of its repetitions.
+    """
     if not start_s <= end_s:
         return slice(0, 0)
     return slice(int(time_s.searchsorted(start_s, "left")), int(time_s.searchsorted(end_s, "right")))
 
 
 def resample_evenly(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | None = None) -> Signal:
-    """Puts samples with their own times (N,) on an even base at the recording's median rate.
+    """Resample irregular samples at the recording's median rate, from the first to the last valid one.
 
-    ``value`` (N,) or (N, k); ``valid`` bool (N,), a sample with a NaN is invalid anyway. The base runs from the first
-    to the last valid sample. Times must rise strictly.
+    Parameters
+    ----------
+    timestamp_s
+        (N,), strictly increasing
+    value
+        (N,) or (N, k); a row with NaN is invalid
+    valid
+        (N,) further validity
     """
     columns = value.reshape(len(timestamp_s), math.prod(value.shape[1:]))
     good = np.isfinite(columns).all(axis=1)
@@ -92,10 +105,10 @@ def resample_evenly(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray
 
 
 def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
-    """Second-order Butterworth forwards and backwards (no delay), each stretch between gaps on its own; both passes
-    together have -3 dB at the cut-off.
+    """Filter each run between gaps with a zero-phase second-order Butterworth low-pass.
 
-    Stretches of fewer than 4 samples become gaps. A recording too slow for the cut-off is left as it is.
+    Both passes together have -3 dB at the cut-off. Runs of fewer than 4 samples become gaps. A signal that is sampled
+    too slowly for the cut-off is returned unchanged.
     """
     if len(signal.time_s) == 0 or cutoff_hz >= 0.45 * signal.rate_hz:
         return signal
@@ -116,9 +129,10 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
 
 
 def rate_of_change(signal: Signal) -> Signal:
-    """Central differences of fourth order (plain at the ends of a stretch), unit of the value per second.
+    """Differentiate by fourth-order central differences, in units of the value per second.
 
-    Plain ones take 3 % off a movement of two cycles a second at 30 samples a second.
+    Second-order differences lose 3 % of a movement of two cycles per second at 30 fps. They are used at the ends of
+    each run.
     """
     out = np.full_like(signal.value, np.nan)
     for part in find_runs(signal.is_finite):
@@ -132,24 +146,24 @@ def rate_of_change(signal: Signal) -> Signal:
 
 
 def find_runs(flag: BoolArray) -> list[slice]:
-    """Runs of True in a bool array (n,), as slices in order."""
+    """Return the runs of True in a bool array (n,), as slices in order."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], flag, [False])).astype(np.int8)))
     return [slice(int(start), int(stop)) for start, stop in edges.reshape(-1, 2)]
 
 
 MIN_PALM_MARKERS = 4
 MAX_VIEW_TILT_RAD = math.radians(70.0)
-"""Tilt of the back of the hand to the camera's axis beyond which a disc is a sliver."""
+"""Tilt of the back of the hand to the camera's axis above which a marker is a sliver."""
 SETTLING_S = 0.09
-"""Some three pictures."""
+"""About three frames."""
 MAX_ANGLE_SD_RAD = math.radians(8.0)
-"""An angle less sure than this says nothing about a range (our choice, about half of the change limits)."""
+"""Angles with a larger standard deviation are not used (our choice, half of the change limits)."""
 MAX_ZYX_FLEXION_RAD = math.radians(75.0)
-"""Beyond this flexion deviation and pro/supination are ill-conditioned: noise gain 1/cos above 3.9."""
+"""Above it deviation and pronosupination are ill-conditioned: noise gain 1/cos above 3.9."""
 
 
 def view_tilt_rad(rotation_w2_w0: FloatArray, rotation_w0_cam: FloatArray) -> FloatArray:
-    """Angle (N,) between the back of the hand's normal and the direction to the camera, rotation (N, 3, 3)."""
+    """Return the angle (N,) between the normal of the back of the hand and the direction to the camera."""
     normal_cam = rotation_w2_w0[..., :, 2] @ rotation_w0_cam.T
     return np.asarray(np.arccos(np.clip(-normal_cam[..., 2], -1.0, 1.0)), dtype=np.float64)
 
@@ -160,9 +174,16 @@ def valid_view(
     rotation_w2_w0: FloatArray,
     rotation_w0_cam: FloatArray,
 ) -> BoolArray:
-    """Frames (N,) that the camera saw well enough: tracked, 4 palm markers or more, tilt up to 70 degrees.
+    """Select frames (N,) that are tracked, with 4 or more palm markers and a tilt up to 70 degrees.
 
-    ``palm_measured_px`` (N, P, 2) the blobs taken for the palm's markers, NaN where none.
+    Parameters
+    ----------
+    status
+        (N,) track status
+    palm_measured_px
+        (N, P, 2) blobs assigned to the palm markers, NaN where none
+    rotation_w2_w0, rotation_w0_cam
+        (N, 3, 3) of the hand, (3, 3) of the neutral pose in the camera
     """
     seen = np.isfinite(palm_measured_px).all(axis=2).sum(axis=1) >= MIN_PALM_MARKERS
     with np.errstate(invalid="ignore"):
@@ -171,8 +192,10 @@ def valid_view(
 
 
 def exclude_view_edges(is_visible: BoolArray, time_s: FloatArray) -> BoolArray:
-    """Frames (N,) of a view without those just before a hand goes out of it for longer than a gap that is filled, and
-    just after it is back: what is told of them rests on few discs at the edge, and may be tens of degrees off."""
+    """Exclude the frames (N,) just before the hand leaves the view and just after it is back.
+
+    They rest on few markers at the edge and may be tens of degrees off. Gaps that are interpolated do not count.
+    """
     out = is_visible.copy()
     for part in find_runs(~is_visible):
         before, after = max(part.start - 1, 0), min(part.stop, len(is_visible) - 1)
@@ -182,13 +205,16 @@ def exclude_view_edges(is_visible: BoolArray, time_s: FloatArray) -> BoolArray:
 
 
 def valid_angle(is_visible: BoolArray, angle_rad: FloatArray, angle_sd_rad: FloatArray) -> BoolArray:
-    """Samples of one angle (N,) that are known and sure enough, among the frames that were seen."""
+    """Select the visible frames (N,) in which one angle is known with a small standard deviation."""
     with np.errstate(invalid="ignore"):
         return np.asarray(is_visible & np.isfinite(angle_rad) & (angle_sd_rad <= MAX_ANGLE_SD_RAD), dtype=np.bool_)
 
 
 def valid_wrist_angles(is_visible: BoolArray, angles_rad: FloatArray, angles_sd_rad: FloatArray) -> BoolArray:
-    """Valid samples (N, 3) of deviation, flexion, pro/supination; the outer two only where flexion is below 75."""
+    """Select valid samples (N, 3) of deviation, flexion and pronosupination.
+
+    Deviation and pronosupination need a flexion of at most 75 degrees.
+    """
     valid = np.column_stack([valid_angle(is_visible, angles_rad[:, k], angles_sd_rad[:, k]) for k in range(3)])
     with np.errstate(invalid="ignore"):
         conditioned = np.abs(angles_rad[:, 1]) <= MAX_ZYX_FLEXION_RAD

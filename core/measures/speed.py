@@ -1,12 +1,9 @@
-"""Speed, timing and smoothness of single strokes of an angle (clinical reference 5), smoothed as much as its noise asks
-for.
+"""Speed, timing and smoothness of strokes of an angle (clinical reference 5).
 
-A stroke is the way from leaving one turning place to reaching the next. Who stops on the way has not finished: pauses
-are part of the stroke, counted and timed, and its smoothness, time and mean speed are those of all of it. SPARC and log
-dimensionless jerk: Balasubramanian et al. 2015, doi 10.1186/s12984-015-0090-9. They and the number of peaks all take a
-speed profile (n,), evenly sampled and low-passed; unit per second of whatever moved.
-
-Never from the filter's own angular velocity noise: differentiate the smoothed angle (reference 4.5).
+A stroke goes from leaving one turning point to reaching the next; pauses are part of it. SPARC and log dimensionless
+jerk: Balasubramanian et al. 2015, doi 10.1186/s12984-015-0090-9. Speed profiles (n,) are evenly sampled and low-passed
+as much as their noise requires. They come from the smoothed angle, never from the filter's angular velocity (reference
+4.5).
 """
 
 from __future__ import annotations
@@ -42,11 +39,11 @@ _MIN_SPARC_AMPLITUDE = 0.05
 
 
 def sparc(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
-    """Spectral arc length, dimensionless, below 0; the nearer to 0 the smoother.
+    """Compute the spectral arc length, dimensionless and below 0; smoother movements are nearer to 0.
 
-    ``-integral_0^wc sqrt((1/wc)^2 + (dV/dw)^2) dw`` of the normalised amplitude spectrum V, zero-padded to
-    2^(ceil(log2 n) + 4), up to the last frequency of at most 10 Hz with V of 0.05 or more. NaN below 8 samples, with a
-    gap, or with a peak below ``min_peak``.
+    ``-integral_0^wc sqrt((1/wc)^2 + (dV/dw)^2) dw`` of the normalised amplitude spectrum V, zero-padded to 2^(ceil(log2
+    n) + 4), up to the last frequency of at most 10 Hz with V of 0.05 or more. NaN below 8 samples, with a gap, or with
+    a peak below ``min_peak``.
 
     >>> t = np.arange(-100, 100) / 100
     >>> round(sparc(np.exp(-5 * t**2), 100.0), 5)
@@ -67,9 +64,9 @@ def sparc(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
 
 
 def log_dimensionless_jerk(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
-    """LDLJ = -ln(T^3 / v_peak^2 * integral (d2v/dt2)^2 dt), T = n dt; the nearer to 0 the smoother.
+    """Compute LDLJ = -ln(T^3 / v_peak^2 * integral (d2v/dt2)^2 dt), T = n dt; smoother is nearer to 0.
 
-    Very sensitive to noise: worth showing only beside SPARC. NaN as for :func:`sparc`.
+    Very sensitive to noise, so show it only beside SPARC. NaN as for :func:`sparc`.
 
     >>> t = np.arange(-100, 100) / 100
     >>> round(log_dimensionless_jerk(np.exp(-5 * t**2), 100.0), 5)
@@ -87,11 +84,10 @@ _MIN_PEAK_INTERVAL_S = 0.15
 
 
 def count_speed_peaks(speed: FloatArray, rate_hz: float, min_rise: float, min_dip: float = 0.0) -> int:
-    """Movement units: local maxima more than ``min_rise`` above the minimum just before, 0.15 s apart or more.
+    """Count movement units: maxima more than ``min_rise`` above the minimum before, at least 0.15 s apart.
 
-    Reference: 20 mm/s for a position, the greater of 10 % of the peak and 5 degrees/s for an angle. 1 is ideal. A dip
-    smaller than ``min_dip``, what noise makes of itself, parts no maxima: one in the middle of a long rise would make
-    two units of it, and a few of them none.
+    Reference: 20 mm/s for a position, the greater of 10 % of the peak and 5 degrees/s for an angle; 1 is ideal. A dip
+    smaller than ``min_dip`` is noise and separates no maxima.
     """
     from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
 
@@ -115,32 +111,29 @@ def _is_measurable(speed: FloatArray, min_peak: float) -> bool:
 ONSET_SPEED_SHARE = 0.05
 """Onset and offset are where the speed passes this share of the stroke's peak."""
 TURNING_BAND_SHARE = 0.05
-"""Within this share of the arc from its extreme an angle is still in its turning place: who creeps on there has
-arrived. Noise may need more."""
+"""Within this share of the arc from its extreme the movement has arrived, even if it creeps on. Noise may need more."""
 PAUSE_SPEED_SHARE, MIN_PAUSE_S = 0.10, 0.2
-"""Below this share of the peak for so long the hand stands still; who only turns from one sub-movement to the next is
-there for less."""
+"""A pause is slower than this share of the peak for so long; turns between sub-movements are shorter."""
 _PAUSE_SDS = 2.0
-"""Where noise alone passes that share, nobody knows whether the hand stood still."""
+"""Pauses are unknown where noise alone passes the pause speed."""
 _PEAK_RISE_SHARE = 0.10
 _EDGE_SHARE, _EDGES_TO_DURATION = 0.1, 1.74
-"""Of a minimum-jerk movement the way between both edges takes 0.507 of the time, and that above 5 % of the peak speed
-0.881."""
+"""In a minimum-jerk movement 10 to 90 % of the way take 0.507 of the time, above 5 % of the peak 0.881."""
 _HALF_HEIGHT_SHARE, _MINIMUM_JERK_PEAK_TO_MEAN = 0.541, 1.875
-"""Of its time a minimum-jerk movement is above half of its peak speed, which is so many times its mean speed."""
+"""Share of the time that a minimum-jerk movement is above half its peak; peak over mean speed."""
 _MAX_SUBMOVEMENT_SHARE, _SUBMOVEMENT_SDS = 0.6, 2.0
-"""A quickest part below this share of the whole way's time is a sub-movement, if it is so much above the noise."""
+"""A shorter quickest part is a sub-movement, if it is so much above the noise."""
 _FILTER_MARGIN_CYCLES, _FILTER_MARGIN_S = 8.0, 5.0
-"""A low-pass forgets within less than this many turns of its cut-off; movements end within so many seconds."""
+"""A low-pass forgets within so many cycles of its cut-off; movements end within so many seconds."""
 
 
 @dataclass(frozen=True, slots=True)
 class StrokeMeasures:
-    """One stroke. Speeds in rad/s without sign; ``movement_time_s`` from ``onset_s`` to ``offset_s``, pauses included;
-    ``pauses`` how often the hand stood still on the way and ``pause_s`` for how long in all; smoothness dimensionless.
+    """Measures of one stroke: unsigned speeds in rad/s, smoothness dimensionless.
 
-    ``peak_speed_sd_rad_s`` what noise leaves in the peak speed. ``too_slow``: the noise is too large for this speed,
-    which is then unknown, and ``too_slow_to_be_smooth`` for its smoothness.
+    ``movement_time_s`` goes from ``onset_s`` to ``offset_s`` with pauses; ``pause_s`` is their total.
+    ``peak_speed_sd_rad_s`` is what noise leaves in the peak speed. ``too_slow`` and ``too_slow_to_be_smooth``: speed or
+    smoothness is unknown, because noise is too large for this speed.
     """
 
     stroke: Stroke
@@ -162,13 +155,12 @@ class StrokeMeasures:
 
 
 def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, smoothed: bool = True) -> StrokeMeasures:
-    """Speed, timing and smoothness of one stroke of an angle (rad) as tracked, with its stated ``sd``.
+    """Measure speed, timing and smoothness of one stroke of a tracked angle (rad) with its stated ``sd``.
 
-    How much it is smoothed the noise decides. Everything but the arc is NaN when the arc is below 10 degrees or the
-    stroke has a gap; movement time and what follows from it also when the speed does not fall below 5 % of its peak on
-    both sides. Movement time counts from 5 % to 5 % of the peak; smoothness is that of the whole stroke, from where the
-    speed left zero, or its last minimum, to where it is back, as published figures have it. Movement units are unknown
-    where none rises as they must (5 degrees a second).
+    The noise decides how much the angle is low-passed. All but the arc is NaN if the arc is below 10 degrees or the
+    stroke has a gap. Movement time counts from 5 % to 5 % of the peak speed; it and what follows from it are NaN if the
+    speed does not fall so far on both sides. Smoothness is that of the whole stroke, from rest, or the last minimum of
+    speed, to rest, as in published values. Movement units are NaN if none rises by 5 degrees/s.
     """
     part = _low_pass_stroke(angle, stroke, MAX_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s)
     if not part.is_finite.all() or len(part.time_s) < 2:
@@ -215,8 +207,10 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
 def _measure_without_rest(
     angle: Signal, stroke: Stroke, sd: Signal | None, arc: float, *, smoothed: bool
 ) -> StrokeMeasures:
-    """Of a stroke that was never at rest on both sides: its peak speed. Where the rough curve began and ended was
-    noise, so the whole stroke decides how much it is smoothed."""
+    """Measure the peak speed of a stroke that was never at rest on both sides.
+
+    Onset and offset of its rough curve were noise, so the whole stroke decides how much it is low-passed.
+    """
     if _is_cut_short(angle, stroke):
         return StrokeMeasures(stroke, arc)
     duration_s = stroke.end_s - stroke.start_s
@@ -237,8 +231,10 @@ def _count_movement_units(motion: _StrokeMotion, rate_hz: float, cutoff_hz: floa
 
 
 def estimate_duration_s(angle: FloatArray, rate_hz: float) -> float:
-    """How long a way (n,), from one turning point to the next, takes from 5 % to 5 % of its peak speed, told from where
-    it passes a tenth and nine tenths: a speed that is mostly noise would call its own quick waves the movement."""
+    """Estimate the duration of a stroke (n,) from the times of 10 % and 90 % of its way.
+
+    A speed that is mostly noise would give the duration of the noise.
+    """
     share = (angle - angle[0]) / (angle[-1] - angle[0]) if angle[-1] != angle[0] else np.linspace(0.0, 1.0, len(angle))
     there = int(np.argmax(share >= 1.0 - _EDGE_SHARE))
     left = int(np.flatnonzero(share[: there + 1] <= _EDGE_SHARE)[-1])
@@ -246,15 +242,14 @@ def estimate_duration_s(angle: FloatArray, rate_hz: float) -> float:
 
 
 def _is_cut_short(angle: Signal, stroke: Stroke) -> bool:
-    """Whether a gap or the recording's end, and no turning point, ends the stroke: it may have been faster where it was
-    not seen."""
+    """True if a gap or an end of the recording ends the stroke, which may have been faster beyond it."""
     near_s = 1.5 / angle.rate_hz
     at_end = stroke.start_s - angle.time_s[0] < near_s or angle.time_s[-1] - stroke.end_s < near_s
     return bool(at_end) or any(angle.is_near_gap(at, near_s) for at in (stroke.start_s, stroke.end_s))
 
 
 def _stroke_noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: float, *, smoothed: bool) -> Noise:
-    """The noise around a stroke whose movement takes ``duration_s``."""
+    """Return the noise around a stroke whose movement takes ``duration_s``."""
     if sd is None:
         return Noise(0.0, 1.0)
     around = (stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
@@ -262,19 +257,19 @@ def _stroke_noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: 
 
 
 def _stroke_arc(part: Signal, noise: Noise, duration_s: float) -> float:
-    """From one turning place to the other, without what noise adds to both."""
+    """Return the arc between both extremes, without the bias of noise."""
     clean = low_pass(part, clean_cutoff_hz(duration_s)).value
     high, low = (estimate_extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
     return high - low
 
 
 _MIN_PEAK_TO_MEAN = 1.5
-"""Half as much again as the mean is the least that a movement from rest to rest has for a peak."""
+"""Least peak over mean speed of a movement from rest to rest."""
 
 
 @dataclass(frozen=True, slots=True)
 class _QuickestPart:
-    """The cut-off for a stroke's speed, and duration and arc of its quickest part: all where it never stops."""
+    """Cut-off for a stroke's speed, with duration and arc of its quickest part (all of it without stops)."""
 
     cutoff_hz: float
     duration_s: float
@@ -285,10 +280,10 @@ class _QuickestPart:
 def _find_quickest_part(
     angle: Signal, stroke: Stroke, noise: Noise, arc: float, duration_s: float
 ) -> _QuickestPart | None:
-    """None where the stroke is too slow to judge.
+    """Find the quickest part of a stroke and its cut-off; None if the stroke is too slow to assess.
 
-    Of a stroke with stops the mean over all of it says little of its quickest part. Where more of the spectrum shows
-    such parts above the noise, they decide how much it is smoothed.
+    The mean over a stroke with stops tells little of its quickest part. Where more of the spectrum shows such parts
+    above the noise, they decide the cut-off.
     """
     cutoff_hz = cutoff_for_speed(noise, _MIN_PEAK_TO_MEAN * arc / duration_s, duration_s)
     if math.isnan(cutoff_hz):
@@ -314,20 +309,23 @@ def _find_quickest_part(
 
 
 def _stroke_speed(angle: Signal, stroke: Stroke, cutoff_hz: float) -> FloatArray:
-    """Speed (n,) in the direction of a stroke without gaps."""
+    """Return the speed (n,) in the direction of a stroke without gaps."""
     smooth = _low_pass_stroke(angle, stroke, cutoff_hz)
     return stroke.direction * rate_of_change(smooth).crop(stroke.start_s, stroke.end_s).value
 
 
 def _low_pass_stroke(angle: Signal, stroke: Stroke, cutoff_hz: float) -> Signal:
-    """As :func:`low_pass`, of the time about a stroke alone: of what lies further away less than 1e-15 would be left in
-    the stroke, and all of a long recording for every stroke would cost the square of its length."""
+    """Low-pass the time around a stroke only.
+
+    Samples further away would change it by less than 1e-15, and filtering a whole long recording for each stroke would
+    cost the square of its length.
+    """
     reach_s = _FILTER_MARGIN_CYCLES / cutoff_hz + _FILTER_MARGIN_S
     return low_pass(angle.crop(stroke.start_s - reach_s, stroke.end_s + reach_s), cutoff_hz)
 
 
 def _half_peak_duration_s(speed: FloatArray, rate_hz: float) -> float:
-    """How long the speed stays above half of its peak, about the peak."""
+    """Return how long the speed stays above half of its peak."""
     at = int(np.argmax(speed))
     high = speed >= 0.5 * speed[at]
     about = next(part for part in find_runs(high) if part.start <= at < part.stop)
@@ -336,8 +334,7 @@ def _half_peak_duration_s(speed: FloatArray, rate_hz: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _StrokeMotion:
-    """A stroke after a low-pass: ``peak`` and ``mean`` speed, ``pauses_s`` how long each pause takes; speeds from
-    onset to offset (``onset_to_offset``), and from rest to rest (``rest_to_rest``)."""
+    """Stroke after a low-pass: peak and mean speed, pauses, speeds from onset to offset and rest to rest."""
 
     peak: float
     mean: float
@@ -351,7 +348,7 @@ class _StrokeMotion:
 
 
 def _measure_motion(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: float) -> _StrokeMotion | None:
-    """None where the speed does not fall below 5 % of its peak on both sides, and where no cut-off will do (NaN)."""
+    """Measure the low-passed stroke; None without onset and offset, or without a cut-off (NaN)."""
     if math.isnan(cutoff_hz):
         return None
     smooth = _low_pass_stroke(angle, stroke, cutoff_hz)
@@ -386,7 +383,7 @@ def _measure_motion(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: floa
 
 
 def _find_turning_bands(angle: FloatArray, noise: Noise) -> tuple[int, int]:
-    """The last sample of a rising way (n,) in its first turning place, and the first in the next one."""
+    """Return the last sample of a rising angle in its first turning band and the first in the next."""
     low, high = float(angle.min()), float(angle.max())
     near = min(max(TURNING_BAND_SHARE * (high - low), 3.0 * noise.sd), _EDGE_SHARE * (high - low))
     there = int(np.argmax(angle >= high - near))
@@ -395,15 +392,14 @@ def _find_turning_bands(angle: FloatArray, noise: Noise) -> tuple[int, int]:
 
 
 def _find_movement_edge(velocity: FloatArray, sample: int, peak_at: int, step: int, level: float) -> float:
-    """Where the speed is at the level on one side of a stroke, from the edge of the turning place outwards; who creeps
-    there has it further in."""
+    """Return the fractional sample at which the speed is at the level, outwards from a turning band."""
     while velocity[sample] < level and sample != peak_at:
         sample -= step
     return _find_crossing(velocity, sample, step, level)
 
 
 def _pause_durations_s(time_s: FloatArray, speed: FloatArray, level: float) -> tuple[float, ...]:
-    """How long each pause takes: the speed (n,) below a level for long enough, between two parts above it."""
+    """Return the duration of each pause: speed (n,) below the level, between two faster parts."""
     out = []
     for part in find_runs(speed < level):
         before, after = part.start - 1, part.stop
@@ -417,12 +413,12 @@ def _pause_durations_s(time_s: FloatArray, speed: FloatArray, level: float) -> t
 
 
 def _crossing_share(speed: FloatArray, k: int, level: float) -> float:
-    """Share of the step from sample k to the next at which the speed passes a level."""
+    """Return the share of the step from sample k to the next at which the speed passes a level."""
     return float((level - speed[k]) / (speed[k + 1] - speed[k]))
 
 
 def _find_rest_sample(velocity: FloatArray, sample: int, step: int) -> int:
-    """The sample outwards of the movement at which the speed is at rest: zero, or no longer falling."""
+    """Return the sample, outwards of the movement, at which the speed is zero or stops falling."""
     k = sample
     while 0 <= k + step < len(velocity) and 0.0 < velocity[k + step] < velocity[k]:
         k += step
@@ -430,7 +426,7 @@ def _find_rest_sample(velocity: FloatArray, sample: int, step: int) -> int:
 
 
 def _find_crossing(velocity: FloatArray, start: int, step: int, level: float) -> float:
-    """Fractional sample at which the speed, walked outwards, first falls below a level; NaN if it never does."""
+    """Return the fractional sample at which the speed first falls below a level; NaN if never."""
     k = start
     while 0 <= k + step < len(velocity) and math.isfinite(velocity[k + step]):
         if velocity[k + step] < level:

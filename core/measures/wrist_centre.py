@@ -1,7 +1,7 @@
-"""Whether the forearm lay still: where the wrist turns, and how far that point went.
+"""Wrist centre of rotation, and how far it moved: whether the forearm lay still.
 
-The WRIST disc lies on the skin above the joint and moves round its centre whenever the hand turns, 15 mm and more in
-a full bend. The centre is the point of the hand that stays where it is; what is left of its movement is the forearm's.
+The WRIST marker lies on the skin above the joint and moves by 15 mm and more in full flexion. The centre is the point
+of the hand that stays in place when the hand turns; its remaining movement is the forearm's.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from carpus.core.model import so3
 from carpus.core.model.types import FloatArray
 
 DEFAULT_CENTRE_M = np.array([0.0, 0.0, -0.015])
-"""The joint's centre below its disc, in W2 (reference 2)."""
+"""Centre of rotation below its marker, in W2 (reference 2)."""
 CENTRE_SD_M = 0.015
-"""How far the centre may lie from there; a hand that hardly turns says nothing of its own."""
+"""Prior standard deviation of the centre, for hands that hardly turn."""
 POSITION_SD_M = 0.002
 _MAX_ITERATIONS = 8
 _TRIM_FACTOR = 2.5
@@ -26,8 +26,10 @@ _TRIM_FACTOR = 2.5
 
 @dataclass(frozen=True, slots=True)
 class WristCentre:
-    """``centre_w2_m`` (3,) of rotation from the WRIST disc, in the hand's axes; ``residual_m`` root mean square of what
-    it moves all the same; ``displacement_m`` (N,) how far from its place."""
+    """Centre of rotation from the WRIST marker in W2, with its movement.
+
+    ``displacement_m`` is (N,) its distance from its mean place, ``residual_m`` the root mean square of that.
+    """
 
     centre_w2_m: FloatArray
     residual_m: float
@@ -35,15 +37,15 @@ class WristCentre:
 
 
 def rotation_in_w0(rotation_w2_w0: FloatArray, w0_turn_rad: FloatArray) -> FloatArray:
-    """Rotations (N, 3, 3) of W2 in the axes of the stored W0, in which positions are; a turn not known is none."""
+    """Express rotations (N, 3, 3) of W2 in the axes of the stored W0; an unknown turn counts as none."""
     return np.asarray(so3.exp(np.nan_to_num(w0_turn_rad)) @ rotation_w2_w0)
 
 
 def estimate_wrist_centre(position_m: FloatArray, rotation_w2_w0: FloatArray, valid: BoolArray) -> WristCentre:
-    """The centre that fits positions (N, 3) and rotations (N, 3, 3) of the wrist in one frame of reference best.
+    """Fit the centre of rotation to positions (N, 3) and rotations (N, 3, 3) of the wrist.
 
-    Least squares over the ``valid`` samples (N,), of which those far off are left out: a forearm that was moved shall
-    not bend the centre. All NaN below two samples.
+    Robust least squares over the ``valid`` samples (N,): outliers of a moving forearm are excluded. NaN below two
+    samples.
     """
     good = np.asarray(valid, dtype=bool) & np.isfinite(position_m).all(axis=1) & np.isfinite(rotation_w2_w0).all((1, 2))
     if int(good.sum()) < 2:
@@ -65,7 +67,7 @@ def estimate_wrist_centre(position_m: FloatArray, rotation_w2_w0: FloatArray, va
 
 
 def _fit_centre(position_m: FloatArray, rotation: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Centre and place of least squares, the usual centre counting as one look of its own uncertainty."""
+    """Solve for centre and place by least squares, with the default centre as a prior."""
     count = len(position_m)
     rows = np.concatenate((rotation, np.broadcast_to(-np.eye(3), rotation.shape)), axis=2).reshape(3 * count, 6)
     prior = np.hstack((np.eye(3), np.zeros((3, 3)))) * (POSITION_SD_M / CENTRE_SD_M) * math.sqrt(min(count, 30))

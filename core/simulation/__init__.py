@@ -1,1 +1,1 @@
-"""The simulated patient: synthetic RGB-D recordings and measurements with their true values."""
+"""Simulated patient: synthetic RGB-D recordings and measurements with their true values."""

@@ -1,4 +1,4 @@
-"""Colours, light and table of one recording, in linear light."""
+"""Appearance of one recording: colours, light and table, in linear light."""
 
 from __future__ import annotations
 
@@ -37,15 +37,14 @@ READ_NOISE_ELECTRONS = 9.0
 
 
 def to_linear(srgb: FloatArray) -> FloatArray:
-    """Linear light 0 to 1 of sRGB values 0 to 255."""
+    """Convert sRGB values 0 to 255 to linear light 0 to 1."""
     c = np.asarray(srgb) / 255.0
     return np.asarray(np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4))
 
 
 @dataclass(frozen=True, slots=True)
 class WornBand:
-    """What is worn round the forearm: linear ``color`` (3,), from and to which distance from the wrist; of cloth it
-    has folds."""
+    """Band around the forearm: linear colour (3,), start and end from the wrist; cloth has folds."""
 
     color: FloatArray
     from_m: float
@@ -55,10 +54,18 @@ class WornBand:
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """Linear colours (3,) of skin, paper, ``ring`` (None without) and thing; ``bands`` round the forearm; unit
-    ``light_cam`` (3,) from the surface to the lamp; ``lamp`` and ``ambient`` (3,) strengths; ``electrons`` at full
-    scale; ``blur_px`` of the lens; ``mottling`` (5, 3) rad/m of the waves in the skin's colour; ``table`` its albedo
-    (H, W, 3) and ``table_depth_m`` (H, W)."""
+    """Appearance of one recording; linear colours (3,).
+
+    Attributes
+    ----------
+    ring : None without a ring
+    light_cam : (3,) unit vector from the surface to the lamp
+    lamp, ambient : (3,) strengths
+    electrons : at full scale
+    blur_px : of the lens
+    mottling : (5, 3) rad/m of the waves in the skin's colour
+    table, table_depth_m : albedo (H, W, 3) and depth (H, W)
+    """
 
     skin: FloatArray
     paper: FloatArray
@@ -76,7 +83,7 @@ class Appearance:
 
 
 def room_light(spec: RecordingSpec) -> str:
-    """How bright the room of a recording is: a key of :data:`LIGHTS`."""
+    """Return the light of a recording, a key of :data:`LIGHTS`."""
     if spec.light != "drawn":
         return spec.light
     rng = np.random.default_rng([spec.seed, RandomStream.SCENE, 2])
@@ -84,7 +91,7 @@ def room_light(spec: RecordingSpec) -> str:
 
 
 def sample_appearance(scene: Scene) -> Appearance:
-    """Draw the looks of a recording; the table is painted once."""
+    """Draw the appearance of a recording."""
     spec = scene.spec
     rng = np.random.default_rng([spec.seed, RandomStream.SCENE, 1])
     tone = int(rng.integers(6)) if spec.skin_tone is None else spec.skin_tone
@@ -106,7 +113,7 @@ def sample_appearance(scene: Scene) -> Appearance:
         paper=to_linear(PAPER_BLUE_SRGB * rng.uniform(0.85, 1.15, 3)),
         bands=_sample_bands(spec, sleeve, sleeve_start, rng.uniform(0.85, 1.1)),
         ring=to_linear(_METALS_SRGB[int(spec.generator(RandomStream.WORN).integers(2))])
-        if "ring" in spec.worn_items
+        if "ring" in spec.accessories
         else None,
         rod=to_linear(np.array([150.0, 140.0, 130.0]) * rng.uniform(0.4, 1.3)),
         light_cam=to_lamp,
@@ -121,13 +128,13 @@ def sample_appearance(scene: Scene) -> Appearance:
 
 
 def _sample_bands(spec: RecordingSpec, sleeve: str, sleeve_start_m: float, shade: float) -> tuple[WornBand, ...]:
-    """Bandage, watch and sleeve in the order in which they are put on."""
+    """Draw bandage, watch and sleeve, in the order in which they are put on."""
     rng = np.random.default_rng([spec.seed, RandomStream.WORN, 1])
     bandage_m, watch_m, strap = rng.uniform(0.010, 0.025), rng.uniform(0.020, 0.040), int(rng.integers(3))
     out = []
-    if "bandage" in spec.worn_items:
+    if "bandage" in spec.accessories:
         out.append(WornBand(to_linear(np.array(_BANDAGE_SRGB)), bandage_m, bandage_m + 0.09, is_cloth=True))
-    if "watch" in spec.worn_items:
+    if "watch" in spec.accessories:
         out.append(WornBand(to_linear(_STRAPS_SRGB[strap]), watch_m, watch_m + 0.020, is_cloth=False))
     if sleeve != "none":
         out.append(
@@ -137,7 +144,7 @@ def _sample_bands(spec: RecordingSpec, sleeve: str, sleeve_start_m: float, shade
 
 
 def table_depth(camera: Camera, scene: Scene) -> FloatImage:
-    """Depth of the table along z in every pixel, (H, W)."""
+    """Return the depth of the table along z, (H, W)."""
     x = (np.arange(camera.width_px) - camera.cx_px) / camera.fx_px
     y = (np.arange(camera.height_px) - camera.cy_px) / camera.fy_px
     normal = scene.rotation_w0_cam[:, 2]
@@ -147,7 +154,7 @@ def table_depth(camera: Camera, scene: Scene) -> FloatImage:
 
 
 def _table_albedo(scene: Scene, depth_m: FloatImage, rng: np.random.Generator) -> FloatImage:
-    """Painted table: wood, or plain with a fine grain, fixed in the room; (H, W, 3) linear."""
+    """Return the albedo (H, W, 3) of wood, or of a plain surface with a fine grain, fixed in the room."""
     camera = scene.camera
     kind = int(rng.integers(3))
     u, v = np.meshgrid(np.arange(camera.width_px, dtype=np.float64), np.arange(camera.height_px, dtype=np.float64))

@@ -1,4 +1,4 @@
-"""What goes wrong in a recording, drawn from the seed: false blobs, covered discs, a passing thing, lost frames."""
+"""Disturbances of a recording: false blobs, covered markers, a passing rod, dropped frames."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ BlobPlace = Literal["table", "air", "skin"]
 
 @dataclass(frozen=True, slots=True)
 class FalseBlob:
-    """A blue spot that is no marker, there from ``start_s`` to ``end_s``.
+    """Blue spot that is no marker, from ``start_s`` to ``end_s``.
 
-    ``center_m`` and unit ``normal`` (3,) are in W0 for ``table`` and ``air``; for ``skin`` in W2, moving with the
-    palm. ``hue_shift`` (3,) multiplies the colour of the paper.
+    Centre and unit normal (3,) are in W0 for ``table`` and ``air``, in W2 for ``skin``. ``hue_shift`` (3,) multiplies
+    the colour of the paper.
     """
 
     place: BlobPlace
@@ -43,7 +43,7 @@ class FalseBlob:
 
 @dataclass(frozen=True, slots=True)
 class PassingRod:
-    """A rod that crosses above the hand: its ends in W0 at start and end of the crossing, (2, 3) each."""
+    """Rod that crosses above the hand: both ends (2, 3) in W0 at the start and end of the crossing."""
 
     start_s: float
     end_s: float
@@ -52,7 +52,7 @@ class PassingRod:
     radius_m: float
 
     def end_points_w0_m(self, time_s: float) -> FloatArray | None:
-        """Both ends (2, 3) at a time, None when it is not there."""
+        """Return both ends (2, 3) at a time, None if the rod is absent."""
         if not self.start_s <= time_s <= self.end_s:
             return None
         share = (time_s - self.start_s) / (self.end_s - self.start_s)
@@ -61,7 +61,7 @@ class PassingRod:
 
 @dataclass(frozen=True, slots=True)
 class FrameTimes:
-    """Frames that were kept: ``color_s`` and ``depth_s`` (N,) after the first frame, ``dropped_before`` (N,)."""
+    """Frames that were kept: times (N,) after the first frame, and frames dropped before each."""
 
     color_s: FloatArray
     depth_s: FloatArray
@@ -69,7 +69,7 @@ class FrameTimes:
 
 
 def sample_frame_times(spec: RecordingSpec) -> FrameTimes:
-    """True times: regular but for a millisecond of jitter, also across dropped frames; the first is always kept."""
+    """Draw the frame times, with a millisecond of jitter; the first frame is always kept."""
     rng = spec.generator(RandomStream.TIMES)
     count = max(1, round(spec.seconds * spec.fps))
     jitter_s = np.clip(rng.normal(0.0, 0.001, (2, count)), -0.003, 0.003)
@@ -84,7 +84,7 @@ def sample_frame_times(spec: RecordingSpec) -> FrameTimes:
 
 
 def sample_covered_markers(spec: RecordingSpec, time_s: FloatArray) -> NDArray[np.bool_]:
-    """Which discs are covered at times (N,): (N, 21) in the order of ``hand21``; none during the still start."""
+    """Draw the covered markers (N, 21) at times (N,); none during the still start."""
     covered = np.zeros((len(time_s), 21), dtype=bool)
     if spec.hidden_share <= 0.0:
         return covered
@@ -102,7 +102,7 @@ def sample_covered_markers(spec: RecordingSpec, time_s: FloatArray) -> NDArray[n
 
 
 def sample_false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
-    """All false blobs of a recording: at each time ``spec.sample_false_blobs`` of them on average."""
+    """Draw the false blobs of a recording, on average ``spec.false_blobs`` at a time."""
     spec = scene.spec
     rng = np.random.default_rng([spec.seed, RandomStream.TROUBLE, 2])
     slots = int(spec.false_blobs) + (1 if rng.random() < spec.false_blobs % 1.0 else 0)
@@ -117,7 +117,7 @@ def sample_false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
 
 
 def _sample_pen_marks(scene: Scene) -> Iterator[FalseBlob]:
-    """Dots of a blue pen beside the discs, as somebody made who marked their places; there all the time."""
+    """Draw dots of a blue pen beside the markers, there all the time."""
     spec = scene.spec
     rng = spec.generator(RandomStream.WORN)
     discs = scene.patient.anatomy.palm_disc_m * [1.0, -1.0 if spec.hand == "left" else 1.0, 1.0]
@@ -154,7 +154,7 @@ def _sample_blob(scene: Scene, rng: np.random.Generator, start_s: float, end_s: 
 
 
 def _sample_palm_point(scene: Scene, rng: np.random.Generator) -> FloatArray | None:
-    """A point of the back of the palm, in W2, clear of the discs."""
+    """Draw a point of the back of the palm in W2, clear of the markers; None if none is found."""
     discs = scene.patient.anatomy.palm_disc_m.copy()
     if scene.spec.hand == "left":
         discs[:, 1] *= -1.0
@@ -168,7 +168,7 @@ def _sample_palm_point(scene: Scene, rng: np.random.Generator) -> FloatArray | N
 
 
 def sample_passing_rod(scene: Scene) -> PassingRod | None:
-    """The rod of ``spec.object_passes``: crosses in about a second, 5 to 9 cm above the hand."""
+    """Draw the rod of ``spec.object_passes``, 5 to 9 cm above the hand for about a second."""
     spec = scene.spec
     if not spec.object_passes:
         return None

@@ -1,8 +1,8 @@
-"""Posture of wrist, fingers and arm as a function of time: minimum-jerk strokes from one posture to the next, slow sway
-and tremor; and what is not rigid: skin that glides over joints, ring and little metacarpals that flex, rising knuckles.
+"""Posture of hand and arm over time: minimum-jerk strokes, sway, tremor, soft tissue.
 
-Clinical reference 10. The fixed unit is capitate, second and third metacarpal: W stays with it. All movement counts
-from the posture of the first frame, where the hand is as if it were rigid.
+Soft tissue is skin that glides over joints, ring and little metacarpals that flex, and knuckles that rise (clinical
+reference 10). Capitate and metacarpals 2 and 3 are the fixed unit with W. All movement counts from the posture of the
+first frame, where the hand is as if it were rigid.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from carpus.core.simulation.spec import RandomStream, RecordingSpec
 
 
 def minimum_jerk(share: FloatArray) -> FloatArray:
-    """Share of the way covered after a share of the time, both 0 to 1 (Flash and Hogan 1985).
+    """Return the share of the way after a share of the time, 0 to 1 (Flash and Hogan 1985).
 
     >>> float(minimum_jerk(np.array(0.5)))
     0.5
@@ -30,7 +30,7 @@ def minimum_jerk(share: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class StrokePath:
-    """Postures ``value`` (K, C) reached at ``time_s`` (K,), strictly rising, joined by minimum-jerk strokes.
+    """Postures (K, C) reached at increasing times (K,), joined by minimum-jerk strokes.
 
     Two equal postures in a row are a hold; before the first and after the last the posture stays.
     """
@@ -39,7 +39,7 @@ class StrokePath:
     value: FloatArray
 
     def evaluate(self, time_s: FloatArray) -> FloatArray:
-        """Posture (N, C) at times (N,)."""
+        """Return the posture (N, C) at times (N,)."""
         if len(self.time_s) == 1:
             return np.repeat(self.value, len(time_s), axis=0)
         k = np.clip(np.searchsorted(self.time_s, time_s, side="right") - 1, 0, len(self.time_s) - 2)
@@ -48,7 +48,7 @@ class StrokePath:
 
 
 class StrokePathBuilder:
-    """Builds a :class:`StrokePath` stroke by stroke from a starting posture (C,)."""
+    """Builds a :class:`StrokePath` from a starting posture (C,)."""
 
     def __init__(self, start: FloatArray, still_s: float) -> None:
         self._time_s = [0.0, still_s]
@@ -75,7 +75,7 @@ class StrokePathBuilder:
 
 
 STILL_S = 0.8
-"""Length of the still neutral pose at the start."""
+"""Duration of the still neutral pose at the start."""
 
 _SWAY_WRIST_RAD = np.radians([1.0, 1.5, 1.5])
 _SWAY_CARRY_M = 0.0008
@@ -90,9 +90,9 @@ _RESTLESS_JOINT_RAD = math.radians(2.0)
 
 @dataclass(frozen=True, slots=True)
 class HandMotion:
-    """Posture as a function of time; angles and metres are continuous in position, velocity and acceleration.
+    """Posture over time, with continuous velocity and acceleration.
 
-    ``wrist`` (3) clinical angles, ``joints`` (J), ``arm`` (3) displacement of the whole arm in W0, metres.
+    ``wrist`` (3) are clinical angles, ``joints`` (J), ``arm`` (3) the displacement of the arm in W0, m.
     """
 
     joint_names: tuple[str, ...]
@@ -106,7 +106,7 @@ class HandMotion:
     habits: Habits
 
     def wrist_angles_rad(self, time_s: FloatArray) -> FloatArray:
-        """Deviation, flexion, pro/supination, (N, 3)."""
+        """Return deviation, flexion, pronosupination, (N, 3)."""
         ramp = _exercise_ramp(time_s)
         tremor = self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s - STILL_S)) * ramp
         sway = self.sway.wrist_rad(time_s) * ramp[:, None]
@@ -114,7 +114,7 @@ class HandMotion:
         return np.asarray(own + self.habits.evaluate(time_s, ramp)[:, :3])
 
     def joint_angles_rad(self, time_s: FloatArray) -> FloatArray:
-        """Finger joint angles, (N, J)."""
+        """Return the finger joint angles, (N, J)."""
         ramp = _exercise_ramp(time_s)[:, None]
         tremor = 0.5 * self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s[:, None] - STILL_S) + 1.0)
         flexing = np.array([name.startswith(("MCP", "IP1")) and name.endswith("flexion") for name in self.joint_names])
@@ -128,7 +128,7 @@ class HandMotion:
         )
 
     def arm_displacement_m(self, time_s: FloatArray) -> FloatArray:
-        """Displacement of the arm in W0, (N, 3)."""
+        """Return the displacement of the arm in W0, (N, 3)."""
         ramp = _exercise_ramp(time_s)
         own = self.arm.evaluate(time_s) + self.sway.arm_displacement_m(time_s) * ramp[:, None]
         return np.asarray(own + self.habits.evaluate(time_s, ramp)[:, 3:6])
@@ -136,14 +136,14 @@ class HandMotion:
 
 @dataclass(frozen=True, slots=True)
 class Sway:
-    """Slow unwanted movement: three sines per channel, ``rate_rad_s``, ``phase_rad`` and ``amount`` all (C, 3)."""
+    """Slow involuntary movement: three sines per channel, all arrays (C, 3)."""
 
     rate_rad_s: FloatArray
     phase_rad: FloatArray
     amount: FloatArray
 
     def evaluate(self, time_s: FloatArray) -> FloatArray:
-        """All channels, (N, C): three of the wrist, three of the arm's place, the joints."""
+        """Return the channels (N, C): three of the wrist, three of the arm, the joints."""
         waves = np.sin(self.rate_rad_s * time_s[:, None, None] + self.phase_rad)
         return np.asarray((self.amount * waves).sum(axis=-1))
 
@@ -159,48 +159,45 @@ class Sway:
 
 @dataclass(frozen=True, slots=True)
 class Habits:
-    """What the hand does besides the exercise: fingers close by ``tenodesis`` of the wrist's extension;
-    ``exercise_sway`` is
-    further unrest once the exercise runs, ``constant_sway`` from the first frame on, counted from there."""
+    """Movements besides the exercise: tenodesis, sway during the exercise, sway from the first frame on."""
 
     tenodesis: float
     exercise_sway: Sway
     constant_sway: Sway
 
     def evaluate(self, time_s: FloatArray, ramp: FloatArray) -> FloatArray:
-        """Channels (N, C) as of :class:`Sway`, for the ramp (N,) of the exercise."""
+        """Return the channels (N, C) of :class:`Sway` for the ramp (N,) of the exercise."""
         begun = self.constant_sway.evaluate(np.zeros(1))
         return np.asarray(
             self.exercise_sway.evaluate(time_s) * ramp[:, None] + self.constant_sway.evaluate(time_s) - begun
         )
 
     def closing_rad(self, extension_rad: FloatArray) -> FloatArray:
-        """Flexion (N,) of knuckles and middle joints: they close with extension, and open a third as far with
-        flexion."""
+        """Return the flexion (N,) of MCP and PIP: they close with wrist extension, open less with flexion."""
         bend = np.sqrt(extension_rad**2 + _TENODESIS_BEND_RAD**2) - _TENODESIS_BEND_RAD
         return np.asarray(self.tenodesis * (2.0 * extension_rad + bend) / 3.0)
 
 
 def _closing_shares(names: tuple[str, ...]) -> FloatArray:
-    """Share (J,) of each joint in the fingers' closing by themselves."""
+    """Return the share (J,) of each joint in tenodesis."""
     return np.array(
         [_CLOSING.get(name, _CLOSING.get(name[:3], 0.0) if name.endswith("flexion") else 0.0) for name in names]
     )
 
 
 def _exercise_ramp(time_s: FloatArray) -> FloatArray:
-    """0 during the still start, 1 from half a second after it."""
+    """Return 0 during the still start, 1 from half a second after it."""
     return minimum_jerk((time_s - STILL_S) / 0.5)
 
 
 def sample_sway(rng: np.random.Generator, joint_count: int) -> Sway:
-    """A person's unrest: about a degree in each angle, under a millimetre in place."""
+    """Draw a person's sway: about a degree in each angle, below a millimetre in place."""
     amount = np.concatenate((_SWAY_WRIST_RAD, np.full(3, _SWAY_CARRY_M), np.full(joint_count, _SWAY_JOINT_RAD)))
     return _sample_waves(rng, amount, (0.08, 0.4))
 
 
 def sample_habits(rng: np.random.Generator, habits: tuple[str, ...], joint_count: int) -> Habits:
-    """How far one person's habits go; those that are not named are drawn, too, and left out."""
+    """Draw the extent of one person's habits; those not named are drawn too, and removed."""
     tenodesis = float(rng.uniform(*_TENODESIS))
     rolling = _sample_waves(rng, np.concatenate((_ROLLING, np.zeros(joint_count))), (0.15, 0.5))
     restless = _sample_waves(rng, np.concatenate((_RESTLESS, np.full(joint_count, _RESTLESS_JOINT_RAD))), (0.2, 0.7))
@@ -221,26 +218,32 @@ def _sample_waves(rng: np.random.Generator, amount: FloatArray, rate_hz: tuple[f
 
 
 MAX_GLIDE_MM = 8.0
-"""Largest glide drawn at the knuckles, for 90 degrees of flexion."""
+"""Largest glide at the knuckles for 90 degrees of flexion."""
 FULL_CUP_RAD = np.radians([12.0, 20.0])
-"""Flexion of the ring and little metacarpal in the power grip of a supple hand."""
+"""Flexion of the ring and little metacarpals in a power grip of a supple hand."""
 _GRIP_MCP_RAD, _GRIP_PIP_RAD = math.radians(75.0), math.radians(85.0)
 """Ring and little finger in a power grip."""
 _FULL_RISE_RAD = math.radians(75.0)
-"""A knuckle has risen as far as it does."""
+"""MCP flexion at which a knuckle is fully risen."""
 
 _GAIN_OF_JOINT = {"WRIST": 0.6, "CMC1": 0.6, "MCP1": 0.3, "IP1": 0.2, "MCP": 1.0, "PIP": 0.25, "DIP": 0.15, "TIP": 0.0}
 """Glide per angle as a share of that at the knuckles."""
 _LAG_S = (0.06, 0.14)
 _PLAY_RAD = (math.radians(2.0), math.radians(6.0))
-"""The skin stays behind the bone by half of this on the way there, and by half of it on the way back."""
+"""The skin lags the bone by half of this in either direction."""
 _STEP_S = 1.0 / 150.0
 
 
 @dataclass(frozen=True, slots=True)
 class TissueState:
-    """At N times: ``glide_m`` (N, 21) of each disc along its finger, distal positive; ``cup_rad`` (N, 2) flexion of
-    metacarpals 4 and 5; ``rise`` (N, 4) of the knuckles 2 to 5, 0 to 1 of the person's full rise."""
+    """Soft tissue at N times.
+
+    Attributes
+    ----------
+    glide_m : (N, 21) of each marker along its finger, distal positive
+    cup_rad : (N, 2) flexion of metacarpals 4 and 5
+    rise : (N, 4) of knuckles 2 to 5, 0 to 1
+    """
 
     glide_m: FloatArray
     cup_rad: FloatArray
@@ -251,14 +254,17 @@ class TissueState:
         return TissueState(np.zeros((count, 21)), np.zeros((count, 2)), np.zeros((count, 4)))
 
     def select(self, i: int) -> TissueState:
-        """The i-th time alone, without the leading axis."""
+        """Return the i-th time without the leading axis."""
         return TissueState(self.glide_m[i], self.cup_rad[i], self.rise[i])
 
 
 @dataclass(frozen=True, slots=True)
 class SimulatedTissue:
-    """One person: ``glide_m_rad`` (21,) per angle of the joint beneath; ``swerve_rad`` (21,) of that glide off the
-    finger's direction; ``cup_rad`` (2,) in a full grip; ``knuckle_rise_m``; ``lag_s``; ``play_rad``."""
+    """Soft tissue of one person.
+
+    ``glide_m_rad`` (21,) is per angle of the joint beneath, ``swerve_rad`` (21,) its direction off the finger's,
+    ``cup_rad`` (2,) in a full grip.
+    """
 
     glide_m_rad: FloatArray
     swerve_rad: FloatArray
@@ -273,7 +279,7 @@ class SimulatedTissue:
 
 
 def sample_tissue(spec: RecordingSpec) -> SimulatedTissue:
-    """Draw a person's tissue; what the spec gives is taken instead."""
+    """Draw a person's tissue; values of the spec take precedence."""
     rng = spec.generator(RandomStream.TISSUE)
     drawn_mm, drawn_cup = rng.uniform(0.0, MAX_GLIDE_MM), rng.uniform(0.3, 1.0)
     glide_mm = drawn_mm if spec.skin_glide_mm is None else spec.skin_glide_mm
@@ -292,7 +298,7 @@ def sample_tissue(spec: RecordingSpec) -> SimulatedTissue:
 
 
 class TissueMovement:
-    """How the soft parts of one person follow one motion."""
+    """Soft tissue of one person during one motion."""
 
     def __init__(self, tissue: SimulatedTissue, motion: HandMotion, seconds: float) -> None:
         self._tissue = tissue
@@ -310,7 +316,7 @@ class TissueMovement:
         self._rise = np.clip(knuckles / _FULL_RISE_RAD, 0.0, 1.0)
 
     def evaluate(self, time_s: FloatArray) -> TissueState:
-        """State at times (N,); before the first frame it is that of the first frame."""
+        """Return the state at times (N,)."""
         if self._tissue.is_rigid:
             return TissueState.rigid(len(time_s))
         return TissueState(
@@ -322,7 +328,7 @@ class TissueMovement:
 
 
 def apply_play(driver: FloatArray, play: float) -> FloatArray:
-    """What follows a driver (N, C) with play: it moves only while pushed by one end of a gap of that width."""
+    """Apply play to a driver (N, C): the output moves only while an end of the gap pushes it."""
     half, out = 0.5 * play, np.empty_like(driver)
     now = out[0] = driver[0]
     for i in range(1, len(driver)):
@@ -331,7 +337,7 @@ def apply_play(driver: FloatArray, play: float) -> FloatArray:
 
 
 def apply_lag(driver: FloatArray, steps: float) -> FloatArray:
-    """First-order lag of a driver (N, C) by so many steps, starting at rest."""
+    """Apply a first-order lag of so many steps to a driver (N, C), starting at rest."""
     share, out = 1.0 / (1.0 + steps), np.empty_like(driver)
     now = out[0] = driver[0]
     for i in range(1, len(driver)):
@@ -340,7 +346,7 @@ def apply_lag(driver: FloatArray, steps: float) -> FloatArray:
 
 
 def _angles_beneath_rad(wrist_rad: FloatArray, names: tuple[str, ...], joints_rad: FloatArray) -> FloatArray:
-    """Angle (N, 21) of the joint over which each disc lies: flexion, of CMC1 palmar abduction."""
+    """Return the angle (N, 21) of the joint under each marker: flexion, of CMC1 palmar abduction."""
     out = np.zeros((len(joints_rad), 21))
     out[:, 0] = wrist_rad[:, 1]
     for disc, joint in (("CMC1", "CMC1_abduction"), ("MCP1", "MCP1_flexion"), ("IP1", "IP1_flexion")):
@@ -350,7 +356,7 @@ def _angles_beneath_rad(wrist_rad: FloatArray, names: tuple[str, ...], joints_ra
 
 
 def _grip_share(names: tuple[str, ...], joints_rad: FloatArray) -> FloatArray:
-    """How far (N,) ring and little finger close: 0 straight to 1 in a power grip, where the palm is fully cupped."""
+    """Return how far (N,) ring and little finger close, 0 straight to 1 in a power grip."""
 
     def mean(joint: str) -> FloatArray:
         return np.asarray(joints_rad[:, [names.index(f"{joint}{k}_flexion") for k in (4, 5)]].mean(axis=1))

@@ -1,8 +1,8 @@
-"""The exercises: what wrist, fingers and arm do over time (clinical reference 4.4 and 8.2).
+"""Exercises: movement of wrist, fingers and arm over time (clinical reference 4.4 and 8.2).
 
 Every recording starts with a still neutral pose of :data:`STILL_S`. Wrist angles are clinical: deviation + radial,
-flexion + flexion, pro/supination + supination. Ranges: flexion 50 degrees to both sides, deviation 25,
-pro/supination 35. Reaching follows measured reach-to-grasp: 0.39 m in 1.05 s, speed peak near 0.73 m/s.
+flexion + flexion, pronosupination + supination. Ranges: flexion 50 degrees to both sides, deviation 25, pronosupination
+35. Reaching follows measured reach-to-grasp: 0.39 m in 1.05 s, speed peak near 0.73 m/s.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ FLEXION_RAD, DEVIATION_RAD, SUPINATION_RAD = math.radians(50.0), math.radians(25
 REACH_M, REACH_S = 0.39, 1.05
 
 _HOLD_SHARE = 0.25
-"""Share of a stroke's time that is spent holding, where the exercise has holds."""
+"""Share of a stroke's time spent holding, in exercises with holds."""
 
 
 class _MotionBuilder:
-    """Hands out strokes with the small irregularities of a person; used by one exercise while it is written."""
+    """Builds the strokes of one exercise with a person's small irregularities."""
 
     def __init__(self, spec: RecordingSpec, rng: np.random.Generator, default_hz: float) -> None:
         self.rng = rng
@@ -43,7 +43,7 @@ class _MotionBuilder:
         self.arm = StrokePathBuilder(np.zeros(3), STILL_S)
 
     def _sample_neutral_joints(self, is_flat: bool) -> FloatArray:
-        """Joint angles of the still start: nearly flat for the finger protocol, relaxed otherwise."""
+        """Draw the joint angles of the start: nearly flat with finger markers, else relaxed."""
         rng, posture = self.rng, dict.fromkeys(self.joint_names, 0.0)
         bend = (2.0, 8.0) if is_flat else (8.0, 18.0)
         for k in (2, 3, 4, 5):
@@ -59,7 +59,10 @@ class _MotionBuilder:
         return np.array([posture[name] for name in self.joint_names])
 
     def finger_posture(self, **degrees: float) -> FloatArray:
-        """The neutral joints with some replaced; ``MCP_flexion=70`` sets all four fingers, ``MCP2_flexion`` one."""
+        """Return the neutral joints with some replaced, in degrees.
+
+        ``MCP_flexion=70`` sets all four fingers, ``MCP2_flexion`` one.
+        """
         out = self.neutral.copy()
         for name, value in degrees.items():
             base, _, kind = name.partition("_")
@@ -75,7 +78,7 @@ class _MotionBuilder:
         return out
 
     def add_stroke(self, writer: StrokePathBuilder, target: FloatArray, duration_s: float, hold_share: float) -> None:
-        """To a target and hold; a patient in pain stops short of it, in two to four sub-movements."""
+        """Move to a target and hold; with pain stop short of it, in two to four sub-movements."""
         duration_s *= self.rng.uniform(0.93, 1.07)
         start = writer.posture
         end = start + (target - start) * self.rng.uniform(0.94, 1.0)
@@ -93,7 +96,7 @@ class _MotionBuilder:
     def add_repetitions(
         self, writer: StrokePathBuilder, targets: list[FloatArray], neutral: FloatArray, hold_share: float = _HOLD_SHARE
     ) -> None:
-        """Visit the targets in turn, over and over, then come back to neutral."""
+        """Visit the targets in turn, repeatedly, then return to neutral."""
         done = 0
         share_s = self.cycle_s / len(targets)
         while done < self.repetitions and writer.time_s + 0.5 * share_s < self.end_s:
@@ -103,14 +106,14 @@ class _MotionBuilder:
         writer.add_stroke(neutral, 0.5 * share_s)
 
     def add_postures(self, *steps: tuple[FloatArray, FloatArray, FloatArray, float]) -> None:
-        """Arm, wrist and joints together to one posture after the other, each in its seconds."""
+        """Move arm, wrist and joints together from posture to posture, each with its duration."""
         for place, posture, joints, duration_s in steps:
             self.arm.add_stroke(place, duration_s)
             self.wrist.add_stroke(posture, duration_s)
             self.joints.add_stroke(joints, duration_s)
 
     def wrist_target(self, deviation: float = 0.0, flexion: float = 0.0, supination: float = 0.0) -> FloatArray:
-        """Shares of the full range of each angle, as angles."""
+        """Return wrist angles from shares of their full range."""
         return self.range_share * np.array(
             [deviation * DEVIATION_RAD, flexion * FLEXION_RAD, supination * SUPINATION_RAD]
         )
@@ -123,7 +126,7 @@ def _build_rest(builder: _MotionBuilder) -> None:
 def _make_wrist_exercise(
     hold_share: float = _HOLD_SHARE, return_share: float = 1.0, **shares: float
 ) -> Callable[[_MotionBuilder], None]:
-    """The wrist from one end of the range of an angle to the other, ``return_share`` as far beyond neutral as there."""
+    """Make an exercise from one end of an angle's range to ``return_share`` of the other."""
 
     def build(builder: _MotionBuilder) -> None:
         ends = [
@@ -136,14 +139,14 @@ def _make_wrist_exercise(
 
 
 def _build_mixed(builder: _MotionBuilder) -> None:
-    """All three axes at once, random targets inside the box of their ranges."""
+    """Move all three axes at once to random targets within their ranges."""
     while builder.wrist.time_s < builder.end_s:
         target = builder.wrist_target(*builder.rng.uniform(-1.0, 1.0, 3))
         builder.add_stroke(builder.wrist, target, 0.5 * builder.cycle_s, _HOLD_SHARE)
 
 
 def _sample_reach_m(builder: _MotionBuilder) -> FloatArray:
-    """Forward and to the radial side of the right hand: keeps hand and forearm in the picture."""
+    """Draw a reach forward and to the radial side, which keeps hand and forearm in the image."""
     angle = math.radians(builder.rng.uniform(35.0, 60.0))
     return builder.range_share * REACH_M * np.array([math.cos(angle), math.sin(angle), 0.0])
 
@@ -197,7 +200,7 @@ def _build_hook(builder: _MotionBuilder) -> None:
 
 
 def _build_single_fingers(builder: _MotionBuilder) -> None:
-    """One finger after the other; the neighbours follow a little (enslaving, reference 5)."""
+    """Flex one finger after the other; the neighbours follow a little (enslaving, reference 5)."""
     targets = []
     for k in (2, 3, 4, 5):
         near = {f"MCP{n}_flexion": 12.0 for n in (k - 1, k + 1) if 2 <= n <= 5}
@@ -216,7 +219,7 @@ def _build_abduction(builder: _MotionBuilder) -> None:
 
 
 def _build_thumb(builder: _MotionBuilder) -> None:
-    """The thumb out to the side, then across towards the little finger."""
+    """Move the thumb out, then across towards the little finger."""
     wide = builder.finger_posture(CMC1_extension=35, CMC1_abduction=15)
     across = builder.finger_posture(CMC1_extension=-8, CMC1_abduction=40, MCP1_flexion=35, IP1_flexion=35)
     builder.add_repetitions(builder.joints, [wide, across], builder.neutral)
@@ -232,11 +235,11 @@ _TOUCH_ANGLES_DEG = {
     5: {"CMC1_extension": -28, "CMC1_abduction": 34, "MCP1_flexion": 55, "MCP1_abduction": -9, "IP1_flexion": 28,
         "MCP5_flexion": 76, "PIP5_flexion": 41},
 }  # fmt: skip
-"""Angles in degrees at which the tip of the thumb meets that of a finger, within 12 mm on hands of any size."""
+"""Angles at which the thumb meets each fingertip, within 12 mm on hands of any size."""
 
 
 def _build_opposition(builder: _MotionBuilder) -> None:
-    """The thumb's tip to that of each finger in turn, opened wide in between; each touch is a repetition."""
+    """Touch each fingertip with the thumb in turn, opened wide in between."""
     wide = builder.finger_posture(CMC1_extension=28, CMC1_abduction=25)
     way_s = 0.5 * builder.cycle_s
     done = 0
@@ -255,13 +258,13 @@ def _build_opposition(builder: _MotionBuilder) -> None:
 
 
 def _build_bend45(builder: _MotionBuilder) -> None:
-    """All fingers to 45 degrees and back: what the palm's skin does then is no movement of the wrist."""
+    """Flex all fingers to 45 degrees: what the palm's skin does then is no wrist movement."""
     closed = builder.finger_posture(MCP_flexion=45, PIP_flexion=45)
     builder.add_repetitions(builder.joints, [closed, builder.neutral], builder.neutral)
 
 
 def _build_power_grip(builder: _MotionBuilder) -> None:
-    """A full grip; the wrist extends a little with it, as it does by itself."""
+    """Make a full grip with a little wrist extension."""
     closed = builder.finger_posture(MCP_flexion=75, PIP_flexion=85, MCP_abduction=0, **_GRIPPING_THUMB)
     extended = builder.wrist_target(flexion=-builder.rng.uniform(0.15, 0.4))
     grip = np.concatenate((extended, closed))
@@ -271,7 +274,7 @@ def _build_power_grip(builder: _MotionBuilder) -> None:
 
 
 def _build_grasp_mug(builder: _MotionBuilder) -> None:
-    """Reach for a mug, close finger after finger around it, lift, put it back, let go."""
+    """Reach for a mug, close finger after finger around it, lift, put it back, release."""
     rng = builder.rng
     way, lift = 0.5 * _sample_reach_m(builder), np.array([0.0, 0.0, 0.05])
     opened = builder.finger_posture(MCP_flexion=12, PIP_flexion=25, CMC1_extension=28, CMC1_abduction=42)
@@ -305,7 +308,7 @@ def _build_grasp_mug(builder: _MotionBuilder) -> None:
 
 
 def _split_strokes(builder: _MotionBuilder, both: StrokePathBuilder) -> None:
-    """Strokes of wrist (3) and joints at once, into the two."""
+    """Add strokes of wrist (3) and joints at once to their two paths."""
     path = both.build()
     for time_s, value in zip(path.time_s[2:], path.value[2:], strict=True):
         builder.wrist.add_stroke(value[:3], time_s - builder.wrist.time_s)
@@ -316,7 +319,7 @@ _GRIPPING_THUMB = {"CMC1_extension": -5.0, "CMC1_abduction": 35.0, "MCP1_flexion
 
 
 def _build_held_grip(builder: _MotionBuilder) -> None:
-    """A grip that is held while the wrist does its exercise, let go once, never quite steady."""
+    """Hold a grip during the wrist exercise, never quite steady, released once."""
     rng = builder.rng
     builder.joints.add_stroke(builder.neutral, 0.1)
     lets_go_s = float(rng.uniform(0.45, 0.7)) * builder.end_s
@@ -333,7 +336,7 @@ def _build_held_grip(builder: _MotionBuilder) -> None:
 
 
 def _build_open_close(builder: _MotionBuilder) -> None:
-    """Fingers that open and close, as they do while somebody waits."""
+    """Open and close the fingers, as while waiting."""
     rng = builder.rng
     while builder.joints.time_s < builder.end_s:
         closed = builder.finger_posture(MCP_flexion=rng.uniform(30, 65), PIP_flexion=rng.uniform(30, 75))
@@ -365,13 +368,13 @@ MOTIONS: dict[str, tuple[Callable[[_MotionBuilder], None], float]] = {
     "power_grip": (_build_power_grip, 0.3),
     "grasp_mug": (_build_grasp_mug, 1.0 / _DEFAULT_REACH_S),
 }
-"""Exercise and its repetitions per second where the spec gives none."""
+"""Exercise and its repetitions per second if the spec gives none."""
 
 _TREMOR_DEG = 2.0
 
 
 def create_motion(spec: RecordingSpec) -> HandMotion:
-    """The motion a spec asks for; raises :class:`SettingsInvalid` for an unknown name."""
+    """Create the motion of a spec. Raises :class:`SettingsInvalid` for an unknown name."""
     if spec.motion not in MOTIONS:
         raise SettingsInvalid("motion", f"{spec.motion} ({', '.join(MOTIONS)})")
     write, default_hz = MOTIONS[spec.motion]
@@ -398,7 +401,7 @@ def create_motion(spec: RecordingSpec) -> HandMotion:
 
 
 def _add_finger_habits(builder: _MotionBuilder, spec: RecordingSpec, rng: np.random.Generator) -> None:
-    """Habits of the fingers, where the exercise leaves these alone."""
+    """Add habits of the fingers if the exercise does not use them."""
     if builder.joints.time_s > STILL_S:
         return
     exercise, builder.rng = builder.rng, rng
@@ -410,7 +413,7 @@ def _add_finger_habits(builder: _MotionBuilder, spec: RecordingSpec, rng: np.ran
 
 
 def _withdraw_arm(builder: _MotionBuilder) -> None:
-    """Draw the whole arm back out of the picture in the middle of the recording, wait, and return."""
+    """Take the arm out of the image in the middle of the recording, and return."""
     away_s, out_s = 0.6, builder.rng.uniform(0.8, 1.5)
     start_s = 0.45 * builder.end_s
     path = StrokePathBuilder(np.zeros(3), max(start_s, STILL_S))

@@ -1,6 +1,8 @@
-"""Who is simulated: the bones and discs of one hand, drawn around the average hand of its size; widely on demand, for
-what a prior may not take for granted: heights of discs over the joints, the palm's shape, fans of the fingers,
-thickness of the digits, the wrist's centre of rotation, discs of 10 to 14 mm stuck some millimetres off, swelling."""
+"""Simulated patient: bones and markers of one hand, drawn around the average hand of its size.
+
+A wide anatomy varies what a prior must not assume: heights of markers over the joints, shape of the palm, fan of the
+fingers, thickness of the digits, wrist centre, markers of 10 to 14 mm placed some millimetres off, swelling.
+"""
 
 from __future__ import annotations
 
@@ -17,27 +19,33 @@ from carpus.core.model.types import FloatArray
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 
 WRIST_JOINT_DEPTH_M = 0.015
-"""Depth of the wrist's centre of rotation under the WRIST disc of a hand 180 mm long (reference 2)."""
+"""Depth of the wrist centre under the WRIST marker of a hand 180 mm long (reference 2)."""
 
 MARKER_RADIUS_M, SMALL_MARKER_RADIUS_M = 0.006, 0.004
-"""The paper discs are 12 mm wide, 8 mm at the ends of small fingers and on children (reference 2)."""
+"""Markers are 12 mm wide, 8 mm at the ends of small fingers and on children (reference 2)."""
 _MIN_SPACING_M = 0.0145
-"""Two discs of 12 mm nearer than this would nearly touch: the therapist takes small ones."""
+"""Two markers of 12 mm that are nearer would touch: small ones are used."""
 
 _THUMB_ROLL_DEG = (54.0, 4.0)
-"""Mean and scatter; below the reference's 60, as a disc on a thumb rolled further cannot be seen from above."""
+"""Mean and scatter; below the reference's 60, as a marker on a thumb rolled further is not visible."""
 _LENGTH_RANGE_M = {False: (0.130, 0.200), True: (0.150, 0.200)}
-"""Hands drawn, without and with discs on fingers. On smaller ones those at the end of the little
-finger touch: only when asked for."""
+"""Without and with finger markers, which touch at the end of a smaller little finger."""
 _SEGMENT_SD, _FLESH_SD, _OFFSET_SD = 0.05, 0.08, 0.03
 _MARKER_POSITION_SD_M = np.array([0.0007, 0.0007, 0.0007])
 
 
 @dataclass(frozen=True, slots=True)
 class SimulatedPatient:
-    """``anatomy`` in W with its side; ``wrist_joint_m`` (3,) centre of the wrist's rotation in W;
-    ``marker_radius_m`` (21,); ``size`` hand length over 180 mm; ``digit_width`` of the digits over the usual;
-    ``placement_error_m`` (21, 2) of each disc from its place in the anatomy, distally and to the radial side."""
+    """Hand of a patient: anatomy in W with its side.
+
+    Attributes
+    ----------
+    wrist_joint_m : (3,) centre of the wrist's rotation in W
+    marker_radius_m : (21,)
+    size : hand length over 180 mm
+    digit_width : of the digits over the usual width
+    placement_error_m : (21, 2) of each marker, distally and to the radial side
+    """
 
     anatomy: HandAnatomy
     wrist_joint_m: FloatArray
@@ -48,7 +56,7 @@ class SimulatedPatient:
 
 
 def sample_patient(spec: RecordingSpec) -> SimulatedPatient:
-    """Draw a patient: segments vary by 5 %, flesh by 8 %, disc places by 0.7 mm around the reference's table."""
+    """Draw a patient: segments vary by 5 %, flesh by 8 %, marker places by 0.7 mm."""
     rng = spec.generator(RandomStream.PATIENT)
     drawn_m = rng.uniform(*_LENGTH_RANGE_M[spec.marker_protocol.has_fingers])
     length_m = drawn_m if spec.hand_length_mm is None else spec.hand_length_mm / 1000.0
@@ -87,9 +95,10 @@ def sample_patient(spec: RecordingSpec) -> SimulatedPatient:
 
 
 def marker_radii(flat_m: FloatArray, protocol: MarkerProtocol, nominal_m: float = MARKER_RADIUS_M) -> FloatArray:
-    """Radius of each disc of ``hand21``, at places (21, 3) of the straight hand, usually ``nominal_m``: all small on a
-    hand whose palm is too narrow for large ones, and at the ends of the fingers where two discs of the protocol would
-    nearly touch."""
+    """Return the radius (21,) of each marker at positions (21, 3) of the straight hand.
+
+    All are small on a palm that is too narrow for large ones, and those at the ends of the fingers if two would touch.
+    """
     used = list(protocol.sites)
     gap = np.linalg.norm(flat_m[used][:, None] - flat_m[used][None], axis=-1) + np.eye(len(used))
     is_tight = np.zeros(len(SITES), dtype=bool)
@@ -104,11 +113,11 @@ def marker_radii(flat_m: FloatArray, protocol: MarkerProtocol, nominal_m: float 
 
 
 MAX_PLACEMENT_ERROR_M = 0.005
-"""A disc of the palm is stuck at most this far off its place; half on a finger, where the creases show it."""
+"""Of a marker on the palm; half on a finger, where creases show its place."""
 _PLACEMENT_SHARE = {"TIP": 0.3, "PIP": 0.5, "DIP": 0.4, "MCP1": 0.5, "IP1": 0.5}
 _MIN_GAP_M, _MAX_TRIES = 0.002, 40
 _SIDEWAYS_SHARE = 0.4
-"""Sideways a finger allows this much less than along it."""
+"""Placement error across a finger as a share of that along it."""
 _WIDE_FLESH_SD, _HEIGHT_SD, _HEIGHT_RANGE = 0.12, 0.12, (0.7, 1.5)
 _BREADTH, _ARCH = (0.90, 1.12), (0.5, 1.5)
 _JOINT_SD_M = np.array([0.0025, 0.0015, 0.0])
@@ -116,13 +125,13 @@ _FAN_SD_RAD = np.radians(2.0)
 _DIGIT_WIDTH = (0.8, 1.25)
 _MARKER_RADIUS_RANGE_M = (0.005, 0.007)
 _WRIST_JOINT_M = ((-0.004, 0.006), (0.012, 0.020))
-"""Along X from the WRIST disc's place, and below it, of a hand 180 mm long."""
+"""Along X from the WRIST marker's place, and below it, of a hand 180 mm long."""
 _SWOLLEN_CHANCE = 0.3
 _SWELLING_M, _SWOLLEN_DIGIT = (0.002, 0.005), (1.1, 1.25)
 
 
 def sample_wide_anatomy(patient: SimulatedPatient, spec: RecordingSpec) -> SimulatedPatient:
-    """The patient with an anatomy drawn more widely around it."""
+    """Draw the patient with a more varied anatomy."""
     rng = spec.generator(RandomStream.ANATOMY)
     size, usual = patient.size, patient.anatomy
     swollen = rng.random() < _SWOLLEN_CHANCE
@@ -164,8 +173,7 @@ def sample_wide_anatomy(patient: SimulatedPatient, spec: RecordingSpec) -> Simul
 def _sample_placement_error_m(
     flat_m: FloatArray, radius_m: FloatArray, size: float, rng: np.random.Generator
 ) -> FloatArray:
-    """Displacement (21, 2) of each disc from its place (21, 3), distally and to the radial side; nobody sticks a disc
-    onto its neighbour."""
+    """Draw the displacement (21, 2) of each marker, distal and radial; no marker overlaps another."""
     off_m = np.zeros((len(SITES), 2))
     mirror = -1.0 if flat_m[2, 1] < 0.0 else 1.0
     for row, name in enumerate(SITES):

@@ -1,4 +1,4 @@
-"""Writes a simulated recording as a TUM RGB-D folder with clicks, camera file and true values."""
+"""Writer of a simulated recording: TUM RGB-D folder with clicks, camera file and true values."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ _MAX_SUBFRAMES = 5
 _PNG_LEVEL = [cv2.IMWRITE_PNG_COMPRESSION, 1]
 
 Progress = Callable[[int, int], None]
-"""Called with frames done and frames in all."""
+"""Called with the frames done and the number of frames."""
 
 
 class SimulatedRecording:
-    """All pictures of one spec: any frame by its number, each the same whenever it is asked for."""
+    """All frames of one spec, reproducible in any order."""
 
     def __init__(self, spec: RecordingSpec) -> None:
         self.spec = spec
@@ -61,7 +61,7 @@ class SimulatedRecording:
         return len(self.times.color_s)
 
     def render_clean(self, i: int) -> CleanImage:
-        """Frame i without the sensor's noise; depth at its own, later time."""
+        """Render frame i without sensor noise; depth at its own, later time."""
         t = float(self.times.color_s[i])
         picture = self._renderer.render(t, self._is_covered[i])
         for offset_s in self._blur_offsets(i):
@@ -76,11 +76,11 @@ class SimulatedRecording:
         return picture
 
     def visible_share(self, i: int) -> FloatArray:
-        """Share (M,) of each disc's paper that the camera sees in frame i."""
+        """Return the visible share (M,) of each marker's paper in frame i."""
         return self._renderer.render(float(self.times.color_s[i]), self._is_covered[i]).visible_share
 
     def apply_sensor(self, i: int, clean: CleanImage) -> tuple[ByteImage, DepthImage]:
-        """What the camera makes of a clean picture."""
+        """Return the camera's images of a clean image."""
         return self._color_sensor.expose(clean.color, i), self._depth_sensor.measure(clean.depth_m, i, clean.color)
 
     def frames(self) -> Iterator[Frame]:
@@ -91,12 +91,12 @@ class SimulatedRecording:
             )
 
     def _max_marker_motion_m(self, from_s: float, to_s: float) -> float:
-        """How far the fastest disc moves between two times."""
+        """Return the motion of the fastest marker between two times."""
         discs = self.scene.markers_w0_m(self.scene.pose(np.array([from_s, to_s])))
         return float(np.linalg.norm(discs[1] - discs[0], axis=-1).max())
 
     def _blur_offsets(self, i: int) -> list[float]:
-        """Times around the middle of the exposure, besides the middle itself, that blur the picture."""
+        """Return further times around the middle of the exposure that blur the image."""
         exposure_s = self.spec.exposure_s
         if exposure_s <= 0.0:
             return []
@@ -109,7 +109,7 @@ class SimulatedRecording:
 
 
 def sample_clicks(truth: Truth) -> Clicks:
-    """A person's clicks on the first frame: the true places, off by ``spec.click_error_px``."""
+    """Draw a person's clicks on the first frame, off by ``spec.click_error_px``."""
     spec = truth.spec
     rng = spec.generator(RandomStream.CLICKS)
     error = rng.normal(0.0, 1.0, truth.marker_px[0].shape) * spec.click_error_px
@@ -118,16 +118,16 @@ def sample_clicks(truth: Truth) -> Clicks:
 
 
 def clicks_json(clicks: Clicks) -> str:
-    """Clicks in the agreed form (interface 3)."""
+    """Return the clicks file (interface 3)."""
     markers = {name: [float(u), float(v)] for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel, strict=True)}
     return json.dumps({"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}, indent=2) + "\n"
 
 
 def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None, workers: int = 1) -> Truth:
-    """Make the recording of a spec in ``folder``, which must not hold one yet, and return its true values.
+    """Render the recording of a spec into ``folder`` and return its true values.
 
-    More than one of the ``workers`` render in processes of their own; the pictures are the same. Raises
-    :class:`OutputExists` or :class:`OutputNotWritable`.
+    More than one of the ``workers`` render in separate processes with the same result. Raises :class:`OutputExists` if
+    the folder holds a recording, or :class:`OutputNotWritable`.
     """
     pictures = SimulatedRecording(spec)
     is_new = not folder.exists()
@@ -152,7 +152,7 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
 
 
 def _write_recording(recording: SimulatedRecording, folder: Path, progress: Progress | None, workers: int) -> Truth:
-    """Write everything into the empty ``rgb`` and ``depth`` of a folder, the lists that make it a recording last."""
+    """Write everything; the lists that make it a recording last."""
     truth = recording.truth
     count = len(recording)
     visible = np.empty_like(truth.visible_share)
@@ -180,14 +180,14 @@ def _cache_folder() -> Path:
 
 
 def is_cached(spec: RecordingSpec, cache: Path | None = None) -> bool:
-    """Whether the recording of a spec was rendered before."""
+    """True if the recording of a spec is in the cache."""
     return ((_cache_folder() if cache is None else cache) / spec.cache_key / TRUTH_FILE).exists()
 
 
 def render_cached(
     spec: RecordingSpec, progress: Progress | None = None, cache: Path | None = None, workers: int = 1
 ) -> Path:
-    """Folder with the recording of a spec, rendered only when the user's cache does not hold it yet."""
+    """Return the folder of a spec's recording, rendered if it is not in the cache."""
     root = _cache_folder() if cache is None else cache
     folder = root / spec.cache_key
     if is_cached(spec, root):
@@ -209,7 +209,7 @@ def render_cached(
 
 @contextlib.contextmanager
 def _render_frames(recording: SimulatedRecording, folder: Path, workers: int) -> Iterator[Iterator[FloatArray]]:
-    """Renders and writes every frame; gives what was visible of each disc, frame by frame in order."""
+    """Render and write every frame; yields the visible shares in order."""
     helpers = _create_worker_pool(recording.spec, folder, workers) if workers > 1 else None
     if helpers is not None:
         with helpers as processes:
@@ -223,7 +223,7 @@ def _render_frames(recording: SimulatedRecording, folder: Path, workers: int) ->
 
 
 def _create_worker_pool(spec: RecordingSpec, folder: Path, workers: int) -> ProcessPoolExecutor | None:
-    """None where processes can share nothing (a container without /dev/shm); it then takes longer."""
+    """Create rendering processes; None if they cannot share memory (a container without /dev/shm)."""
     context = multiprocessing.get_context("spawn")
     try:
         return ProcessPoolExecutor(workers, context, initializer=_init_worker, initargs=(spec, folder))
@@ -232,7 +232,7 @@ def _create_worker_pool(spec: RecordingSpec, folder: Path, workers: int) -> Proc
 
 
 def _render_ahead(recording: SimulatedRecording, folder: Path, pool: ThreadPoolExecutor) -> Iterator[FloatArray]:
-    """The next frame is rendered while the sensor's noise is put on those before it."""
+    """Render the next frame while noise is added to those before."""
     waiting: list[Future[None]] = []
     for i in range(len(recording)):
         clean = recording.render_clean(i)
@@ -245,7 +245,7 @@ def _render_ahead(recording: SimulatedRecording, folder: Path, pool: ThreadPoolE
 
 
 _WORKER_STATE: list[tuple[SimulatedRecording, Path]] = []
-"""What a rendering process works on; empty everywhere else."""
+"""Recording and folder of a rendering process; empty everywhere else."""
 
 
 def _init_worker(spec: RecordingSpec, folder: Path) -> None:
@@ -261,7 +261,7 @@ def _render_in_worker(i: int) -> FloatArray:
 
 
 def _image_names(recording: SimulatedRecording, i: int) -> dict[str, str]:
-    """Names of the pictures of a frame inside the folder."""
+    """Return the file names of a frame's images inside the folder."""
     depth_s = RECORDING_EPOCH_S + recording.times.depth_s[i]
     return {"rgb": f"rgb/{recording.truth.timestamp_s[i]:.6f}.png", "depth": f"depth/{depth_s:.6f}.png"}
 
@@ -290,7 +290,7 @@ def _write_lists(folder: Path, lists: dict[str, list[str]]) -> None:
 
 
 class SimulatedSource:
-    """The pictures of the first ``seconds`` as a source: the same ones that the whole recording begins with."""
+    """Frame source of the first ``seconds`` of a recording, with the same frames."""
 
     def __init__(self, spec: RecordingSpec, seconds: float) -> None:
         self._recording = SimulatedRecording(spec)
@@ -302,4 +302,4 @@ class SimulatedSource:
         return islice(self._recording.frames(), self._count)
 
     def close(self) -> None:
-        """Nothing is held."""
+        """Nothing to close."""

@@ -1,4 +1,4 @@
-"""Noise-free pictures of a scene: the colours on the skin, linear colour, depth, and how much of each disc is seen."""
+"""Noise-free images of a scene: colour, depth, and the visible share of each marker."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _LARGEST_SAG_M, _HIDING_GAP_M = 0.004, 0.004
 
 @dataclass(frozen=True, slots=True)
 class PaperPatch:
-    """A round piece of blue paper in camera axes; ``normal`` towards the camera, ``bend`` 0 flat to 1 like the skin."""
+    """Round piece of paper in the camera; ``bend`` is 0 flat to 1 like the skin."""
 
     center_m: FloatArray
     normal: FloatArray
@@ -48,8 +48,10 @@ _NAIL_TINT = np.array([1.10, 1.12, 1.16], dtype=np.float32)
 def find_spot_pixels(
     camera: Camera, box: Box, points: FloatImage, center_m: FloatArray, radius_m: float
 ) -> tuple[tuple[slice, slice], FloatImage] | None:
-    """Where in ``points`` (over ``box``, camera axes) the surface lies within a radius of a point, and how much of
-    each of those pixels; None when that is outside the box."""
+    """Return where the surface ``points`` over ``box`` lie within a radius of a point, and the share of each pixel.
+
+    None if that is outside the box.
+    """
     around = bounding_box(camera, center_m[None], np.array([radius_m]), margin_px=2.0)
     around = Box(
         max(around.top, box.top),
@@ -70,10 +72,10 @@ def find_spot_pixels(
 def project_patch(
     camera: Camera, rays: tuple[FloatImage, FloatImage], depth_m: FloatImage, patch: PaperPatch
 ) -> tuple[tuple[slice, slice], FloatImage, FloatImage] | None:
-    """Where a paper patch shows in the whole picture: rows and columns, share of each pixel, depth of the paper.
+    """Return where a paper patch appears: rows and columns, share of each pixel, depth of the paper.
 
-    ``rays`` are the rays' x and y where z is 1. Paper is stiffer than skin: between its tangent plane and the skin
-    under it, it goes ``patch.bend`` of the way; it lies on skin that rises. Whatever stands clearly before it hides it.
+    ``rays`` are the rays' x and y at z = 1. Paper is stiffer than skin: it follows the skin below its tangent plane by
+    ``patch.bend``, and lies on skin that rises. What stands clearly in front hides it.
     """
     box = bounding_box(camera, patch.center_m[None], np.array([patch.radius_m]), margin_px=2.0)
     if box.bottom - box.top < 3 or box.right - box.left < 3:
@@ -96,7 +98,7 @@ def project_patch(
 
 
 def blend_color(image: FloatImage, place: tuple[slice, slice], share: FloatImage, color: FloatArray) -> None:
-    """Cover a place of ``image`` with a colour, by share."""
+    """Blend a colour into a part of an image by its share."""
     inner = image[place]
     inner += share[..., None] * (color.astype(np.float32) - inner)
 
@@ -104,8 +106,10 @@ def blend_color(image: FloatImage, place: tuple[slice, slice], share: FloatImage
 def skin_albedo(
     appearance: Appearance, points: FloatImage, markers_cam_m: FloatArray, hand_axes: FloatArray
 ) -> FloatImage:
-    """Albedo (H, W, 3) of bare skin; ``markers_cam_m`` (21, 3) tell where knuckles and nails are, ``hand_axes``
-    (3, 3) fix the mottling to the hand."""
+    """Return the albedo (H, W, 3) of bare skin.
+
+    ``markers_cam_m`` (21, 3) tell where knuckles and nails are, ``hand_axes`` (3, 3) fix the mottling to the hand.
+    """
     coarse = points[::2, ::2]
     size = (points.shape[1], points.shape[0])
     local = (coarse - markers_cam_m[0].astype(np.float32)) @ hand_axes.astype(np.float32)
@@ -129,7 +133,7 @@ def _gaussian_ball(points: FloatImage, center_m: FloatArray, radius_m: float) ->
 def paint_nails(
     albedo: FloatImage, camera: Camera, box: Box, points: FloatImage, markers_cam_m: FloatArray, size: float
 ) -> None:
-    """Nails are a little lighter than the skin around them."""
+    """Paint nails, a little lighter than the skin."""
     for row in _NAILS:
         spot = find_spot_pixels(camera, box, points, markers_cam_m[row], _NAIL_RADIUS_M * size)
         if spot is not None:
@@ -141,7 +145,7 @@ def paint_bands(
     albedo: FloatImage, appearance: Appearance, points: FloatImage, is_forearm: np.ndarray, wrist_m: FloatArray,
     forearm_axis: FloatArray,
 ) -> None:  # fmt: skip
-    """Sleeve and what else is worn round the forearm; ``forearm_axis`` points to the hand."""
+    """Paint sleeve, watch and bandage; ``forearm_axis`` points to the hand."""
     if not appearance.bands:
         return
     to_wrist = (points - wrist_m.astype(np.float32)) @ forearm_axis.astype(np.float32)
@@ -158,7 +162,7 @@ def paint_bands(
 
 
 def paint_ring(albedo: FloatImage, points: FloatImage, color: FloatArray, bone_m: FloatArray, size: float) -> None:
-    """A ring round the first bone of a finger, from joint to joint (2, 3)."""
+    """Paint a ring around the first bone of a finger, from joint to joint (2, 3)."""
     along_m = bone_m[1] - bone_m[0]
     length = float(np.linalg.norm(along_m))
     offset = points - bone_m[0].astype(np.float32)
@@ -176,7 +180,7 @@ _COARSE = 3
 
 
 def shade_skin(albedo: FloatImage, normal: FloatImage, ambient_share: FloatImage, appearance: Appearance) -> FloatImage:
-    """Linear colour (H, W, 3) of skin under lamp and ambient light, with a faint gloss."""
+    """Return the linear colour (H, W, 3) of skin under lamp and ambient light, with a faint gloss."""
     facing_lamp = np.clip(normal @ appearance.light_cam.astype(np.float32), 0.0, 1.0)
     # Light scattered inside the skin softens the terminator.
     lambert = np.float32(0.85) * facing_lamp + np.float32(0.15) * np.sqrt(facing_lamp)
@@ -192,7 +196,7 @@ def shade_skin(albedo: FloatImage, normal: FloatImage, ambient_share: FloatImage
 
 
 def ambient_occlusion(skin: TracedSurface, background_m: FloatImage) -> FloatImage:
-    """Share of the ambient light that reaches each pixel: less where its neighbourhood is nearer to the camera."""
+    """Return the share of ambient light per pixel, less where the surroundings are nearer."""
     around = np.where(skin.coverage > 0.5, skin.depth_m, background_m)
     small = around
     if min(around.shape) > 1:  # of a hand about to leave the picture one column may be left
@@ -206,7 +210,7 @@ def ambient_occlusion(skin: TracedSurface, background_m: FloatImage) -> FloatIma
 def table_shadow(
     camera: Camera, skin: TracedSurface, to_lamp: FloatArray, table_normal: FloatArray, table_point_m: FloatArray
 ) -> FloatImage:
-    """Share of the lamp's light (H, W) that the table gets; softer the higher the hand is above it."""
+    """Return the share of the lamp's light (H, W) on the table; softer the higher the hand is."""
     v, u = np.nonzero(skin.coverage[::_COARSE, ::_COARSE] > 0.5)
     z = skin.depth_m[::_COARSE, ::_COARSE][v, u].astype(np.float64)
     shape = (camera.height_px // _COARSE, camera.width_px // _COARSE)
@@ -229,12 +233,12 @@ def table_shadow(
 _NOTHING_M = 9.0
 _RING_BONE = SEGMENTS.index("PP4")
 _PALM_BEND, _DIGIT_BEND = 0.3, 0.6
-"""How far the paper follows the skin's curve: the back of the hand gives way under it, a knuckle does not."""
+"""How far paper follows the skin: the back of the hand gives way under it, a knuckle does not."""
 
 
 @dataclass(frozen=True, slots=True)
 class CleanImage:
-    """``color`` (H, W, 3) linear light, ``depth_m`` (H, W), ``visible_share`` (M,) of each disc's area."""
+    """Linear colour (H, W, 3), depth (H, W), and the visible share (M,) of each marker."""
 
     color: FloatImage
     depth_m: FloatImage
@@ -243,7 +247,7 @@ class CleanImage:
 
 @dataclass(frozen=True, slots=True)
 class _SceneSurfaces:
-    """What stands where at one time: depth of everything but floating blobs, skin and passing thing apart."""
+    """Surfaces at one time: skin, rod, and the depth of everything but floating blobs."""
 
     depth_m: FloatImage
     skin: TracedSurface | None
@@ -252,7 +256,7 @@ class _SceneSurfaces:
 
 
 class Renderer:
-    """Draws one scene at any time."""
+    """Renders one scene at any time."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -269,14 +273,14 @@ class Renderer:
         self._table_point_m = scene.to_camera(np.array([0.0, 0.0, scene.table_height_m]))
 
     def render_depth(self, time_s: float, is_covered: NDArray[np.bool_]) -> FloatImage:
-        """Depth alone, (H, W) metres along z."""
+        """Render the depth (H, W) along z, m."""
         bodies = self._trace_surfaces(time_s)
         self._draw_false_blobs(None, bodies.depth_m, time_s, bodies.pose, ("skin", "air"))
         self._draw_markers(None, bodies.depth_m, bodies, is_covered)
         return bodies.depth_m
 
     def render(self, time_s: float, is_covered: NDArray[np.bool_]) -> CleanImage:
-        """Colour and depth at one time; ``is_covered`` (21,) discs that are hidden under skin-coloured cover."""
+        """Render colour and depth; ``is_covered`` (21,) markers are hidden under a skin-coloured cover."""
         bodies = self._trace_surfaces(time_s)
         color, depth = self._shade_table(bodies), bodies.depth_m
         if bodies.skin is not None:
@@ -309,12 +313,12 @@ class Renderer:
         return trace_cones(self.scene.camera, Cones(a[None], b[None], across, radius, radius, none, none, none))
 
     def _shade_flat(self, color: FloatArray, normal: FloatArray) -> FloatArray:
-        """Linear light (3,) that a flat thing of a colour and a normal sends to the camera."""
+        """Return the linear light (3,) of a flat surface."""
         lambert = max(float(normal @ self.appearance.light_cam), 0.0)
         return np.asarray(color * (lambert * self.appearance.lamp + self.appearance.ambient))
 
     def _shade_table(self, surfaces: _SceneSurfaces) -> FloatImage:
-        """The lit table with the hand's shadow, (H, W, 3)."""
+        """Return the lit table (H, W, 3) with the hand's shadow."""
         looks = self.appearance
         facing = np.float32(max(float(self._up @ looks.light_cam), 0.0))
         if surfaces.skin is None:
@@ -347,7 +351,7 @@ class Renderer:
     def _draw_markers(
         self, color: FloatImage | None, depth_m: FloatImage, surfaces: _SceneSurfaces, is_covered: NDArray[np.bool_]
     ) -> FloatArray:
-        """Lay the paper discs; returns the visible share of each, (M,)."""
+        """Draw the markers and return the visible share of each, (M,)."""
         scene, pose = self.scene, surfaces.pose
         centers = scene.to_camera(scene.markers_w0_m(pose)[0])
         normals = scene.marker_normals_w0(pose)[0] @ scene.rotation_w0_cam.T
@@ -374,7 +378,7 @@ class Renderer:
     def _draw_patch(
         self, color: FloatImage | None, depth_m: FloatImage, patch: PaperPatch
     ) -> tuple[tuple[slice, slice], FloatImage, FloatImage] | None:
-        """Draw one patch into depth and, where given, colour; None where the camera cannot see it."""
+        """Draw one patch into depth and, if given, colour; None if it is not visible."""
         laid = project_patch(self.scene.camera, self._rays, depth_m, patch)
         if laid is not None:
             place, share, z = laid

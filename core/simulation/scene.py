@@ -1,4 +1,4 @@
-"""Where things are: the camera over the table, the neutral hand under it, and the hand at any time."""
+"""Scene geometry: camera, table, and the hand at any time."""
 
 from __future__ import annotations
 
@@ -21,22 +21,26 @@ from carpus.core.simulation.skin import Cones, HandSkin, join_cones, project_to_
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 
 _FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
-"""W0 seen by a camera that looks straight down, fingers up in the picture (reference 1.1)."""
+"""W0 in a camera that looks straight down, fingers up in the image (reference 1.1)."""
 
 _LOWEST_GAP_M = 0.006
 _PICTURE_MARGIN_PX = 22.0
 _MOTION_SAMPLES = 80
 _FULL_FLEXION_RAD = math.radians(50.0)
 _SKIN_MOVEMENT_SHARE = np.array([1.0, 0.6, 0.5, 0.5, 0.5, 0.5])
-"""Movement of WRIST, CMC1, MCP2 to MCP5 over the bones as a share of that of WRIST (reference 2)."""
+"""Movement of WRIST, CMC1, MCP2 to MCP5 over the bones as a share of WRIST's (reference 2)."""
 
 
 @dataclass(frozen=True, slots=True)
 class HandPose:
-    """Pose at N times: ``rotation_w2_w0`` (N, 3, 3), ``position_m`` (N, 3) of W2 in W0, clinical wrist angles
-    ``angles_rad`` (N, 3), ``joint_angles_rad`` (N, J), displacement of the arm ``arm_displacement_m`` (N, 3), soft
-    parts
-    ``tissue``. The angles are those of the fixed unit and of each finger against its own metacarpal."""
+    """Pose at N times.
+
+    Attributes
+    ----------
+    rotation_w2_w0, position_m : (N, 3, 3), (N, 3) of W2 in W0
+    angles_rad, joint_angles_rad : (N, 3), (N, J) of the fixed unit, of each finger against its own metacarpal
+    arm_displacement_m : (N, 3)
+    """
 
     rotation_w2_w0: FloatArray
     position_m: FloatArray
@@ -47,7 +51,7 @@ class HandPose:
 
 
 class Scene:
-    """One patient under one camera. ``table_height_m`` is the table's z in W0 (negative)."""
+    """One patient under one camera; ``table_height_m`` is the table's z in W0."""
 
     def __init__(self, spec: RecordingSpec) -> None:
         self.spec = spec
@@ -75,7 +79,7 @@ class Scene:
         self.translation_w0_cam_m = self._sample_placement(rng)
 
     def pose(self, time_s: FloatArray) -> HandPose:
-        """The hand at times (N,) after the first frame."""
+        """Return the pose at times (N,) after the first frame."""
         angles = self.motion.wrist_angles_rad(time_s)
         carry = self.motion.arm_displacement_m(time_s)
         rotation = rotation_from_angles(angles, self.spec.hand)
@@ -85,7 +89,7 @@ class Scene:
         return HandPose(rotation, position, angles, joints, carry, tissue)
 
     def markers_w0_m(self, pose: HandPose) -> FloatArray:
-        """All 21 disc centres in W0, (N, 21, 3)."""
+        """Return all 21 marker centres in W0, (N, 21, 3)."""
         if self._markers_follow_skin:
             return _to_w0(self._skin_markers_w(pose)[0], pose)
         local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
@@ -95,8 +99,11 @@ class Scene:
         return _to_w0(local, pose)
 
     def marker_normals_w0(self, pose: HandPose) -> FloatArray:
-        """Unit normals of the 21 discs in W0, (N, 21, 3): of the skin on the palm, the bisectors of the bones that
-        meet under them on the digits; of the skin everywhere where discs ride on it."""
+        """Return the unit normals of the 21 markers in W0, (N, 21, 3).
+
+        Those of the skin on the palm, and everywhere if markers follow the skin; else the bisectors of the digits'
+        bones.
+        """
         if self._markers_follow_skin:
             return np.asarray(self._skin_markers_w(pose)[1] @ pose.rotation_w2_w0.transpose(0, 2, 1))
         bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad).dorsal_normal[:, 1:].reshape(-1, 5, 3, 3)
@@ -111,7 +118,7 @@ class Scene:
         return np.asarray(normals @ pose.rotation_w2_w0.transpose(0, 2, 1))
 
     def bones_w(self, pose: HandPose) -> SegmentFrames:
-        """All bones in W, as :func:`core.model.hand.kinematics.segment_frames`, rays 4 and 5 cupped."""
+        """Return all bones in W, with rays 4 and 5 cupped."""
         bones = segment_frames(self.patient.anatomy, pose.joint_angles_rad)
         if self.tissue.is_rigid:
             return bones
@@ -124,8 +131,7 @@ class Scene:
         return bones
 
     def _skin_markers_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
-        """Centres and normals (N, 21, 3) in W of discs that ride on the skin; those of the last pose are kept, as
-        most callers ask for both."""
+        """Return centres and normals (N, 21, 3) in W of markers on the skin; keeps those of the last pose."""
         if self._last_skin_markers is None or self._last_skin_markers[0] is not pose:
             self._last_skin_markers = (pose, self._compute_skin_markers_w(pose))
         return self._last_skin_markers[1]
@@ -140,7 +146,7 @@ class Scene:
         return project_to_surface(self.skin.cup_points(discs, tissue.cup_rad), cones)
 
     def _displacement_m(self, bones: SegmentFrames, glide_m: FloatArray) -> FloatArray:
-        """Displacements (N, 21, 3) of an uncupped hand's discs: where they were stuck, and their glides (N, 21)."""
+        """Return displacements (N, 21, 3) of an uncupped hand: placement errors and glides (N, 21)."""
         along = bones.end_m - bones.start_m
         along = along / np.linalg.norm(along, axis=-1, keepdims=True)
         digits = along[:, 1:].reshape(-1, 5, 3, 3)
@@ -163,7 +169,7 @@ class Scene:
         return np.asarray(glide_m[..., None] * glides + off_m[:, :1] * distal + off_m[:, 1:] * radial)
 
     def _skin_shift_m(self, share: FloatArray) -> FloatArray:
-        """Movement (N, 6, 3) of the palm's discs over the skin at shares -1 to 1 of full flexion, staying on it."""
+        """Return the movement (N, 6, 3) of the palm's markers along the skin at shares of full flexion."""
         along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
         rise = self._skin_height_change_m
         quadratic, linear = 0.5 * (rise[1] + rise[0]), 0.5 * (rise[1] - rise[0])
@@ -171,7 +177,7 @@ class Scene:
         return np.stack((s * along, np.zeros_like(s * along), s * s * quadratic + s * linear), axis=-1)
 
     def _compute_skin_height_change_m(self) -> FloatArray:
-        """Rise (2, 6) of the skin under each palm disc at full extension and at full flexion."""
+        """Return the rise (2, 6) of the skin under the palm's markers at full extension and flexion."""
         discs = disc_centres(self.patient.anatomy, np.zeros(17))[list(PALM_SITES)]
         along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
         return np.array(
@@ -185,10 +191,9 @@ class Scene:
         )
 
     def marker_frame(self) -> tuple[FloatArray, FloatArray]:
-        """Axes (3, 3) and origin (3,), in the frame W0 of the bones, of the W that the discs span in the first frame.
+        """Return axes (3, 3) and origin (3,) of the markers' W of the first frame in that of the bones.
 
-        The two are one where every disc lies in its place; where some were stuck off it, all true values count from
-        the discs' own frame, as it is the only one that can be seen.
+        They are equal unless markers were placed off. True values count from the markers' frame, the only visible one.
         """
         if not self.patient.placement_error_m.any():
             return np.eye(3), np.zeros(3)
@@ -196,18 +201,18 @@ class Scene:
         return wrist_axes(palm, dorsal_direction=np.array([0.0, 0.0, 1.0])), palm[0]
 
     def joints_w0_m(self, pose: HandPose) -> FloatArray:
-        """All 21 joint centres and tips in W0, (N, 21, 3)."""
+        """Return all 21 joint centres and tips in W0, (N, 21, 3)."""
         joints = joint_centres(self.patient.anatomy, pose.joint_angles_rad)
         if not self.tissue.is_rigid:
             joints = self.skin.cup_points(joints, pose.tissue.cup_rad)
         return _to_w0(joints, pose)
 
     def to_camera(self, point_w0_m: FloatArray) -> FloatArray:
-        """Points (..., 3) of W0 in camera axes."""
+        """Transform points (..., 3) from W0 to the camera."""
         return np.asarray(point_w0_m @ self.rotation_w0_cam.T + self.translation_w0_cam_m)
 
     def cones_cam(self, pose: HandPose, i: int) -> Cones:
-        """Skin of hand and forearm at the i-th time, in camera axes."""
+        """Return the skin of hand and forearm at the i-th time in the camera."""
         hand = self._hand_cones_w(pose, i).transform(pose.rotation_w2_w0[i], pose.position_m[i])
         supination = side_sign(self.spec.hand) * float(pose.angles_rad[i, 2])
         forearm = self.skin.forearm_cones_w0(supination).transform(np.eye(3), pose.arm_displacement_m[i])
@@ -219,7 +224,7 @@ class Scene:
         return self.skin.cones_w(pose.joint_angles_rad[i], tissue)
 
     def _lowest_point_m(self) -> float:
-        """Height in W0 of the lowest point that the skin reaches."""
+        """Return the height in W0 of the lowest point of the skin."""
         times = self._sample_times_s()
         pose = self.pose(times)
         cones = self.skin.cones_w(pose.joint_angles_rad, None if self.tissue.is_rigid else pose.tissue)
@@ -231,7 +236,7 @@ class Scene:
         return min(-0.040 * self.patient.size, float(lowest))
 
     def _sample_times_s(self) -> FloatArray:
-        """Times that show how far the motion goes."""
+        """Return times that show the extent of the motion."""
         return np.linspace(0.0, self.spec.seconds, min(_MOTION_SAMPLES, 1 + round(20.0 * self.spec.seconds)))
 
     def _sample_orientation(self, rng: np.random.Generator) -> FloatArray:
@@ -250,7 +255,7 @@ class Scene:
         return np.asarray(_FROM_ABOVE @ turned @ tilted)
 
     def _sample_placement(self, rng: np.random.Generator) -> FloatArray:
-        """Put the middle of all that the discs do near the middle of the picture, far enough to see it all."""
+        """Centre the markers' motion in the image, far enough to see all of it."""
         reaches = self.spec.motion.startswith("reach")
         nearest, farthest = (0.84, 0.90) if reaches else (0.62, 0.78 if self.spec.marker_protocol.has_fingers else 0.88)
         drawn = rng.uniform(nearest, farthest)
@@ -274,5 +279,5 @@ class Scene:
 
 
 def _to_w0(point_m: FloatArray, pose: HandPose) -> FloatArray:
-    """Points (N, K, 3) of W2 in W0."""
+    """Transform points (N, K, 3) from W2 to W0."""
     return np.asarray(point_m @ pose.rotation_w2_w0.transpose(0, 2, 1) + pose.position_m[:, None, :])

@@ -1,8 +1,7 @@
-"""What a camera makes of a scene: its colour noise and chroma, and the depth picture of each kind of sensor.
+"""Sensor models: colour noise and chroma, and the depth image of each kind of sensor.
 
-The Xtion's structured light (clinical reference 7.2): disparity d = f b / z is found by matching a 9 x 9 window and
-given in steps of 1/8 pixel; with f b = 43.1 px m a step is 2.85e-3 z^2 and the whole standard deviation half a step,
-1.425e-3 z^2.
+Structured light of the Xtion (clinical reference 7.2): disparity d = f b / z comes from matching a 9 x 9 window, in
+steps of 1/8 pixel. With f b = 43.1 px m a step is 2.85e-3 z^2 and the standard deviation half a step, 1.425e-3 z^2.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.sphere_tracing import FloatImage
 
 DISPARITY_PX_M = 575.0 * 0.075
-"""Focal length of the depth camera in pixels times the baseline in metres."""
+"""Focal length of the depth camera (px) times the baseline (m)."""
 DISPARITY_STEP_PX = 1.0 / 8.0
 
 # Noise before rounding to steps: sqrt(0.5^2 - 1/12) steps in all, a part of it a pattern that stays.
 _TEMPORAL_STEPS, _FIXED_STEPS = 0.37, 0.17
 _WINDOW_PX = 9
 _EDGE_DISPARITY_PX = 0.9
-"""A window in which disparity differs by more than this holds two surfaces."""
+"""A window with a larger range of disparity holds two surfaces."""
 _EDGE_JITTER_PX = 1.6
 _NEAREST_M, _FARTHEST_M = 0.40, 3.5
 _DEPTH_COUNTS_PER_M = 5000.0
@@ -35,7 +34,7 @@ _WHITE = 65535
 
 
 def _gamma_table() -> ByteImage:
-    """The sRGB curve from 16-bit linear to 8 bits."""
+    """Return the sRGB curve from 16-bit linear to 8 bits."""
     light = np.linspace(0.0, 1.0, _WHITE + 1)
     curve = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055)
     return np.asarray(np.round(255.0 * curve), dtype=np.uint8)
@@ -45,7 +44,7 @@ _GAMMA = _gamma_table()
 
 
 class ColorSensor:
-    """Turns linear light into the 8-bit picture of the camera; one per recording."""
+    """Colour camera of one recording."""
 
     def __init__(self, spec: RecordingSpec, appearance: Appearance) -> None:
         self._seed = spec.seed
@@ -53,10 +52,11 @@ class ColorSensor:
         self._noisy = spec.sensor_noise
 
     def expose(self, color: FloatImage, frame: int) -> ByteImage:
-        """(H, W, 3) linear to RGB uint8: lens blur, Bayer filter, shot and read noise, demosaicing,
-        gamma, YUV 4:2:2 and back.
+        """Return RGB uint8 of linear light (H, W, 3).
 
-        The noise depends on seed and frame number alone."""
+        Lens blur, Bayer filter, shot and read noise, demosaicing, gamma, YUV 4:2:2. The noise depends on seed and frame
+        only.
+        """
         if not self._noisy:
             return _GAMMA[_to_16_bit(color)]
         light = np.asarray(cv2.GaussianBlur(color, (0, 0), self._appearance.blur_px), dtype=np.float32)
@@ -78,7 +78,7 @@ def _to_16_bit(light: FloatImage) -> NDArray[np.uint16]:
 
 
 def _apply_yuv422(rgb: ByteImage) -> ByteImage:
-    """Two neighbours in a row share their chroma, as in the camera's UYVY stream."""
+    """Share the chroma of two neighbours in a row, as in the camera's UYVY stream."""
     ycc = cv2.cvtColor(rgb, cv2.COLOR_RGB2YCrCb)
     chroma = ycc[..., 1:].astype(np.uint16)
     shared = ((chroma[:, 0::2] + chroma[:, 1::2] + 1) >> 1).astype(np.uint8)
@@ -88,14 +88,14 @@ def _apply_yuv422(rgb: ByteImage) -> ByteImage:
 
 
 def depth_scale(spec: RecordingSpec) -> float:
-    """Measured over true depth of the simulated unit, within ``spec.depth_scale_error`` of 1."""
+    """Return measured over true depth, within ``spec.depth_scale_error`` of 1."""
     if not spec.sensor_noise:
         return 1.0
     return 1.0 + spec.depth_scale_error * float(spec.generator(RandomStream.DEPTH_NOISE).uniform(-1.0, 1.0))
 
 
 class StructuredLightSensor:
-    """Turns true depth into the registered depth picture; one per recording, which has its own scale and pattern."""
+    """Structured-light depth camera of one recording, with its own scale and pattern."""
 
     def __init__(self, spec: RecordingSpec, shape: tuple[int, int]) -> None:
         rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 1, 0])
@@ -107,9 +107,10 @@ class StructuredLightSensor:
         self._shadow_side = 1 if rng.random() < 0.5 else -1
 
     def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
-        """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
+        """Return counts of 1/5000 m, 0 without a reading, of true metres (H, W).
 
-        The noise depends on seed and frame number alone; the light in ``color`` plays no part."""
+        The noise depends on seed and frame only.
+        """
         if not self._noisy:
             return to_depth_counts(depth_m)
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, frame])
@@ -137,8 +138,7 @@ class StructuredLightSensor:
 def _to_depth_image(
     depth_m: FloatImage, lost: NDArray[np.bool_], range_m: tuple[float, float], share: float, rng: np.random.Generator
 ) -> DepthImage:
-    """What a sensor says of its readings (H, W), in whole millimetres: nothing of those that are ``lost``, out of its
-    range, or of a ``share`` drawn anywhere."""
+    """Return readings (H, W) in whole millimetres, without lost ones, those out of range, and a random share."""
     lost = lost | (depth_m < range_m[0]) | (depth_m > range_m[1])
     lost |= rng.random(lost.shape, dtype=np.float32) < share
     return np.where(
@@ -147,21 +147,23 @@ def _to_depth_image(
 
 
 def window_noise(rng: np.random.Generator, shape: tuple[int, int], width_px: int) -> FloatImage:
-    """Noise (H, W) of standard deviation 1, correlated over a matching window."""
+    """Return noise (H, W) of standard deviation 1, correlated over a matching window."""
     white = rng.standard_normal(shape, dtype=np.float32)
     return np.asarray(cv2.blur(white, (width_px, width_px)) * np.float32(width_px))
 
 
 def fleck_noise(rng: np.random.Generator, shape: tuple[int, int]) -> FloatImage:
-    """Noise (H, W) of standard deviation about 1, in flecks of some pixels."""
+    """Return noise (H, W) of standard deviation about 1, in flecks of some pixels."""
     height, width = shape
     coarse = rng.standard_normal((height // 4 + 1, width // 4 + 1), dtype=np.float32)
     return np.asarray(1.4 * cv2.resize(coarse, (width, height), interpolation=cv2.INTER_LINEAR), dtype=np.float32)
 
 
 def is_in_shadow(disparity: FloatImage, side: int) -> NDArray[np.bool_]:
-    """Pixels that a second eye or a projector, beside the camera on ``side`` (1 or -1), cannot reach past a nearer
-    surface; ``disparity`` (H, W) in pixels of this picture."""
+    """Select pixels that a second eye or projector on ``side`` (1 or -1) cannot reach past a nearer surface.
+
+    ``disparity`` (H, W) is in pixels of this image.
+    """
     column = np.arange(disparity.shape[1], dtype=np.float32)[None]
     if side > 0:
         lit = column + disparity
@@ -173,30 +175,29 @@ def is_in_shadow(disparity: FloatImage, side: int) -> NDArray[np.bool_]:
 
 
 def to_depth_counts(depth_m: FloatImage) -> DepthImage:
-    """Metres (H, W) in counts of 1/5000 m."""
+    """Convert metres (H, W) to counts of 1/5000 m."""
     return np.clip(np.round(depth_m * _DEPTH_COUNTS_PER_M), 0.0, 65535.0).astype(np.uint16)
 
 
 COLOR_BASELINE_M = 0.032
-"""Between the depth and the colour camera: what colour alone sees has no depth."""
+"""Between depth and colour camera: what only colour sees has no depth."""
 _MULTIPATH_M, _MULTIPATH_SD_M = 0.003, 0.0009
 _MULTIPATH_CELL_PX = 80
 _PIXEL_PATTERN_SD_M = 0.0004
 _EDGE_M = 0.012
-"""A pixel that holds surfaces further apart than this flies."""
+"""A pixel with surfaces further apart mixes them (flying pixel)."""
 _FLIGHT_LOST_SHARE = 2e-4
 _REFERENCE_BRIGHTNESS = 0.5
-"""Share of light given back at which the noise is the law's; less than a tenth of it gives no better reading."""
+"""Returned light at which the noise is nominal; below a tenth of it readings get no worse."""
 _MIN_BRIGHTNESS = 0.05
 
 
 class TimeOfFlightSensor:
-    """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording.
+    """Time-of-flight depth camera of one recording, registered to colour.
 
-    A reading mixes the light of all that its pixel holds: between a finger and the table it lies between both. The
-    noise falls with the light that comes back, so dark skin is noisier (Tolgyessy et al. 2021); light that reached the
-    surface by way of the table or another finger makes the way longer (multipath), by some millimetres that change
-    slowly over the picture.
+    A reading mixes the light of all surfaces in its pixel. Noise rises as less light returns, so dark skin is noisier
+    (Tolgyessy et al. 2021). Light that arrives by way of the table or another finger lengthens the way (multipath) by
+    some millimetres that vary slowly over the image.
     """
 
     def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
@@ -216,10 +217,10 @@ class TimeOfFlightSensor:
         self._range_bias_m = np.float32(_MULTIPATH_M * rng.uniform()) + slow + own
 
     def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
-        """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
+        """Return counts of 1/5000 m, 0 without a reading, of true metres (H, W).
 
-        ``color`` (H, W, 3) linear light: how much of its light each thing gives back; without it all is bright. The
-        noise depends on seed, frame number and this alone."""
+        ``color`` (H, W, 3) linear light tells how much each surface returns; without it all is bright.
+        """
         if not self._noisy:
             return to_depth_counts(depth_m)
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 3, 1 + frame])
@@ -235,8 +236,10 @@ class TimeOfFlightSensor:
         return _to_depth_image(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _FLIGHT_LOST_SHARE, rng)
 
     def _noise_factor(self, color: FloatImage | None) -> FloatImage:
-        """Factor (H, W) on the noise. The camera brings its own, infrared light, which dyes let through: what is bright
-        in any colour is bright in it, and how bright the room is does not count."""
+        """Return the factor (H, W) on the noise from the reflectance in infrared.
+
+        Dyes let infrared through: what is bright in any colour is bright in it. The light of the room does not count.
+        """
         if color is None:
             return np.ones(self._shape, dtype=np.float32)
         brightest = color.max(axis=-1)
@@ -251,12 +254,11 @@ _STEREO_LOST_SHARE = 1e-3
 
 
 class ActiveStereoSensor:
-    """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording.
+    """Active stereo depth camera of one recording, registered to colour.
 
-    A pair of eyes with a spot projector: bumps that stay, thick edges, a band that one eye misses. Disparity is f b / z
-    by matching a window, with a standard deviation of 0.08 pixel over a plane (Grunnet-Jepsen et al., "Tuning depth
-    cameras for best performance"). Most of it stays from picture to picture: the spots lie as they lie, and the
-    matching errs with the fraction of a pixel of the disparity (subpixel non-linearity).
+    Disparity f b / z by window matching, with a standard deviation of 0.08 pixel over a plane (Grunnet-Jepsen et al.,
+    "Tuning depth cameras for best performance"). Most of it is constant: the projected spots stay, and matching errs
+    with the fraction of the disparity (subpixel non-linearity). Edges are thick, and one eye misses a band beside them.
     """
 
     def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
@@ -276,9 +278,10 @@ class ActiveStereoSensor:
         self._second_eye = 1 if rng.random() < 0.5 else -1
 
     def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
-        """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
+        """Return counts of 1/5000 m, 0 without a reading, of true metres (H, W).
 
-        The noise depends on seed and frame number alone; the projector brings its own light."""
+        The noise depends on seed and frame only; the projector brings its own light.
+        """
         if not self._noisy:
             return to_depth_counts(depth_m)
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 2, 1 + frame])
@@ -307,7 +310,7 @@ SimulatedDepthSensor = StructuredLightSensor | ActiveStereoSensor | TimeOfFlight
 
 
 def create_depth_sensor(spec: RecordingSpec, camera: Camera) -> SimulatedDepthSensor:
-    """What the sensor of ``camera`` makes of depth."""
+    """Create the depth sensor of a camera."""
     shape, sensor = (camera.height_px, camera.width_px), camera.sensor
     if sensor.kind == "active stereo":
         return ActiveStereoSensor(spec, sensor, shape, camera.fx_px)

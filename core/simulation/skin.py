@@ -1,10 +1,10 @@
-"""The skin of hand and forearm: rounded bones, joined smoothly where flesh fills the corner.
+"""Skin of hand and forearm as a smooth union of rounded bones.
 
-Every body part is a set of flattened round cones: the points within a radius, linear from ``radius_a`` to
-``radius_b``, of a segment a-b that is widened sideways by a half width, linear too. Parts are united by a smooth
-minimum of finite reach (:func:`smooth_minimum`), so that bending a finger does not touch the skin over the fixed unit.
-On a rigid hand the palm's discs stay exactly on the rendered surface; a soft one has a palm that cups
-(:meth:`HandSkin.cones_w`) and discs that ride on it (:func:`project_to_surface`).
+Every body part is a set of flattened round cones: the points within a radius, linear from ``radius_a`` to ``radius_b``,
+of a segment a-b that is widened sideways by a half width, linear too. Parts are united by a smooth minimum of finite
+reach (:func:`smooth_minimum`), so that bending a finger does not touch the skin over the fixed unit. On a rigid hand
+the palm's markers stay exactly on the rendered surface; a soft one has a palm that cups (:meth:`HandSkin.cones_w`) and
+markers that follow it (:func:`project_to_surface`).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from carpus.core.simulation.patient import WRIST_JOINT_DEPTH_M, SimulatedPatient
 
 
 class Part(IntEnum):
-    """Body parts in the order in which they are united; THUMB to LITTLE join the palm but not one another."""
+    """Body parts in the order of their union; THUMB to LITTLE join the palm but not one another."""
 
     PALM = 0
     THUMB = 1
@@ -60,18 +60,23 @@ _METACARPALS = slice(2, 6)
 _RING_METACARPAL, _LITTLE_METACARPAL, _SLAB, _HYPOTHENAR = 4, 5, 6, 7
 """Rows of the palm's cones."""
 _CUP_AXES = np.array([[0.25, 0.97, 0.0], [0.36, 0.93, 0.0]])
-"""Of a right hand's metacarpals 4 and 5: they flex and turn towards the thumb."""
+"""Axes of a right hand's metacarpals 4 and 5: they flex and turn towards the thumb."""
 _SLAB_ROLL = 0.8
-"""Roll of the flesh between the metacarpals for each angle of the little one's."""
+"""Roll of the flesh between the metacarpals per angle of the little one's."""
 _KNUCKLE_REACH_M = 0.004
-"""How far beyond the disc the head of a metacarpal stands out when its finger is bent."""
+"""How far a metacarpal's head stands out beyond the marker when its finger is flexed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cones:
-    """P flattened round cones in one frame: ``a_m``, ``b_m`` (P, 3), unit ``lateral`` (P, 3) across the axis,
-    ``radius_a_m``, ``radius_b_m``, ``width_a_m``, ``width_b_m`` (half widths) (P,), ``part`` (P,) of :class:`Part`.
-    All but ``part`` may have leading axes, the poses."""
+    """P flattened round cones in one frame; all arrays but ``part`` may have leading axes, the poses.
+
+    Attributes
+    ----------
+    a_m, b_m, lateral : (P, 3) ends of the axis, unit vector across it
+    radius_a_m, radius_b_m, width_a_m, width_b_m : (P,) radii and half widths
+    part : (P,) of :class:`Part`
+    """
 
     a_m: FloatArray
     b_m: FloatArray
@@ -83,7 +88,7 @@ class Cones:
     part: FloatArray
 
     def transform(self, rotation: FloatArray, translation_m: FloatArray) -> Cones:
-        """In another frame: p' = rotation p + translation."""
+        """Transform to another frame: p' = rotation p + translation."""
         return replace(
             self,
             a_m=self.a_m @ rotation.T + translation_m,
@@ -92,7 +97,7 @@ class Cones:
         )
 
     def broadcast(self, lead: tuple[int, ...]) -> Cones:
-        """The same for poses of leading shape ``lead``."""
+        """Broadcast to poses of leading shape ``lead``."""
 
         def broadcast_array(values: FloatArray) -> FloatArray:
             return np.broadcast_to(values, (*lead, *values.shape)).copy()
@@ -100,11 +105,11 @@ class Cones:
         return self._rearrange(broadcast_array, broadcast_array, self.part)
 
     def select(self, rows: NDArray[np.bool_]) -> Cones:
-        """Some of the cones (P,)."""
+        """Return some of the cones (P,)."""
         return self._rearrange(lambda points: points[..., rows, :], lambda sizes: sizes[..., rows], self.part[rows])
 
     def regroup(self, groups: int) -> Cones:
-        """Equal groups of cones, one after the other, as a further leading axis."""
+        """Split into equal successive groups along a further leading axis."""
         count = len(self) // groups
 
         def points(values: FloatArray) -> FloatArray:
@@ -118,7 +123,7 @@ class Cones:
     def _rearrange(
         self, points: Callable[[FloatArray], FloatArray], sizes: Callable[[FloatArray], FloatArray], part: FloatArray
     ) -> Cones:
-        """The same with its points and its sizes rearranged."""
+        """Apply functions to all points and to all sizes."""
         return Cones(
             points(self.a_m),
             points(self.b_m),
@@ -131,7 +136,7 @@ class Cones:
         )
 
     def rotate(self, rows: NDArray[np.int64], rotation: FloatArray, pivot_m: FloatArray) -> None:
-        """Turn some cones in place by rotations (..., 3, 3) about a point."""
+        """Rotate some cones in place by rotations (..., 3, 3) about a point."""
         for points in (self.a_m, self.b_m):
             points[..., rows, :] = _rotate_points(points[..., rows, :], rotation, pivot_m)
         self.lateral[..., rows, :] = _rotate_points(self.lateral[..., rows, :], rotation, np.zeros(3))
@@ -141,12 +146,12 @@ class Cones:
 
 
 def _rotate_points(point_m: FloatArray, rotation: FloatArray, pivot_m: FloatArray) -> FloatArray:
-    """Points (..., K, 3) turned by rotations (..., 3, 3) about a point."""
+    """Rotate points (..., K, 3) by rotations (..., 3, 3) about a point."""
     return np.asarray((point_m - pivot_m) @ np.swapaxes(rotation, -1, -2) + pivot_m)
 
 
 def join_cones(*sets: Cones) -> Cones:
-    """Several sets of the same poses as one."""
+    """Join several sets of the same poses."""
 
     def concatenate(name: str) -> FloatArray:
         values = [getattr(one, name) for one in sets]
@@ -156,7 +161,7 @@ def join_cones(*sets: Cones) -> Cones:
 
 
 def cone_distances(point_m: FloatArray, cones: Cones) -> FloatArray:
-    """Signed distance of points (..., K, 3) to every cone, (..., K, P), metres, negative inside."""
+    """Return the signed distances (..., K, P) of points (..., K, 3) to every cone, m, negative inside."""
     along_axis = cones.b_m - cones.a_m
     length = np.linalg.norm(along_axis, axis=-1)
     axis = along_axis / length[..., None]
@@ -177,13 +182,13 @@ def cone_distances(point_m: FloatArray, cones: Cones) -> FloatArray:
 
 
 def smooth_minimum(a: FloatArray, b: FloatArray, reach: float | FloatArray) -> FloatArray:
-    """Minimum with a fillet; equal to the sharp minimum wherever a and b differ by more than ``reach``."""
+    """Return the minimum with a fillet where a and b differ by less than ``reach``."""
     near = np.maximum(reach - np.abs(a - b), 0.0)
     return np.asarray(np.minimum(a, b) - near * near * (0.25 / reach))
 
 
 def skin_distance(point_m: FloatArray, cones: Cones) -> FloatArray:
-    """Signed distance of points (..., 3) to the skin; the surface that the renderer shows."""
+    """Return the signed distance of points (..., 3) to the rendered skin."""
     palm, digits = _part_distances(cone_distances(point_m.reshape(-1, 3), cones), cones.part)
     out = palm
     for part, distance in digits.items():
@@ -192,7 +197,7 @@ def skin_distance(point_m: FloatArray, cones: Cones) -> FloatArray:
 
 
 def _part_distances(distance: FloatArray, part_of_cone: FloatArray) -> tuple[FloatArray, dict[Part, FloatArray]]:
-    """Distance to the palm and to each other part from those (..., P) to the cones."""
+    """Return the distance to the palm and to each other part from those (..., P) to the cones."""
     palm: FloatArray | None = None
     others: dict[Part, FloatArray] = {}
     for i, number in enumerate(part_of_cone):
@@ -206,8 +211,7 @@ def _part_distances(distance: FloatArray, part_of_cone: FloatArray) -> tuple[Flo
 
 
 class _MarkerSupport:
-    """The palm, and each finger for its own discs: another finger that lies over a disc hides it, but does not carry
-    it."""
+    """Palm, and each finger for its own markers: another finger over a marker hides it, but does not carry it."""
 
     def __init__(self, cones: Cones) -> None:
         self._palm = cones.select(cones.part == Part.PALM)
@@ -216,7 +220,7 @@ class _MarkerSupport:
         self._blend_m = np.array([BLEND_M.get(Part(n), FINGER_BLEND_M) for n in range(Part.THUMB, Part.FOREARM)])
 
     def distance(self, disc_m: FloatArray) -> FloatArray:
-        """Signed distance (..., 21) of discs (..., 21, 3) to what carries them."""
+        """Return the signed distance (..., 21) of markers (..., 21, 3) to their support."""
         to_cones = cone_distances(disc_m, self._palm)
         out = to_cones[..., 0]
         for i in range(1, to_cones.shape[-1]):
@@ -228,13 +232,13 @@ class _MarkerSupport:
         return np.concatenate((out[..., :1], carried.reshape(*disc_m.shape[:-2], 20)), axis=-1)
 
     def gradient(self, disc_m: FloatArray, distance: FloatArray) -> FloatArray:
-        """Its gradient (..., 21, 3)."""
+        """Return its gradient (..., 21, 3)."""
         steps = _SLOPE_STEP_M * np.eye(3)
         return np.stack([self.distance(disc_m + step) - distance for step in steps], axis=-1) / _SLOPE_STEP_M
 
 
 def project_to_surface(marker_m: FloatArray, cones: Cones) -> tuple[FloatArray, FloatArray]:
-    """The places on the skin of palm and own finger nearest to discs (..., 21, 3), and the unit normals there."""
+    """Return the nearest points on palm and own finger to markers (..., 21, 3), and unit normals."""
     support, place = _MarkerSupport(cones), marker_m
     step = normal = np.zeros_like(marker_m)
     for _ in range(_NEWTON_STEPS):
@@ -249,7 +253,7 @@ def project_to_surface(marker_m: FloatArray, cones: Cones) -> tuple[FloatArray, 
 
 
 class HandSkin:
-    """The skin of one patient; built once, then posed for every frame."""
+    """Skin of one patient, posed for every frame."""
 
     def __init__(self, patient: SimulatedPatient, knuckle_rise_m: float = 0.0) -> None:
         self._patient = patient
@@ -266,7 +270,7 @@ class HandSkin:
         """Bases (2, 3) in W of metacarpals 4 and 5, about which these flex."""
 
     def cones_w(self, joint_angles_rad: FloatArray, tissue: TissueState | None = None) -> Cones:
-        """Palm, thumb and fingers in W for joint angles (..., J) and, of a soft hand, its tissue."""
+        """Return palm, thumb and fingers in W for joint angles (..., J) and the tissue of a soft hand."""
         digits = self._digit_cones(joint_angles_rad)
         palm = self._palm.broadcast(joint_angles_rad.shape[:-1])
         if tissue is None:
@@ -278,13 +282,13 @@ class HandSkin:
         return join_cones(palm, self._knuckle_cones(palm, tissue.rise), digits)
 
     def cup_rotations(self, cup_rad: FloatArray) -> FloatArray:
-        """Rotations (..., 2, 3, 3) of rays 4 and 5 in W for flexions (..., 2) of their metacarpals."""
+        """Return the rotations (..., 2, 3, 3) of rays 4 and 5 in W for metacarpal flexions (..., 2)."""
         axes = _CUP_AXES / np.linalg.norm(_CUP_AXES, axis=1, keepdims=True)
         right = so3.exp(cup_rad[..., None] * axes)
         return np.asarray(self._mirror[:, None] * right * self._mirror)
 
     def cup_points(self, point_m: FloatArray, cup_rad: FloatArray) -> FloatArray:
-        """Points (..., 21, 3) of W, in the order of ``hand21``, with rays 4 and 5 flexed about their bases."""
+        """Return points (..., 21, 3) of W, in the order of ``hand21``, with rays 4 and 5 cupped."""
         out = point_m.copy()
         turns = self.cup_rotations(cup_rad)
         for ray, rows in enumerate((slice(13, 17), slice(17, 21))):
@@ -292,8 +296,10 @@ class HandSkin:
         return out
 
     def _cup_palm(self, palm: Cones, cup_rad: FloatArray, turns: FloatArray) -> None:
-        """Flex metacarpals 4 and 5 of palms in place, with the flesh on them; the flesh between the metacarpals rolls
-        about its radial edge."""
+        """Cup palms in place: flex metacarpals 4 and 5 with their flesh.
+
+        The flesh between the metacarpals rolls about its radial edge.
+        """
         palm.rotate(np.array([_RING_METACARPAL]), turns[..., 0, :, :], self.pivots_m[0])
         palm.rotate(np.array([_LITTLE_METACARPAL, _HYPOTHENAR]), turns[..., 1, :, :], self.pivots_m[1])
         edge = self._palm.a_m[_SLAB] + self._palm.lateral[_SLAB] * self._palm.width_a_m[_SLAB]
@@ -301,8 +307,7 @@ class HandSkin:
         palm.rotate(np.array([_SLAB]), self._mirror[:, None] * roll * self._mirror, edge)
 
     def _knuckle_cones(self, palm: Cones, rise: FloatArray) -> Cones:
-        """Heads of the metacarpals that stand out under the skin as the fingers bend; at ``rise`` (..., 4) 0 they are
-        too deep to lift it."""
+        """Return metacarpal heads that rise with flexion; at ``rise`` (..., 4) 0 they lift no skin."""
         heads = palm.b_m[..., _METACARPALS, :]
         along = heads - palm.a_m[..., _METACARPALS, :]
         along = along / np.linalg.norm(along, axis=-1, keepdims=True)
@@ -323,7 +328,7 @@ class HandSkin:
         )
 
     def forearm_cones_w0(self, supination_rad: float) -> Cones:
-        """The forearm in W0, turned about its own axis as far as the hand's (signed Euler phi)."""
+        """Return the forearm in W0, turned about its axis as far as the hand's (signed Euler phi)."""
         s = self._size
         joint = np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * s])  # where it usually is: the skin joins there
         turn = 0.85 * supination_rad
@@ -345,7 +350,7 @@ class HandSkin:
         )
 
     def palm_height_m(self, place_m: FloatArray) -> float:
-        """Height in W of the back of the palm over a place (x, y) in W."""
+        """Return the height in W of the back of the palm over (x, y) in W."""
         z = 0.03 * self._size
         for _ in range(60):
             gap = float(skin_distance(np.array([place_m[0], place_m[1], z]), self._palm))
@@ -355,7 +360,7 @@ class HandSkin:
         return z
 
     def palm_normals(self) -> FloatArray:
-        """Unit normals (6, 3) in W of the skin under the palm's discs."""
+        """Return the unit normals (6, 3) in W of the skin under the palm's markers."""
         discs = self._patient.anatomy.palm_disc_m * self._mirror
         steps = 2e-4 * np.eye(3)
         slope = np.stack(
@@ -364,7 +369,7 @@ class HandSkin:
         return np.asarray(slope / np.linalg.norm(slope, axis=-1, keepdims=True))
 
     def _fit_palm(self) -> Cones:
-        """The palm, its radii adjusted until the discs lie on its surface."""
+        """Adjust the palm's radii until the markers lie on its surface."""
         palm = self._initial_palm()
         discs = self._patient.anatomy.palm_disc_m * self._mirror
         carpus, bump, first_metacarpal = 0, 1, 2
@@ -379,8 +384,10 @@ class HandSkin:
         return palm
 
     def _initial_palm(self) -> Cones:
-        """Carpus, base of the thumb, four metacarpals, and flesh between and beside them; bones start and end at the
-        depth of their radius under the discs. Millimetres of a hand 180 mm long."""
+        """Return carpus, thumb base, four metacarpals, and the flesh between and beside them.
+
+        Bones start and end at the depth of their radius under the markers. Millimetres of a hand 180 mm long.
+        """
         mm = 0.001 * self._size
         discs = self._patient.anatomy.palm_disc_m / mm
         r = self._radius[list(PALM_SITES)] / mm
@@ -419,7 +426,7 @@ class HandSkin:
         )
 
     def _digit_cones(self, joint_angles_rad: FloatArray) -> Cones:
-        """Thumb and fingers: every bone runs under its discs at the depth of their radius."""
+        """Return thumb and fingers: bones run under their markers at the depth of their radius."""
         s, radius = self._size, self._radius
         anatomy = self._patient.anatomy
         discs = disc_centres(anatomy, joint_angles_rad)

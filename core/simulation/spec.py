@@ -1,4 +1,4 @@
-"""Everything that decides a simulated recording, in one value."""
+"""Specification of a simulated recording."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from carpus.core.model.names import Limits, check_limits
 from carpus.core.model.types import Side
 
 RENDERER_VERSION = 5
-"""Part of the cache key: raise it whenever the same spec gives other pictures than before."""
+"""Part of the cache key: raise it whenever a spec gives other images than before."""
 
-WORN_ITEMS = ("ring", "watch", "bandage")
+ACCESSORIES = ("ring", "watch", "bandage")
 HABITS = ("tenodesis", "grip", "open_close", "rolling_forearm", "restless_clicks")
 NONE = "none"
 
@@ -29,7 +29,7 @@ Sleeve = Literal["drawn", "none", "grey", "white", "blue", "jeans"]
 
 
 class RandomStream(IntEnum):
-    """Independent random streams of one seed, so that one option does not change what another draws."""
+    """Independent random streams of a seed: one option does not change the draws of another."""
 
     PATIENT = 1
     SCENE = 2
@@ -74,36 +74,34 @@ _LIMITS: Limits = {
     "depth_delay_s": (-0.1, 0.1),
     "exposure_s": (0.0, 0.1),
 }
-"""Least and largest value of every number; None is no number."""
+"""Least and largest value of every number."""
 
 
 @dataclass(frozen=True, slots=True)
 class RecordingSpec:
-    """A simulated recording; ``None`` and ``"drawn"`` mean: drawn from the seed.
+    """Specification of a simulated recording; ``None`` and ``"drawn"`` are drawn from the seed.
 
-    Motion: ``motion`` is a name of :data:`core.simulation.motions.MOTIONS`; ``speed_hz`` repetitions a second;
+    Motion: ``motion`` is a name of :data:`core.simulation.motions.MOTIONS`; ``speed_hz`` repetitions per second;
     ``range_share`` scales the motion's range; ``repetitions`` ends the motion early; ``pain_limited`` stops strokes
-    short, in several sub-movements. ``skin_movement_mm`` shifts the WRIST disc along X between full flexion and
-    extension. ``skin_offsets=False`` puts the joint centres into the discs (the papers' chain).
+    short, in several sub-movements. ``skin_movement_mm`` shifts the WRIST marker along X between full flexion and
+    extension. ``skin_offsets=False`` puts the joint centres into the markers (the papers' chain).
 
-    A hand that is not rigid (reference 10): ``skin_glide_mm`` of the knuckle discs for 90 degrees of their joints,
-    other discs less; ``cupping`` share of the full flexion of metacarpals 4 and 5 in a power grip; both 0 for the
-    rigid hand, None drawn per person. ``habit``: names of :data:`HABITS` joined by ``+``, or ``none``.
+    Soft hand (reference 10): ``skin_glide_mm`` of the knuckle markers for 90 degrees of their joints, other markers
+    less; ``cupping`` is the share of the full flexion of metacarpals 4 and 5 in a power grip; both are 0 for the rigid
+    hand, None is drawn per person. ``habit``: names of :data:`HABITS` joined by ``+``, or ``none``.
 
-    ``anatomy="wide"``: hands and discs that differ from the tables by more than these say (:mod:`.patient`).
-    ``worn``: names of :data:`WORN_ITEMS` joined by ``+``, or ``none``; ``pen_marks`` small blue marks on the skin.
+    Person: ``anatomy="wide"`` varies hand and markers more than the tables (:mod:`.patient`). ``worn``: names of
+    :data:`ACCESSORIES` joined by ``+``, or ``none``; ``pen_marks`` is the number of small blue marks on the skin.
 
     Camera: ``distance_m`` to the hand, turned by ``yaw_deg``, off the vertical by ``tilt_deg`` about the axis in the
-    table at ``tilt_heading_deg`` from the fingers' direction: 0 has a side of the hand nearer, -90 its finger tips.
+    table at ``tilt_heading_deg`` from the fingers' direction: 0 has a side of the hand nearer, -90 its fingertips.
 
-    Trouble: ``false_blobs`` mean number in each frame; ``hidden_share`` of the time each disc is covered, for
-    ``hidden_mean_s`` on average; ``dropped_share`` of the frames. ``click_error_px`` standard deviation per axis.
+    Disturbances: mean number of ``false_blobs`` in a frame; ``hidden_share`` of the time each marker is covered, on
+    average for ``hidden_mean_s``; ``dropped_share`` of the frames; ``click_error_px`` standard deviation per axis.
 
-    Sensor: ``sensor`` a name of :data:`core.model.depth_sensor.SENSORS`; ``depth_scale_error`` largest scale error of
-    the
-    unit (the seed draws it between minus and plus this); ``depth_delay_s`` of the depth picture after the colour
-    picture; ``exposure_s`` blurs moving things over that time, 0 not at all; ``sensor_noise=False`` gives clean
-    pictures for tests.
+    Sensor: ``sensor`` is a name of :data:`core.model.depth_sensor.SENSORS`; ``depth_scale_error`` the largest scale
+    error; ``depth_delay_s`` of the depth image after the colour image; ``exposure_s`` blurs motion over that time;
+    ``sensor_noise=False`` gives clean images for tests.
     """
 
     seed: int = 0
@@ -157,19 +155,19 @@ class RecordingSpec:
             raise SettingsInvalid("simulation", f"sensor = {self.sensor} ({', '.join(SENSORS)})")
         if self.anatomy not in ("usual", "wide"):
             raise SettingsInvalid("simulation", f"anatomy = {self.anatomy}")
-        for name, given, known in (("habit", self.habits, HABITS), ("worn", self.worn_items, WORN_ITEMS)):
+        for name, given, known in (("habit", self.habits, HABITS), ("worn", self.accessories, ACCESSORIES)):
             if not set(given) <= set(known):
                 wanted = f"{NONE}, or with + between: {', '.join(known)}"
                 raise SettingsInvalid("simulation", f"{name} = {getattr(self, name)} ({wanted})")
 
     @property
     def habits(self) -> tuple[str, ...]:
-        """Names of the habits; empty for none."""
+        """Names of the habits."""
         return () if self.habit == NONE else tuple(self.habit.split("+"))
 
     @property
-    def worn_items(self) -> tuple[str, ...]:
-        """Names of what is worn; empty for none."""
+    def accessories(self) -> tuple[str, ...]:
+        """Names of what is worn."""
         return () if self.worn == NONE else tuple(self.worn.split("+"))
 
     @property
@@ -177,11 +175,11 @@ class RecordingSpec:
         return get_protocol(self.protocol)
 
     def generator(self, stream: RandomStream) -> np.random.Generator:
-        """The generator of one concern; always the same for the same seed."""
+        """Return the random generator of one stream, reproducible for a seed."""
         return np.random.default_rng([self.seed, int(stream)])
 
     def to_json(self) -> str:
-        """All options, as stored beside a recording."""
+        """Return all options as stored beside a recording."""
         told = dataclasses.asdict(self)
         if self.sensor == "primesense":  # as before there were others, so that what was rendered is found again
             del told["sensor"]
@@ -189,5 +187,5 @@ class RecordingSpec:
 
     @property
     def cache_key(self) -> str:
-        """Name under which a rendering of this spec is kept."""
+        """Name under which the rendering of this spec is cached."""
         return hashlib.sha256(f"{RENDERER_VERSION} {self.to_json()}".encode()).hexdigest()[:24]

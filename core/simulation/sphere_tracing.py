@@ -1,6 +1,6 @@
-"""Where camera rays meet the skin: sphere tracing of the smooth union of :mod:`core.simulation.skin`.
+"""Sphere tracing of the skin (:mod:`core.simulation.skin`) along camera rays.
 
-Each cone is evaluated only where its bounding sphere can be seen: row by row in C, or in NumPy on rectangles.
+Each cone is evaluated only where its bounding sphere is visible.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ FloatImage = NDArray[np.float32]
 
 _STEPS = 7
 _MIN_APPROACH = np.float32(0.35)
-"""A grazing ray's distance shrinks slowly; steps are lengthened up to the inverse of this."""
+"""A grazing ray approaches slowly; steps are lengthened up to the inverse of this."""
 _FAR_M = np.float32(9.0)
 _PROBE_M = 5e-4
-"""Step over which the distance is differentiated for the normal; well above single precision."""
+"""Step of the numerical normal, well above single precision."""
 
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """Rows and columns of a part of a picture, ends excluded."""
+    """Rows and columns of a part of an image, ends excluded."""
 
     top: int
     bottom: int
@@ -43,14 +43,14 @@ class Box:
         return self.bottom <= self.top or self.right <= self.left
 
     def relative_slices(self, outer: Box) -> tuple[slice, slice]:
-        """Slices of this box inside arrays that cover ``outer``."""
+        """Return the slices of this box inside arrays that cover ``outer``."""
         return (
             slice(self.top - outer.top, self.bottom - outer.top),
             slice(self.left - outer.left, self.right - outer.left),
         )
 
     def union(self, other: Box) -> Box:
-        """Smallest box that holds both."""
+        """Return the smallest box that holds both."""
         if other.is_empty:
             return self
         if self.is_empty:
@@ -63,8 +63,11 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class TracedSurface:
-    """The seen surface inside ``box``: ``depth_m`` along z where each ray meets it or passes nearest, ``coverage``
-    0 to 1 of each pixel, unit ``normal`` (H, W, 3) outwards, ``part`` (the nearest :class:`Part`) as uint8."""
+    """Visible surface inside ``box``.
+
+    ``depth_m`` is where each ray meets it or passes nearest, ``coverage`` 0 to 1 of each pixel, ``normal`` (H, W, 3)
+    outwards, ``part`` the nearest :class:`Part`.
+    """
 
     box: Box
     depth_m: FloatImage
@@ -74,7 +77,7 @@ class TracedSurface:
 
 
 def bounding_box(camera: Camera, center_m: FloatArray, radius_m: FloatArray, margin_px: float = 1.0) -> Box:
-    """Box of the picture that holds spheres (K, 3) of radii (K,) in camera axes."""
+    """Return the box of the image that holds spheres (K, 3) of radii (K,) in the camera."""
     near = np.maximum(center_m[:, 2] - radius_m, 0.05)
     reach_px = radius_m / near * camera.fx_px * 1.15 + margin_px
     pixel = camera.project(np.column_stack((center_m[:, :2], np.maximum(center_m[:, 2], 0.05))))
@@ -89,8 +92,10 @@ def bounding_box(camera: Camera, center_m: FloatArray, radius_m: FloatArray, mar
 
 
 def _cone_parameters(cones: Cones) -> FloatArray:
-    """What a picture needs of each cone, (P, 18): its axes (3, 3) in rows, where ``a_m`` lies along them, length, half
-    width and by how much that widens, radius, taper, and how far the normal leans."""
+    """Return what rendering needs of each cone, (P, 18).
+
+    Axes (3, 3) in rows, ``a_m`` along them, length, half width and its slope, radius, taper, lean of the normal.
+    """
     along = cones.b_m - cones.a_m
     length = np.linalg.norm(along, axis=1)
     along = along / length[:, None]
@@ -104,7 +109,7 @@ def _cone_parameters(cones: Cones) -> FloatArray:
 
 
 class _VisibleCone:
-    """One cone prepared for a picture: the ray's components along its axes, over its box."""
+    """Cone prepared for an image: the rays' components along its axes, over its box."""
 
     def __init__(self, parameters: FloatArray, part: Part, x: FloatImage, y: FloatImage, box: Box) -> None:
         self.axes, self.origin = parameters[:9].reshape(3, 3), parameters[9:12]
@@ -117,8 +122,10 @@ class _VisibleCone:
         self.box, self.part = box, part
 
     def distance(self, z: FloatImage, offset_m: FloatArray) -> FloatImage:
-        """Signed distance at depth z (over the box) along each ray, displaced by ``offset_m`` (3,) in camera axes;
-        see :func:`skin.cone_distances`."""
+        """Return the signed distance at depth z along each ray, displaced by ``offset_m`` (3,).
+
+        In single precision and over the box only; see :func:`skin.cone_distances`.
+        """
         origin = (self.origin - self.axes @ offset_m).astype(np.float32)
         along = z * self.ray[0]
         along -= origin[0]
@@ -158,7 +165,7 @@ def _smooth_minimum(a: FloatImage, b: FloatImage, reach: float) -> FloatImage:
 
 
 def trace_cones(camera: Camera, cones: Cones) -> TracedSurface | None:
-    """The skin as the camera sees it; None when none of it is in the picture."""
+    """Trace the skin that the camera sees; None if it is outside the image."""
     x = ((np.arange(camera.width_px) - camera.cx_px) / camera.fx_px).astype(np.float32)
     y = ((np.arange(camera.height_px) - camera.cy_px) / camera.fy_px).astype(np.float32)
     reach = np.maximum(cones.radius_a_m + cones.width_a_m, cones.radius_b_m + cones.width_b_m)
@@ -173,7 +180,7 @@ def trace_cones(camera: Camera, cones: Cones) -> TracedSurface | None:
 
 
 def _visible_boxes(camera: Camera, cones: Cones) -> dict[int, Box]:
-    """Where in the picture each cone may be seen, by its row; without those that cannot."""
+    """Return the box of each cone that may be visible, by its row."""
     out: dict[int, Box] = {}
     for i in range(len(cones)):
         wider = max(cones.width_a_m[i], cones.width_b_m[i]) + max(BLEND_M.values())
@@ -187,7 +194,7 @@ def _visible_boxes(camera: Camera, cones: Cones) -> dict[int, Box]:
 def _trace_rays(
     visible: list[_VisibleCone], whole: Box, x: FloatImage, y: FloatImage, near_m: float, fx_px: float
 ) -> TracedSurface:
-    """The union of all cones along the rays x, y of ``whole``, from depth ``near_m`` on."""
+    """Trace the union of all cones along the rays x, y of ``whole``, from depth ``near_m`` on."""
     part_box: dict[Part, Box] = {}
     for cone in visible:
         part_box[cone.part] = part_box.get(cone.part, Box(0, 0, 0, 0)).union(cone.box)
@@ -229,8 +236,10 @@ def _union_distance(
     offset_m: FloatArray,
     part_image: NDArray[np.uint8] | None = None,
 ) -> FloatImage:
-    """Distance to the skin at depths z of every ray, as :func:`skin.skin_distance`; the nearest part into
-    ``part_image`` where one is given."""
+    """Return the distance to the skin at depths z of every ray, as :func:`skin.skin_distance`.
+
+    Writes the nearest part into ``part_image`` if given.
+    """
     palm = np.full(z.shape, _FAR_M, dtype=np.float32)
     others = {
         part: np.full(z[box.relative_slices(whole)].shape, _FAR_M, dtype=np.float32)

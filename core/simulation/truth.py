@@ -1,5 +1,4 @@
-"""The true values of a simulated recording, one row for every frame that was kept; ``truth.h5`` is a session file, so
-that everything that reads a session reads them too."""
+"""True values of a simulated recording, stored as a session file ``truth.h5``."""
 
 from __future__ import annotations
 
@@ -24,22 +23,29 @@ from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.spec import RecordingSpec
 
 RECORDING_EPOCH_S = 1_700_000_000.0
-"""Time stamps of a recording start here, as of a real one: large numbers, not zero."""
+"""First timestamp of a recording: large, as that of a real one."""
 
 _STEP_S = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """N frames, M markers of the protocol, J finger angles (0 for ``wrist6``).
+    """True values of N frames, M markers of the protocol and J finger angles (0 for ``wrist6``).
 
-    ``timestamp_s`` (N,) as in the recording and ``time_s`` (N,) after its first frame; ``position_m``,
-    ``velocity_m_s`` (N, 3) of W2 in W0; ``rotation_w2_w0`` (N, 3, 3); ``angular_velocity_rad_s`` (N, 3) in W2;
-    ``angles_rad`` (N, 3) deviation, flexion, pronosupination; ``joint_angles_rad``, ``joint_velocity_rad_s`` (N, J);
-    ``joint_position_w0_m``, ``marker_position_cam_m`` (N, M, 3); ``marker_px`` (N, M, 2) their projection;
-    ``visible_share`` (N, M) of each disc's paper area that the camera sees, NaN where nothing was rendered;
-    ``dropped_before`` (N,). Neutral pose: ``marker_position_w0_m`` (M, 3), ``rotation_w0_cam`` (3, 3),
-    ``translation_w0_cam_m`` (3,).
+    Attributes
+    ----------
+    timestamp_s, time_s : (N,) as in the recording, and after its first frame
+    dropped_before : (N,) frames dropped before each frame
+    position_m, velocity_m_s : (N, 3) of W2 in W0
+    rotation_w2_w0 : (N, 3, 3)
+    angular_velocity_rad_s : (N, 3) in W2
+    angles_rad : (N, 3) deviation, flexion, pronosupination
+    joint_angles_rad, joint_velocity_rad_s : (N, J)
+    joint_position_w0_m, marker_position_cam_m : (N, M, 3)
+    marker_px : (N, M, 2) projection of the markers
+    visible_share : (N, M) of each marker's paper area, NaN where nothing was rendered
+    marker_position_w0_m : (M, 3) at the neutral pose
+    rotation_w0_cam, translation_w0_cam_m : (3, 3), (3,) neutral pose
     """
 
     spec: RecordingSpec
@@ -65,13 +71,12 @@ class Truth:
 
 
 def protocol_rows(spec: RecordingSpec) -> list[int]:
-    """Rows of the sites that the protocol of a spec uses, in its order."""
+    """Return the rows of the sites of a spec's protocol, in its order."""
     return list(spec.marker_protocol.sites)
 
 
 def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
-    """True values at the colour pictures' times; velocities are derivatives of the motion, not differences of
-    frames."""
+    """Compute the true values at the colour images' times; velocities are derivatives of the motion."""
     spec = scene.spec
     times = sample_frame_times(spec) if times is None else times
     t = times.color_s
@@ -110,7 +115,7 @@ def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
 
 
 def _change_frame(pose: HandPose, axes: FloatArray, origin_m: FloatArray, side: Side) -> HandPose:
-    """The pose told in another W, given by axes and origin in the bones' W."""
+    """Express a pose in another W, given by its axes and origin in the bones' W."""
     if not origin_m.any():
         return pose
     rotation = axes.T @ pose.rotation_w2_w0 @ axes
@@ -120,21 +125,23 @@ def _change_frame(pose: HandPose, axes: FloatArray, origin_m: FloatArray, side: 
 
 
 def _angular_velocity(before: HandPose, after: HandPose) -> FloatArray:
-    """Angular velocity in W2 from two rotations a small step apart; (N, 3) rad/s."""
+    """Return the angular velocity (N, 3) in W2 from two rotations a small step apart, rad/s."""
     turn = before.rotation_w2_w0.transpose(0, 2, 1) @ after.rotation_w2_w0
     skew = 0.5 * (turn - turn.transpose(0, 2, 1))
     return np.asarray(np.stack((skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]), axis=-1) / (2.0 * _STEP_S))
 
 
 MIN_VISIBLE_SHARE = 0.35
-"""A disc of which less than this can be seen counts as not measured."""
+"""A marker with a smaller visible share is not measured."""
 VISIBLE_SHARE_PATH = "/simulation/visible_share"
 _MIN_PALM_MARKERS = 3
 
 
 def write_truth(path: Path, truth: Truth, clicks: Clicks) -> None:
-    """Write the true values; ``parameters`` is the JSON of the spec, standard deviations are zero, and measured
-    is what the camera can see of the discs. The same truth gives the same file, byte for byte."""
+    """Write the true values as a session file, reproducible byte for byte.
+
+    ``parameters`` is the JSON of the spec, standard deviations are zero, and the visible markers are measured.
+    """
     spec = truth.spec
     header = new_header(
         hand=spec.hand,
@@ -147,7 +154,7 @@ def write_truth(path: Path, truth: Truth, clicks: Clicks) -> None:
     )
     with SessionWriter.create(path, header, truth.camera, _true_calibration(truth, clicks)) as writer:
         for i in range(len(truth.timestamp_s)):
-            writer.append(_tracked_frame(truth, i))
+            writer.append(_true_frame(truth, i))
     with h5py.File(path, "r+") as file:
         dataset = file.create_dataset(VISIBLE_SHARE_PATH, data=truth.visible_share)
         dataset.attrs["unit"] = "1"
@@ -176,7 +183,7 @@ def _true_calibration(truth: Truth, clicks: Clicks) -> Calibration:
     )
 
 
-def _tracked_frame(truth: Truth, i: int) -> TrackedFrame:
+def _true_frame(truth: Truth, i: int) -> TrackedFrame:
     spec = truth.spec
     joints = truth.joint_angles_rad.shape[1]
     visible = truth.visible_share[i] > MIN_VISIBLE_SHARE

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import calibrate_hand
-from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, nearest_blob
+from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, find_nearest_blob
 from carpus.core.calibration.label_proposal import propose_labels
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
@@ -44,7 +44,7 @@ def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -
     found = find_marker_candidates(frame, camera, SETTINGS)
     rng = np.random.default_rng(seed)
     for disc in discs:
-        taken = nearest_blob(found, disc + rng.normal(0.0, 1.5, 2), RADIUS_PX, SETTINGS)
+        taken = find_nearest_blob(found, disc + rng.normal(0.0, 1.5, 2), RADIUS_PX, SETTINGS)
         assert len(taken) == 1
         assert np.linalg.norm(taken.pixel[0] - disc) < 0.8
 

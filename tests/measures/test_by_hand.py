@@ -18,9 +18,9 @@ from carpus.core.measures.manual_measurements import (
     compute_change,
     current_values,
     find_manual_measure,
+    find_superseded_entries,
     is_unusual,
     previous_value,
-    superseded_entries,
     value_history,
     value_on_day,
 )
@@ -58,7 +58,7 @@ def test_every_measure_can_hold_what_is_usual_and_nothing_that_cannot_be() -> No
 def test_the_last_entry_of_a_day_counts_and_what_it_replaced_stays_readable() -> None:
     entries = [flexion(40.0), flexion(45.0), flexion(60.0, way="passive"), flexion(30.0, DAY - timedelta(days=7))]
     assert [one.value for one in current_values(entries)] == [30.0, 45.0, 60.0]
-    assert superseded_entries(entries, flexion(0.0).key, DAY) == [flexion(40.0)]
+    assert find_superseded_entries(entries, flexion(0.0).key, DAY) == [flexion(40.0)]
     assert value_on_day(entries, flexion(0.0).key, DAY) == flexion(45.0)
     assert previous_value(entries, flexion(0.0).key, DAY) == flexion(30.0, DAY - timedelta(days=7))
     taken_back = [*entries, replace(flexion(0.0), trials=())]

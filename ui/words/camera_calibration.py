@@ -47,7 +47,7 @@ def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
     """Return state and text of places, tilts and distances."""
     missing = [side for side in TILT_SIDES if side not in judgement.sides]
     places = tr("Places: {count} of {all} fields, {least} or more").format(
-        count=judgement.covered_fields, all=FIELDS[0] * FIELDS[1], least=MIN_FIELDS
+        count=judgement.field_count, all=FIELDS[0] * FIELDS[1], least=MIN_FIELDS
     )
     tilts = (
         tr("Tilts: {side} missing").format(side=translate_phrase(side_name(missing[0])))
@@ -59,7 +59,7 @@ def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
         near, far = (format_rounded(100 * one) for one in (judgement.nearest_m, judgement.farthest_m))
         away = tr("Distance: {near}–{far} cm").format(near=near, far=far)
     reached = (
-        judgement.covered_fields >= MIN_FIELDS,
+        judgement.field_count >= MIN_FIELDS,
         len(judgement.sides) >= MIN_TILT_SIDES,
         judgement.is_near_and_far,
     )

@@ -1,1 +1,1 @@
-"""How a camera sees and how far off its depth is, measured on a printed board."""
+"""Calibration of a camera on a printed board: intrinsics and depth."""

@@ -1,5 +1,4 @@
-"""The printed boards, a chessboard and a ChArUco board that may be partly out of the picture; their corners in a
-picture, and how sharp their edges are."""
+"""Printed boards (chessboard, ChArUco) and the detection of their corners and edge widths."""
 
 from __future__ import annotations
 
@@ -27,15 +26,14 @@ from carpus.core.model.types import ByteImage, FloatArray
 Pattern = Literal["chessboard", "charuco"]
 _DICTIONARY = cv2.aruco.DICT_4X4_50
 PAGE_MARGIN_MM = 12.0
-"""Nothing is printed nearer to the edge of the paper: many printers leave it white, and hands hold it there."""
+"""Many printers leave this margin white, and hands hold the paper there."""
 _CODE_CELLS = 6
-"""Cells of a code along one side, its black border included."""
+"""Cells of a code along one side, with its black border."""
 
 
 @dataclass(frozen=True, slots=True)
 class Board:
-    """``columns`` x ``rows`` squares of ``square_m``; ``code_m`` the side of a code in a white square of a ChArUco
-    board."""
+    """Board of ``columns`` x ``rows`` squares; ``code_m`` is the side of a ChArUco code."""
 
     pattern: Pattern
     columns: int
@@ -49,14 +47,14 @@ class Board:
 
     @property
     def corners_m(self) -> FloatArray:
-        """All inner corners (C, 3) in the board's plane, row by row; x along a row, y down, z = 0."""
+        """Inner corners (C, 3) in the board's plane, row by row; x along a row, y down, z = 0."""
         x, y = np.meshgrid(np.arange(1, self.columns), np.arange(1, self.rows))
         flat = np.stack((x.ravel(), y.ravel(), np.zeros(x.size)), axis=-1)
         return np.asarray(flat * self.square_m, dtype=np.float64)
 
     @property
     def outline_m(self) -> FloatArray:
-        """Corners (4, 3) of all squares together."""
+        """Corners (4, 3) of the whole board."""
         w, h = self.columns * self.square_m, self.rows * self.square_m
         return np.array([[0.0, 0.0, 0.0], [w, 0.0, 0.0], [w, h, 0.0], [0.0, h, 0.0]])
 
@@ -70,18 +68,18 @@ class Board:
 CHESSBOARD = Board("chessboard", 10, 7, 0.025)
 CHARUCO = Board("charuco", 7, 5, 0.035, 0.027)
 BOARDS: dict[Pattern, Board] = {"chessboard": CHESSBOARD, "charuco": CHARUCO}
-"""Both fit A4 and Letter with a white border, so that one size serves everywhere."""
+"""Both fit A4 and Letter with a white border."""
 
 
 @cache
 def charuco_board(board: Board) -> cv2.aruco.CharucoBoard:
-    """OpenCV's description of a ChArUco board."""
+    """Return OpenCV's description of a ChArUco board."""
     codes = cv2.aruco.getPredefinedDictionary(_DICTIONARY)
     return cv2.aruco.CharucoBoard((board.columns, board.rows), board.square_m, board.code_m, codes)
 
 
 def create_board_sheet(board: Board, paper: Paper) -> PrintedSheet:
-    """The board on a sheet that lies on its side, with a ruler under it."""
+    """Place the board on a landscape sheet with a ruler."""
     height_mm, width_mm = PAPER_MM[paper]
     marks = board_items(board, *_board_corner_mm(board, width_mm, height_mm))
     square = f"{board.square_m * 1e3:g} mm"
@@ -104,7 +102,7 @@ def _board_corner_mm(board: Board, width_mm: float, height_mm: float) -> tuple[f
 
 
 def board_items(board: Board, left_mm: float, top_mm: float) -> tuple[SheetItem, ...]:
-    """Black squares, and the codes in the white ones, with the first square's corner at a place."""
+    """Return black squares and codes, with the first square's corner at a place."""
     side = board.square_m * 1e3
     black = [
         SheetBox(left_mm + side * column, top_mm + side * row, side, side)
@@ -132,16 +130,16 @@ def _code_boxes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
 
 
 MIN_CORNERS = 8
-"""Of a ChArUco board that is partly out of the picture."""
+"""Of a ChArUco board that is partly outside the image."""
 _CODE_WINDOW_PX = 3
-"""Half the window of the fine search beside codes: a larger one would reach them."""
+"""Half window of the corner refinement beside codes: a larger one would reach them."""
 _MAX_WINDOW_SHARE = 0.35
-"""Half the window of the fine search over the distance between corners: more would reach the next corner."""
+"""Half window of the corner refinement over the corner distance: the next corner stays outside."""
 
 
 @dataclass(frozen=True, slots=True)
 class DetectedBoard:
-    """``corner_ids`` (K,) numbers of the board's corners and ``pixel`` (K, 2) where they are."""
+    """Numbers (K,) of the detected corners and their pixels (K, 2)."""
 
     board: Board
     corner_ids: np.ndarray
@@ -149,7 +147,7 @@ class DetectedBoard:
 
 
 def find_board(color_rgb: ByteImage, boards: Sequence[Board]) -> DetectedBoard | None:
-    """The first of ``boards`` that is seen, None where none is."""
+    """Return the first of the boards that is detected, None if there is none."""
     gray = np.asarray(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2GRAY), dtype=np.uint8)
     for board in boards:
         found = _find_charuco(gray, board) if board.pattern == "charuco" else _find_chessboard(gray, board)
@@ -171,7 +169,7 @@ def _find_chessboard(gray: ByteImage, board: Board) -> DetectedBoard | None:
 
 
 def _refine_corners(gray: ByteImage, rough: np.ndarray, half_px: int) -> FloatArray:
-    """Corners (K, 2) to a fraction of a pixel."""
+    """Refine corners (K, 2) to a fraction of a pixel."""
     criteria = (cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_MAX_ITER, 40, 1e-3)
     fine = cv2.cornerSubPix(gray, rough, (half_px, half_px), (-1, -1), criteria)
     return np.asarray(fine, dtype=np.float64).reshape(-1, 2)
@@ -197,14 +195,14 @@ def _charuco_detector(board: Board) -> cv2.aruco.CharucoDetector:
 
 
 MAX_EDGE_WIDTH_PX = 5.0
-"""An edge of a moving or blurred board is wider; in good light and at rest it is about 3.5 wide."""
+"""A moving or blurred board has wider edges; at rest in good light they are about 3.5 wide."""
 _EDGE_WINDOW_SHARE, _EDGE_WINDOW_PX = 0.3, (2, 6)
-"""Half the window about the middle of an edge, over the distance between corners."""
+"""Half window around an edge over the corner distance, with its limits."""
 _MIN_CONTRAST = 20.0
 
 
 def edge_width_px(color_rgb: ByteImage, detected: DetectedBoard) -> float:
-    """Width of the edges between black and white, the contrast over its steepest rise; NaN where none can be told.
+    """Measure the width of the edges, contrast over steepest slope; NaN if unknown.
 
     Half-way between two neighbouring corners there is an edge and nothing else.
     """
@@ -216,7 +214,7 @@ def edge_width_px(color_rgb: ByteImage, detected: DetectedBoard) -> float:
 
 
 def _median_edge_width_px(smooth: np.ndarray, gradient: np.ndarray, midpoints: FloatArray, steps: FloatArray) -> float:
-    """Median width of the edges at these places of a picture."""
+    """Return the median width of the edges at the midpoints."""
     widths = []
     for (u, v), step in zip(midpoints, steps, strict=True):
         half = int(np.clip(_EDGE_WINDOW_SHARE * step, *_EDGE_WINDOW_PX))
@@ -230,8 +228,10 @@ def _median_edge_width_px(smooth: np.ndarray, gradient: np.ndarray, midpoints: F
 
 
 def _edge_midpoints(detected: DetectedBoard, along: Literal["row", "column"]) -> tuple[FloatArray, FloatArray]:
-    """Middles (E, 2) between neighbouring corners of a row or a column, and how far these are apart (E,): a blur to
-    the side shows on edges that stand upright alone."""
+    """Return midpoints (E, 2) and distances (E,) of neighbouring corners of a row or column.
+
+    Both are needed: a lateral blur shows on upright edges only.
+    """
     across = detected.board.columns - 1
     place = {int(corner): pixel for corner, pixel in zip(detected.corner_ids, detected.pixel, strict=True)}
     step = 1 if along == "row" else across

@@ -1,5 +1,4 @@
-"""Picks the pictures of the board out of a recording or a live camera: which are worth keeping, whether together they
-are enough, and where to hold the board next."""
+"""Views of the board from a recording or camera: selection, coverage, next instruction."""
 
 from __future__ import annotations
 
@@ -26,18 +25,18 @@ from carpus.core.model.types import ByteImage, DepthImage, FloatArray, Frame
 
 MIN_VIEWS = 12
 FIELDS = (6, 4)
-"""The picture's fields across and down."""
+"""Fields of the image across and down."""
 MIN_FIELDS = 18
 MIN_TILT_DEG = 15.0
-"""A board less tilted than this is as good as straight."""
+"""A board with less tilt is as good as frontal."""
 MAX_TILT_DEG = 60.0
 MIN_TILT_SIDES = 3
 MIN_DISTANCE_RATIO = 1.4
-"""Farthest over nearest board below which a shift of depth cannot be told from its scale."""
+"""Farthest over nearest board below which depth offset and scale cannot be separated."""
 MIN_NEW_VIEW_PX = 18.0
-"""A picture in which the corners have moved less than this since a kept one says nothing new."""
+"""A view whose corners moved less since another one adds nothing."""
 MAX_MOTION_PX = 1.0
-"""From one camera picture to the next, at 30 a second: more blurs the corners."""
+"""From one camera frame to the next at 30 fps: more blurs the corners."""
 
 TiltSide = Literal["left", "right", "top", "bottom"]
 TILT_SIDES: tuple[TiltSide, ...] = ("left", "right", "top", "bottom")
@@ -45,9 +44,7 @@ TILT_SIDES: tuple[TiltSide, ...] = ("left", "right", "top", "bottom")
 
 @dataclass(frozen=True, slots=True)
 class BoardView:
-    """One kept picture. ``tilt_deg`` of the board off the straight view and the ``nearer_side`` side where it is
-    tilted;
-    ``distance_m`` of its middle; the depth picture that belongs to it, None without one."""
+    """One view: the board's tilt off frontal, the nearer side if tilted, and the depth image."""
 
     detected: DetectedBoard
     tilt_deg: float
@@ -59,7 +56,7 @@ class BoardView:
 
 @dataclass(frozen=True, slots=True)
 class ViewCoverage:
-    """What is there: number of views, corners in each field (down, across), sides the board was tilted to."""
+    """Coverage of the views: corners in each field (down, across), tilted sides, distances."""
 
     view_count: int
     corners_in_field: np.ndarray
@@ -68,32 +65,31 @@ class ViewCoverage:
     farthest_m: float
 
     @property
-    def covered_fields(self) -> int:
-        """Fields of the picture in which a corner has been."""
+    def field_count(self) -> int:
+        """Number of fields with a corner."""
         return int(np.count_nonzero(self.corners_in_field))
 
     @property
     def is_near_and_far(self) -> bool:
-        """Whether a shift of the depth can be told from its scale."""
+        """True if depth offset and scale can be separated."""
         return self.farthest_m >= MIN_DISTANCE_RATIO * self.nearest_m
 
     @property
     def missing_text(self) -> str:
-        """The first thing that is missing, as a person would say it; empty when nothing is."""
+        """First thing that is missing, empty if nothing is."""
         if self.view_count < MIN_VIEWS:
             return f"{self.view_count} different pictures of the board, {MIN_VIEWS} needed"
-        if self.covered_fields < MIN_FIELDS:
-            return f"board in {self.covered_fields} of {math.prod(FIELDS)} fields of the picture, {MIN_FIELDS} needed"
+        if self.field_count < MIN_FIELDS:
+            return f"board in {self.field_count} of {math.prod(FIELDS)} fields of the picture, {MIN_FIELDS} needed"
         if len(self.sides) < MIN_TILT_SIDES:
             tilted = " and ".join(side for side in TILT_SIDES if side in self.sides) or "none"
             return f"tilted by {MIN_TILT_DEG:g}° with these sides nearer: {tilted}; {MIN_TILT_SIDES} sides needed"
         return ""
 
     def next_instruction(self, wanted_views: int) -> Phrase | None:
-        """What to do next with the board in the hand, until there are ``wanted_views`` pictures; None when all is
-        there."""
+        """Return what to do next with the board until there are enough views, else None."""
         empty = np.argwhere(self.corners_in_field == 0)
-        if len(empty) and self.covered_fields < MIN_FIELDS:
+        if len(empty) and self.field_count < MIN_FIELDS:
             return phrase("Move the board to the {place}", place=_place_name(*empty[0].tolist()))
         if len(self.sides) < MIN_TILT_SIDES:
             side = next(side for side in TILT_SIDES if side not in self.sides)
@@ -105,7 +101,7 @@ class ViewCoverage:
 
 
 def side_name(side: TiltSide) -> Phrase:
-    """An edge of the board as a person holds it."""
+    """Return the edge of the board as a person holds it."""
     return {
         "left": phrase("left edge"), "right": phrase("right edge"), "top": phrase("upper edge"),
         "bottom": phrase("lower edge"),
@@ -113,7 +109,7 @@ def side_name(side: TiltSide) -> Phrase:
 
 
 def _place_name(down: int, across: int) -> Phrase:
-    """Where in the picture a field lies."""
+    """Return the name of a field's place in the image."""
     columns = {(True, False): 0, (False, True): 2}
     column = columns.get((across < FIELDS[0] // 3, across >= FIELDS[0] - FIELDS[0] // 3), 1)
     row = columns.get((down == 0, down == FIELDS[1] - 1), 1)
@@ -125,7 +121,7 @@ def _place_name(down: int, across: int) -> Phrase:
 
 
 def board_pose(detected: DetectedBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
-    """Turn, as a rotation vector, and shift from a board's own axes into the camera's; None where there is none."""
+    """Return rotation vector and translation of the board in the camera; None if there is no solution."""
     points = detected.board.corners_m[detected.corner_ids]
     there, turn, shift = cv2.solvePnP(points, camera.undistort(detected.pixel), camera.matrix, np.zeros(5))
     return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
@@ -134,7 +130,7 @@ def board_pose(detected: DetectedBoard, camera: Camera) -> tuple[FloatArray, Flo
 def to_board_view(
     detected: DetectedBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float
 ) -> BoardView | None:
-    """What a picture shows; ``camera`` may be a rough guess. None where the board cannot stand like that."""
+    """Return the view of a detected board; ``camera`` may be a guess. None for an impossible pose."""
     pose = board_pose(detected, camera)
     if pose is None:
         return None
@@ -154,7 +150,7 @@ def to_board_view(
 
 
 def _nearer_side(lean: FloatArray) -> TiltSide:
-    """The side that is nearer, of the part of the normal, away from the camera, across the line of sight."""
+    """Return the nearer side, from the part of the normal across the line of sight."""
     # Away from the camera the normal leans towards the far side's opposite: a plane with n_x > 0 is nearer at +x.
     if abs(lean[0]) >= abs(lean[1]):
         return "right" if lean[0] > 0.0 else "left"
@@ -162,12 +158,12 @@ def _nearer_side(lean: FloatArray) -> TiltSide:
 
 
 def is_new_view(detected: DetectedBoard, views: Sequence[BoardView]) -> bool:
-    """Whether the board stands elsewhere or otherwise than in every kept picture."""
+    """True if the board's pose differs from those of all views."""
     return all(corner_motion_px(detected, view.detected) >= MIN_NEW_VIEW_PX for view in views)
 
 
 def corner_motion_px(one: DetectedBoard, other: DetectedBoard) -> float:
-    """How far the corners seen in both lie apart (root mean square); infinite where there is none."""
+    """Return the RMS distance of the common corners; infinite without any."""
     _, a, b = np.intersect1d(one.corner_ids, other.corner_ids, return_indices=True)
     if not len(a):
         return math.inf
@@ -175,7 +171,7 @@ def corner_motion_px(one: DetectedBoard, other: DetectedBoard) -> float:
 
 
 def assess_views(views: Sequence[BoardView], width_px: int, height_px: int) -> ViewCoverage:
-    """Whether these pictures are enough, and different enough."""
+    """Return the coverage of the views."""
     count = np.zeros((FIELDS[1], FIELDS[0]), dtype=np.int64)
     for view in views:
         across = np.clip(view.detected.pixel[:, 0] * FIELDS[0] / width_px, 0, FIELDS[0] - 1).astype(int)
@@ -187,24 +183,24 @@ def assess_views(views: Sequence[BoardView], width_px: int, height_px: int) -> V
 
 
 def common_board(views: Sequence[BoardView]) -> Board:
-    """The board of all views."""
+    """Return the board of all views."""
     return views[0].detected.board
 
 
 RejectReason = Literal["", "dark", "no_board", "too_tilted", "moving", "blurred", "known"]
-"""Why a picture was not kept; empty when it was, or when nothing is wrong."""
+"""Reason why a view was not kept, empty if it was."""
 MIN_BRIGHTNESS = 70.0
-"""The brightest tenth of a picture below this: more light."""
+"""The brightest tenth of an image below this needs more light."""
 WANTED_VIEWS: dict[Pattern, int] = {"chessboard": 30, "charuco": 44}
-"""So many are asked for before a live camera: more than must be, since each costs a person three seconds, and with them
-the focal length is known to 0.1 %. A ChArUco board has half the corners."""
+"""Views wanted from a live camera: more than needed, as each takes three seconds and the focal length is then known to
+0.1 %. A ChArUco board has half the corners."""
 NEAR_BOARD_M, FAR_BOARD_M = 0.55, 0.85
-"""A board that has been nearer than this, or would go beyond it, is to be shown farther away next."""
+"""A board nearer than the first is shown farther away next, and one near the second not."""
 
 
 @dataclass(frozen=True, slots=True)
 class BoardFrame:
-    """What one picture shows of the board; ``kept``: it counts."""
+    """Result of searching one frame for the board."""
 
     detected: DetectedBoard | None
     reject_reason: RejectReason
@@ -212,22 +208,21 @@ class BoardFrame:
 
 
 def is_dark(color_rgb: ByteImage) -> bool:
-    """Whether a picture has too little light to find a board in it."""
+    """True if an image has too little light to find a board."""
     return float(np.percentile(color_rgb[::8, ::8].max(axis=2), 90)) < MIN_BRIGHTNESS
 
 
 SEARCH_INTERVAL_S = 0.12
-"""Finding the board takes a while, and two pictures in a row show the same."""
+"""Detection takes a while, and successive frames show the same."""
 _CAMERA_FPS = 30.0
 _MAX_MOTION_GAP_S = 0.4
 MAX_VIEWS = 64
 
 
 class ViewCollector:
-    """Keeps the still and new pictures of the board.
+    """Collects still and new views of the board; ``camera`` is a guess for tilt and distance.
 
-    ``camera`` is a rough guess for tilt and distance. A picture is kept when the board stands elsewhere than in every
-    kept one and has not moved since the picture before; without one just before nobody knows, and it is kept.
+    A view is kept if the board's pose is new and it has not moved since the frame before, if there is one just before.
     """
 
     def __init__(self, camera: Camera, boards: Sequence[Board] = tuple(BOARDS.values())) -> None:
@@ -246,12 +241,12 @@ class ViewCollector:
         return assess_views(self._views, self._camera.width_px, self._camera.height_px)
 
     def add(self, frame: Frame) -> bool:
-        """Look at a frame; whether it was kept."""
+        """Process a frame and return whether its view was kept."""
         look = self.process_frame(frame)
         return look is not None and look.is_kept
 
     def process_frame(self, frame: Frame) -> BoardFrame | None:
-        """Look at a frame and say what it lacks; None where it comes too soon after the last one."""
+        """Search a frame for the board; None if it comes too soon after the last one."""
         if frame.timestamp_s - self._last_search_s < SEARCH_INTERVAL_S or len(self._views) >= MAX_VIEWS:
             return None
         self._last_search_s = frame.timestamp_s
@@ -276,7 +271,7 @@ class ViewCollector:
 
 
 def _motion_px(detected: DetectedBoard, now_s: float, before: tuple[float, DetectedBoard] | None) -> float:
-    """How far the corners move from one picture of the camera to the next; NaN where nobody knows."""
+    """Return the motion of the corners per camera frame; NaN without a frame just before."""
     if before is None or now_s - before[0] > _MAX_MOTION_GAP_S:
         return math.nan
     return corner_motion_px(detected, before[1]) / ((now_s - before[0]) * _CAMERA_FPS)

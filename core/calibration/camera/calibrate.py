@@ -1,9 +1,8 @@
-"""The whole calibration of a camera: intrinsics by Zhang's method, as OpenCV has it, with its standard deviations; how
-far depth is off the board's plane and whether it lies on the colour picture; what is said of both.
+"""Camera calibration: intrinsics by Zhang's method (OpenCV), depth error and registration.
 
-A reading at a pixel is compared with the distance of the board's plane there, as the colours have it: measured = scale
-* true + offset + slope_u * du + slope_v * dv, where the slopes are how much the plane's distance changes from a pixel
-to the next. Depth that lies du, dv pixels beside the colours shows on a tilted board alone.
+A depth reading is compared with the distance of the board's plane at its pixel: measured = scale * true + offset +
+slope_u * du + slope_v * dv, where the slopes are the change of the plane's distance per pixel. A registration error du,
+dv shows on a tilted board only.
 """
 
 from __future__ import annotations
@@ -30,25 +29,26 @@ from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
 
 MAX_REGISTRATION_ERROR_PX = 2.0
-"""Colour and depth further apart than this: depths are read beside the markers."""
+"""With a larger error depth is read beside the markers."""
 MIN_DEPTH_VIEWS = 6
 MIN_OFFSET_SDS = 2.0
-"""A shift smaller than this many standard deviations is none."""
+"""A smaller offset is none."""
 _STEP_PX = 4
 _BOARD_MARGIN_PX = 6
-"""Left out along the board's edge: a depth window there holds two surfaces."""
+"""Excluded along the board's edge: a depth window there holds two surfaces."""
 _MIN_READINGS = 200
 _ITERATIONS, _TRIM_SDS = 3, 3.5
 _MAX_DEPTH_ERROR_SHARE = 0.2
-"""Share of the distance: readings further off are not of the board."""
+"""Readings further off are not of the board."""
 
 
 @dataclass(frozen=True, slots=True)
 class DepthCheck:
-    """``scale`` and ``offset_m`` of measured against true depth, with standard deviations; the offset is 0 and its
-    standard deviation NaN where no shift beside the scale is sure. ``registration_error_px`` (2,) how far depth lies
-    beside the colours, with ``registration_sd_px``; ``plane_scatter_m`` scatter of the board's readings about its
-    plane."""
+    """Measured against true depth, with standard deviations.
+
+    The offset is 0, its standard deviation NaN, if none is significant. ``registration_error_px`` (2,) is the offset of
+    depth against colour, ``plane_scatter_m`` the scatter of the readings about the board's plane.
+    """
 
     scale: float
     scale_sd: float
@@ -61,11 +61,11 @@ class DepthCheck:
 
     @property
     def is_registered(self) -> bool:
-        """Whether depth lies on colour well enough to be read under a marker."""
+        """True if depth lies on colour well enough to be read under a marker."""
         return float(np.linalg.norm(self.registration_error_px)) <= MAX_REGISTRATION_ERROR_PX
 
     def sentence(self) -> str:
-        """One sentence for people.
+        """Return one sentence for people.
 
         >>> DepthCheck(0.996, 0.001, 0.0, float("nan"), np.zeros(2), 0.1, 0.001, 20).sentence()
         'Depth reads 0.4 % too short.'
@@ -79,7 +79,7 @@ class DepthCheck:
 
 
 def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
-    """Depth against the board's plane over all views that count; None where too few have depth."""
+    """Compare depth with the board's plane over all used views; None if too few have depth."""
     blocks = [
         _depth_readings(views[k], intrinsics.camera, turn, shift)
         for k, turn, shift in zip(
@@ -106,8 +106,7 @@ def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: Dept
 
 
 def _fit_with_sd(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> tuple[FloatArray, FloatArray]:
-    """The fit and its standard deviations, of what leaving out each view changes: readings of one view agree in what
-    is off."""
+    """Fit, with jackknife standard deviations over the views: readings of one view share their error."""
     count = len(blocks)
     others = np.array([_fit_robust([*blocks[:k], *blocks[k + 1 :]], with_offset, sensor) for k in range(count)])
     spread = others - others.mean(axis=0)
@@ -116,12 +115,12 @@ def _fit_with_sd(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthS
 
 
 def _design_matrix(block: FloatArray, with_offset: bool) -> FloatArray:
-    """Columns of the fit: true depth, both slopes, and 1 for an offset."""
+    """Return the columns of the fit: true depth, both slopes, 1 for an offset."""
     return np.column_stack((block[:, 1:4], np.ones(len(block)))) if with_offset else block[:, 1:4]
 
 
 def _fit_robust(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> FloatArray:
-    """Weighted least squares, readings far off left out; each view counts the same."""
+    """Fit weighted least squares without outliers; each view has the same weight."""
     design = np.concatenate([_design_matrix(block, with_offset) for block in blocks])
     measured = np.concatenate([block[:, 0] for block in blocks])
     share = np.concatenate([np.full(len(block), 1.0 / math.sqrt(len(block))) for block in blocks])
@@ -141,7 +140,7 @@ def _fit_robust(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSe
 def _depth_readings(
     view: BoardView, camera: Camera, rotation_vector: FloatArray, translation_m: FloatArray
 ) -> FloatArray | None:
-    """Rows (R, 4) of measured and true depth and the true depth's slope along u and v, inside the board."""
+    """Return rows (R, 4) of measured and true depth and the slopes along u and v, inside the board."""
     if view.depth_raw is None:
         return None
     rotation = np.asarray(cv2.Rodrigues(rotation_vector)[0], dtype=np.float64)
@@ -172,19 +171,20 @@ def _depth_readings(
 
 
 GOOD_ERROR_PX, FAIR_ERROR_PX, MAX_ERROR_PX = 0.3, 0.6, 1.2
-"""Root mean square distance of a corner from where the calibration has it."""
+"""Root mean square distance of a corner from its reprojection."""
 MAX_FOCAL_SD_SHARE = 0.002
-"""Of the focal length: with more the views were too alike, whatever else they were."""
+"""With a less certain focal length the views were too similar."""
 _OUTLIER_FACTOR = 3.0
 _MIN_VIEWS_KEPT = 10
 
 
 @dataclass(frozen=True, slots=True)
 class Intrinsics:
-    """``camera`` as found; standard deviations of focal lengths and of the middle of the picture;
-    ``reprojection_error_px`` root
-    mean square over all corners; the pose of the board in each view, as rotation vectors and shifts (V, 3);
-    ``used_views`` the numbers of the views that count."""
+    """Camera model with its standard deviations.
+
+    ``reprojection_error_px`` is the RMS over all corners; the board's pose in each used view is (V, 3) rotation vectors
+    and translations.
+    """
 
     camera: Camera
     focal_sd_px: float
@@ -196,7 +196,7 @@ class Intrinsics:
 
     @property
     def error_text(self) -> str:
-        """How good the fit is."""
+        """Quality of the fit in words."""
         for limit, words in ((GOOD_ERROR_PX, "good"), (FAIR_ERROR_PX, "fair")):
             if self.reprojection_error_px <= limit:
                 return f"{words}: below {limit:g} px"
@@ -204,11 +204,10 @@ class Intrinsics:
 
 
 def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> Intrinsics:
-    """Intrinsics and distortion (k1, k2, p1, p2) from the views.
+    """Estimate intrinsics and distortion (k1, k2, p1, p2) from the views.
 
-    Raises :class:`BoardNotVisible` where no board was seen, :class:`BoardViewsTooSimilar` where the views are too few
-    or too
-    alike, :class:`BoardUnfit` where the corners are not those of a flat board.
+    Raises :class:`BoardNotVisible` without a board, :class:`BoardViewsTooSimilar` with too few or similar views,
+    :class:`BoardUnfit` if the corners are not those of a flat board.
     """
     if not views:
         raise BoardNotVisible(subject, phrase("in none of the pictures"))
@@ -240,7 +239,7 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
 def _fit_intrinsics(
     views: Sequence[BoardView], used_views: Sequence[int], width_px: int, height_px: int
 ) -> tuple[Intrinsics, FloatArray]:
-    """The intrinsics by the ``used_views`` views, and the root mean square error (U,) of each of these."""
+    """Return the intrinsics of the used views, and the RMS error (U,) of each."""
     some = [views[k].detected for k in used_views]
     points = [found.board.corners_m[found.corner_ids].astype(np.float32) for found in some]
     pixels = [found.pixel.astype(np.float32).reshape(-1, 1, 2) for found in some]
@@ -265,7 +264,7 @@ def _fit_intrinsics(
 
 @dataclass(frozen=True, slots=True)
 class CameraCalibration:
-    """``previous_camera`` is what the source said of itself; ``depth`` None where no depth came with the pictures."""
+    """Result of a camera calibration; ``previous_camera`` is the source's, ``depth`` None without depth."""
 
     previous_camera: Camera
     intrinsics: Intrinsics
@@ -275,14 +274,16 @@ class CameraCalibration:
 
     @property
     def is_usable(self) -> bool:
-        """Whether it may be used: corners land fairly where they should, and depth, where there is any, lies on
-        colour; otherwise a session would be measured worse than before and not know it."""
+        """True if corners reproject fairly and depth, if there is any, lies on colour.
+
+        Otherwise sessions would be measured worse than before.
+        """
         fits = self.intrinsics.reprojection_error_px <= FAIR_ERROR_PX
         return fits and (self.depth is None or self.depth.is_registered)
 
 
 def calibrate_camera(views: Sequence[BoardView], previous_camera: Camera, subject: str) -> CameraCalibration:
-    """Calibrate from kept views; raises what :func:`solve_intrinsics` does."""
+    """Calibrate from the collected views. Raises as :func:`solve_intrinsics`."""
     intrinsics = solve_intrinsics(views, previous_camera.width_px, previous_camera.height_px, subject)
     judgement = assess_views(views, previous_camera.width_px, previous_camera.height_px)
     depth = check_depth(views, intrinsics, previous_camera.sensor)
@@ -290,7 +291,7 @@ def calibrate_camera(views: Sequence[BoardView], previous_camera: Camera, subjec
 
 
 def format_calibration(calibration: CameraCalibration) -> list[str]:
-    """The result for people, one line each."""
+    """Return the result as lines for people."""
     found, before, depth = calibration.intrinsics, calibration.previous_camera, calibration.depth
     camera, focal = found.camera, f"{format_rounded(found.camera.fx_px, 1)} x {format_rounded(found.camera.fy_px, 1)}"
     middle = f"{format_rounded(camera.cx_px, 1)}, {format_rounded(camera.cy_px, 1)}"
@@ -310,12 +311,8 @@ def format_calibration(calibration: CameraCalibration) -> list[str]:
         return [*out, "Depth: not checked, too few pictures with depth on the board"]
     shift = f"shift {depth.offset_m * 1e3:+.1f} ± {format_rounded(depth.offset_sd_m * 1e3, 1)} mm"
     shift = shift if math.isfinite(depth.offset_sd_m) else "no sure shift"
-    out.append(
-        f"{depth.sentence()} Scale {100.0 * (depth.scale - 1.0):+.2f} ± {format_rounded(100.0 * depth.scale_sd, 2)} %, {shift}"  # noqa: E501
-    )
+    scale = f"{100.0 * (depth.scale - 1.0):+.2f} ± {format_rounded(100.0 * depth.scale_sd, 2)} %"
     apart = float((depth.registration_error_px**2).sum() ** 0.5)
     judged = f"good: below {MAX_REGISTRATION_ERROR_PX:g} px" if depth.is_registered else "depth does not lie on colour"
-    return [
-        *out,
-        f"Colour and depth: {format_rounded(apart, 1)} ± {format_rounded(depth.registration_sd_px, 1)} px apart ({judged})",  # noqa: E501
-    ]
+    error = f"{format_rounded(apart, 1)} ± {format_rounded(depth.registration_sd_px, 1)} px"
+    return [*out, f"{depth.sentence()} Scale {scale}, {shift}", f"Colour and depth: {error} apart ({judged})"]

@@ -1,4 +1,4 @@
-"""A sheet of paper to print, as values in millimetres from its upper left corner; what paints it lies outside core."""
+"""Printed sheet as values in millimetres from its upper left corner; painted outside core."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ Paper = Literal["a4", "letter"]
 PAPER_MM: dict[Paper, tuple[float, float]] = {"a4": (210.0, 297.0), "letter": (215.9, 279.4)}
 """Width and height, upright."""
 RULER_MM = 100.0
-"""Length of the ruler on every sheet: a print at another size than 100 % shows there."""
+"""Length of the ruler on every sheet, which shows a print at another size than 100 %."""
 
 
 @dataclass(frozen=True, slots=True)
 class SheetBox:
-    """A filled rectangle without an outline; ``color`` as #RRGGBB."""
+    """Filled rectangle without an outline; ``color`` as #RRGGBB."""
 
     left_mm: float
     top_mm: float
@@ -27,7 +27,7 @@ class SheetBox:
 
 @dataclass(frozen=True, slots=True)
 class SheetDisc:
-    """A filled circle."""
+    """Filled circle."""
 
     x_mm: float
     y_mm: float
@@ -37,7 +37,7 @@ class SheetDisc:
 
 @dataclass(frozen=True, slots=True)
 class SheetLine:
-    """A fine line; dashed where paper is folded, not cut."""
+    """Fine line; dashed where paper is folded, not cut."""
 
     from_mm: tuple[float, float]
     to_mm: tuple[float, float]
@@ -46,7 +46,7 @@ class SheetLine:
 
 @dataclass(frozen=True, slots=True)
 class SheetText:
-    """One line of text, from its left end on the base line; ``size_pt`` in points."""
+    """One line of text, from its left end on the base line."""
 
     text: str
     x_mm: float
@@ -68,7 +68,7 @@ class PrintedSheet:
 
 
 def ruler_items(left_mm: float, top_mm: float) -> tuple[SheetItem, ...]:
-    """A ruler of 100 mm with a mark each centimetre, and what it is for."""
+    """Return a ruler of 100 mm with centimetre marks and its instruction."""
     marks: list[SheetItem] = [SheetLine((left_mm, top_mm), (left_mm + RULER_MM, top_mm))]
     for k in range(11):
         x = left_mm + 10.0 * k

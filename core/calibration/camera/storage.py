@@ -1,4 +1,4 @@
-"""Where a camera's calibration is kept, and what of it."""
+"""Storage of a camera's calibration."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from carpus.core.platform.durable import write_fault
 def to_stored_calibration(
     calibration: CameraCalibration, serial: str, when: datetime, source_settings: Mapping[str, str] | None = None
 ) -> StoredCalibration:
-    """What is kept of a calibration. ``source_settings`` of the source: depth that was corrected already counts in."""
+    """Return the values that are stored of a calibration.
+
+    ``source_settings``: depth that was corrected already is included.
+    """
     scale, offset_m = (1.0, 0.0) if calibration.depth is None else (calibration.depth.scale, calibration.depth.offset_m)
     before = source_settings or {}
     old_scale = float(before.get("depth_scale_corrected", 1.0))
@@ -47,6 +50,6 @@ def write_calibration(path: Path, calibration: CameraCalibration, stored: Stored
 
 
 def save_calibration(data_folder: Path, calibration: CameraCalibration, stored: StoredCalibration) -> Path:
-    """Keep it for the camera of ``stored``; earlier ones stay."""
+    """Save it for its camera; earlier ones stay."""
     when = datetime.fromisoformat(stored.calibrated)
     return write_calibration(new_calibration_path(data_folder, stored.serial, when), calibration, stored)

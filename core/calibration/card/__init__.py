@@ -1,1 +1,1 @@
-"""A printed card with six discs at known places: how far off a camera measures, followed over months."""
+"""Check card: six printed discs at known places that show a camera's error over months."""

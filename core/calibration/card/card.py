@@ -1,6 +1,6 @@
-"""The check card: three discs on the flat sheet, three on a folded roof of 30 degrees that stands on it.
+"""Check card: three discs on the flat sheet, three on a wedge of 30 degrees on it.
 
-Steeper faces are left out: a camera with a light pattern reads them badly, and so would say nothing of itself.
+Steeper faces are avoided, because a structured-light camera reads them badly.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ WIDTH_MM = 50.0
 DISCS = ("A", "B", "C", "D", "E", "F")
 _BEND_DEG = 50.0
 _ON_SLOPE_MM = (12.0, 50.0)
-"""Places of D and E up the first face."""
+"""Positions of D and E up the first face."""
 FOOT_CORNER_MM = (40.0, 8.0)
-"""Corner of the wedge's foot from disc A: its low edge begins there."""
+"""Corner of the wedge's foot, at its low edge, from disc A."""
 _TAB_MM = 12.0
 
 
 @dataclass(frozen=True, slots=True)
 class CardDimension:
-    """Something on the card that is known: between which discs, and its true value in degrees or millimetres."""
+    """Known dimension of the card in degrees or millimetres."""
 
     name: str
     kind: Literal["angle", "length"]
@@ -61,7 +61,7 @@ DIMENSIONS = (
 
 
 def disc_positions_m() -> FloatArray:
-    """The six discs (6, 3) as :data:`DISCS`, metres: x across and y down the sheet from A, z up out of it."""
+    """Return the six discs (6, 3): x across and y down the sheet from A, z out of it."""
     middle = FOOT_CORNER_MM[0] + 0.5 * WIDTH_MM
     slope = math.radians(SLOPE_DEG)
     d, e = ((middle, FOOT_CORNER_MM[1] + s * math.cos(slope), s * math.sin(slope)) for s in _ON_SLOPE_MM)
@@ -71,14 +71,14 @@ def disc_positions_m() -> FloatArray:
 
 
 def _ridge_to_f_mm() -> float:
-    """Place of F down from the ridge: from D over E to F it bends by the known angle."""
+    """Return the distance of F down from the ridge: the angle D, E, F bends by the known angle."""
     slope, fall = math.radians(SLOPE_DEG), math.tan(math.radians(_BEND_DEG - SLOPE_DEG))
     before = SLOPE_MM - _ON_SLOPE_MM[1]
     return before * (math.sin(slope) + fall * math.cos(slope)) / (math.sin(slope) - fall * math.cos(slope))
 
 
 def measure_dimensions(positions_m: FloatArray) -> FloatArray:
-    """The card's figures (6,) as measured, in degrees and millimetres, from places (6, 3) in any axes."""
+    """Return the dimensions (6,) in degrees and mm from disc positions (6, 3) in any axes."""
     a, b, c, d, e, f = positions_m
     up = np.cross(b - a, c - a)
     up = up / np.linalg.norm(up)
@@ -102,7 +102,7 @@ def _angle_between_deg(one: FloatArray, other: FloatArray) -> float:
 
 
 def card_sheets(paper: Paper) -> tuple[PrintedSheet, PrintedSheet]:
-    """The card, and the wedge to cut out and fold."""
+    """Return the card and the wedge to cut out and fold."""
     return card_sheet(paper), wedge_sheet(paper)
 
 
@@ -111,7 +111,7 @@ CARD_CORNER_MM = (62.0, 60.0)
 
 
 def card_sheet(paper: Paper) -> PrintedSheet:
-    """The flat sheet."""
+    """Return the flat sheet."""
     width_mm, height_mm = PAPER_MM[paper]
     x0, y0 = CARD_CORNER_MM
     flat = disc_positions_m()[:3, :2] * 1e3
@@ -142,7 +142,7 @@ WEDGE_CORNER_MM = (80.0, 22.0)
 
 
 def wedge_sheet(paper: Paper) -> PrintedSheet:
-    """The wedge, unfolded: both faces, foot and a tab, a flap on either side of the foot."""
+    """Return the unfolded wedge: faces, foot, tab and flaps."""
     width_mm, height_mm = PAPER_MM[paper]
     left, top = WEDGE_CORNER_MM
     right, middle = left + WIDTH_MM, left + 0.5 * WIDTH_MM
@@ -172,19 +172,17 @@ def wedge_sheet(paper: Paper) -> PrintedSheet:
 
 
 CHECK_S = 30.0
-"""Length of a check."""
+"""Duration of a check."""
 MAX_ANGLE_ERROR_DEG, MAX_LENGTH_ERROR_MM, MAX_SCALE_ERROR = 2.0, 2.5, 0.012
-"""Fixed limits of the largest error of an angle and a length, and of all lengths together; the first two are wider for
-a sensor that cannot do better (:mod:`core.calibration.card.measure`)."""
+"""Limits of the largest error of an angle, a length, and the scale; less exact sensors have wider ones."""
 
 
 @dataclass(frozen=True, slots=True)
 class CardReading:
-    """What one check measured: ``measured`` and ``sd`` (6,) of :data:`DIMENSIONS` in degrees and millimetres, the
-    standard
-    deviation that of one picture; ``scale`` of all distances between the discs, measured over true; ``distance_m`` to
-    the card; ``frames_used`` that count of those ``frames_searched`` at; ``max_angle_error_deg`` and
-    ``max_length_error_mm`` its limits."""
+    """Result of one check: dimensions (6,) in degrees and millimetres.
+
+    ``sd`` (6,) is that of one frame, ``scale`` that of all distances, measured over true.
+    """
 
     measured: FloatArray
     sd: FloatArray
@@ -214,17 +212,16 @@ class CardReading:
 
     @property
     def has_valid_lengths(self) -> bool:
-        """Whether lengths are within their limits, each and all together."""
+        """True if lengths are within their limits, each and as a scale."""
         return self.length_error_mm <= self.max_length_error_mm and abs(self.scale - 1.0) <= MAX_SCALE_ERROR
 
     @property
     def is_within_tolerance(self) -> bool:
-        """Whether the camera measures right."""
         return self.has_valid_angles and self.has_valid_lengths
 
 
 def verdict_sentence(reading: CardReading) -> Phrase:
-    """What a check says, for people."""
+    """Return the result of a check for people."""
     angle, length = format_rounded(reading.angle_error_deg, 1), format_rounded(reading.length_error_mm, 1)
     limits = {
         "most_angle": format_rounded(reading.max_angle_error_deg, 1),

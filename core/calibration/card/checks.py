@@ -1,4 +1,4 @@
-"""The checks of a camera, a line each in a file that only grows, and what the newest says: for settings and doctor."""
+"""Card checks of a camera, one line each in a file that only grows, and the camera's status."""
 
 from __future__ import annotations
 
@@ -30,14 +30,13 @@ from carpus.core.platform.durable import open_private, write_fault
 
 CHECKS_SUFFIX = ".checks.jsonl"
 MAX_CHECK_AGE_DAYS = 7.0
-"""A check is made once a week."""
+"""A check is due weekly."""
 MAX_CALIBRATION_AGE_DAYS = 365.0
 
 
 @dataclass(frozen=True, slots=True)
 class CardCheck:
-    """A reading of the camera with number ``serial``, when it was made, and the moment of the calibration that was used
-    (ISO 8601), empty without one."""
+    """Reading with the camera's serial number, its time, and the time of the calibration used (ISO 8601)."""
 
     checked_at: str
     serial: str
@@ -47,8 +46,7 @@ class CardCheck:
 
 @dataclass(frozen=True, slots=True)
 class CheckStatus:
-    """Days since a camera was calibrated and checked, NaN for never; its newest check, None without one;
-    ``is_recalibrated``: it was calibrated after that check."""
+    """Age of a camera's calibration and check in days, NaN for never, with its last check."""
 
     serial: str
     calibration_age_days: float = math.nan
@@ -58,24 +56,24 @@ class CheckStatus:
 
     @property
     def is_out_of_tolerance(self) -> bool:
-        """Whether the camera measured wrong, and was not calibrated since."""
+        """True if the last check was out of tolerance and the camera was not calibrated since."""
         return (
             self.last_check is not None and not self.last_check.reading.is_within_tolerance and not self.is_recalibrated
         )
 
     @property
     def is_due(self) -> bool:
-        """Whether it should be checked again."""
+        """True if the camera should be checked again."""
         return self.is_recalibrated or not self.check_age_days <= MAX_CHECK_AGE_DAYS
 
 
 def checks_path(data_folder: Path, serial: str) -> Path:
-    """Where the checks of a camera are kept."""
+    """Return the file of a camera's checks."""
     return data_folder / CAMERAS_FOLDER / f"{file_stem(serial)}{CHECKS_SUFFIX}"
 
 
 def read_checks(path: Path) -> list[CardCheck]:
-    """All checks in order of time; a torn or strange line is passed over, as the others are still true."""
+    """Read all checks in order of time; damaged lines are skipped."""
     try:
         lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
@@ -85,7 +83,7 @@ def read_checks(path: Path) -> list[CardCheck]:
 
 
 def add_check(path: Path, check: CardCheck) -> None:
-    """Append one check and bring it to the disk. Raises :class:`OutputNotWritable`."""
+    """Append one check durably. Raises :class:`OutputNotWritable`."""
     reading = check.reading
     content = {
         "when": check.checked_at, "serial": check.serial, "angle_error_deg": reading.angle_error_deg,
@@ -105,7 +103,7 @@ def add_check(path: Path, check: CardCheck) -> None:
 
 
 def check_status(data_folder: Path, serial: str, now: datetime) -> CheckStatus:
-    """What the data folder knows of a camera; nothing of one without a number."""
+    """Return the status of a camera, empty for one without a serial number."""
     if not serial:
         return CheckStatus("")
     info = load_stored_calibration(data_folder, serial)
@@ -119,7 +117,7 @@ def check_status(data_folder: Path, serial: str, now: datetime) -> CheckStatus:
 
 
 def find_camera_serials(data_folder: Path) -> set[str]:
-    """Serial numbers of cameras with a calibration or a check."""
+    """Return the serial numbers of cameras with a calibration or a check."""
     folder = data_folder / CAMERAS_FOLDER
     found = {check.serial for path in folder.glob(f"*{CHECKS_SUFFIX}") for check in read_checks(path)}
     for path in folder.glob(f"*{CALIBRATION_SUFFIX}"):
@@ -133,7 +131,7 @@ def find_camera_serials(data_folder: Path) -> set[str]:
 
 
 def examine_cameras(data_folder: Path, now: datetime) -> Iterator[Finding]:
-    """One finding for each camera of which anything is kept; one that says so where nothing is."""
+    """Yield one finding for each camera with stored data, or one that there is none."""
     serials = sorted(find_camera_serials(data_folder))
     for serial in serials:
         yield _examine_camera(check_status(data_folder, serial, now))
@@ -167,7 +165,7 @@ def _examine_camera(status: CheckStatus) -> Finding:
 
 
 def _days_ago_text(days: float) -> str:
-    """Days in words.
+    """Return days in words.
 
     >>> _days_ago_text(0.2), _days_ago_text(1.3), _days_ago_text(12.9)
     ('today', 'yesterday', '12 days ago')

@@ -1,4 +1,4 @@
-"""The six discs of the card in pictures, and what a check of some seconds says."""
+"""Measurement of the check card in frames, and the limits of the sensor."""
 
 from __future__ import annotations
 
@@ -31,15 +31,14 @@ from carpus.core.model.types import Detections, FloatArray, Frame
 # a camera with wide bumps a right one is several degrees off on a face as small as the wedge's. Of a sensor whose
 # neighbours share the step to which depth is rounded, a part of that step stays too, since nothing moves.
 LIMIT_SDS = 3.0
-"""A right camera is beyond this many standard deviations in one figure of 370."""
+"""A camera within tolerance exceeds it in one dimension of 370."""
 _ROUNDING_SHARE = 0.4
-"""Of one reading's standard deviation: what rounding leaves of a disc that lies still (simulated, 120 pictures)."""
+"""Share of a reading's sd that rounding leaves of a disc at rest (simulated, 120 frames)."""
 _STEP_M = 1e-5
 
 
 def dimensions_sd(positions_m: FloatArray, camera: Camera) -> FloatArray:
-    """Standard deviation (6,) of the card's figures, degrees and millimetres, from what stays of the depth error of the
-    discs at (6, 3) in camera axes."""
+    """Return the sd (6,) of the dimensions from the depth error that averaging leaves, discs (6, 3)."""
     depth_m = positions_m[:, 2]
     rounded_m = 0.0 if camera.sensor.averages else _ROUNDING_SHARE * camera.sensor.reading_sd_m(depth_m)
     sd_m = np.hypot(camera.sensor.flat_bias_sd_m(depth_m), rounded_m)
@@ -55,7 +54,7 @@ def dimensions_sd(positions_m: FloatArray, camera: Camera) -> FloatArray:
 
 
 def card_limits(positions_m: FloatArray, camera: Camera) -> tuple[float, float]:
-    """Largest error of an angle (degrees) and of a length (millimetres) that a right camera may show."""
+    """Return the largest errors of an angle (degrees) and a length (mm) within tolerance."""
     sd = LIMIT_SDS * dimensions_sd(positions_m, camera)
     angles = max(sd[k] for k, figure in enumerate(DIMENSIONS) if figure.kind == "angle")
     lengths = max(sd[k] for k, figure in enumerate(DIMENSIONS) if figure.kind == "length")
@@ -63,8 +62,7 @@ def card_limits(positions_m: FloatArray, camera: Camera) -> tuple[float, float]:
 
 
 def _error_correlation(positions_m: FloatArray, camera: Camera) -> FloatArray:
-    """How far the error that stays is the same at two discs (6, 6): wholly at one place, not at all where they are
-    further apart than the sensor says."""
+    """Return the correlation (6, 6) of the constant depth error between the discs."""
     reach_px = camera.sensor.stays_px
     if reach_px <= 0.0:
         return np.eye(len(positions_m))
@@ -74,24 +72,23 @@ def _error_correlation(positions_m: FloatArray, camera: Camera) -> FloatArray:
 
 
 SEARCH_INTERVAL_S = 0.25
-"""Pictures in a row have the same pattern in their depth: more of them say little more."""
+"""Successive frames share their depth pattern: more of them add little."""
 MIN_FRAMES = 5
 _MAX_BLOBS = 8
 _MAX_MISFIT_M = 0.015
-"""Root mean square over all distances between discs: more is not the card."""
+"""Limit of the RMS error of all distances between discs."""
 _MAX_MOTION_M = 0.02
-"""From one look to the next, of any disc: more is no noise."""
+"""Motion of a disc between two frames that is no noise."""
 _MAX_GAP_S = 1.5
-"""Time between two looks that counts: longer, and nobody knows what was in between."""
+"""Longer gaps between two frames do not count as time at rest."""
 
 
 @dataclass(frozen=True, slots=True)
 class CardFrame:
-    """What one picture shows: ``pixel`` of the discs A to F (6, 2), None where they are not all seen; ``blue_count``
-    discs of
-    any kind; ``steady_s`` of steady pictures so far and how many ``frames_used`` count; ``has_moved``: it lies
-    elsewhere than
-    before, and all begins again."""
+    """Result of one frame: pixels (6, 2) of discs A to F, None if they are not all found.
+
+    ``blue_count`` counts blue spots of any kind. ``has_moved``: the card moved, and the measurement starts again.
+    """
 
     pixel: FloatArray | None
     blue_count: int
@@ -101,9 +98,10 @@ class CardFrame:
 
 
 class CardMeasurement:
-    """Looks at the card in one frame after the other. With ``only_steady`` only time counts in which the card is seen
-    and
-    lies still, as before a live camera; else the first 30 s, as of a recording."""
+    """Measures the card frame by frame.
+
+    With ``only_steady`` only time counts in which the card is found at rest, for a live camera; else the first 30 s.
+    """
 
     def __init__(self, camera: Camera, settings: DetectionSettings | None = None, *, only_steady: bool = False) -> None:
         self._camera, self._settings, self._only_steady = camera, settings or DetectionSettings(), only_steady
@@ -115,7 +113,7 @@ class CardMeasurement:
         return self._measured_s >= CHECK_S
 
     def process_frame(self, frame: Frame) -> CardFrame | None:
-        """Look at a frame; None where it has no depth or comes too soon after the last one."""
+        """Search a frame for the card; None without depth or too soon after the last one."""
         now_s = frame.timestamp_s
         self._first_s = now_s if math.isnan(self._first_s) else self._first_s
         if frame.depth_raw is None or now_s - self._last_s < SEARCH_INTERVAL_S:
@@ -136,8 +134,7 @@ class CardMeasurement:
         return CardFrame(None if found is None else found[1], len(blobs), self._measured_s, len(self._positions), moved)
 
     def compute_reading(self, subject: str) -> CardReading:
-        """What was measured. Raises :class:`CardNotVisible` where the six discs were seen in fewer than five
-        pictures."""
+        """Compute the result. Raises :class:`CardNotVisible` with fewer than five frames."""
         if len(self._positions) < MIN_FRAMES:
             raise CardNotVisible(
                 subject,
@@ -165,10 +162,7 @@ class CardMeasurement:
 def measure_card(
     frames: Iterable[Frame], camera: Camera, subject: str, settings: DetectionSettings | None = None
 ) -> CardReading:
-    """Measure the card over the first 30 s of frames.
-
-    Raises :class:`CardNotVisible` where its six discs are seen in fewer than five pictures.
-    """
+    """Measure the card over the first 30 s. Raises :class:`CardNotVisible` with fewer than five frames."""
     watch = CardMeasurement(camera, settings)
     first_s = math.nan
     for frame in frames:
@@ -180,8 +174,7 @@ def measure_card(
 
 
 def find_card_discs(blobs: Detections, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
-    """The six discs, (6, 3) in camera axes and (6, 2) in the picture, named by the distances between them; None where
-    they are not all there."""
+    """Identify the six discs by their distances: (6, 3) in the camera, (6, 2) pixels; None if incomplete."""
     usable = np.flatnonzero(np.isfinite(blobs.depth_m))
     if len(usable) < 6:
         return None
@@ -199,10 +192,10 @@ def find_card_discs(blobs: Detections, camera: Camera) -> tuple[FloatArray, Floa
 
 
 def _distance_matrix(points: FloatArray) -> FloatArray:
-    """All distances (P, P) between points."""
+    """Return all distances (P, P) between points."""
     return np.asarray(np.linalg.norm(points[:, None] - points[None], axis=-1))
 
 
 def _pairwise_distances(points: FloatArray) -> FloatArray:
-    """The distances between points, each once."""
+    """Return the distances between points, each once."""
     return np.asarray(_distance_matrix(points)[np.triu_indices(len(points), 1)])

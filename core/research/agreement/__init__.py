@@ -1,1 +1,1 @@
-"""How far a session agrees with another measurement of the same movement, and a measurement with itself."""
+"""Agreement with another measurement of the same movement, and test-retest reliability."""

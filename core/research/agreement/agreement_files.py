@@ -1,5 +1,4 @@
-"""From two files to an agreement, and from it to a table, plain values, and lines for a terminal. Degrees; Carpus less
-reference."""
+"""Comparison of two files, and its tables, JSON and terminal lines; degrees, Carpus less reference."""
 
 from __future__ import annotations
 
@@ -34,7 +33,7 @@ from carpus.core.session.values import Session
 
 @dataclass(frozen=True, slots=True)
 class FileComparison:
-    """An agreement and the files it is of."""
+    """Comparison with the files it is of."""
 
     comparison: Comparison
     session: Session
@@ -42,7 +41,7 @@ class FileComparison:
 
     @property
     def stem(self) -> str:
-        """Of the files that say it."""
+        """File name stem of its tables."""
         return f"{self.session.path.stem}-against-{self.reference.stem}"
 
 
@@ -59,9 +58,10 @@ def compare_files(
     drift: float = 0.0,
     choices: RepetitionChoices | None = None,
 ) -> FileComparison:
-    """Read both and compare. ``choices`` are what a person left out, for readings of the whole range.
+    """Read a session and a reference and compare them.
 
-    Raises the faults of reading, and :class:`ReferenceUnsuited`.
+    ``choices`` are the repetitions that a person excluded, for readings of the whole range. Raises as the readers do,
+    and :class:`ReferenceUnsuited`.
     """
     session = read_session(session_path)
     reference = read_reference(reference_path, columns, markers, radians, smoothed, session.header.hand)
@@ -73,7 +73,7 @@ def compare_files(
 
 
 def write_comparison(comparison: FileComparison, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
-    """Write the tables into a folder; the files. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
+    """Write the tables into a folder and return their paths; an existing file is not replaced."""
     said = build_provenance(comparison.session)
     said["reference"] = {"file": comparison.reference.name, "sha256": sha256_of_file(comparison.reference)}
     return write_tables(comparison.comparison, folder, comparison.stem, said, comparison.reference.name, form)
@@ -88,7 +88,7 @@ COLUMNS = (
 
 
 def to_row(pairs: AnglePairs) -> dict[str, Any]:
-    """The figures of one angle by the names of :data:`COLUMNS`."""
+    """Return the statistics of one angle by the names of :data:`COLUMNS`."""
     f = pairs.agreement_deg
     values = (
         pairs.name,
@@ -114,7 +114,7 @@ def to_row(pairs: AnglePairs) -> dict[str, Any]:
 
 
 def to_json(comparison: Comparison, provenance: Mapping[str, Any], reference: str) -> dict[str, Any]:
-    """All of it for JSON."""
+    """Return the comparison as an object for JSON."""
     shift, alignment = comparison.shift, comparison.alignment
     return {
         "reference": reference,
@@ -155,7 +155,7 @@ def write_tables(
     reference: str,
     form: TableDialect = MACHINE_DIALECT,
 ) -> list[Path]:
-    """Write ``STEM.agreement.csv``, ``.json`` and the pairs as ``STEM.pairs.csv``; the files."""
+    """Write ``STEM.agreement.csv``, ``.json`` and ``STEM.pairs.csv``; return their paths."""
     rows = (
         [*(format_cell(value) for value in to_row(pairs).values()), "; ".join(comparison.angle_remarks(pairs.name))]
         for pairs in comparison.pairs
@@ -173,7 +173,7 @@ def write_tables(
 
 
 def format_comparison(comparison: Comparison) -> list[str]:
-    """What a terminal shows: what to look at first, how they were brought together, each angle, what was not used."""
+    """Return the lines for a terminal, remarks first."""
     out = [f"LOOK FIRST   {remark}." for remark in comparison.remarks]
     if comparison.remarks and comparison.shift is not None:
         out.append(
@@ -219,7 +219,7 @@ _READ_NAMES = {"pronosupination": "supination, from thumb up"}
 
 
 def _format_pairs(pairs: Sequence[AnglePairs]) -> list[str]:
-    """Each reading beside what Carpus has for it."""
+    """Return each reading beside the value of Carpus."""
     names = {one.name: _READ_NAMES.get(one.name, one.name) for one in pairs}
     width = max(map(len, names.values()))
     out = [f"{'':{width}}  {'at':>9}  {'Carpus':>8}  {'reading':>8}  {'difference':>10}"]
@@ -233,7 +233,7 @@ def _format_pairs(pairs: Sequence[AnglePairs]) -> list[str]:
 
 
 def format_agreements(agreements: Sequence[tuple[str, Agreement]]) -> list[str]:
-    """One row for each named agreement under its heads."""
+    """Return a table of named agreements."""
     width = max(len(name) for name, _ in agreements)
     heads = ("bias", "limits of agreement", "RMSE", "r", "ICC(2,1)", "ICC(3,1)", "CMC")
     out = ["{:{}}  {:>6}  {:24}  {:19}  {:>5}  {:>6}  {:25}  {:25}  {}".format("", width, "pairs", *heads)]
@@ -242,15 +242,16 @@ def format_agreements(agreements: Sequence[tuple[str, Agreement]]) -> list[str]:
         limits = f"{f.limits[0]:7.2f} to {format_rounded(f.limits[1], 2)}"
         iccs = (_format_with_interval(f.icc, f.icc_interval), _format_with_interval(f.icc_3_1, f.icc_3_1_interval))
         few = "  too few to judge" if f.count < MIN_PAIRS_TO_JUDGE else ""
+        r, cmc = _format_coefficient(f.correlation), _format_coefficient(f.cmc)
         out.append(
-            f"{name:{width}}  {f.count:6d}  {bias:24}  {limits:19}  {f.rmse:5.2f}  {_format_coefficient(f.correlation):>6}"  # noqa: E501
-            f"  {iccs[0]:25}  {iccs[1]:25}  {_format_coefficient(f.cmc)}{few}"
+            f"{name:{width}}  {f.count:6d}  {bias:24}  {limits:19}  {f.rmse:5.2f}  {r:>6}"
+            f"  {iccs[0]:25}  {iccs[1]:25}  {cmc}{few}"
         )
     return out
 
 
 def format_limit_verdicts(all_pairs: Sequence[AnglePairs], limit_deg: float) -> list[str]:
-    """Say of each angle whether both limits of agreement lie within a limit that was set before."""
+    """Return for each angle whether the limits of agreement lie within a limit set before."""
     said = {
         "agree": "agrees within {limit:g}°",
         "apart": "up to {apart}° apart",
@@ -277,5 +278,5 @@ def _format_coefficient(value: float) -> str:
 
 
 def format_cell(value: Any) -> str:
-    """A figure of a table as text; unknown is empty."""
+    """Return a table cell as text; unknown is empty."""
     return format_number(value, 6) if isinstance(value, float) else str(value)

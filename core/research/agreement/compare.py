@@ -1,4 +1,4 @@
-"""Brings a session and a reference together: in time, in space, in sampling; then says how far they agree."""
+"""Comparison of a session with a reference: alignment in time and space, then agreement."""
 
 from __future__ import annotations
 
@@ -34,31 +34,29 @@ from carpus.core.session.values import Session
 
 MIN_SAFE_OVERLAP_S = 5.0
 SAME_CLOCK_S, SAME_CLOCK_TOLERANCE = 0.5, 0.01
-"""Two results of one recording are not further apart, and not apart for a match that is hardly better."""
+"""Largest shift of two results of one recording; none is assumed for a hardly better match."""
 DEFAULT_MAX_SHIFT_S = 10.0
 MAX_SHIFT_S, MAX_DRIFT_PERCENT = 3600.0, 10.0
-"""What a person may say of two clocks."""
+"""Limits of what a person may enter."""
 MIN_MATCH = 0.5
-"""Below this correlation no shift is believed: it is not the same movement."""
+"""With a lower correlation it is not the same movement."""
 MAX_SCALE_RATIO, MIN_MOTION_SD_RAD = 2.0, math.radians(3.0)
-"""Where one moves by so many times the standard deviation of the other, and by so much, their units may differ."""
+"""Ratio of the standard deviations, of angles that move so much, above which units may differ."""
 MAX_RESIDUAL_M = 0.010
-"""Of a rigid fit: markers stuck beside the discs, and skin that glides, leave less."""
+"""Markers beside Carpus's, and skin that glides, leave a smaller residual of the rigid fit."""
 POINT_CUTOFF_HZ = 5.0
 NEUTRAL_S = 0.5
 NEUTRAL_POSE, FIRST_IN_COMMON = "its neutral pose", "the session at the first moment in common"
 STILL_S = 0.5
 SINCE_1970_S = 1e8
-"""Times as large count from 1970: two that are near each other are of one clock."""
+"""Larger times count from 1970: two that are near each other share a clock."""
 MAX_STILL_RAD = math.radians(3.0)
-"""A reading is compared with the half second about it, in which the angle stays within this."""
+"""A reading is compared with the half second around it, in which the angle moves no more than this."""
 
 
 @dataclass(frozen=True, slots=True)
 class Alignment:
-    """Rigid turn and shift of the reference's points onto the session's: ``rotation_rad``, ``residual_m`` root mean
-    square
-    over ``markers``; ``zero`` where the reference's angles have theirs."""
+    """Rigid fit of the reference's points to the session's, its RMS residual, and where its angles are zero."""
 
     rotation_rad: float
     residual_m: float
@@ -68,7 +66,7 @@ class Alignment:
 
 @dataclass(frozen=True, slots=True)
 class AnglePairs:
-    """One angle: ``time_s`` (N,) after the session's first picture, ``measured_rad`` and ``reference_rad`` (N,)."""
+    """Paired values (N,) of one angle; times after the session's first frame."""
 
     name: str
     time_s: FloatArray
@@ -79,9 +77,14 @@ class AnglePairs:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """``excluded_count`` pictures of ``frame_count`` predicted, doubtful or lost; ``unused`` each with its reason;
-    ``remarks``
-    what must be looked at before the figures are believed, of one angle where its name stands before it."""
+    """Agreement of a session with a reference.
+
+    Attributes
+    ----------
+    excluded_count : frames of ``frame_count`` that are predicted, doubtful or lost
+    unused : what was not used, each with its reason
+    remarks : what to check before the values are believed; those of one angle begin with its name
+    """
 
     kind: str
     pairs: tuple[AnglePairs, ...]
@@ -95,7 +98,7 @@ class Comparison:
     remarks: tuple[str, ...] = ()
 
     def angle_remarks(self, name: str) -> list[str]:
-        """What must be looked at before the figures of one angle are believed: its own remarks, and those of all."""
+        """Return the remarks on one angle and those on all."""
         others = tuple(f"{pairs.name}: " for pairs in self.pairs if pairs.name != name)
         return [remark for remark in self.remarks if not remark.startswith(others)]
 
@@ -110,10 +113,10 @@ def compare_session(
     drift: float = 0.0,
     figures: SessionResults | None = None,
 ) -> Comparison:
-    """Agreement of a session with a reference: of the filter's result, or the smoother's.
+    """Compare a session, the filter's or the smoother's result, with a reference.
 
-    ``lag_s`` is taken for the shift where it is known, and not looked for; ``drift`` is the share by which the
-    reference's clock runs fast. ``figures`` of the session serve readings that name no time. Raises
+    A finite ``lag_s`` is used as the shift instead of searching one; ``drift`` is the share by which the reference's
+    clock runs fast. ``figures`` are the session's results for readings without a time. Raises
     :class:`ReferenceUnsuited`.
     """
     if not len(session):
@@ -173,7 +176,7 @@ def compare_session(
 def _pair_angle(
     name: str, time_s: FloatArray, measured_rad: FloatArray, reference_rad: FloatArray
 ) -> AnglePairs | None:
-    """An angle where both have it, the reference's moved by whole turns to the session's; None of too few pictures."""
+    """Pair an angle, corrected by whole turns; None with too few frames."""
     both = np.isfinite(reference_rad) & np.isfinite(measured_rad)
     if both.sum() < MIN_PAIRS:
         return None
@@ -183,7 +186,7 @@ def _pair_angle(
 
 
 def _unwrap_angle(angle_rad: FloatArray) -> FloatArray:
-    """An angle (K,) without jumps of whole turns; one that spans more than a turn has none."""
+    """Unwrap an angle (K,), unless it spans more than a turn."""
     known = np.isfinite(angle_rad)
     if not known.any() or float(np.ptp(angle_rad[known])) > 2.0 * math.pi + 1e-9:
         return angle_rad
@@ -200,7 +203,7 @@ def _estimate_shift(
     lag_s: float,
     drift: float,
 ) -> ClockShift:
-    """As given, or the best there is, with the drift that is left."""
+    """Return the given shift or the best one, with its residual drift."""
     if math.isfinite(lag_s):
         given = ClockShift(lag_s, math.nan, is_given=True, drift=drift)
         return with_residual_drift(curves, replace(given, match=curves.match(given)))
@@ -221,7 +224,7 @@ def _overlap_error(reference: Reference) -> ReferenceUnsuited:
 
 
 def _check_match(reference: Reference, curves: AlignmentCurves, shift: ClockShift) -> None:
-    """Cleared of drift, which over minutes blurs what is the same movement."""
+    """Raise if the curves do not match, cleared of drift, which blurs the match over minutes."""
     if math.isnan(shift.match):
         raise _overlap_error(reference)
     match = abs(shift.match)
@@ -238,7 +241,7 @@ def _check_match(reference: Reference, curves: AlignmentCurves, shift: ClockShif
 def comparison_remarks(
     pairs: Sequence[AnglePairs], shift: ClockShift | None, overlap_s: float = math.nan
 ) -> tuple[str, ...]:
-    """What must be looked at before the figures are believed."""
+    """Return what to check before the values are believed."""
     out: list[str] = [
         phrase(
             "{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement",
@@ -319,14 +322,14 @@ def _clock_remarks(shift: ClockShift, overlap_s: float) -> list[str]:
 
 
 def _motion_ratio(pairs: AnglePairs) -> float:
-    """How far the reference moves as a share of how far Carpus does; 1 where neither moves much."""
+    """Return the reference's range over that of Carpus; 1 if neither moves much."""
     mine, other = float(pairs.measured_rad.std()), float(pairs.reference_rad.std())
     return other / mine if mine > 0.0 and max(mine, other) >= MIN_MOTION_SD_RAD else 1.0
 
 
 # --- time ------------------------------------------------------------------------------------------------------
 def _reference_times_s(reference: Reference, session: Session) -> FloatArray:
-    """The reference's times from its first reading; of a recording's other result from the session's first picture."""
+    """Return the reference's times from its first reading, or from the first frame on a shared clock."""
     if not len(reference.time_s):
         return reference.time_s
     start_s = float(reference.time_s[0])
@@ -359,7 +362,7 @@ def _angle_curves(
 
 
 def _speed_curves(session: Session, reference: Reference, time_s: FloatArray) -> AlignmentCurves:
-    """How fast each disc moves, which no turn and no shift of the axes changes."""
+    """Return the markers' speeds, which do not depend on the axes."""
     names = _common_markers(reference)
     markers = session.header.protocol.markers
     theirs_s = _reference_times_s(reference, session)
@@ -371,7 +374,7 @@ def _speed_curves(session: Session, reference: Reference, time_s: FloatArray) ->
 
 
 def _point_speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
-    """Smoothed speed (N,) of a point (N, 3); NaN where it is not known."""
+    """Return the smoothed speed (N,) of a point (N, 3); NaN where unknown."""
     known = np.isfinite(place_m).all(axis=-1)
     if known.sum() < 8:
         return np.full(len(time_s), np.nan)
@@ -400,10 +403,10 @@ def _common_markers(reference: Reference) -> list[str]:
 def _angles_from_points(
     session: Session, reference: Reference, time_s: FloatArray, shift: ClockShift
 ) -> tuple[dict[str, FloatArray], Alignment]:
-    """The wrist's angles of the reference's points, on the session's definition of the hand's axes at its neutral pose.
+    """Compute the wrist angles of the reference's points in the session's axes at its neutral pose.
 
-    The discs of the palm are one rigid body in both: their whole ways give the turn between the two systems of axes,
-    and the reference's own neutral pose its zero.
+    The palm is one rigid body in both: its whole path gives the rotation between the axes, and the reference's own
+    neutral pose its zero.
     """
     names = _common_markers(reference)
     markers = session.header.protocol.markers
@@ -453,7 +456,7 @@ def _compare_readings(
     session_angles: Mapping[str, FloatArray],
     figures: SessionResults | None,
 ) -> Comparison:
-    """Readings with a time against the held angle about it; those without against the session's range that way."""
+    """Compare readings with the held angle around their time, or with the session's range."""
     not_used = list(reference.unused)
     found: dict[str, list[tuple[float, float, float]]] = {}
     left = 0
@@ -503,7 +506,7 @@ def _compare_readings(
 
 
 def _range_end(figures: SessionResults | None, angle: str, movement: str) -> float:
-    """Mean of the ranges that way, radians with its sign."""
+    """Return the mean of the range in that direction, signed, rad."""
     if figures is None:
         return math.nan
     row = figures.find(angle, movement)

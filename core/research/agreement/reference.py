@@ -1,4 +1,4 @@
-"""Another measurement of the same movement: points, angles over time, or single readings."""
+"""Readers of a reference measurement: points, angles over time, or single readings."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ TIME_NAMES = (
 )
 SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "msec": 1e-3, "us": 1e-6, "µs": 1e-6, "μs": 1e-6, "min": 60.0}
 TIME_UNITS_BY_STEP = ((500.0, 1e-6, "µs"), (0.5, 1e-3, "ms"))
-"""Of times that do not say their unit: from this step between two rows on they are in these parts of a second."""
+"""Unit of times without one, by their least step between two rows."""
 SIDE_PATTERN = re.compile(
     r"^(?:(r|right|rechts|re|destra|dx)|(l|left|links|li|sinistra|sx))[:_ .]|"
     r"[_ .](?:(r|right|rechts|re|destra|dx)|(l|left|links|li|sinistra|sx))$",
     re.IGNORECASE,
 )
-"""How the names of markers and columns say which hand they are of."""
+"""Side in the names of markers and columns."""
 MAX_LISTED = 24
 ANGLE_NAMES = (*WRIST_ANGLES, *joint_angle_names(True))
 MOVEMENTS = {
@@ -46,15 +46,17 @@ MOVEMENTS = {
     "supination": ("pronosupination", 1.0),
     "pronation": ("pronosupination", -1.0),
 }
-"""What a goniometer's list calls the two ways of each angle."""
+"""Movements of a goniometer list with their angle and sign."""
 KNOWN_NAMES = frozenset((*TIME_NAMES, "angle", "movement", *(name.lower() for name in ANGLE_NAMES)))
 
 
 @dataclass(frozen=True, slots=True)
 class GoniometerReading:
-    """One reading of a goniometer, radians with the signs of Carpus; ``time_s`` after the first picture, NaN where it
-    is of the whole session's range in the way of ``movement``. ``pronosupination`` is from the palm down, as in every
-    file, also where a goniometer's supination or pronation was read from thumb up."""
+    """Goniometer reading, rad, with the signs of Carpus.
+
+    ``time_s`` counts from the first frame, NaN for the range of the whole session. ``pronosupination`` is from the palm
+    down, as in every file, also if it was read from thumb up.
+    """
 
     angle: str
     movement: str
@@ -64,8 +66,10 @@ class GoniometerReading:
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """``kind`` in words; times from the reference's own clock. Either ``angles_rad`` over ``time_s``, or ``points_m``
-    by marker (K, 3), or ``readings``. ``unused`` says what was left aside, and why."""
+    """Reference measurement: ``angles_rad`` over ``time_s``, or ``points_m`` (K, 3) by marker, or ``readings``.
+
+    ``unused`` lists what was not used, and why.
+    """
 
     path: Path
     kind: str
@@ -75,11 +79,11 @@ class Reference:
     readings: tuple[GoniometerReading, ...] = ()
     unused: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
-    """Of all its markers or columns."""
+    """All markers or columns."""
     remarks: tuple[str, ...] = ()
-    """What was taken for granted in reading it."""
+    """Assumptions made in reading it."""
     same_clock: bool = False
-    """Whether its times are those of the session's own pictures."""
+    """True if its times are those of the session's frames."""
 
 
 def read_reference(
@@ -90,11 +94,23 @@ def read_reference(
     smoothed: bool = False,
     hand: Side | None = None,
 ) -> Reference:
-    """A reference by its ending. ``columns`` angle (or ``time``) to column, a minus before it turns the sign;
-    ``markers`` ours to theirs; ``radians`` overrules what the file says; ``smoothed``: of a
-    session the smoother's result where there is one, else the filter's; ``hand``: whose markers or columns are meant
-    where the file has both hands'. Raises :class:`ReferenceUnreadable`, and for a
-    session what reading it raises."""
+    """Read a reference by its file name extension. Raises :class:`ReferenceUnreadable`.
+
+    Parameters
+    ----------
+    path
+        file
+    columns
+        angle (or ``time``) to column; a minus before the column turns the sign
+    markers
+        our marker names to those of the file
+    radians
+        overrules the file's unit
+    smoothed
+        of a session the smoother's result if there is one
+    hand
+        side to use if the file has both hands
+    """
     suffix = path.suffix.lower()
     if suffix in POINT_FILES:
         return _from_points(path, suffix, markers or {}, hand)
@@ -141,7 +157,7 @@ def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side
             )
     taken = {name: k for name, k in taken.items() if np.isfinite(track.position_m[:, k]).any()}
     left = [name for k, name in enumerate(track.names) if k not in taken.values()]
-    unused = _unused_remarks(
+    unused = _list_unused(
         phrase("markers"), left, phrase("none of the discs by their names, of the other hand, or never seen")
     )
     return Reference(
@@ -152,13 +168,12 @@ def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side
 
 
 def _bare_marker_name(name: str) -> str:
-    """A marker without the subject before it, in large letters."""
+    """Return a marker's name without its subject, in capitals."""
     return name.split(":")[-1].strip().upper()
 
 
 def _select_hand(path: Path, wanted: str, candidates: Sequence[int], names: Sequence[str], hand: Side | None) -> int:
-    """Of the places of several of one name that of the hand. Raises :class:`ReferenceUnreadable` where none or more
-    than one is."""
+    """Return the candidate of the hand. Raises :class:`ReferenceUnreadable` unless there is one."""
     if len(candidates) == 1:
         return candidates[0]
     of_hand = [k for k in candidates if _parse_side(names[k]) == hand]
@@ -176,7 +191,7 @@ def _parse_side(name: str) -> Side | None:
 
 
 def _hand_remarks(used_names: Sequence[str], names: Sequence[str], hand: Side | None) -> tuple[str, ...]:
-    """What is said where the names of those ``used_names`` tell a hand: of which of two it is, or of the other one."""
+    """Return a remark if the names tell which hand was used, or that it is the other one."""
     others = [name for name in used_names if hand is not None and _parse_side(name) not in (None, hand)]
     if others:
         return (phrase("{names}: by their names of the other hand than the session", names=list_names(others)),)
@@ -186,7 +201,7 @@ def _hand_remarks(used_names: Sequence[str], names: Sequence[str], hand: Side | 
 
 
 def list_names(names: Sequence[str]) -> str:
-    """Names, as many as a sentence bears."""
+    """Return names as a list that fits a sentence."""
     if not names:
         return phrase("nothing")
     shown = ", ".join(names[:MAX_LISTED])
@@ -222,7 +237,7 @@ def _from_angles(
             values = sign * table.values[column]
             found[name] = values if in_radians else np.radians(values)
     left = [name for name in names if name not in taken]
-    unused = _unused_remarks(phrase("columns"), left, phrase("no angles by their names, or of the other hand"))
+    unused = _list_unused(phrase("columns"), left, phrase("no angles by their names, or of the other hand"))
     by_name = [column for column in names if column in taken and column not in map(_strip_sign, columns.values())]
     return Reference(
         path, kind, table.time_s, found, unused=unused, names=tuple(names), remarks=_hand_remarks(by_name, names, hand)
@@ -233,7 +248,7 @@ def _strip_sign(wanted: str) -> str:
     return wanted.removeprefix("-")
 
 
-def _unused_remarks(kind: str, names: Sequence[str], reason: str) -> tuple[str, ...]:
+def _list_unused(kind: str, names: Sequence[str], reason: str) -> tuple[str, ...]:
     if not names:
         return ()
     shown = phrase("{names}", names=", ".join(names[:4]))
@@ -243,7 +258,7 @@ def _unused_remarks(kind: str, names: Sequence[str], reason: str) -> tuple[str, 
 
 
 def _find_columns(name: str, columns: Iterable[str]) -> list[str]:
-    """The columns that an angle's name fits, whatever their hand and unit."""
+    """Return the columns of an angle, whatever their side and unit."""
     own = {f"{before}{name}{end}".lower() for before in ("", "wrist_") for end in ("", "_deg", "_rad")}
     return [column for column in columns if SIDE_PATTERN.sub("", split_unit(column)[0]).lower() in own]
 
@@ -299,7 +314,7 @@ def _has_unit(name: str, unit: str) -> bool:
 
 
 def _number_remark(name: str, cells: Sequence[str], line: Sequence[int]) -> str:
-    """How many cells of a column are no number, and which is the first; empty where all are."""
+    """Return a remark on the cells that are no number, empty if all are."""
     bad = [(number, cell) for number, cell in zip(line, cells, strict=True) if is_non_numeric(cell)]
     if not bad:
         return ""
@@ -310,7 +325,7 @@ def _number_remark(name: str, cells: Sequence[str], line: Sequence[int]) -> str:
 
 
 def _parse_times(path: Path, name: str, cells: Sequence[str]) -> tuple[FloatArray, list[str]]:
-    """Times (K,) in seconds by what the column's name, or else their step, says; and what is to be said of it."""
+    """Return times (K,) in seconds by the column's name or its step, with remarks."""
     times, are_clocks = parse_times(cells)
     time_s, base = np.array(times), split_unit(name)
     known = time_s[np.isfinite(time_s)]
@@ -332,7 +347,7 @@ def _parse_times(path: Path, name: str, cells: Sequence[str]) -> tuple[FloatArra
 
 
 def _from_readings(path: Path, table: TextTable) -> Reference:
-    """A goniometer's list: ``angle`` or ``movement``, ``reading_deg``, and ``time_s`` where it was noted."""
+    """Read a goniometer list: ``angle`` or ``movement``, ``reading_deg``, optional ``time_s``."""
     low = {split_unit(name)[0].lower(): name.lower() for name in reversed(table.names)}
     value_name = next(
         (low[n] for n in ("reading_deg", "value_deg", "deg", "reading", "value", "angle_deg") if n in low), ""

@@ -1,7 +1,7 @@
-"""Test and retest: the error of measurement from people who were measured more than once, discs put on anew.
+"""Test-retest reliability: measurement error from people measured repeatedly with markers placed anew.
 
-Analysis of variance (McGraw and Wong 1996; Weir 2005). The standard error of measurement is of absolute agreement: what
-differs between mountings, days and raters is all in it.
+Analysis of variance (McGraw and Wong 1996; Weir 2005). The standard error of measurement is of absolute agreement: it
+includes the differences between placements, days and raters.
 """
 
 from __future__ import annotations
@@ -23,17 +23,21 @@ from carpus.core.results.progress import incomparable_reasons, select_latest_ver
 from carpus.core.results.session_results import SessionResults
 
 MAX_DAYS_APART = 14.0
-"""Two mountings further apart measure the person's change too."""
+"""Two placements further apart include the person's change."""
 _UNKNOWN: Interval = (math.nan, math.nan)
 
 
 @dataclass(frozen=True, slots=True)
 class RetestResult:
-    """``readings`` of ``people``, unit of the readings. ``icc`` ICC(2,1), ``icc_3_1`` ICC(3,1); ``sem`` with ``df``
-    degrees of freedom; ``intra_rater_sem`` of mountings by one rater alone, NaN where fewer than two raters are known
-    (it would be ``sem`` again) or none measured twice; ``systematic_change`` mean of the last mountings less that of
-    the first.
-    Intervals of 95 %."""
+    """Reliability of one quantity, in its unit, with 95 % intervals.
+
+    Attributes
+    ----------
+    icc, icc_3_1 : ICC(2,1) and ICC(3,1)
+    sem, df : standard error of measurement and its degrees of freedom
+    intra_rater_sem : of placements by one rater; NaN with fewer than two known raters or no repeated placement
+    systematic_change : mean of the last placements less that of the first
+    """
 
     people: int
     readings: int
@@ -51,10 +55,12 @@ class RetestResult:
 
 
 def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] = ()) -> RetestResult:
-    """Of ``readings`` for each person in the order they were taken, and who took them; people with one are left out.
+    """Compute the reliability of repeated readings of each person, in order, and their raters.
 
-    >>> results = compute_retest([[60.0, 62.0], [71.0, 70.0], [55.0, 58.0], [64.0, 64.0]])
-    >>> round(results.sem, 3), round(results.mdc95, 3), round(results.icc, 3)
+    People with one reading are excluded.
+
+    >>> found = compute_retest([[60.0, 62.0], [71.0, 70.0], [55.0, 58.0], [64.0, 64.0]])
+    >>> round(found.sem, 3), round(found.mdc95, 3), round(found.icc, 3)
     (1.323, 3.667, 0.951)
     """
     names = raters or [[""] * len(one) for one in readings]
@@ -98,8 +104,10 @@ def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequenc
 
 
 def _degrees_of_freedom(table: FloatArray, max_df: float) -> float:
-    """Degrees of freedom of the error of (people, mountings): fewer where the mountings differ as such, since then a
-    few means make it (Satterthwaite 1946)."""
+    """Return the degrees of freedom of the error of (people, placements) by Satterthwaite 1946.
+
+    They are fewer if the placements differ systematically.
+    """
     n, k = table.shape
     rest = table - table.mean(axis=1, keepdims=True) - table.mean(axis=0, keepdims=True) + table.mean()
     ms_columns = n * float(((table.mean(axis=0) - table.mean()) ** 2).sum()) / (k - 1)
@@ -110,7 +118,7 @@ def _degrees_of_freedom(table: FloatArray, max_df: float) -> float:
 
 
 def _chi2_quantile(df: float, share: float) -> float:
-    """The value that a chi-square of ``df`` stays below with a probability."""
+    """Return a quantile of the chi-square distribution."""
     return float(scipy.special.chdtri(df, 1.0 - share))
 
 
@@ -131,7 +139,7 @@ def _intra_rater_sem(readings: Sequence[Sequence[tuple[float, str]]]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ExcludedSession:
-    """A session that takes no part, and why."""
+    """Excluded session with the reason."""
 
     session_id: str
     reason: str
@@ -139,7 +147,7 @@ class ExcludedSession:
 
 @dataclass(frozen=True, slots=True)
 class RetestAnalysis:
-    """A study of one exercise: ``results`` by angle or joint and movement, what the window and the file say of it."""
+    """Analysis of one exercise: results by angle or joint and movement."""
 
     protocol: str
     exercise: str
@@ -153,11 +161,11 @@ class RetestAnalysis:
 
     @property
     def is_usable(self) -> bool:
-        """Whether it may become the clinic's own error limits."""
+        """True if it may become the clinic's own error limits."""
         return bool(self.results) and not self.simulated and self.people >= MIN_PEOPLE
 
     def to_study(self, date: str) -> RetestStudy:
-        """As it is stored, with its date."""
+        """Return the study that is stored, with its date."""
         limits = (
             MeasuredLimit(of, movement, one.people, one.sem, one.sem_interval, one.mdc95, one.mdc95_interval)
             for (of, movement), one in self.results.items()
@@ -171,7 +179,7 @@ class RetestAnalysis:
 def analyse_retests(
     sessions: Sequence[SessionResults], raters: Mapping[str, str] | None = None
 ) -> list[RetestAnalysis]:
-    """One study for each exercise and set of discs. A person is a pseudonym and a hand; ``raters`` by session id."""
+    """Analyse each exercise and protocol. A person is a pseudonym and a hand; raters by session id."""
     groups: dict[tuple[str, str, str], list[SessionResults]] = defaultdict(list)
     for figures in select_latest_versions(sessions):
         groups[(figures.protocol, figures.exercise.id, figures.angle_order)].append(figures)
@@ -210,7 +218,7 @@ def _analyse_group(group: Sequence[SessionResults], raters: Mapping[str, str]) -
 
 
 def _range_means(figures: SessionResults) -> dict[tuple[str, str], float]:
-    """Mean of every movement that was seen whole, degrees, by angle or joint and movement."""
+    """Return the mean in degrees of each movement whose range is complete."""
     return {
         row.key: row.mean
         for row in figures.measures_in_group("range")
@@ -227,7 +235,7 @@ RETEST_COLUMNS = (
 
 
 def write_retests(analyses: Sequence[RetestAnalysis], path: Path, form: TableDialect = MACHINE_DIALECT) -> Path:
-    """One line for each figure. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
+    """Write one row for each quantity; an existing file is not replaced."""
     rows = []
     for one in analyses:
         for (of, movement), f in one.results.items():

@@ -1,6 +1,8 @@
-"""Agreement of paired readings: bias and limits (Bland and Altman 1999; of several people Bland and Altman 2007, Zou
-2013), ICC(2,1) and ICC(3,1) (McGraw and Wong 1996; below nothing Lin 1989), CMC (Kadaba 1989, between two systems).
-Readings in the order of time, any unit; what is not known is left out in pairs."""
+"""Agreement of paired readings in order of time; unknown values are removed in pairs.
+
+Bias and limits: Bland and Altman 1999; of several people Bland and Altman 2007, Zou 2013. ICC(2,1) and ICC(3,1): McGraw
+and Wong 1996; negative ones Lin 1989. CMC: Kadaba 1989, between two systems.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +17,10 @@ import scipy
 from carpus.core.model.types import FloatArray
 
 MIN_PAIRS = 3
-"""Pairs below which nothing is said, and people."""
+"""Fewer pairs, or people, give no result."""
 MIN_PAIRS_TO_JUDGE = 10
 MAX_OPPOSITE_CORRELATION = -0.5
-"""Below this correlation the two measure the same with opposite signs, or not the same."""
+"""Below it the two have opposite signs, or are different movements."""
 
 Interval = tuple[float, float]
 _UNKNOWN: Interval = (math.nan, math.nan)
@@ -26,12 +28,14 @@ _UNKNOWN: Interval = (math.nan, math.nan)
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """``measured`` less ``reference`` of ``count`` pairs, worth ``effective_count`` ones; intervals of 95 %.
+    """Agreement of ``count`` pairs, ``measured`` less ``reference``, with 95 % intervals.
 
-    ``bias``, ``sd`` of the differences, ``limits`` bias ± 1.96 sd, each with its interval; ``rmse``;
-    ``largest_difference``
-    difference; ``correlation`` by Pearson; ``icc`` ICC(2,1), absolute agreement; ``icc_3_1`` ICC(3,1), consistency;
-    ``cmc`` of the whole waveform, NaN for single readings and where the two have nothing in common.
+    Attributes
+    ----------
+    effective_count : number of independent pairs
+    bias, sd, limits : of the differences; limits are bias ± 1.96 sd
+    icc, icc_3_1 : ICC(2,1), absolute agreement, and ICC(3,1), consistency
+    cmc : of the whole waveform, NaN for single readings and if the two have nothing in common
     """
 
     count: int
@@ -53,12 +57,12 @@ class Agreement:
 
     @property
     def is_opposite(self) -> bool:
-        """Whether one goes down where the other goes up."""
+        """True if one falls where the other rises."""
         return self.correlation < MAX_OPPOSITE_CORRELATION
 
 
 def compute_agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True) -> Agreement:
-    """Of pairs (N,). ``waveform``: neighbours in time are alike, so that they count as fewer independent ones."""
+    """Compute the agreement of pairs (N,); neighbours of a ``waveform`` are not independent."""
     known = np.isfinite(measured) & np.isfinite(reference)
     a, b = measured[known], reference[known]
     n = len(a)
@@ -95,13 +99,12 @@ NO_AGREEMENT = Agreement(
     0, 0.0, math.nan, _UNKNOWN, math.nan, _UNKNOWN, _UNKNOWN, _UNKNOWN, math.nan, math.nan, math.nan,
     math.nan, _UNKNOWN, math.nan, _UNKNOWN, math.nan,
 )  # fmt: skip
-"""Of too few pairs."""
+"""Agreement of too few pairs."""
 
 
 @dataclass(frozen=True, slots=True)
 class VarianceComponents:
-    """What several people's differences are made of: ``sd_between`` people's means, ``sd_within`` one of them; both NaN
-    where nobody has two pairs, which alone tell them apart."""
+    """Variance of the differences between people and within one; NaN if nobody has two pairs."""
 
     people: int
     sd_between: float
@@ -109,20 +112,18 @@ class VarianceComponents:
 
 
 def min_pairs_per_person(*, waveform: bool) -> int:
-    """Pairs with which a person counts among several: a single reading says something of people, a piece of a curve
-    nothing."""
+    """Return the pairs that a person needs: one reading, or a piece of a curve."""
     return MIN_PAIRS if waveform else 1
 
 
 def compute_pooled_agreement(
     measured: Sequence[FloatArray], reference: Sequence[FloatArray], waveform: bool = True
 ) -> tuple[Agreement, VarianceComponents]:
-    """Of the pairs (N,) of each person, whose true value varies: every person counts alike, with however many pairs.
+    """Compute the agreement of several people with pairs (N,) each, whose true values vary.
 
-    The variance of one difference is that between people and that within one (Bland and Altman 2007, section 3, with
-    people's means unweighted); intervals of the limits by recovering the variances of both (Zou 2013). Neighbours in
-    time count for less, as in :func:`compute_agreement`. No ICC and no CMC: pairs of several people have none in
-    common.
+    Each person has the same weight. The variance of a difference is that between people and that within one (Bland and
+    Altman 2007, section 3, unweighted means); intervals of the limits recover both variances (Zou 2013). ICC and CMC
+    are NaN: the pairs of several people have none in common.
     """
     least = min_pairs_per_person(waveform=waveform)
     known = [np.isfinite(a) & np.isfinite(b) for a, b in zip(measured, reference, strict=True)]
@@ -145,7 +146,7 @@ def compute_pooled_agreement(
     t = float(scipy.special.stdtrit(people - 1.0, 0.975))
 
     def variance_error(p: float) -> float:
-        """How far the variance may be off, to the side that a chi-square's ``p`` belongs to."""
+        """Return the error of the variance on the side of the chi-square's ``p``."""
         parts = [(of_means, people - 1.0), *([(share * within, df)] if df > 0.0 else [])]
         return math.sqrt(sum((v * (1.0 - d / float(scipy.special.chdtri(d, 1.0 - p)))) ** 2 for v, d in parts))
 
@@ -178,8 +179,10 @@ def compute_pooled_agreement(
 
 
 def effective_sample_size(values: FloatArray) -> float:
-    """How many independent values a series (N,) is worth: N over 1 + 2 x the sum of its autocorrelation, which is taken
-    up to its first value below nothing. At least 2, at most N."""
+    """Return the number of independent values of a series (N,), from 2 to N.
+
+    N over 1 + 2 x the sum of its autocorrelation up to its first value below zero.
+    """
     n = len(values)
     centred = values - values.mean()
     power = float(centred @ centred)
@@ -194,9 +197,9 @@ def effective_sample_size(values: FloatArray) -> float:
 
 
 def icc_2_1(readings: FloatArray, effective_count: float | None = None) -> tuple[float, Interval]:
-    """ICC(2,1), two-way random effects, absolute agreement, single reading, of (subjects, raters), and its interval.
+    """Compute ICC(2,1) of (subjects, raters) with its interval: random effects, absolute agreement.
 
-    ``effective_count`` subjects count for the interval where they are not independent. Shrout and Fleiss' example:
+    ``effective_count`` is the number of independent subjects. Shrout and Fleiss' example:
 
     >>> example = np.array([[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7.0]])
     >>> icc, (low, high) = icc_2_1(example)
@@ -231,7 +234,7 @@ def icc_2_1(readings: FloatArray, effective_count: float | None = None) -> tuple
 
 
 def _concordance_interval(pairs: FloatArray, m: float) -> Interval:
-    """Of Lin's coefficient of two readings (N, 2), which is ICC(2,1) but for terms of 1/N."""
+    """Return the interval of Lin's coefficient of two readings (N, 2), up to 1/N that of ICC(2,1)."""
     (a, b), t = pairs.T, float(scipy.special.stdtrit(max(m - 1.0, 1.0), 0.975))
     product = float(a.std() * b.std())
     r, u = float(np.corrcoef(a, b)[0, 1]), float((a.mean() - b.mean()) ** 2) / product
@@ -246,7 +249,7 @@ def _concordance_interval(pairs: FloatArray, m: float) -> Interval:
 
 
 def icc_3_1(readings: FloatArray, effective_count: float | None = None) -> tuple[float, Interval]:
-    """ICC(3,1), consistency of a single reading, as :func:`icc_2_1`: an offset between raters is no disagreement.
+    """Compute ICC(3,1), the consistency of a single reading; an offset between raters does not count.
 
     >>> example = np.array([[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7.0]])
     >>> icc, (low, high) = icc_3_1(example)
@@ -267,7 +270,7 @@ def icc_3_1(readings: FloatArray, effective_count: float | None = None) -> tuple
 
 
 def _mean_squares(readings: FloatArray) -> tuple[float, float, float]:
-    """Of subjects, of raters, and of what is left."""
+    """Return the mean squares of subjects, of raters, and of the residual."""
     n, k = readings.shape
     grand = float(readings.mean())
     rows, columns = readings.mean(axis=1), readings.mean(axis=0)
@@ -284,14 +287,16 @@ def _min_icc(raters: int) -> float:
 
 
 def _clip_interval(icc: float, low: float, high: float, raters: int) -> Interval:
-    """Limits that lie where an ICC can, about it; unknown ones stay so."""
+    """Clip an interval to the possible values of an ICC; unknown limits stay so."""
     if not math.isfinite(low + high):
         return _UNKNOWN
     return max(min(low, icc), _min_icc(raters)), min(max(high, icc), 1.0)
 
 
 def cmc(a: FloatArray, b: FloatArray) -> float:
-    """Coefficient of multiple correlation of two waveforms (N,); NaN where they differ by more than they move.
+    """Compute the coefficient of multiple correlation of two waveforms (N,).
+
+    NaN if they differ by more than they move.
 
     >>> wave = np.sin(np.linspace(0.0, 9.0, 200))
     >>> round(cmc(wave, wave), 3), round(cmc(wave, wave + 0.2), 3)
@@ -310,11 +315,10 @@ AgreementVerdict = Literal["agree", "apart", "few", "not_judged"]
 
 
 def judge_agreement(agreement: Agreement, limit: float) -> AgreementVerdict:
-    """``agree`` where both limits of agreement lie within ± ``limit``; ``not_judged`` where none was set (0). Too few
-    to say: fewer pairs than :data:`MIN_PAIRS_TO_JUDGE`, or a limit known less well than the limit to be kept.
+    """Compare the limits of agreement with a limit set before (0: none was set).
 
-    >>> from carpus.core.research.agreement.statistics import compute_agreement
-    >>> import numpy as np
+    ``few``: fewer pairs than :data:`MIN_PAIRS_TO_JUDGE`, or the limits are known less well than the limit requires.
+
     >>> wave, off = np.sin(np.arange(40.0)) * 30.0, np.tile([-1.0, 1.0], 20)
     >>> [judge_agreement(compute_agreement(wave + off, wave, waveform=False), limit) for limit in (0.0, 1.5, 5.0)]
     ['not_judged', 'apart', 'agree']
@@ -332,5 +336,5 @@ def judge_agreement(agreement: Agreement, limit: float) -> AgreementVerdict:
 
 
 def max_absolute_limit(agreement: Agreement) -> float:
-    """The limit of agreement that is further from nothing, without its sign; NaN where there is none."""
+    """Return the larger absolute limit of agreement; NaN if there is none."""
     return max(map(abs, agreement.limits)) if all(map(math.isfinite, agreement.limits)) else math.nan

@@ -1,8 +1,7 @@
-"""A study of agreement: many people and sessions, each with its reference, brought together in one table and picture.
+"""Agreement study of several people and sessions, each with its reference.
 
-The table that says what belongs together is CSV with the columns ``person``, ``session`` and ``reference`` (paths, from
-where the table lies), and where they are needed ``columns`` and ``markers`` (``ANGLE=COLUMN,...``), ``unit`` (deg or
-rad), ``lag_s`` and ``drift_percent``.
+Its table is CSV with the columns ``person``, ``session`` and ``reference`` (paths from the table's folder), and
+optional ``columns`` and ``markers`` (``ANGLE=COLUMN,...``), ``unit`` (deg or rad), ``lag_s`` and ``drift_percent``.
 """
 
 from __future__ import annotations
@@ -48,7 +47,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 
 REQUIRED_COLUMNS = ("person", "session", "reference")
 SESSION_GAP_S = 10.0
-"""Put between the sessions of a study in its own time."""
+"""Gap between the sessions of a study on its common time axis."""
 STUDY_COLUMNS = (
     "of", "person", "session", "reference", *COLUMNS, "people", "sessions", "sd_between_people_deg",
     "sd_within_person_deg", "remarks",
@@ -57,7 +56,7 @@ STUDY_COLUMNS = (
 
 @dataclass(frozen=True, slots=True)
 class StudyRow:
-    """One line of the table: a session of a person and what it is compared with."""
+    """One row of the table: a session of a person and its reference."""
 
     person: str
     session: Path
@@ -71,8 +70,7 @@ class StudyRow:
 
 @dataclass(frozen=True, slots=True)
 class PooledAngle:
-    """One angle over all people: ``pairs`` of all sessions one after the other, with the figures of all, in which those
-    ``left_out`` are not: each has fewer than ``min_pairs`` pairs."""
+    """One angle over all people; those excluded have fewer than ``min_pairs`` pairs."""
 
     pairs: AnglePairs
     variance: VarianceComponents
@@ -83,7 +81,7 @@ class PooledAngle:
 
 @dataclass(frozen=True, slots=True)
 class AgreementStudy:
-    """``comparisons`` each line and what came of it; ``left_out`` each line that could not be compared, and why."""
+    """Comparison of each row, and the rows that could not be compared with the reason."""
 
     table: Path
     comparisons: tuple[tuple[StudyRow, FileComparison], ...]
@@ -101,7 +99,7 @@ class AgreementStudy:
             people=self.people, sessions=len(self.comparisons), kinds=", ".join(kinds)
         )  # fmt: skip
         first = self.comparisons[0][1].comparison
-        remarks = [f"{one.pairs.name}: {words}" for one in self.pooled_angles for words in _pooled_remarks(one)]
+        remarks = [f"{one.pairs.name}: {words}" for one in self.pooled_angles for words in _pooling_remarks(one)]
         return Comparison(
             kind, tuple(one.pairs for one in self.pooled_angles), first.shift, None, 0, 0, math.nan, math.nan, (),
             tuple(remarks),
@@ -109,7 +107,7 @@ class AgreementStudy:
 
 
 def read_study_table(path: Path, parse_mapping: Callable[[str], Mapping[str, str]]) -> tuple[StudyRow, ...]:
-    """The lines of a study's table. Raises :class:`ReferenceUnreadable`."""
+    """Read the rows of a study. Raises :class:`ReferenceUnreadable`."""
     table = tables.read_table(path, REQUIRED_COLUMNS)
     if not {name.lower() for name in table.names} >= set(REQUIRED_COLUMNS):
         raise ReferenceUnreadable(path, phrase("a study's table has the columns person, session and reference"))
@@ -153,11 +151,10 @@ def run_study(
     load_choices: Callable[[Path], RepetitionChoices] = lambda _: RepetitionChoices(),
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> AgreementStudy:
-    """Compare every line; what cannot be compared is left out with its reason. ``load_choices`` a session: what a
-    person
-    left out of it.
+    """Compare every row; those that cannot be compared are excluded with the reason.
 
-    Raises :class:`ReferenceUnsuited` where nothing can.
+    ``load_choices`` returns the repetitions that a person excluded from a session. Raises :class:`ReferenceUnsuited`
+    if no row can be compared.
     """
     done, left_out = list[tuple[StudyRow, FileComparison]](), list[tuple[StudyRow, str]]()
     for number, line in enumerate(rows):
@@ -205,7 +202,7 @@ def _pool_angle(name: str, comparisons: Sequence[tuple[StudyRow, FileComparison]
     return PooledAngle(pairs, between, len(everything), left_out, fewest)
 
 
-def _pooled_remarks(pooled: PooledAngle) -> list[str]:
+def _pooling_remarks(pooled: PooledAngle) -> list[str]:
     out = []
     if pooled.excluded_people:
         out.append(
@@ -223,7 +220,7 @@ def _pooled_remarks(pooled: PooledAngle) -> list[str]:
 
 
 def write_agreement_study(study: AgreementStudy, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
-    """Write ``STEM.study.csv`` (first all people, then each session) and ``STEM.study.json``; the files."""
+    """Write ``STEM.study.csv`` (all people, then each session) and ``STEM.study.json``."""
     stem = study.table.stem
     rows = [
         [
@@ -236,7 +233,7 @@ def write_agreement_study(study: AgreementStudy, folder: Path, form: TableDialec
             str(one.session_count),
             format_cell(one.variance.sd_between),
             format_cell(one.variance.sd_within),
-            "; ".join(_pooled_remarks(one)),
+            "; ".join(_pooling_remarks(one)),
         ]
         for one in study.pooled_angles
     ]
@@ -288,7 +285,7 @@ def write_agreement_study(study: AgreementStudy, folder: Path, form: TableDialec
 
 
 def format_study(study: AgreementStudy) -> list[str]:
-    """What a terminal shows: all people, each session, what was left out."""
+    """Return the lines for a terminal: all people, each session, what was excluded."""
     out = [f"Study        {study.people} people, {len(study.comparisons)} sessions"]
     out += [f"Left out     {line.session.name}, {line.person}: {why}" for line, why in study.excluded]
     for line, result in study.comparisons:
@@ -311,5 +308,5 @@ def format_study(study: AgreementStudy) -> list[str]:
         f"within one {format_rounded(one.variance.sd_within, 2)}"
         for one in study.pooled_angles if math.isfinite(one.variance.sd_within)
     )]  # fmt: skip
-    out += [f"{one.pairs.name}: {words}." for one in study.pooled_angles for words in _pooled_remarks(one)]
+    out += [f"{one.pairs.name}: {words}." for one in study.pooled_angles for words in _pooling_remarks(one)]
     return out

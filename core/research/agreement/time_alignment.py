@@ -1,4 +1,4 @@
-"""Two recordings of one movement in one time: the shift between their clocks, what would do as well, and drift."""
+"""Alignment of two recordings in time: shift between their clocks, its rivals, and drift."""
 
 from __future__ import annotations
 
@@ -13,43 +13,42 @@ from numpy.typing import NDArray
 from carpus.core.model.types import FloatArray
 
 STEP_S = 1.0 / 100.0
-"""Of the times on which a shift is looked for."""
+"""Step of the search for a shift."""
 MIN_OVERLAP_S, MIN_OVERLAP_SHARE = 1.0, 0.6
-"""What both must have in common, in seconds and of the shorter of the two: a short piece fits anywhere."""
+"""Least overlap, in seconds and as a share of the shorter recording: a short piece fits anywhere."""
 MAX_LOG_LIKELIHOOD_DROP, RESIDUAL_FLOOR = 3.0, 0.003
-"""A match is as good as the best where its log-likelihood is less by no more than this, of what both leave unexplained
-and a bit that sampling alone does."""
+"""Matches within this of the best log-likelihood are equally good; the floor is the residual that sampling leaves."""
 MAX_RIVAL_DROP, MAX_RIVALS = 0.03, 3
-"""Another shift is named where it matches less well by no more than this."""
+"""Other shifts within this drop of the match are named."""
 MAX_DRIFT_DROP, MAX_COMPARED_PEAKS = 0.1, 5
-"""Drift may cost a match so much: the nearest tops within this are compared without it."""
+"""Drift may cost a match so much: the nearest peaks within this are compared without it."""
 MIN_PEAK_DISTANCE_S = 0.3
-"""Two tops nearer than this are of one hill."""
+"""Nearer peaks are one."""
 MAX_INTERPOLATED_GAP_S = 0.12
-"""Between two readings of a reference that are interpolated."""
+"""Longest gap between two readings of a reference that is interpolated."""
 MIN_DRIFT_RECORDING_S, MAX_DRIFT = 10.0, 0.03
-"""Drift is looked for in recordings of this length on, up to this share."""
+"""Drift is searched in recordings of this length and more, up to this share."""
 MAX_DRIFT_FRAMES = 1000
-"""Are enough to find it."""
+"""Enough to find a drift."""
 MIN_DRIFT_S, MIN_DRIFT_SDS = 0.05, 3.0
-"""Drift is spoken of where it adds up to so much, and is so many times its own standard deviation."""
+"""Drift is reported if it adds up to so much and is significant."""
 INDEPENDENT_HZ = 2.0
-"""Of a hand's movement about as many values a second are independent."""
+"""Independent values per second of a hand's movement."""
 
 
 @dataclass(frozen=True, slots=True)
 class ClockShift:
-    """``lag_s``: what happens at t in the session happens at t (1 + ``drift``) + this on the reference's
-    clock, both counted from their first picture; ``match`` the correlation there, below nothing where the curves run
-    against each other.
+    """Shift between the clocks: t in the session is t (1 + ``drift``) + ``lag_s`` in the reference.
 
-    ``rivals`` are the nearest other shifts that match nearly as well, each with its match, and ``has_more_rivals``
-    whether
-    there are others; ``same_sign_shift``, where ``match`` is below nothing, the shift up to ``max_shift_s`` at which
-    the curves run
-    together best, with its match; ``is_at_search_limit`` whether the search ended
-    where this was found; ``is_given`` by a person. ``residual_drift`` is what is left, with ``drift_free_lag_s``
-    the shift that goes with it; NaN where there is none to speak of.
+    Both count from their first frame.
+
+    Attributes
+    ----------
+    match : correlation at this shift, negative if the curves oppose each other
+    rivals : nearest other shifts that match nearly as well, each with its match
+    same_sign_shift : if ``match`` is negative, the best shift with a positive one
+    is_at_search_limit : the best shift lies at the end of the search
+    residual_drift, drift_free_lag_s : drift that is left and the lag with it; NaN if not significant
     """
 
     lag_s: float
@@ -65,12 +64,12 @@ class ClockShift:
     drift_free_lag_s: float = math.nan
 
     def reference_time_s(self, time_s: FloatArray) -> FloatArray:
-        """Times (N,) of the session on the reference's clock."""
+        """Return times (N,) of the session on the reference's clock."""
         return np.asarray(time_s * (1.0 + self.drift) + self.lag_s)
 
 
 def interpolate(query_s: FloatArray, time_s: FloatArray, values: FloatArray) -> FloatArray:
-    """``values`` (K, ...) at other times (N, ...), on the line between two known neighbours; NaN elsewhere."""
+    """Interpolate ``values`` (K, ...) linearly at other times (N, ...); NaN beyond known neighbours."""
     known = np.isfinite(values) if values.ndim == 1 else np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
     t, v = time_s[known], values[known]
     if len(t) < 2:
@@ -89,7 +88,7 @@ def interpolate(query_s: FloatArray, time_s: FloatArray, values: FloatArray) -> 
 
 @dataclass(frozen=True, slots=True)
 class AlignmentCurves:
-    """Signals (N, S) at ``time_s`` (N,) and (K, S) at ``reference_s`` (K,), the same quantities in both."""
+    """The same S signals of session (N, S) and reference (K, S)."""
 
     time_s: FloatArray
     values: FloatArray
@@ -98,26 +97,27 @@ class AlignmentCurves:
 
     @property
     def weight(self) -> FloatArray:
-        """What counts in a match: how far each signal moves in both."""
+        """Weight of each signal in a match: how much it moves in both."""
         with np.errstate(invalid="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)  # what is known nowhere has no spread
             spread = np.nanstd(self.values, axis=0) * np.nanstd(self.reference_values, axis=0)
         return np.where(np.isfinite(spread), spread, 0.0)
 
     ignores_sign: bool = False
-    """Whether curves that run against each other are the same all the same."""
+    """True if opposite curves count as equal."""
 
     def match(self, shift: ClockShift) -> float:
-        """How well they go together on the pictures of the session."""
+        """Return the correlation at the session's frames."""
         at_s = shift.reference_time_s(self.time_s)
         there = np.column_stack([interpolate(at_s, self.reference_s, one) for one in self.reference_values.T])
         return _mean_correlation(self.values, there, self.weight, 8, self.ignores_sign)
 
 
 def find_shift(curves: AlignmentCurves, max_shift_s: float, same_clock_tolerance: float = 0.0) -> ClockShift:
-    """The shift at which the curves go together best, by cross-correlation over what they share: of several that do as
-    well, as repetitions do, the smallest. None where without it the correlation is less by no more than
-    ``same_clock_tolerance``."""
+    """Find the best shift by cross-correlation over what both share; of equal ones the smallest.
+
+    Returns no shift if its correlation is lower by at most ``same_clock_tolerance``.
+    """
     time_s, other_s, weight = curves.time_s, curves.reference_s, curves.weight
     if not curves.values.shape[1] or len(time_s) < 8 or len(other_s) < 8:
         return ClockShift(0.0, math.nan)
@@ -133,7 +133,7 @@ def find_shift(curves: AlignmentCurves, max_shift_s: float, same_clock_tolerance
     alike = np.full((len(shifts), a.shape[1]), np.nan)
     for k in range(a.shape[1]):
         alike[:, k] = _correlations(a[:, k], b[:, k], shifts - first, least)
-    match = _weighted_mean(alike, weight, ignores_sign=curves.ignores_sign)
+    match = _combine_correlations(alike, weight, ignores_sign=curves.ignores_sign)
     if not np.isfinite(match).any():
         return ClockShift(0.0, math.nan)
     score = np.where(np.isfinite(match), np.abs(match) if curves.ignores_sign else match, -np.inf)
@@ -175,7 +175,7 @@ def find_shift(curves: AlignmentCurves, max_shift_s: float, same_clock_tolerance
 
 
 def _find_peaks(score: FloatArray) -> list[int]:
-    """Places of the hills' tops, the highest first."""
+    """Return the peaks of the score, the highest first."""
     padded = np.concatenate(([-np.inf], score, [-np.inf]))
     is_top = (score >= padded[:-2]) & (score >= padded[2:]) & np.isfinite(score)
     out: list[int] = []
@@ -186,7 +186,7 @@ def _find_peaks(score: FloatArray) -> list[int]:
 
 
 def _refine_peak_s(shifts: np.ndarray, score: FloatArray, peak: int) -> float:
-    """The shift of a top, between the steps."""
+    """Return the shift of a peak between the steps."""
     fine = 0.0
     if 0 < peak < len(score) - 1 and np.isfinite(score[peak - 1 : peak + 2]).all():
         left, top, right = score[peak - 1 : peak + 2]
@@ -197,7 +197,7 @@ def _refine_peak_s(shifts: np.ndarray, score: FloatArray, peak: int) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _DriftEstimate:
-    """Drift beyond that of a shift, its sd, the lag that goes with both, and the match then; over ``length_s``."""
+    """Drift beyond that of a shift, its sd, and lag and match with it."""
 
     drift: float
     sd: float
@@ -207,7 +207,7 @@ class _DriftEstimate:
 
 
 def _estimate_drift(curves: AlignmentCurves, shift: ClockShift) -> _DriftEstimate | None:
-    """The drift with which the curves go together best; None where they are too short for one."""
+    """Estimate the drift with the best match; None if the overlap is too short."""
     at_s = shift.reference_time_s(curves.time_s)
     shared = curves.time_s[(at_s >= curves.reference_s[0]) & (at_s <= curves.reference_s[-1])]
     length_s = float(np.ptp(shared)) if len(shared) else 0.0
@@ -218,7 +218,7 @@ def _estimate_drift(curves: AlignmentCurves, shift: ClockShift) -> _DriftEstimat
     middle_s, sign = float(shared[0]) + 0.5 * length_s, math.copysign(1.0, shift.match)
 
     def shift_about_middle(drift: float, later_s: float) -> ClockShift:
-        """About the middle, so that drift and lag are found apart."""
+        """Rotate about the middle, where drift and lag are independent."""
         return ClockShift(shift.lag_s + later_s - drift * middle_s, 0.0, drift=shift.drift + drift)
 
     def match(drift: float, later_s: float) -> float:
@@ -242,7 +242,7 @@ def _estimate_drift(curves: AlignmentCurves, shift: ClockShift) -> _DriftEstimat
 
 
 def with_residual_drift(curves: AlignmentCurves, shift: ClockShift) -> ClockShift:
-    """The same with the drift that is left between the two clocks, where it is sure and adds up to something."""
+    """Add the drift that is left between the clocks if it is significant."""
     found = _estimate_drift(curves, shift)
     if found is None or abs(found.drift) < max(MIN_DRIFT_S / found.length_s, MIN_DRIFT_SDS * found.sd):
         return shift
@@ -250,8 +250,10 @@ def with_residual_drift(curves: AlignmentCurves, shift: ClockShift) -> ClockShif
 
 
 def _correlations(a: FloatArray, b: FloatArray, lags: NDArray[np.intp], min_count: int) -> FloatArray:
-    """Correlation (L,) of ``a`` (N,) with ``b`` (K,) begun so many samples ``lags`` (L,), over what both have; NaN
-    where that is fewer than ``min_count``. All shifts at once, by Fourier transforms of the sums that it is made of."""
+    """Return the correlations (L,) of ``a`` (N,) with ``b`` (K,) at all lags (L,) by FFT.
+
+    NaN where fewer than ``min_count`` samples overlap.
+    """
     from scipy.signal import correlate, correlation_lags
 
     has_a, has_b = np.isfinite(a), np.isfinite(b)
@@ -260,20 +262,20 @@ def _correlations(a: FloatArray, b: FloatArray, lags: NDArray[np.intp], min_coun
     out = np.full(len(lags), np.nan)
     inside = (lags >= all_lags[0]) & (lags <= all_lags[-1])
 
-    def lagged_products(from_a: FloatArray, from_b: FloatArray) -> FloatArray:
+    def sum_products(from_a: FloatArray, from_b: FloatArray) -> FloatArray:
         return np.asarray(correlate(from_b, from_a, method="fft")[lags[inside] - all_lags[0]])
 
     one_a, one_b = has_a.astype(np.float64), has_b.astype(np.float64)
-    count = np.maximum(np.rint(lagged_products(one_a, one_b)), 1.0)
-    mean_x, mean_y = lagged_products(x, one_b) / count, lagged_products(one_a, y) / count
+    count = np.maximum(np.rint(sum_products(one_a, one_b)), 1.0)
+    mean_x, mean_y = sum_products(x, one_b) / count, sum_products(one_a, y) / count
     power_x, power_y = (
-        lagged_products(x * x, one_b) / count - mean_x**2,
-        lagged_products(one_a, y * y) / count - mean_y**2,
+        sum_products(x * x, one_b) / count - mean_x**2,
+        sum_products(one_a, y * y) / count - mean_y**2,
     )
     # What a transform leaves of the variance of a curve that stands still is no movement.
     moves = (count >= min_count) & (power_x > 1e-10 * np.mean(x * x)) & (power_y > 1e-10 * np.mean(y * y))
     with np.errstate(divide="ignore", invalid="ignore"):
-        alike = (lagged_products(x, y) / count - mean_x * mean_y) / np.sqrt(power_x * power_y)
+        alike = (sum_products(x, y) / count - mean_x * mean_y) / np.sqrt(power_x * power_y)
     out[inside] = np.where(moves, np.clip(alike, -1.0, 1.0), np.nan)
     return out
 
@@ -281,18 +283,20 @@ def _correlations(a: FloatArray, b: FloatArray, lags: NDArray[np.intp], min_coun
 def _mean_correlation(
     a: FloatArray, b: FloatArray, weight: FloatArray, min_count: int, ignores_sign: bool = False
 ) -> float:
-    """How well signals (N, S) go together as they are."""
+    """Return the weighted correlation of signals (N, S)."""
     alike = np.full((1, a.shape[1]), np.nan)
     for k, (x, y) in enumerate(zip(a.T, b.T, strict=True)):
         both = np.isfinite(x) & np.isfinite(y)
         if both.sum() >= min_count and np.ptp(x[both]) > 0.0 and np.ptp(y[both]) > 0.0:
             alike[0, k] = np.corrcoef(x[both], y[both])[0, 1]
-    return float(_weighted_mean(alike, weight, ignores_sign=ignores_sign)[0])
+    return float(_combine_correlations(alike, weight, ignores_sign=ignores_sign)[0])
 
 
-def _weighted_mean(correlations: FloatArray, weight: FloatArray, *, ignores_sign: bool) -> FloatArray:
-    """Weighted mean (L,) of the signals' correlations (L, S), NaN of those that are not known; with ``ignores_sign`` of
-    their sizes, with the sign of most of it."""
+def _combine_correlations(correlations: FloatArray, weight: FloatArray, *, ignores_sign: bool) -> FloatArray:
+    """Return the weighted mean (L,) of the signals' correlations (L, S), NaN where unknown.
+
+    With ``ignores_sign`` that of their absolute values, with the sign of the larger part.
+    """
     weights = np.where(np.isfinite(correlations), weight, 0.0)
     share = weights * np.nan_to_num(correlations)
     total, size, used = share.sum(axis=1), np.abs(share).sum(axis=1), weights.sum(axis=1)

@@ -16,7 +16,7 @@ import pytest
 from carpus.core.research.agreement.agreement_files import compare_files
 from carpus.core.research.agreement.compare import AnglePairs
 from carpus.core.research.agreement.statistics import NO_AGREEMENT, VarianceComponents
-from carpus.core.research.agreement.study import PooledAngle, _pooled_remarks
+from carpus.core.research.agreement.study import PooledAngle, _pooling_remarks
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from tests.commands import Command
@@ -135,5 +135,5 @@ def test_what_is_no_table_of_a_study_is_said(tmp_path: Path, command: Command) -
 def test_who_is_not_in_the_figures_of_all_is_named() -> None:
     nothing = AnglePairs("flexion", np.zeros(0), np.zeros(0), np.zeros(0), NO_AGREEMENT)
     few = PooledAngle(nothing, VarianceComponents(2, math.nan, math.nan), 3, ("anna", "bert"), 3)
-    assert "anna, bert" in _pooled_remarks(few)[0]
-    assert "too few" in _pooled_remarks(few)[1]
+    assert "anna, bert" in _pooling_remarks(few)[0]
+    assert "too few" in _pooling_remarks(few)[1]

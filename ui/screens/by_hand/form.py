@@ -18,11 +18,11 @@ from carpus.core.measures.manual_measurements import (
     ManualValue,
     MeasureKey,
     Mode,
+    find_latest_entries,
     find_manual_measure,
+    find_superseded_entries,
     is_unusual,
-    latest_entries,
     previous_value,
-    superseded_entries,
     value_on_day,
 )
 from carpus.core.model.types import Side
@@ -129,7 +129,7 @@ class MeasureRow(QObject):
         """What was entered before for the same day, and by whom."""
         lines = []
         for key in self.keys(side):
-            for one in superseded_entries(values, key, day):
+            for one in find_superseded_entries(values, key, day):
                 when = numbers.format_date_time(one.entered_at.astimezone()) if one.entered_at else ""
                 said = (
                     value_words(self.measure, one.value) if one.trials else self.tr("taken back"),
@@ -270,7 +270,7 @@ class ManualForm(QWidget):
 
     def find_changes(self, values: Sequence[ManualValue], side: Side, day: date) -> list[ManualValue]:
         """What is written otherwise than it is stored, to be entered; nothing of what is the same."""
-        found, kept = [], latest_entries(values)
+        found, kept = [], find_latest_entries(values)
         for row in self.rows.values():
             for one in row.read_values(side, day):
                 stored = kept.get((one.key, day))
