@@ -46,7 +46,7 @@ class FakeStoredSessions(SessionStore):
 
     def exclude(self, session_id: str, reason: str) -> None:
         self.done.append(("aside", session_id, reason))
-        self._change(session_id, set_aside=reason)
+        self._change(session_id, exclusion_reason=reason)
 
     def move(self, session_id: str, patient_id: str) -> None:
         self.done.append(("move", session_id, patient_id))

@@ -487,7 +487,7 @@ class FakeStore:
     def change(self, patient: Patient) -> None:
         self.rows = [patient if one.patient_id == patient.patient_id else one for one in self.rows]
 
-    keep = Patients.save
+    save = Patients.save
 
     def diagnoses(self) -> list[str]:
         return list(self.listed)

@@ -157,7 +157,7 @@ CHECKS = (
     Check("Screen", "good", "1920 × 1053 for windows"),
 )  # fmt: skip
 ScreenT = TypeVar("ScreenT", bound=QWidget)
-SheetT = TypeVar("SheetT", bound=Dialog)
+DialogT = TypeVar("DialogT", bound=Dialog)
 
 
 class GalleryWindow:
@@ -229,7 +229,7 @@ class GalleryWindow:
         assert isinstance(screen, kind)
         return screen
 
-    def sheet(self, kind: Callable[[QWidget, Theme], SheetT], host: QWidget | None = None) -> SheetT:
+    def sheet(self, kind: Callable[[QWidget, Theme], DialogT], host: QWidget | None = None) -> DialogT:
         """A sheet over the whole stage, taken away with the next screen."""
         self.over.append(made := kind(host or self.shell.screen_stack, self.theme))
         return made
@@ -249,12 +249,14 @@ def _then(state: str, act: Callable[[Any], object]) -> State:
     return lambda gallery: act(getattr(gallery, state)())
 
 
-def _under(state: str, kind: type[Dialog], *given: object, **named: object) -> State:
-    """A state with a sheet over it, which begins with what it is given."""
+def _under(
+    state: str, kind: Callable[..., DialogT], show_it: Callable[..., object], *given: object, **named: object
+) -> State:
+    """A state with a dialog over it, shown by one of its methods."""
 
     def show(gallery: GalleryWindow) -> None:
         getattr(gallery, state)()
-        gallery.sheet(kind).begin(*given, **named)  # type: ignore[attr-defined]
+        show_it(gallery.sheet(kind), *given, **named)
 
     return show
 
@@ -373,8 +375,10 @@ class Gallery(GalleryWindow):
         )
         self.settle()
 
-    sessions_erase = _under("sessions_list", DeleteDialog, ERASED_SESSION, 10, LAST_BACKUP, TODAY)
-    patient_erase = _under("patients", DeleteDialog, ERASED_PATIENT, 0, None, TODAY)
+    sessions_erase = _under(
+        "sessions_list", DeleteDialog, DeleteDialog.show_plan, ERASED_SESSION, 10, LAST_BACKUP, TODAY
+    )
+    patient_erase = _under("patients", DeleteDialog, DeleteDialog.show_plan, ERASED_PATIENT, 0, None, TODAY)
 
     def _live(
         self, feed: FakeFeed | None = None, seconds: float = 25.0, *, hidden: Sequence[tuple[float, float, str]] = (),
@@ -464,8 +468,8 @@ class Gallery(GalleryWindow):
         words = fault_words(DiskFull("session.h5", "no space left"))
         MessageDialog(screen.stage, self.theme).show_words(words, answers, icon="hard-drive")
 
-    live_note = _then("_live", lambda screen: screen.note_sheet.begin())
-    live_pain = _then("_live", lambda screen: screen.pain_sheet.begin())
+    live_note = _then("_live", lambda screen: screen.note_dialog.open_note())
+    live_pain = _then("_live", lambda screen: screen.pain_dialog.open_pain())
 
     def live_camera_lost(self) -> None:
         screen = self._live()
@@ -489,7 +493,7 @@ class Gallery(GalleryWindow):
     patient_view_child = _patient_view("WRIST_RU", GuideScene("out", 1, 14.0, 20.0, done=5, asked=10), for_child=True)
     patient_view_lost = _patient_view("FOREARM_PS", GuideScene("lost", 1, goal_deg=70.0, done=5, asked=10))
     patient_view_rest = _patient_view("WRIST_RU", GuideScene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
-    exercise_sets = _under("exercise", SetDialog, DEFAULT_SETS, "wrist6")
+    exercise_sets = _under("exercise", SetDialog, SetDialog.open_sets, DEFAULT_SETS, "wrist6")
 
     def exercise_goals(self) -> None:
         self.exercise().show_history("linden", self.sessions.history("linden"))
@@ -528,7 +532,7 @@ class Gallery(GalleryWindow):
     def review_passive_hand(self) -> None:
         self._review_passive(FakeHandSessions(), "hand-7", (3, 4, 5), 0.0)
 
-    review_reason = _then("review", lambda screen: screen.reason.begin(4))
+    review_reason = _then("review", lambda screen: screen.exclusion_dialog.open_form(4))
     review_angle = _then("review", lambda screen: screen.picture.angle_button.click())
 
     def review_hand_picture(self) -> None:
@@ -575,7 +579,7 @@ class Gallery(GalleryWindow):
         self._correct(wrong_px=(right_px[0] - 10.0, right_px[1] + 36.0)).place_marker("MCP3", right_px)
 
     correct_spots = partialmethod(_correct, pictures=False)
-    correct_exchanged = _then("_correct", lambda screen: screen.put("MCP3", screen.places.before(620)[4]))
+    correct_exchanged = _then("_correct", lambda screen: screen.place_marker("MCP3", screen.edits.original_px(620)[4]))
 
     def _results(self, old: Session, new: Session) -> None:
         self.place(tab=1, camera=SAVED)
@@ -588,7 +592,7 @@ class Gallery(GalleryWindow):
             ResultDifference(1240, 212, 0.3, 39.2, 3, "flexion", ("MCP3",), is_live=True), ("MCP3",)
         )
         sheet.show_results(CORRECTED, words, both)
-        sheet.begin()
+        sheet.open()
         sheet.curves.set_time(12.0)
 
     def correct_results(self) -> None:
@@ -606,7 +610,7 @@ class Gallery(GalleryWindow):
         self.shell.top_bar.reanalysis_button.show_text("Tracking again 63 %", "63 %")
         sheet = self.sheet(ResultsDialog)
         sheet.show_running(CORRECTED, 63)
-        sheet.begin()
+        sheet.open()
 
     def _beside(self, store: FakeSessions, one: str, other: str) -> ComparisonScreen:
         screen = self.show(ComparisonScreen(self.theme, self.background, store), tab=1, camera="")
@@ -705,7 +709,7 @@ class Gallery(GalleryWindow):
         )
         return self.show(SettingsScreen(self.theme, chosen), where="")
 
-    settings_measuring = _then("settings", lambda screen: screen.choose("measuring"))
+    settings_measuring = _then("settings", lambda screen: screen.show_page("measuring"))
 
     def settings_safe(self) -> None:
         screen = self.settings()
@@ -715,7 +719,7 @@ class Gallery(GalleryWindow):
         screen.add_cards("safety", backup, lock, RecordsCard(self.theme, 10, (0, 3, 5, 10, 15, 20, 30)))
         screen.show_page("safety")
 
-    settings_retest = _under("settings_measuring", RetestDialog, retest_studies(), 1, TODAY)
+    settings_retest = _under("settings_measuring", RetestDialog, RetestDialog.show_studies, retest_studies(), 1, TODAY)
 
     def settings_research(self) -> None:
         screen = self.settings()
@@ -729,13 +733,13 @@ class Gallery(GalleryWindow):
         sheet.pin_field.setText("4821")
         sheet.show_wrong_pin(4, 0)
 
-    pin_change = _under("patients", PinDialog, is_set=True)
+    pin_change = _under("patients", PinDialog, PinDialog.request_pin, is_set=True)
     records_due = _under(
-        "patients", RecordsDialog, "What is due",
+        "patients", RecordsDialog, RecordsDialog.show_records, "What is due",
         "Their last session is more than 10 years ago. Nothing goes by itself.",
         [ListedRecord(name, name, KEPT, name[0] < "G") for name in ("Linden 42", "Heron 17", "Fir 12")],
     )  # fmt: skip
-    records_log = _under("patients", LogDialog, DEEDS)
+    records_log = _under("patients", LogDialog, LogDialog.show_entries, DEEDS)
 
     def help(self) -> None:
         self.show(HelpScreen(self.theme), where="")

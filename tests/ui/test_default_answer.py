@@ -11,6 +11,7 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Iterator
 from datetime import date
+from typing import TypeVar
 
 import numpy as np
 import pytest
@@ -57,14 +58,17 @@ from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
 from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY
 
 FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
+DialogT = TypeVar("DialogT", bound=Dialog)
 Opened = tuple[Dialog, str]
 """A sheet that is open, and the answer that loses nothing."""
 
 
-def _opened(kind: Callable[..., Dialog], answer: str, *begin: object, **named: object) -> Callable[..., Opened]:
+def _opened(
+    kind: Callable[..., DialogT], show: Callable[..., object], answer: str, *given: object, **named: object
+) -> Callable[..., Opened]:
     def open_it(host: QWidget, theme: Theme) -> Opened:
         sheet = kind(host, theme)
-        sheet.begin(*begin, **named)  # type: ignore[attr-defined]
+        show(sheet, *given, **named)
         return sheet, answer
 
     return open_it
@@ -94,25 +98,44 @@ def _card(host: QWidget, theme: Theme) -> Opened:
 SHEETS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     MessageDialog: _card,
     PatientForm: _patient,
-    CameraNameDialog: _opened(CameraNameDialog, "Go on", "Window"),
-    ResultsDialog: _opened(ResultsDialog, ""),
-    ExportDialog: _opened(ExportDialog, "Choose the folder…"),
-    NoteDialog: _opened(NoteDialog, "Keep note"),
-    PainDialog: _opened(PainDialog, "Close"),
-    StartAngleDialog: _opened(StartAngleDialog, "Use these angles", np.zeros(3)),
-    DeleteDialog: _opened(DeleteDialog, "Archive instead", ERASED_SESSION, 10, LAST_BACKUP, TODAY),
-    RecordsDialog: _opened(RecordsDialog, "Done", "Archive", "", [ListedRecord("a", "Heron 17", "1 session", True)]),
-    LogDialog: _opened(LogDialog, "Done", []),
-    LockScreen: _opened(LockScreen, "Unlock", "", stored=True),
-    PinDialog: _opened(PinDialog, "Set PIN", is_set=True),
+    CameraNameDialog: _opened(CameraNameDialog, CameraNameDialog.request_name, "Go on", "Window"),
+    ResultsDialog: _opened(ResultsDialog, ResultsDialog.open, ""),
+    ExportDialog: _opened(ExportDialog, ExportDialog.request_formats, "Choose the folder…"),
+    NoteDialog: _opened(NoteDialog, NoteDialog.open_note, "Keep note"),
+    PainDialog: _opened(PainDialog, PainDialog.open_pain, "Close"),
+    StartAngleDialog: _opened(StartAngleDialog, StartAngleDialog.open_angles, "Use these angles", np.zeros(3)),
+    DeleteDialog: _opened(
+        DeleteDialog, DeleteDialog.show_plan, "Archive instead", ERASED_SESSION, 10, LAST_BACKUP, TODAY
+    ),
+    RecordsDialog: _opened(
+        RecordsDialog,
+        RecordsDialog.show_records,
+        "Done",
+        "Archive",
+        "",
+        [ListedRecord("a", "Heron 17", "1 session", True)],
+    ),
+    LogDialog: _opened(LogDialog, LogDialog.show_entries, "Done", []),
+    LockScreen: _opened(LockScreen, LockScreen.lock, "Unlock", "", is_session_saved=True),
+    PinDialog: _opened(PinDialog, PinDialog.request_pin, "Set PIN", is_set=True),
     HomeDialog: _home,
-    LetterDialog: _opened(LetterDialog, "Show the letter", ["Dr A"], has_name=True),
-    RetestDialog: _opened(RetestDialog, "Leave it as it is", retest_studies(), 0, date(2026, 11, 27)),
-    HandImageDialog: _opened(HandImageDialog, "Cancel"),
-    ExclusionDialog: _opened(ExclusionDialog, "Keep it in", 3),
-    ExcludeDialog: _opened(ExcludeDialog, "Let it count"),
-    ChoiceDialog: _opened(ChoiceDialog, "Leave it as it is", "To whom?", "", "Move it there", [("a", "Heron 17")]),
-    SetDialog: _opened(SetDialog, "Keep the set", DEFAULT_SETS, "wrist6"),
+    LetterDialog: _opened(LetterDialog, LetterDialog.open_form, "Show the letter", ["Dr A"], has_name=True),
+    RetestDialog: _opened(
+        RetestDialog, RetestDialog.show_studies, "Leave it as it is", retest_studies(), 0, date(2026, 11, 27)
+    ),
+    HandImageDialog: _opened(HandImageDialog, HandImageDialog.open_form, "Cancel"),
+    ExclusionDialog: _opened(ExclusionDialog, ExclusionDialog.open_form, "Keep it in", 3),
+    ExcludeDialog: _opened(ExcludeDialog, ExcludeDialog.request_reason, "Let it count"),
+    ChoiceDialog: _opened(
+        ChoiceDialog,
+        ChoiceDialog.request_choice,
+        "Leave it as it is",
+        "To whom?",
+        "",
+        "Move it there",
+        [("a", "Heron 17")],
+    ),
+    SetDialog: _opened(SetDialog, SetDialog.open_sets, "Keep the set", DEFAULT_SETS, "wrist6"),
 }
 """Every sheet of the program, opened with something in it."""
 

@@ -111,10 +111,12 @@ def test_what_is_shown_when_it_is_gone_takes_nobody_from_measuring_or_another_pa
     kind: str, open_patient: str | None, behind: str, is_recording: bool, shown: tuple[str, ...] | None
 ) -> None:
     ways: list[tuple[str, ...]] = []
-    way = SimpleNamespace(behind=behind, is_recording=lambda: is_recording, show=lambda *to: ways.append(to))
+    navigator = SimpleNamespace(
+        underlying_screen=behind, is_recording=lambda: is_recording, open_screen=lambda *to: ways.append(to)
+    )
     patient = None if open_patient is None else SimpleNamespace(patient_id=open_patient)
-    context = SimpleNamespace(way=way, now=SimpleNamespace(patient=patient))
-    lists = SimpleNamespace(changed=SimpleNamespace(emit=lambda: None))
+    context = SimpleNamespace(navigator=navigator, current=SimpleNamespace(patient=patient))
+    lists = SimpleNamespace(sessions_changed=SimpleNamespace(emit=lambda: None))
     own, plan = (
         SimpleNamespace(_context=context, _sessions=lambda: lists),
         SimpleNamespace(kind=kind, patient_id="erased"),

@@ -127,11 +127,11 @@ class CorrectionFlow(Flow):
         """What runs, or what waits for a decision: of this session first."""
         if self.running_session_id:
             self.dialog.show_running(self._session_label, max(self._percent, 0))
-            self.dialog.begin()
+            self.dialog.open()
         elif self.pending:
             own = [one for one in self.pending if one.session_id == session_id]
             self._show_pending((own or self.pending)[-1 if own else 0])
-            self.dialog.begin()
+            self.dialog.open()
 
     def close(self) -> None:
         """The program ends; what waits for a decision waits on."""

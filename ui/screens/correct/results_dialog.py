@@ -103,10 +103,6 @@ class ResultsDialog(Dialog):
         self._show_sections(running=False, both=results)
         self._draw()
 
-    def begin(self) -> None:
-        """Open; what is shown was told before."""
-        self.open()
-
     def _show_heading(self, title: str, whose: str) -> None:
         self.title.setText(title)
         self.session_label.setText(whose)
