@@ -35,7 +35,7 @@ class FakeStoredSessions(SessionStore):
             line, main_value=f"Flexion {57 - 3 * number}° ± 2°", counted_repetitions="9 / 10", counted_words=words
         )
 
-    def list_move_targets(self, patient_id: str) -> list[tuple[str, str]]:
+    def target_patients(self, patient_id: str) -> list[tuple[str, str]]:
         return [("heron", "Heron 17"), ("alder", "Alder 51")]
 
     def count_archived(self, patient_id: str) -> int:

@@ -492,8 +492,8 @@ class FakeStore:
     def diagnoses(self) -> list[str]:
         return list(self.listed)
 
-    def list_diagnosis(self, words: str, *, listed: bool) -> None:
-        self.listed = [*(one for one in self.listed if one != words), *([words] if listed else [])]
+    def set_diagnosis_listed(self, words: str, *, is_listed: bool) -> None:
+        self.listed = [*(one for one in self.listed if one != words), *([words] if is_listed else [])]
 
 
 def _result(movement: str, mean_deg: float, change_deg: float, verdict: str) -> MeasureWithChange:
@@ -675,10 +675,10 @@ class FakeCorrections(Corrections):
     def __init__(self, sessions: FakeSessions, *, pictures: bool = True) -> None:
         self._sessions, self._pictures = sessions, pictures
 
-    def moment(self, session_id: str, row: int) -> tuple[ByteImage | None, FloatArray]:
+    def read_frame(self, session_id: str, row: int) -> tuple[ByteImage | None, FloatArray]:
         places = self._sessions.session(session_id).markers.measured_px[row]
         spots = np.concatenate((places[np.isfinite(places[:, 0])], [[420.0, 120.0]]))
-        return self._sessions.picture(session_id, row) if self._pictures else None, spots
+        return self._sessions.read_frame(session_id, row) if self._pictures else None, spots
 
 
 def retest_studies() -> list[RetestAnalysis]:

@@ -57,7 +57,7 @@ def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ManualMeas
     figures = sorted(FakeSessions().history("linden"), key=lambda one: one.when)
     screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
     assert not screen.save_button.isEnabled()
-    assert screen.selected_day == TODAY
+    assert screen.current_day == TODAY
     flexion, extension = screen.form.rows["FLEXION"], screen.form.rows["EXTENSION"]
     assert flexion.last_text.text() == "13 Nov: 45° / 56°"
     assert "47°" in flexion.side_text.text()

@@ -269,13 +269,13 @@ def test_the_last_answer_of_every_card_loses_nothing() -> None:
     for place, calls in _cards():
         seen += 1
         last = calls[-1]
-        assert not any(one.arg == "risky" for one in last.keywords), place
+        assert not any(one.arg == "is_risky" for one in last.keywords), place
         assert len(last.args) == 2, f"{place}: the default answer's key is Enter"
         words = [node.value for node in ast.walk(last.args[0]) if isinstance(node, ast.Constant)]
         if words:
             assert words[0] in HARMLESS, place
         for other in calls[:-1]:
-            risky = any(one.arg == "risky" for one in other.keywords)
+            risky = any(one.arg == "is_risky" for one in other.keywords)
             text = [node.value for node in ast.walk(other.args[0]) if isinstance(node, ast.Constant)]
             assert risky or not text or text[0] in HARMLESS | {"Open the folder"}, f"{place}: {text}"
     assert seen >= 8

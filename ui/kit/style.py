@@ -45,8 +45,8 @@ QMenu::item {{ padding: 8px 16px; border-radius: 4px; }}
 QMenu::item:selected {{ background: {soft}; }}
 Card {{ border-radius: {card}px; }}
 Surface[thick="true"] {{ border-width: 2px; }}
-Sheet {{ background: rgba(0, 0, 0, {dim}); }}
-LockSheet {{ background: {canvas}; }}
+Dialog {{ background: rgba(0, 0, 0, {dim}); }}
+LockScreen {{ background: {canvas}; }}
 QLineEdit QLabel {{ color: {text2}; }}
 Surface#bar {{ border-radius: 2px; }}
 Surface#badge {{ border-radius: {badge}px; }}

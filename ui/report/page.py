@@ -47,8 +47,8 @@ class _Paper(Theme):
     def font(self, size_px: float, weight: int) -> QFont:
         return font(size_px * UNIT, weight, display=size_px >= DISPLAY_FROM_PT)
 
-    def follow(self, widget: object, take: Callable[[], None]) -> None:
-        take()
+    def on_change(self, widget: object, callback: Callable[[], None]) -> None:
+        callback()
 
 
 # Longer than any word of a language; unbroken, it would make the whole page small.

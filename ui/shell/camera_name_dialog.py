@@ -54,7 +54,7 @@ class CameraNameDialog(Dialog):
         self.accept_button.setEnabled(bool(previous_name))
         self.open(self.name_field)
 
-    def dismiss(self) -> None:
+    def close_silently(self) -> None:
         """Close without an answer: what it was asked for is over."""
         self._is_dismissed = True
         self.close_dialog()
@@ -63,7 +63,7 @@ class CameraNameDialog(Dialog):
     def _accept(self) -> None:
         name = " ".join(self.name_field.text().split())
         if name:
-            self.dismiss()
+            self.close_silently()
             self.name_entered.emit(name)
 
     def _on_closed(self) -> None:

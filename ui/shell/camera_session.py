@@ -180,7 +180,7 @@ class CameraFlowBase(Flow):
 
     def on_leave(self) -> None:
         """Let the camera go; what was taken and not kept is forgotten."""
-        self._name_dialog.dismiss()
+        self._name_dialog.close_silently()
         self._identified = threading.Event()  # a name that is still being kept opens it no more
         self.camera_session.close()
 

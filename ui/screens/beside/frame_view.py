@@ -30,7 +30,7 @@ class ComparisonFrameView(SessionFrameView):
         self.session_name = self.repetition = self.value = ""
         self.overlay = self._paint_overlay
 
-    def open(self, session: Session | None, words: str = "") -> None:
+    def set_session(self, session: Session | None, words: str = "") -> None:
         self._frame_rgb = None
         self.session_name = self.repetition = self.value = ""
         super().set_session(session, words)
@@ -48,7 +48,7 @@ class ComparisonFrameView(SessionFrameView):
             self.setAccessibleDescription(" · ".join(part for part in (name, repetition, value) if part))
             self.update()
 
-    def show_stored(self, picture: ByteImage | None) -> None:
+    def show_stored_frame(self, picture: ByteImage | None) -> None:
         if picture is None and self.image is None and self.session is not None:
             picture = blank_frame(self.session.camera)
         if picture is not None:

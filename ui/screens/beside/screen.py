@@ -104,7 +104,7 @@ class ComparisonScreen(FittedWidget):
         self.comparison = self.alignment = None
         self._show_answer(self.tr("Reading both sessions…"))
         for picture in self.frame_views:
-            picture.open(None, self.tr("Reading the session…"))
+            picture.set_session(None, self.tr("Reading the session…"))
         self._show_sections(reading=True)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
         self._request_number += 1
@@ -129,7 +129,7 @@ class ComparisonScreen(FittedWidget):
         both = (one, other) if first is one.figures else (other, one)
         self.session_ids = (both[0].session.header.session_id, both[1].session.header.session_id)
         for picture, of in zip(self.frame_views, both, strict=True):
-            picture.open(of.session)
+            picture.set_session(of.session)
         self.alignment = PlaybackAlignment.from_sessions(both)
         self.comparison = compare_pair(both[0].figures, both[1].figures)
         self.differences.show_choices(self.comparison)

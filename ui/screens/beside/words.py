@@ -153,8 +153,8 @@ def difference_table(comparison: SessionPair) -> TableContent:
         tr("Movement"), pattern.format(name=first), pattern.format(name=second), tr("Difference"), tr("Error"),
         Cell(tr("In words"), MEDIUM, "text2", state="none"),  # as far in as the words below it
     )  # fmt: skip
-    rows = [_shared_row(one, comparison) for one in comparison.ranges]
-    rows += [_single_row(row, comparison, is_first=is_first) for row, is_first in comparison.unpaired if row.count]
+    rows = [_make_shared_row(one, comparison) for one in comparison.ranges]
+    rows += [_make_single_row(row, comparison, is_first=is_first) for row, is_first in comparison.unpaired if row.count]
     return TableContent(COLUMNS, heads, tuple(rows))
 
 
@@ -167,7 +167,7 @@ def value_words(row: Measure) -> str:
     return terms.deficit_words(mean_words(negate_measure(row))) if is_deficit(row) else mean_words(row)
 
 
-def _shared_row(one: Comparison, both: SessionPair) -> TableRow:
+def _make_shared_row(one: Comparison, both: SessionPair) -> TableRow:
     known = math.isfinite(one.difference_deg) and (one.is_beyond_error or not any(one.lower_bounds))
     in_part = not one.is_joint and (one.after.is_lower_bound or one.before.is_lower_bound)
     limited = tr("limited by the camera's view") if in_part else ""
@@ -184,7 +184,7 @@ def _shared_row(one: Comparison, both: SessionPair) -> TableRow:
     )  # fmt: skip
 
 
-def _single_row(row: Measure, both: SessionPair, *, is_first: bool) -> TableRow:
+def _make_single_row(row: Measure, both: SessionPair, *, is_first: bool) -> TableRow:
     """What only one of the two has."""
     cells = [value_words(row), numbers.UNKNOWN]
     words = tr("not judged: only one of the two has it") if both.is_comparable else tr("not judged")

@@ -139,7 +139,7 @@ class ManualMeasurementsScreen(FittedWidget):
         return "left" if self.hand_choice.value() == "left" else "right"
 
     @property
-    def selected_day(self) -> date:
+    def current_day(self) -> date:
         return date(self.day_field.date().year(), self.day_field.date().month(), self.day_field.date().day())
 
     @property
@@ -194,12 +194,12 @@ class ManualMeasurementsScreen(FittedWidget):
         return self.form.initial_focus() if self.form.rows else self
 
     def _fill(self) -> None:
-        self._shown = (self.side, self.selected_day)
+        self._shown = (self.side, self.current_day)
         usual = {one.id for one in MEASURES if one.is_default}
         self.form.set_measures(usual | {one.measure for one in self.record.values} | self._added_measures)
-        self.form.show_values(self._all_values(), self.side, self.selected_day, self._carpus_measures())
+        self.form.show_values(self._all_values(), self.side, self.current_day, self._carpus_measures())
         self._fill_more()
-        self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.format_short_date(self.selected_day)))
+        self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.format_short_date(self.current_day)))
         self._show_basis()
         shown = self.chart.measure.id if self.chart.measure else ""
         self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))
@@ -229,7 +229,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self._added_measures.add(name)
         self.form.set_measures({*self.form.rows, name})
         self.form.rows[name].show_values(
-            self._all_values(), self.side, self.selected_day, self._carpus_measures().get(name)
+            self._all_values(), self.side, self.current_day, self._carpus_measures().get(name)
         )
         self._fill_more()
         self._show_basis()
@@ -241,7 +241,7 @@ class ManualMeasurementsScreen(FittedWidget):
         found: dict[str, Measure] = {}
         for measure in MEASURES:
             for _, row in self._find_session_values(measure):
-                if _.date() == self.selected_day:
+                if _.date() == self.current_day:
                     found[measure.id] = row
         return found
 

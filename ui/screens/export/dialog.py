@@ -18,15 +18,15 @@ from carpus.ui.kit.table_file import OFFERED_REGIONS, regional_table_form, user_
 from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
 
-TRANSLATION_CONTEXT = "ExportSheet"
+TRANSLATION_CONTEXT = "ExportDialog"
 FORMAT_NAMES = {
-    "csv": QT_TRANSLATE_NOOP("ExportSheet", "Tables (CSV): angles, joints, markers, events, measures"),
-    "json": QT_TRANSLATE_NOOP("ExportSheet", "Measures with their origin (JSON)"),
-    "c3d": QT_TRANSLATE_NOOP("ExportSheet", "Markers for motion capture programs (C3D)"),
-    "trc": QT_TRANSLATE_NOOP("ExportSheet", "Markers for OpenSim (TRC)"),
-    "mot": QT_TRANSLATE_NOOP("ExportSheet", "Angles for OpenSim (MOT)"),
-    "bids": QT_TRANSLATE_NOOP("ExportSheet", "Data set for research (BIDS-Motion)"),
-    "h5": QT_TRANSLATE_NOOP("ExportSheet", "The session itself, for another Carpus"),
+    "csv": QT_TRANSLATE_NOOP("ExportDialog", "Tables (CSV): angles, joints, markers, events, measures"),
+    "json": QT_TRANSLATE_NOOP("ExportDialog", "Measures with their origin (JSON)"),
+    "c3d": QT_TRANSLATE_NOOP("ExportDialog", "Markers for motion capture programs (C3D)"),
+    "trc": QT_TRANSLATE_NOOP("ExportDialog", "Markers for OpenSim (TRC)"),
+    "mot": QT_TRANSLATE_NOOP("ExportDialog", "Angles for OpenSim (MOT)"),
+    "bids": QT_TRANSLATE_NOOP("ExportDialog", "Data set for research (BIDS-Motion)"),
+    "h5": QT_TRANSLATE_NOOP("ExportDialog", "The session itself, for another Carpus"),
 }
 """A format without words here goes by its short name."""
 
