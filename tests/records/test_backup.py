@@ -236,7 +236,7 @@ def test_a_back_up_that_was_cut_short_is_none(data: Path, place: Path, monkeypat
         raise KeyboardInterrupt
 
     with monkeypatch.context() as broken:
-        broken.setattr(module, "_compare", cut)
+        broken.setattr(module, "_verify_file", cut)
         with pytest.raises(KeyboardInterrupt):
             backed_up(data, place)
     assert list_backups(place) == []
@@ -401,7 +401,7 @@ def test_linked_folders_and_files_are_followed(data: Path, place: Path, tmp_path
 def test_the_sessions_of_a_share_are_in_it(data: Path, place: Path, tmp_path: Path) -> None:
     share = tmp_path / "share"
     (data / "sessions").rename(share)
-    made = backed_up(data, place, sessions=share)
+    made = backed_up(data, place, sessions_folder=share)
     assert (made.session_count, made.missing_count) == (2, 0)
     restored(place, made, tmp_path / "new")
     assert contents(tmp_path / "new" / "sessions") == contents(share)
@@ -409,7 +409,7 @@ def test_the_sessions_of_a_share_are_in_it(data: Path, place: Path, tmp_path: Pa
         create_backup(data, share / "backup", sessions_folder=share)
     share.rename(tmp_path / "away")
     with pytest.raises(BackupIncomplete):
-        backed_up(data, place, sessions=share)
+        backed_up(data, place, sessions_folder=share)
 
 
 def test_two_into_one_place_take_nothing_from_each_other(data: Path, place: Path) -> None:

@@ -164,7 +164,7 @@ def test_a_move_that_fails_leaves_all_as_it_was(folder: Path, house: House, monk
     session_id = measure(house, linden, T0)
     files = {path for path in folder.rglob("*") if path.is_file()}
     with monkeypatch.context() as broken:
-        broken.setattr(house.store, "do", lambda _: (_ for _ in ()).throw(OutputNotWritable(folder)))
+        broken.setattr(house.store, "apply", lambda _: (_ for _ in ()).throw(OutputNotWritable(folder)))
         with pytest.raises(OutputNotWritable):
             house.index.move_to_patient(session_id, heron)
     assert {path for path in folder.rglob("*") if path.is_file()} == files
@@ -268,7 +268,7 @@ def test_while_the_share_is_away_nothing_is_erased(
         assert path.exists()
         files_of = erasure._files_to_delete
         with monkeypatch.context() as meanwhile:
-            meanwhile.setattr(erasure, "_files", lambda *of: share.rename(tmp_path / "away") and files_of(*of))
+            meanwhile.setattr(erasure, "_files_to_delete", lambda *of: share.rename(tmp_path / "away") and files_of(*of))
             erasure.resume_erasures(house.store, house.log)
         (tmp_path / "away").rename(share)
         assert path.exists()
@@ -348,7 +348,7 @@ def test_an_erasure_that_is_cut_short_ends_at_the_next_start(
             raise KeyboardInterrupt
 
         with monkeypatch.context() as broken:
-            broken.setattr(erasure, "go_on" if after == "mark" else "dropped", cut)
+            broken.setattr(erasure, "finish_pending" if after == "mark" else "delete_row", cut)
             with pytest.raises(KeyboardInterrupt):
                 erasure.erase(house.store, plan, house.log)
         assert any(path.exists() for path in plan.files) == (after == "mark")
@@ -391,7 +391,7 @@ def test_what_cannot_be_logged_is_not_begun(house: House, monkeypatch: pytest.Mo
     def full(*_: object, **__: object) -> None:
         raise OutputNotWritable("log")
 
-    monkeypatch.setattr(type(house.log), "note", full)
+    monkeypatch.setattr(type(house.log), "write_entry", full)
     with pytest.raises(OutputNotWritable):
         erasure.erase(house.store, plan, house.log)
     assert all(path.exists() for path in plan.files)
@@ -516,7 +516,7 @@ def test_on_a_full_disk_the_list_opens_and_a_patient_is_erased_by_the_room_that_
         plan = erasure.plan_patient(house.store, linden)
         reserve.create_reserve(folder)
         with monkeypatch.context() as full:
-            full.setattr(house.store, "do", full_while_kept(house.store.apply))
+            full.setattr(house.store, "apply", full_while_kept(house.store.apply))
             erasure.erase(house.store, plan, house.log)
         assert traces(folder, *NAMES, linden, *sessions) == []
     monkeypatch.setattr(store_module, "Database", lambda _: (_ for _ in ()).throw(DiskFull(folder)))

@@ -106,7 +106,7 @@ def test_what_one_computer_enters_the_other_has_at_once(tmp_path: Path, cluster:
 RACING = """
 import sys
 from pathlib import Path
-from carpus.core.model.errors import ChangedMeanwhile, PseudonymTaken
+from carpus.core.model.errors import ConcurrentChange, PseudonymTaken
 from carpus.core.records.values import Patient
 from tests.records.samples import T0, measure, opened
 from dataclasses import replace
@@ -114,15 +114,15 @@ from datetime import timedelta
 folder, url, share, name = sys.argv[1:]
 told, kept, taken = 0, [], 0
 with opened(Path(folder), url, sessions=Path(share)) as house:
-    linden = house.patients.called("Linden 42")
+    linden = house.patients.id_of_pseudonym("Linden 42")
     print("ready", flush=True)
     sys.stdin.readline()
     for number in range(25):
-        read = house.patients.one(linden)
+        read = house.patients.get(linden)
         try:
             house.patients.change(replace(read, note=f"{read.note} {name}{number}"))
             kept.append(f"{name}{number}")
-        except ChangedMeanwhile:
+        except ConcurrentChange:
             told += 1
         try:
             house.patients.add(Patient(f"Both {number}", "left"))

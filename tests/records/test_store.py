@@ -345,11 +345,11 @@ def test_programs_comment_on_one_session_and_log_it_at_once_and_nothing_is_lost(
         session_id = measure(house, house.patients.add(LINDEN), T0)
         code = (
             "import sys; from pathlib import Path; from carpus.core.records.session_records import add_comment\n"
-            "from carpus.core.records.log import Log; from carpus.core.records.store import Store\n"
+            "from carpus.core.records.log import AuditLogWriter; from carpus.core.records.store import Store\n"
             "with Store(Path(sys.argv[1])) as store:\n"
             "    for number in range(20):\n"
             "        add_comment(store, sys.argv[2], f'{sys.argv[3]} {number}', 'AB')\n"
-            "        Log(store, 'command').note('changed', 'session', sys.argv[2])"
+            "        AuditLogWriter(store, 'command').write_entry('changed', 'session', sys.argv[2])"
         )
         running = [
             subprocess.Popen([sys.executable, "-c", code, str(tmp_path), session_id, name]) for name in ("one", "other")
