@@ -1,11 +1,10 @@
-"""A back-up of everything in a data folder, made while Carpus runs, read back and compared.
+"""Backup of a data folder: copied while Carpus runs, then read back and compared.
 
-A folder for back-ups holds ``objects/``, every content once under its SHA-256, and ``list_backups/``, one JSON for each
-back-up that says which file has which content. So fourteen back-ups take little more room than one, and any of them is
-whole. The JSON is written last: a back-up that was cut short is none. Nothing is compressed or hidden: with the JSON
-beside it every file can be found again without Carpus. The store is taken first, as of one moment, and every session
-that it knows must be among the files, also those on a share. Linked folders and files are followed. One program at a
-time works in such a folder.
+A backup folder holds ``objects/``, each content once under its SHA-256, and ``backups/``, one JSON per backup that maps
+files to contents. Fourteen backups take little more space than one, and each of them is complete. The JSON is written
+last, so an interrupted backup does not count. Nothing is compressed: with the JSON every file can be found without
+Carpus. The store is copied first, in one transaction, and every session that it lists must be among the files, also
+those on a share. Symbolic links are followed. One program at a time works in a backup folder.
 """
 
 from __future__ import annotations
@@ -61,7 +60,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class BackupFile:
-    """A file of a back-up: ``path`` in the data folder, with slashes."""
+    """File of a backup; ``path`` is relative to the data folder, with slashes."""
 
     path: str
     sha256: str
@@ -71,9 +70,11 @@ class BackupFile:
 
 @dataclass(frozen=True, slots=True)
 class Backup:
-    """One back-up. ``sessions`` counts session files,
-    ``lacking`` what should be in it and could not be read; ``data_folder`` whose it is, empty where that is not
-    known."""
+    """One backup.
+
+    ``session_count`` counts session files, ``missing_count`` files that could not be read. ``data_folder`` is empty in
+    backups of Carpus 0.2.0.
+    """
 
     name: str
     made: datetime
@@ -87,8 +88,10 @@ class Backup:
 
 @dataclass(frozen=True, slots=True)
 class BackupSources:
-    """What a back-up is made of: ``snapshot`` of the store, empty for none; path in the back-up, file and size of all
-    else; names of what is missing or cannot be read."""
+    """Sources of a backup: ``snapshot`` of the store (may be empty) and ``files``.
+
+    Each file has its path in the backup, its source and its size; ``missing`` names what cannot be read.
+    """
 
     snapshot: bytes
     files: tuple[tuple[str, Path, int], ...]
@@ -109,13 +112,19 @@ def create_backup(
     now: datetime | None = None,
     progress: Progress = lambda _done, _total: None,
 ) -> Backup:
-    """Copy everything that is not in the place yet, read all of it back, and write down what is where. ``sessions`` is
-    the folder of the sessions where that is a share.
+    """Copy new contents into the backup folder, verify all of them and write the backup's JSON.
 
-    Raises :class:`OutputBusy` while another back-up into the place runs, :class:`BackupFolderUnsuited`,
-    :class:`BackupMismatch` where what is read back differs, :class:`DiskFull` and :class:`OutputNotWritable`; the
-    back-ups that were there before are as they were. Raises :class:`BackupIncomplete` where a file cannot be read or a
-    session that the store knows has none; all else is backed up then.
+    ``sessions_folder`` is given where the sessions lie on a share, ``copy_store`` where the store is no file of the
+    data folder; settings files come from ``settings_folder``. ``progress`` receives bytes done and in all.
+
+    Raises
+    ------
+    OutputBusy
+        While another program writes into the backup folder.
+    BackupFolderUnsuited, BackupMismatch, DiskFull, OutputNotWritable
+        Earlier backups stay as they were.
+    BackupIncomplete
+        A file cannot be read, or a listed session has no file; all else is in the backup.
     """
     check_backup_folder(data_folder, backup_folder)
     sources = collect_sources(data_folder, backup_folder, settings_folder, sessions_folder, copy_store)
@@ -176,10 +185,11 @@ def collect_sources(
     sessions_folder: Path | None = None,
     copy_store: Callable[[], sqlite3.Connection] | None = None,
 ) -> BackupSources:
-    """Everything that a back-up of a data folder holds, the ``sessions`` of a share too. Raises :class:`FolderMissing`,
-    :class:`DataFolderMissing`, :class:`PatientListUnreadable` for a store that cannot be read,
-    :class:`BackupFolderUnsuited` for
-    a place that a link leads into."""
+    """List everything that a backup contains.
+
+    Raises :class:`FolderMissing`, :class:`DataFolderMissing`, :class:`PatientListUnreadable` and
+    :class:`BackupFolderUnsuited`.
+    """
     if copy_store is None and not (data_folder / SESSIONS_FOLDER).exists():
         require_store(data_folder)
     snapshot, wanted = _read_store(data_folder / STORE_FILE, copy_store)
@@ -204,7 +214,7 @@ def collect_sources(
 
 
 def list_backups(backup_folder: Path) -> list[Backup]:
-    """The back-ups of a place that can be read, newest first."""
+    """Return the readable backups of a folder, newest first."""
     return _read_backups(sorted((backup_folder / BACKUPS).glob("*.json")))
 
 
@@ -217,7 +227,7 @@ def _read_backups(paths: Iterable[Path]) -> list[Backup]:
 
 
 def read_backup(path: Path) -> Backup:
-    """One back-up by its JSON. Raises :class:`BackupUnreadable`, also for one of a newer Carpus."""
+    """Read a backup's JSON. Raises :class:`BackupUnreadable`."""
     try:
         return backup_from_json(path.stem, path.read_text(encoding="utf-8"))
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError) as cause:
@@ -225,8 +235,11 @@ def read_backup(path: Path) -> Backup:
 
 
 def backup_from_json(name: str, text: str) -> Backup:
-    """A back-up as it was written down. Raises :class:`BackupUnreadable` for one of a newer Carpus or with paths that
-    lead out of the folder, and whatever else a wrong JSON makes Python raise."""
+    """Parse a backup's JSON.
+
+    Raises :class:`BackupUnreadable` for a newer format or paths that lead out of the folder, and whatever a wrong JSON
+    makes Python raise.
+    """
     said = json.loads(text)
     if said["format"] != FORMAT:
         raise BackupUnreadable(name, phrase("not a back-up"))
@@ -252,19 +265,19 @@ def backup_from_json(name: str, text: str) -> Backup:
 
 
 def verify_backup(backup_folder: Path, backup: Backup, progress: Progress = lambda _done, _total: None) -> None:
-    """Read every content of a back-up. Raises :class:`BackupMismatch` at the first that is not what it was."""
+    """Read every content of a backup. Raises :class:`BackupMismatch` at the first that differs."""
     for number, one in enumerate(backup.files, 1):
         _verify_file(backup_folder, one)
         progress(number, len(backup.files))
 
 
 def prune_backups(backup_folder: Path, keep: int, months: int, now: datetime) -> int:
-    """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away. What
-    a clock that ran ahead has dated after ``now`` stays too, and takes none of their places.
-    Every content that no back-up needs goes, and what a killed one left; none where a back-up cannot be read or none
-    is found, since nobody knows what is needed then. Nothing is touched that a link leads to, nor what is no content,
-    nor anything while a back-up into the place runs. Raises :class:`BackupUnreadable` where the back-ups cannot be
-    listed."""
+    """Keep the newest backups and one of each month; return how many were deleted.
+
+    Backups dated after ``now`` (a clock ran ahead) stay and do not count. Contents that no backup needs are deleted,
+    unless a backup cannot be read: then nobody knows what is needed. Symbolic links are not touched, and nothing at all
+    while another program writes a backup. Raises :class:`BackupUnreadable`.
+    """
     with contextlib.suppress(OutputBusy), _exclusive_lock(backup_folder):
         return _prune_backups(backup_folder, keep, months, now)
     return 0
@@ -296,12 +309,12 @@ def _prune_backups(backup_folder: Path, keep: int, months: int, now: datetime) -
 
 
 def is_backup_due(made: datetime | None, days: int, now: datetime) -> bool:
-    """Whether a person should be reminded: no back-up for so many days although there is something to lose."""
+    """Return whether a reminder is due: no backup for so many days."""
     return made is None or now.astimezone(UTC) - made.astimezone(UTC) > timedelta(days=days)
 
 
 def backup_to_dict(backup: Backup) -> dict[str, Any]:
-    """A back-up as it is written down."""
+    """Return a backup as the content of its JSON."""
     return {
         "format": FORMAT,
         "format_version": FORMAT_VERSION,
@@ -317,23 +330,24 @@ def backup_to_dict(backup: Backup) -> dict[str, Any]:
 
 
 def check_backup_folder(data_folder: Path, backup_folder: Path) -> None:
-    """Raise :class:`BackupFolderUnsuited` for a place in the data folder, or around it."""
+    """Raise :class:`BackupFolderUnsuited` for a folder inside or around the data folder."""
     data, there = data_folder.resolve(), _resolve_links(backup_folder)
     if data == there or data in there.parents or there in data.parents:
         raise BackupFolderUnsuited(backup_folder, phrase("in the data folder, or around it"))
 
 
 def _resolve_links(place: Path) -> Path:
-    """Where links lead; one to itself, for which ``Path.assign_blobs`` raises, leads to itself: no folder, which is
-    told."""
+    """Resolve symbolic links; unlike ``Path.resolve`` a link to itself raises nothing."""
     return Path(os.path.realpath(place))
 
 
 def list_files(
     folder: Path, backup_folder: Path | None, missing: list[str], prefix: str = ""
 ) -> Iterator[tuple[str, Path]]:
-    """Every file by its path with slashes, links followed, each folder once; what leads nowhere or cannot be read is
-    added to ``lacking``."""
+    """Yield every file by its path with slashes; links are followed, each folder once.
+
+    Unreadable folders and dangling links are added to ``missing``.
+    """
     seen: set[tuple[int, int]] = set()
     waiting = [(prefix, folder)]
     while waiting:
@@ -360,7 +374,7 @@ def list_files(
 
 
 def _read_store(path: Path, copy_store: Callable[[], sqlite3.Connection] | None) -> tuple[bytes, list[str]]:
-    """The store as it is between two transactions, whoever has it open, and the paths of the sessions that it knows."""
+    """Return a snapshot of the store and the paths of its sessions."""
     if copy_store is None and not path.exists():
         return b"", []
     with contextlib.closing(copy_to_memory(path) if copy_store is None else copy_store()) as taken:
@@ -372,16 +386,16 @@ def _read_store(path: Path, copy_store: Callable[[], sqlite3.Connection] | None)
 
 
 class BackupSourceError(Exception):
-    """A file of the data folder that cannot be read."""
+    """File of the data folder that cannot be read."""
 
 
 class BackupSourceMissing(BackupSourceError):
-    """A file of the data folder that is there no more."""
+    """File of the data folder that no longer exists."""
 
 
 @contextlib.contextmanager
 def _exclusive_lock(backup_folder: Path) -> Iterator[None]:
-    """While no other program writes into a place. Raises :class:`OutputBusy` and the faults of writing."""
+    """Lock a backup folder. Raises :class:`OutputBusy` and the faults of writing."""
     try:
         lock = open(backup_folder / LOCK_FILE, "ab", opener=open_private)  # noqa: SIM115  # closed below
     except OSError as cause:
@@ -406,7 +420,6 @@ def _read_blocks(source: Path) -> Iterator[bytes]:
 
 
 def _back_up_file(path: str, source: Path, backup_folder: Path, previous: BackupFile | None) -> BackupFile:
-    """The content of a file, copied unless it is there already."""
     try:
         state = source.stat()
     except FileNotFoundError as cause:
@@ -436,7 +449,7 @@ def _store_object(backup_folder: Path, path: str, blocks: Iterator[bytes], chang
 
 
 def write_hashed(target: Path, blocks: Iterator[bytes]) -> tuple[str, int]:
-    """A new private file on the disk; its SHA-256 and size."""
+    """Write a new private file; return its SHA-256 and size in bytes."""
     digest, size = hashlib.sha256(), 0
     with open(target, "xb", opener=open_private) as copy:
         for block in blocks:
@@ -449,12 +462,12 @@ def write_hashed(target: Path, blocks: Iterator[bytes]) -> tuple[str, int]:
 
 
 def object_path(backup_folder: Path, sha256: str) -> Path:
-    """Where a content lies in a place for backups."""
+    """Return the path of a content in a backup folder."""
     return backup_folder / OBJECTS / sha256[:2] / sha256
 
 
 def _find_objects(backup_folder: Path) -> Iterator[Path]:
-    """Contents that lie in the place itself, and parts of a back-up that was killed."""
+    """Yield contents, and temporary files of a killed backup; no links."""
     root = backup_folder / OBJECTS
     for folder in () if root.is_symlink() else root.iterdir():
         if folder.is_dir() and not folder.is_symlink():
@@ -469,7 +482,10 @@ def _verify_file(backup_folder: Path, file: BackupFile) -> None:
 
 
 def hash_file(path: Path, *, from_disk: bool = False) -> str:
-    """SHA-256 of a file, ``from_disk`` from the disk and not from memory where the system can; empty without one."""
+    """Return a file's SHA-256, empty if it cannot be read.
+
+    ``from_disk`` drops the system's cached pages first, where the system can.
+    """
     try:
         with path.open("rb") as file:
             if from_disk and hasattr(os, "posix_fadvise"):

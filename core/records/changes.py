@@ -1,5 +1,7 @@
-"""A change of the store: rows that come, change and go together. Where two people change one row, the second change
-finds another version than the one it was made from, and is refused."""
+"""Changes of the store: rows are inserted, updated and deleted together.
+
+Each row has a version. An update made from an older version than the stored one is refused.
+"""
 
 from __future__ import annotations
 
@@ -17,9 +19,9 @@ from carpus.core.model.errors import ConcurrentChange, PseudonymTaken
 from carpus.core.records.schema import AUDIT_LOG, PATIENT, SESSION, TABLES
 
 LOST_FOLDER = "lost/"
-"""Begins the path of a session in whose place a file of another lies, and whose own was not found."""
+"""Prefix of the path of a session whose file was replaced by another one and not found again."""
 PRACTICE = "practice"
-"""Identity of the practice patient, of whom simulated sessions count."""
+"""Id of the practice patient, whose simulated sessions are counted."""
 
 _IDENTITY = re.compile(r"[0-9a-f]{32}")
 RowAction = Literal["new", "change", "keep", "drop"]
@@ -27,9 +29,11 @@ RowAction = Literal["new", "change", "keep", "drop"]
 
 @dataclass(frozen=True, slots=True)
 class RowChange:
-    """What becomes of one row. ``insert_row`` must not be there; ``changes`` must be, in ``version`` unless that is
-    0; ``keep``
-    makes it or changes it, whatever is there; ``drop`` takes it away with all that belongs to it."""
+    """Change of one row.
+
+    ``new`` requires that the row does not exist, ``change`` that it does, in ``version`` unless that is 0; ``keep``
+    inserts or updates; ``drop`` deletes the row and all that refers to it.
+    """
 
     action: RowAction
     table: str
@@ -42,27 +46,27 @@ ChangeSet = Sequence[RowChange]
 
 
 def insert_row(table: Table, id: str, **values: Any) -> RowChange:
-    """A row that is not there yet."""
+    """Return the insertion of a new row."""
     return RowChange("new", table.name, id, _sanitize_texts(values))
 
 
 def update_row(table: Table, id: str, version: int = 0, **values: Any) -> RowChange:
-    """A row that is there, as it was read."""
+    """Return the update of a row that was read in ``version``, 0 for any."""
     return RowChange("change", table.name, id, _sanitize_texts(values), version)
 
 
 def upsert_row(table: Table, id: str, **values: Any) -> RowChange:
-    """A row as it is from now on."""
+    """Return the insertion or update of a row."""
     return RowChange("keep", table.name, id, _sanitize_texts(values))
 
 
 def delete_row(table: Table, id: str) -> RowChange:
-    """A row that goes."""
+    """Return the deletion of a row."""
     return RowChange("drop", table.name, id, {})
 
 
 def _sanitize_texts(values: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Texts without signs that no database takes: zeros, halves of a sign."""
+    """Replace characters that no database stores: NUL and lone surrogates."""
     return {
         name: value.replace("\0", "\N{REPLACEMENT CHARACTER}").encode("utf-8", "replace").decode()
         if isinstance(value, str) else value
@@ -71,10 +75,9 @@ def _sanitize_texts(values: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def apply_changes(connection: Connection, changes: ChangeSet) -> None:
-    """Make a change in an open transaction.
+    """Apply changes in an open transaction, which must be rolled back after a fault.
 
-    Raises :class:`ConcurrentChange` for a row that is another by now or gone, :class:`PseudonymTaken`; then the
-    transaction must end without effect.
+    Raises :class:`ConcurrentChange` for a row that was changed or deleted, :class:`PseudonymTaken`.
     """
     owners: set[str] = set()
     for row in changes:
@@ -110,22 +113,24 @@ def _apply_row_change(connection: Connection, table: Table, row: RowChange) -> N
 
 
 def is_patient_id(text: str) -> bool:
-    """Whether this program gives such identities to patients, whose folders have them for names."""
+    """Return whether a text has the form of a patient's id, which also names the patient's folder."""
     return text == PRACTICE or _IDENTITY.fullmatch(text) is not None
 
 
 def fingerprint(identity: str) -> str:
-    """What stands in the log for a patient or a session; empty for none."""
+    """Return what stands in the log for the id of a patient or session; empty for no id."""
     return hashlib.sha256(identity.encode("utf-8", "backslashreplace")).hexdigest()[:16] if identity else ""
 
 
 ERASED_SUBJECTS = select(AUDIT_LOG.c.subject).where(AUDIT_LOG.c.did.in_(("erase_begun", "erased")))
-"""Fingerprints of the patients and sessions that were erased, or are being erased, as the log has them."""
+"""Query of the fingerprints of patients and sessions that were, or are being, erased."""
 
 
 def update_session_counts(connection: Connection, patient_id: str) -> None:
-    """Bring up to date what a patient's row says of the sessions: a recording counts once, an archived or simulated one
-    not."""
+    """Update a patient's session counts and last session.
+
+    A recording counts once, an archived or simulated one not at all.
+    """
     mine = [SESSION.c.patient_id == patient_id, SESSION.c.archived == "", SESSION.c.erasing == 0]
     if patient_id != PRACTICE:
         mine.append(SESSION.c.simulated == 0)

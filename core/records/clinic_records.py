@@ -1,5 +1,4 @@
-"""What belongs to the clinic and to no patient: its form of reports, to whom letters are written, the diagnoses to
-choose from, the back-ups that were made, and where on this computer things were last opened and saved."""
+"""Records of the clinic: report form, recipients of letters, backups, and last used folders."""
 
 from __future__ import annotations
 
@@ -27,24 +26,24 @@ from carpus.core.results.report_form import Letterhead, Paper, ReportForm
 
 MAX_RECIPIENTS = 50
 PLACES_FILE = "places.json"
-"""In the data folder: of this computer alone."""
+"""In the data folder, for this computer only."""
 
 
 def read_recipients(store: Store) -> list[str]:
-    """Addresses of letters, the last used first."""
+    """Return addresses of letters, the last used first."""
     query = select(RECIPIENT.c.address).order_by(RECIPIENT.c.used_s.desc()).limit(MAX_RECIPIENTS)
     return [str(row.address) for row in store.rows(query)]
 
 
 def save_recipient(store: Store, address: str) -> None:
-    """Take down an address."""
+    """Save an address of letters."""
     row_id = uuid.uuid5(uuid.NAMESPACE_OID, address).hex
     store.apply([upsert_row(RECIPIENT, row_id, address=address, used_s=time.time())])
 
 
 @dataclass(frozen=True, slots=True)
 class BackupRecord:
-    """The last back-up of a store; ``later_sessions`` counts sessions made since."""
+    """The last backup; ``later_sessions`` counts sessions made since."""
 
     made: datetime
     place: str
@@ -54,13 +53,13 @@ class BackupRecord:
 
 
 def save_backup_record(store: Store, made: datetime, place: str, sessions: int, size_bytes: int) -> None:
-    """Take down that a back-up was made."""
+    """Record that a backup was made."""
     row = {"made": made.isoformat(), "place": place, "sessions": sessions, "size_bytes": size_bytes}
     store.apply([insert_row(BACKUP, new_id(), **row)])
 
 
 def read_last_backup(store: Store) -> BackupRecord | None:
-    """None before the first."""
+    """Return the last backup, None before the first."""
     row = max(store.rows(select(BACKUP)), key=lambda one: parse_time(one.made, 0.0), default=None)
     if row is None:
         return None
@@ -70,17 +69,17 @@ def read_last_backup(store: Store) -> BackupRecord | None:
 
 
 def read_last_place(folder: Path, name: str) -> str:
-    """Where that was last on this computer; empty before the first time."""
+    """Return the folder last used for a purpose on this computer; empty before the first time."""
     return str(_read_places(folder).get(name, ""))
 
 
 def save_place(folder: Path, name: str, place: str) -> None:
-    """Remember where. Raises the faults of writing."""
+    """Remember a folder. Raises the faults of writing."""
     replace_text(folder / PLACES_FILE, json.dumps({**_read_places(folder), name: place}, ensure_ascii=False))
 
 
 def clear_places(folder: Path, names: Iterable[str]) -> None:
-    """Forget those that have one of these folded names in them."""
+    """Forget folders whose path contains one of these folded names."""
     for name, place in _read_places(folder).items():
         if any(one in fold_name(str(place)) for one in names):
             save_place(folder, name, "")
@@ -98,15 +97,15 @@ _FORM_ID = "clinic"
 
 
 def read_form(store: Store, default_paper: Paper = "a4") -> ReportForm:
-    """The form of a clinic; where there is none, no letterhead and the ``default_paper`` paper."""
+    """Return the clinic's report form, or an empty one on the default paper."""
     row = _form_row(store)
     return ReportForm(paper=default_paper) if row is None else _form_from_row(row)
 
 
 def save_form(store: Store, form: ReportForm, previous: ReportForm) -> None:
-    """Store it in place of the one that was read ``previous``.
+    """Store the report form in place of ``previous``.
 
-    Raises :class:`ConcurrentChange` where somebody else changed it, and the faults of writing.
+    Raises :class:`ConcurrentChange` if somebody else changed it, and the faults of writing.
     """
     head = form.letterhead
     values = {

@@ -1,4 +1,4 @@
-"""Sessions tracked again with corrected markers: tried in a folder of their own, taken into the list when wanted."""
+"""Re-analysed sessions: stored in a folder of their own until a person accepts or discards them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ SESSION_SUFFIX = ".h5"
 
 @dataclass(frozen=True, slots=True)
 class PendingResult:
-    """A new result that nobody has decided about yet: of which session, and where it lies."""
+    """New result of a session that nobody has decided about."""
 
     session_id: str
     path: Path
@@ -42,12 +42,13 @@ class PendingResult:
 
 @dataclass(frozen=True, slots=True)
 class ResultDifference:
-    """How a new result differs: of ``compared_frames`` pictures that both know, ``changed_frames`` differ by more than
-    :data:`NOTICEABLE_RAD` in some angle of the wrist or a finger; the most is ``max_difference_rad`` at
-    ``max_difference_at_s``; ``recovered_frames`` have an
-    angle now that had none. ``max_difference_angle`` names that angle. ``lost_markers`` are markers that are hardly
-    seen any more.
-    ``is_live``: as measured, since one of the two was not looked back at."""
+    """Difference between two results of one recording.
+
+    ``changed_frames`` of the ``compared_frames`` differ by more than :data:`NOTICEABLE_RAD` in some angle, at most by
+    ``max_difference_rad`` at ``max_difference_at_s`` in ``max_difference_angle``. ``recovered_frames`` have an angle
+    that was unknown before; ``lost_markers`` are rarely seen any more. ``is_live``: live values are compared, since one
+    of the two was not smoothed.
+    """
 
     compared_frames: int
     changed_frames: int
@@ -61,11 +62,11 @@ class ResultDifference:
 
 NOTICEABLE_RAD = np.radians(2.0)
 MIN_SEEN_SHARE = 0.2
-"""A marker that was seen in fewer of the pictures has nothing to lose."""
+"""Markers seen in a smaller share of the frames before are not reported as lost."""
 
 
 class Corrections:
-    """Where a new result lies until a person wants it."""
+    """Pending results of a data folder."""
 
     def __init__(self, library: Library) -> None:
         self._library = library
@@ -76,14 +77,14 @@ class Corrections:
         return any(self._folder.glob("*"))
 
     def delete_unfinished(self) -> None:
-        """Before anything is tracked again: what is left of a result that was not finished goes."""
+        """Delete what remains of results that were not finished, before the next analysis."""
         for path in self._folder.glob("*"):
             if path.suffix != SESSION_SUFFIX:
                 with suppress(OSError):
                     path.unlink()
 
     def list_pending(self) -> Sequence[PendingResult]:
-        """The new results that wait for a decision, the oldest first. One of a session that is no more is deleted."""
+        """Return the pending results, oldest first; those of deleted sessions are deleted."""
         found: list[tuple[str, PendingResult]] = []
         for path in sorted(self._folder.glob(f"*{SESSION_SUFFIX}")):
             with suppress(CarpusFault, OSError):  # cannot be read, a full share, or one that is away: it stays
@@ -101,7 +102,7 @@ class Corrections:
         return [one for _, one in sorted(found, key=lambda one: (one[0], one[1].path))]
 
     def _is_session_known(self, session_id: str) -> bool:
-        """Raises :class:`FolderMissing` while a session that is in no list may come yet."""
+        """Return whether the session exists. Raises :class:`FolderMissing` while its share is away."""
         library = self._library
         if session_id in library.unlisted or self._library.is_listed(session_id):
             return True
@@ -117,21 +118,21 @@ class Corrections:
         return find_free_name(self._folder / self._library.entry(session_id).path.name)
 
     def read_frame(self, session_id: str, row: int) -> tuple[ByteImage | None, FloatArray]:
-        """The picture of a row, None where none were kept, and the middles (S, 2) of its blue spots."""
+        """Return the colour frame of a row (None if not stored) and its blobs' centres (S, 2) in pixels."""
         path = self._library.entry(session_id).path
         if self._detections is None or self._detections[0] != path:
             self._detections = (path, read_detections(path))
         return self._library.read_frame(session_id, row), self._detections[1].get_frame(row).pixel
 
     def read_both(self, session_id: str, pending_path: Path) -> tuple[Session, Session]:
-        """The session and its new result, to be looked at beside each other."""
+        """Return the session and its pending result."""
         return read_session(self._library.entry(session_id).path), read_session(pending_path)
 
     def accept(self, session_id: str, pending_path: Path, *, is_copy: bool = False) -> str:
-        """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays.
+        """Add a pending result to the patient's sessions; return its id. The old result stays.
 
-        It lies beside the old one before it is listed, in one step with what was left out of that one, and then the
-        file gets its name: a fault or a kill leaves all as it was, or what :meth:`list_pending` goes on with.
+        The file is copied beside the old one, listed together with the exclusions that still apply, and then renamed.
+        After a fault or a kill all is as it was, or :meth:`list_pending` continues.
         """
         library, header = self._library, read_outline(pending_path).header
         check_share(library.store)
@@ -179,7 +180,6 @@ class Corrections:
         return header.session_id
 
     def _copy_marker_photo(self, place: Path, session_id: str) -> None:
-        """The picture of the markers is that of the recording."""
         own = place.with_suffix(MARKERS_SUFFIX)
         there = [one.path.with_suffix(MARKERS_SUFFIX) for one in self._library.result_versions(session_id)]
         beside = next((one for one in there if one.is_file()), None)
@@ -187,13 +187,13 @@ class Corrections:
             replace_file(own, lambda part: shutil.copyfile(beside, part))
 
     def _delete_copies(self, header: SessionHeader) -> None:
-        """What a program that was killed had copied of a result goes."""
+        """Delete copies that a killed program left."""
         for one in self._library.session_list.recording_versions(header.recording_id):
             with suppress(OSError):
                 _copy_path(one.path, header).unlink(missing_ok=True)
 
     def _transferable_choices(self, session_id: str, pending_path: Path) -> RepetitionChoices | None:
-        """What was said of the old result and is as true of the new one; None for nothing."""
+        """Return the choices of the old result that also apply to the new one."""
         library = self._library
         choices = library.choices(session_id)
         moved = dict[int, str]()
@@ -208,9 +208,11 @@ class Corrections:
         return replace(choices, excluded=moved, edges_s={}) if choices.is_session_excluded or moved else None
 
     def restore_version(self, session_id: str) -> str:
-        """Let an older result count again: written once more, with all its choices, it is the newest one, whatever the
-        clocks of other computers say; its identity. It was not tracked again, so its origin is that of the older one.
-        Raises what reading and writing raise; then nothing is left."""
+        """Make an older result the newest version again, with its choices; return the new id.
+
+        The file is written again with a later date of creation, whatever the clocks of other computers say. Its origin
+        stays, since it was not re-analysed. After a fault nothing is left.
+        """
         trial, newest = self.new_pending_path(session_id), self._library.result_versions(session_id)[-1].created
         made = max(datetime.now().astimezone(), newest + timedelta(seconds=1.0)).isoformat()
         rewrite_session(self._library.entry(session_id).path, trial, session_id=str(uuid4()), created=made)
@@ -222,8 +224,10 @@ class Corrections:
             raise
 
     def discard(self, pending_path: Path) -> None:
-        """Delete a new result that is not wanted. Raises :class:`ConcurrentChange` for one that is listed: it counts,
-        and :meth:`list_pending` goes on with it; and :class:`SessionUnreadable`."""
+        """Delete a pending result.
+
+        Raises :class:`ConcurrentChange` if it is listed already, and :class:`SessionUnreadable`.
+        """
         if pending_path.exists():
             if self._library.is_listed(read_outline(pending_path).header.session_id):
                 raise ConcurrentChange(SESSION.name)
@@ -231,8 +235,10 @@ class Corrections:
 
 
 def _copy_path(path: Path, header: SessionHeader) -> Path:
-    """Where a new result lies beside the session at ``path`` until it is listed: no back-up takes it, and it is erased
-    with that session."""
+    """Return the path of a new result beside its session until it is listed.
+
+    Backups leave it out, and it is erased with that session.
+    """
     return path.with_name(f".{path.stem}.{header.session_id[:8]}{PENDING_COPY_SUFFIX}")
 
 
@@ -243,7 +249,7 @@ def _has_session(path: Path, session_id: str) -> bool:
 
 
 def _match_exclusions(reasons: Mapping[int, str], old: Session, new: Session) -> dict[int, str]:
-    """What was said of repetitions, by the numbers of those of a new result that are mostly the same moments."""
+    """Return reasons of excluded repetitions by their number in the new result."""
     before = compute_repetitions(old).rows
     return {
         number: why
@@ -254,14 +260,13 @@ def _match_exclusions(reasons: Mapping[int, str], old: Session, new: Session) ->
 
 
 def _overlaps(one: RepetitionRow, other: RepetitionRow) -> bool:
-    """Whether half of the shorter one lies in the longer: one may be found as two, or two as one."""
+    """Return whether half of the shorter repetition lies in the longer: one may be found as two."""
     both_s = min(one.end_s, other.end_s) - max(one.start_s, other.start_s)
     return both_s >= 0.5 * min(one.end_s - one.start_s, other.end_s - other.start_s)
 
 
 def compare_results(old: Session, new: Session) -> ResultDifference:
-    """How two results of one recording differ, looked back at if both are: else all that looking back betters would
-    be told as put right."""
+    """Compare two results of one recording; smoothed values only if both are smoothed."""
     live = old.smoothed is None or new.smoothed is None
     before, after = (old.motion, new.motion) if live else (motion_estimate(old), motion_estimate(new))
     angles = [np.concatenate((motion.angles_rad, motion.joint_angles_rad), axis=1) for motion in (before, after)]

@@ -1,4 +1,4 @@
-"""The store's file: SQLite for its owner only, what is taken out of it overwritten, complaints as faults."""
+"""SQLite file of the store: private, deleted content overwritten, SQLite's errors turned into faults."""
 
 from __future__ import annotations
 
@@ -30,31 +30,28 @@ from carpus.core.session.atomic_files import find_free_name
 
 STORE_FILE = "records.sqlite3"
 MAX_CHECKED_BYTES = 64 << 20
-"""A file up to this size is looked through when it is opened; a larger one would hold up the start, and its damage is
-met where it is."""
+"""Larger files are not checked when they are opened: that would delay the start."""
 LOCK_WAIT_MS = 5000
 """How long one program waits for another."""
 CANNOT_WRITE_CODES = (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
 MAYBE_FULL_CODES = (sqlite3.SQLITE_IOERR, *CANNOT_WRITE_CODES)
-"""What SQLite says too of a disk without room for the files that it needs beside its own."""
+"""What SQLite also reports on a full disk, which has no room for its journal."""
 READ_ATTEMPTS = 3
 COPY_TIMEOUT_S = 30.0
 _MIGRATION_LOCK = threading.Lock()
-"""Alembic keeps the migration that runs in globals of its own: one at a time in a process."""
+"""Alembic keeps the running migration in globals: one at a time in a process."""
 
 
 class Database:
-    """Reading never waits for writing; one writes at a time, also among several programs.
+    """SQLite database: readers never wait for a writer; one writer at a time, also among programs.
 
-    ``is_new`` tells that the tables had to be made, ``had_unguarded_log`` that somebody had taken the triggers of the
-    log
-    away, which are there again. Raises :class:`PatientListUnreadable`, or :class:`PatientListDamaged`
-    where waiting does not help, :class:`OutputNotWritable`, :class:`DiskFull`.
+    ``is_new``: the tables had to be created. ``had_unguarded_log``: somebody had removed the log's triggers, which are
+    restored. Raises :class:`PatientListUnreadable`, :class:`PatientListDamaged` where waiting does not help,
+    :class:`OutputNotWritable`, :class:`DiskFull`.
     """
 
     def __init__(self, path: Path, copy: sqlite3.Connection | None = None) -> None:
-        """``copy`` in memory, of :func:`copy_to_memory`, where the file cannot be written: what is changed in it is
-        lost."""
+        """``copy`` replaces a file that cannot be written; changes of it are lost."""
         self._path, self._write_lock, self._is_closed = path, threading.RLock(), False
         if copy is None:
             make_private_file(path)
@@ -82,13 +79,13 @@ class Database:
             raise
 
     def close(self) -> None:
-        """May be called twice; what another thread still reads is closed when it is done."""
+        """Close the database; may be called twice. Connections in use are closed when returned."""
         self._is_closed = True
         self._engine.pool.dispose()
 
     @contextlib.contextmanager
     def _dispose_when_closed(self) -> Iterator[None]:
-        """Close a connection that comes back after the store was closed: the pool would keep it."""
+        """Close a connection that is returned after :meth:`close`: the pool would keep it."""
         try:
             yield
         finally:
@@ -102,7 +99,7 @@ class Database:
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
-        """All of it is stored, or, after an exception, nothing."""
+        """Open a transaction; it is rolled back after an exception."""
         with (
             self._write_lock,
             self._dispose_when_closed(),
@@ -114,8 +111,10 @@ class Database:
                 yield writes
 
     def purge_deleted(self, *, wait: bool = True) -> bool:
-        """Empty the write-ahead log, which keeps what was overwritten; whether it is, for another program that reads
-        holds that up."""
+        """Empty the write-ahead log, which keeps overwritten content.
+
+        Returns False while another program reads.
+        """
         with self._write_lock, self._dispose_when_closed(), self._translate_errors():
             raw = self._engine.raw_connection()
             try:
@@ -152,10 +151,10 @@ class Database:
 
 
 def copy_to_memory(path: Path) -> sqlite3.Connection:
-    """A store in memory, as it is between two transactions, whoever has it open. Also of a folder that cannot be
-    written, in which SQLite opens none, where no journal lies beside it: while somebody has it open there is one.
+    """Copy a store to memory in one transaction, whoever has it open.
 
-    Raises :class:`PatientListUnreadable` and its kinds.
+    Also from a read-only folder, where SQLite opens no file, as long as no journal lies beside it. Raises
+    :class:`PatientListUnreadable` and its kinds.
     """
     copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
     try:
@@ -180,12 +179,11 @@ def copy_to_memory(path: Path) -> sqlite3.Connection:
 
 
 def _read_unlocked(path: Path) -> bytes:
-    """All of a store whose file cannot be written.
+    """Read a store whose file cannot be written.
 
-    SQLite's own ``immutable`` would go on reading a file that another computer writes. Here the whole file is read
-    twice: nobody wrote in it where both are equal and no journal was there before nor is behind, for one is there as
-    long as pages are written. Raises :class:`PatientListReadOnly` or :class:`PatientListBusy` where it is not so,
-    OSError.
+    SQLite's ``immutable`` would read on while another computer writes. Here the file is read twice: nobody wrote if
+    both readings are equal and there was no journal before or after. Raises :class:`PatientListReadOnly`,
+    :class:`PatientListBusy` or OSError.
     """
     for _ in range(READ_ATTEMPTS):
         is_written = _has_journal(path)
@@ -203,11 +201,9 @@ def _has_journal(path: Path) -> bool:
 
 
 def migrate(connection: Connection, name: Path | str) -> bool:
-    """Bring the tables of a database to this version; whether there were none before. Alembic is loaded only then.
+    """Migrate the tables to this version; return whether there were none. Loads Alembic only if needed.
 
-    Raises :class:`PatientListVersionUnknown` for one of a version that is not known, :class:`PatientListDamaged` for
-    what is
-    no store.
+    Raises :class:`PatientListVersionUnknown`, or :class:`PatientListDamaged` for another kind of database.
     """
     tables = set(inspect(connection).get_table_names())
     found = connection.exec_driver_sql("SELECT version_num FROM alembic_version").scalar() if (
@@ -232,7 +228,7 @@ def migrate(connection: Connection, name: Path | str) -> bool:
 
 
 def _restore_log_triggers(connection: Connection) -> bool:
-    """See that the triggers of the log are there and as they were made; whether they were not."""
+    """Restore missing or changed triggers of the log; return whether there were any."""
     query = "SELECT name, sql FROM sqlite_master WHERE type = 'trigger'"
     there = {str(name): sql for name, sql in connection.exec_driver_sql(query)}
     wanted = {one.split()[2]: one for one in SQLITE_LOG.strip().removesuffix(";").split(";\n")}
@@ -243,8 +239,10 @@ def _restore_log_triggers(connection: Connection) -> bool:
 
 
 def rescue_rows(damaged: Path, target: Database) -> int:
-    """Take what can still be read of a damaged store into a new one, each table from both its ends up to where it is
-    damaged; how many rows. What the files say comes anew."""
+    """Copy readable rows of a damaged store, from both ends of each table; return how many.
+
+    Sessions are listed again from their files.
+    """
     count = 0
     with (
         contextlib.suppress(sqlite3.Error),
@@ -273,7 +271,7 @@ def rescue_rows(damaged: Path, target: Database) -> int:
 
 
 def move_aside(path: Path, now: datetime, label: str = "damaged") -> Path:
-    """Give a database and its journals another name, so that a new one can be made; where it is now."""
+    """Rename a database and its journals, so that a new one can be made; return the new path."""
     aside = find_free_name(path.with_name(f"{path.stem}.{label}-{now:%Y%m%d-%H%M%S}{path.suffix}"))
     try:
         for tail in ("", "-wal", "-shm"):

@@ -1,10 +1,9 @@
-"""A session, or a patient, deleted with everything: rows are marked, then files go, then the rows.
+"""Erasure of a session or patient: rows are marked, files deleted, then the rows.
 
-An erasure that is cut short is finished when the store is opened next. Only files in the folder of the sessions, and
-what Carpus keeps beside it, are touched: by relative paths without links; where a link leads elsewhere, nothing is
-begun. What lies outside the patient's folder and is no session's stays and is listed for a person, and so are reports
-and exports that were saved elsewhere; back-ups stay. What is deleted is overwritten in the store; what the disk itself
-keeps of deleted files only its encryption protects.
+An interrupted erasure is finished when the store is opened next. Only files in the session folder and beside it are
+deleted, by relative paths without links; if a link leads elsewhere, nothing is started. Files outside the patient's
+folder that belong to no session, and reports and exports saved elsewhere, are listed for a person; backups stay. The
+store overwrites what it deletes; on the disk only its encryption protects deleted files.
 """
 
 from __future__ import annotations
@@ -52,10 +51,11 @@ from carpus.core.session.atomic_files import iter_paths
 
 @dataclass(frozen=True, slots=True)
 class ErasurePlan:
-    """What would go. ``recording_count`` counts recordings; ``files`` lie in the data folder; ``output_files`` are
-    files that Carpus
-    made elsewhere and does not touch; ``unassigned_files`` lies in no patient's folder, and a person has to look at
-    it."""
+    """What an erasure would delete.
+
+    ``files`` lie in the data folder, ``output_files`` were made elsewhere and stay, ``unassigned_files`` lie in no
+    patient's folder and must be checked by a person.
+    """
 
     kind: SubjectKind
     subject_id: str
@@ -70,8 +70,10 @@ class ErasurePlan:
 
 
 def plan_session(store: Store, session_id: str) -> ErasurePlan:
-    """One recording with all its results, also those copied in since the last look. Raises KeyError for a session that
-    is not in the store, :class:`ErasureBlockedByLink`, :class:`FolderMissing` for a share that is away."""
+    """Plan the erasure of a recording with all its results, also those copied in since.
+
+    Raises KeyError, :class:`ErasureBlockedByLink`, :class:`FolderMissing` while the share is away.
+    """
     SessionFileScanner(store).scan(reports_faults=False)
     sessions = SessionList(store)
     return _build_plan(
@@ -80,8 +82,10 @@ def plan_session(store: Store, session_id: str) -> ErasurePlan:
 
 
 def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
-    """A patient with all sessions, also those copied in since the last look. Raises KeyError for one that is not in the
-    store, :class:`ErasureBlockedByLink`, :class:`FolderMissing`."""
+    """Plan the erasure of a patient with all sessions, also those copied in since.
+
+    Raises KeyError, :class:`ErasureBlockedByLink`, :class:`FolderMissing`.
+    """
     SessionFileScanner(store).scan(reports_faults=False)
     Patients(store).get(patient_id)
     results = SessionList(store).patient_sessions(patient_id, include_archived=True)
@@ -107,11 +111,12 @@ def _build_plan(
 
 
 def erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
-    """Do it; how many files went. What cannot be deleted now is tried again whenever the store is opened. Of a patient
-    also what came since it was planned. On a full disk the room that is kept for it is used.
+    """Erase as planned; return the number of files.
 
-    Raises :class:`ErasureUnfinished` where files are left, :class:`OutputNotWritable` or :class:`DiskFull` where it
-    could not be logged and so was not begun.
+    Files that cannot be deleted are tried again when the store is opened. A patient's sessions added since the plan go
+    too. On a full disk the reserve is freed first.
+    Raises :class:`ErasureUnfinished` if files are left, :class:`OutputNotWritable` or :class:`DiskFull` if it could not
+    be logged and so was not started.
     """
     try:
         return _erase(store, plan, log)
@@ -140,8 +145,7 @@ def _erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
 
 
 def resume_erasures(store: Store, log: AuditLogWriter) -> frozenset[str]:
-    """What an erasure that was cut short has left; called when the store is opened. Of patients who are gone by it, the
-    pseudonyms, folded."""
+    """Finish interrupted erasures; return the folded pseudonyms of patients erased by it."""
     people = frozenset(str(row[0]) for row in store.rows(select(PATIENT.c.folded).where(PATIENT.c.erasing == 1)))
     left: list[Path] = []
     if people or store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)):
@@ -152,8 +156,10 @@ def resume_erasures(store: Store, log: AuditLogWriter) -> frozenset[str]:
 
 
 def delete_orphan_folders(store: Store) -> int:
-    """Delete the folders of patients who were erased on another computer; how many. Raises :class:`FolderMissing` for a
-    share that is away."""
+    """Delete folders of patients erased on another computer; return how many.
+
+    Raises :class:`FolderMissing` while the share is away.
+    """
     check_share(store)
     gone = {str(row[0]) for row in store.rows(ERASED_SUBJECTS)}
     there = [one for one in store.sessions_folder.iterdir() if one.is_dir() and not one.is_symlink()]
@@ -167,7 +173,7 @@ def delete_orphan_folders(store: Store) -> int:
 
 
 def finish_pending(store: Store) -> list[Path]:
-    """Delete the files of what is marked, then its rows; files that could not be deleted."""
+    """Delete the files of marked rows, then the rows; return files that could not be deleted."""
     people = store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
     patients = [str(row.id) for row in people]
     mine = (SESSION.c.erasing == 1) | SESSION.c.patient_id.in_(patients)
@@ -206,8 +212,10 @@ def finish_pending(store: Store) -> list[Path]:
 
 
 def _clinic_rows_naming(store: Store, names: Sequence[str]) -> list[RowChange]:
-    """What belongs to the clinic and has the name of one of these as a word: an address of letters, a diagnosis of the
-    clinic's list. A number names nobody there: it is a street's, or a zone's."""
+    """Return deletions of addresses and listed diagnoses that contain one of the names as a word.
+
+    Names without letters are left out: a number may be that of a street.
+    """
     named = [name for name in names if any(map(str.isalpha, name))]
     if not named:
         return []
@@ -221,8 +229,10 @@ def _clinic_rows_naming(store: Store, names: Sequence[str]) -> list[RowChange]:
 
 
 def _files_to_delete(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> set[Path]:
-    """Every file of these: the sessions' own with what lies beside them, their copies and new results that wait, and
-    all that is left in the folders of the patients; but nothing that lies beside another session under its name."""
+    """Return the sessions' files with companions, copies and pending results, and the patients' folders' files.
+
+    Companions of other sessions are left out.
+    """
     rows, root, going = store.rows(select(SESSION.c.id, SESSION.c.path)), store.sessions_folder, set(sessions)
     mine, files = [str(row.path) for row in rows if row.id in going], SessionFileScanner(store)
     others = {f"{root / row.path}".removesuffix(".h5") for row in rows if row.id not in going}
@@ -235,8 +245,10 @@ def _files_to_delete(store: Store, patients: Sequence[str], sessions: Sequence[s
 
 
 def _find_unassigned_files(store: Store, patient_id: str) -> tuple[Path, ...]:
-    """What lies in no patient's folder and beside no session that is listed, folders and stores that were set aside:
-    nobody but a person can tell whose it is. What is named like the patient comes first."""
+    """Return files in no patient's folder and beside no listed session, and stores set aside.
+
+    Those named like the patient come first.
+    """
     root, seen = store.sessions_folder, read_file_states(store)
     listed = {f"{root / row.path}".removesuffix(".h5") for row in store.rows(select(SESSION.c.path))}
     copies = {root / path for path, one in seen.items() if one.reason.startswith(COPY_REASON)}
@@ -257,7 +269,6 @@ def _find_unassigned_files(store: Store, patient_id: str) -> tuple[Path, ...]:
 
 
 def _to_file_name(text: str) -> str:
-    """A text as it may stand in names of files."""
     return re.sub(r"\W+", "-", fold_name(text))
 
 
@@ -267,7 +278,7 @@ def _patient_names(store: Store, patient_id: str) -> list[str]:
 
 
 def _companion_files(store: Store, relative_path: str) -> set[Path]:
-    """A session's file and all that lies beside it under its name; nothing for a path that leads elsewhere."""
+    """Return a session's file and all files beside it with its name."""
     path = _resolve_inside(store.sessions_folder, relative_path)
     return set() if path is None else {
         one
@@ -278,13 +289,12 @@ def _companion_files(store: Store, relative_path: str) -> set[Path]:
 
 
 def _is_companion(path: Path, stems: Collection[str]) -> bool:
-    """Whether a file lies beside one of these under its name."""
+    """Return whether a file lies beside one of these stems with its name."""
     parts = path.name.split(".")
     return any(str(path.with_name(".".join(parts[:end]))) in stems for end in range(2 - bool(parts[0]), len(parts)))
 
 
 def _is_share_away(store: Store) -> bool:
-    """Whether the clinic's share is not there: the files would come back with it."""
     try:
         check_share(store)
     except FolderMissing:
@@ -293,7 +303,7 @@ def _is_share_away(store: Store) -> bool:
 
 
 def _symlinks_on_path(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> list[Path]:
-    """Links on the way to what is to go: nobody knows what else lies behind them."""
+    """Return links on the paths to delete: what lies behind them is not known."""
     root = store.sessions_folder
     ways = {folder / "_" for folder in _patient_folders(store, patients)}
     for row in store.rows(select(SESSION.c.path).where(SESSION.c.id.in_(sessions))):
@@ -303,12 +313,12 @@ def _symlinks_on_path(store: Store, patients: Sequence[str], sessions: Sequence[
 
 
 def _patient_folders(store: Store, patients: Sequence[str]) -> list[Path]:
-    """Of these patients; an identity that this program did not give names none, for it could lead anywhere."""
+    """Return the patients' folders; ids that this program did not give could lead anywhere."""
     return [store.sessions_folder / one for one in patients if is_patient_id(one)]
 
 
 def _resolve_inside(folder: Path, relative_path: str) -> Path | None:
-    """The path below a folder, None where it would lead out of it, by its name or by a link on its way."""
+    """Return the path below a folder, None if it leads out of it by name or link."""
     path = folder / relative_path
     parts = Path(relative_path).parts
     if not parts or Path(relative_path).is_absolute() or ".." in parts:

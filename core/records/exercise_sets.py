@@ -1,4 +1,4 @@
-"""The clinic's sets of exercises, and how the last session of each patient was set up, as they are stored."""
+"""Stored sets of exercises of the clinic, and the last set-up of each patient."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from carpus.core.records.store import Store
 
 
 def read_sets(store: Store) -> tuple[ExerciseSet, ...]:
-    """The sets of the clinic; those whose exercises this Carpus does not know are left out."""
+    """Return the clinic's sets, without those whose exercises are unknown."""
     rows = store.rows(select(EXERCISE_SET).order_by(EXERCISE_SET.c.place))
     sound = store.valid_rows(
         (row for row in rows if not row.gone), lambda row: [_set_from_row(row)] if _has_known_exercises(row) else []
@@ -30,9 +30,9 @@ def read_sets(store: Store) -> tuple[ExerciseSet, ...]:
 
 
 def save_sets(store: Store, sets: Sequence[ExerciseSet], previous: Sequence[ExerciseSet]) -> None:
-    """Store them in place of those that were read ``previous``; what somebody else added meanwhile stays.
+    """Store sets in place of ``previous``; those added by somebody else stay.
 
-    Raises :class:`ConcurrentChange` where somebody else changed one of them, and the faults of writing.
+    Raises :class:`ConcurrentChange` if somebody else changed one of them, and the faults of writing.
     """
     there, read = {row.id: row for row in store.rows(select(EXERCISE_SET))}, {one.set_id: one for one in previous}
     change = []
@@ -65,7 +65,7 @@ def _set_columns(one: ExerciseSet) -> dict[str, str]:
 
 
 def read_last_setup(store: Store, patient_id: str) -> SessionSetup | None:
-    """None before the first. Of a set, its beginning, as the set is now."""
+    """Return a patient's last set-up, None before the first; of a set its first part."""
     row = store.row(select(SET_UP).where(SET_UP.c.id == patient_id))
     if row is None:
         return None
@@ -90,7 +90,7 @@ def read_last_setup(store: Store, patient_id: str) -> SessionSetup | None:
 
 
 def save_setup(store: Store, set_up: SessionSetup) -> None:
-    """Remember it, with its goal."""
+    """Save a set-up and its goal."""
     targets = set_up.target_positive_deg, set_up.target_negative_deg
     stored = from_clinical_targets_deg(targets, set_up.exercise)
     row = upsert_row(

@@ -1,4 +1,4 @@
-"""The data folder: the store of what people type, the session files, and what lies beside them."""
+"""The data folder: the store of what people type, the session files and what lies beside them."""
 
 from __future__ import annotations
 
@@ -39,18 +39,18 @@ from carpus.core.session.reader import has_raw, read_outline, read_raw_color, re
 from carpus.core.session.values import AngleOrder, Session
 
 MAX_OPEN_RECORDINGS = 2
-"""Files of pictures that stay open: two sessions are looked at beside each other."""
+"""Two sessions are shown side by side."""
 
 
 class FrameCache:
-    """Pictures of the sessions looked at last. May be used from several threads."""
+    """Frames of the sessions shown last; thread-safe."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._open: list[StoredFrames] = []
 
     def read_frame(self, paths: Sequence[Path], row: int) -> ByteImage | None:
-        """The colour picture of a row of the first of these results of one recording that has pictures."""
+        """Return the colour frame of a row from the first of these results that has frames."""
         with_pictures = (path for path in paths if path.with_suffix(RAW_SUFFIX).exists() or has_raw(path))
         path = next(with_pictures, paths[0])
         with self._lock:
@@ -61,13 +61,13 @@ class FrameCache:
             return kept.read_color(row)
 
     def clear(self) -> None:
-        """Let go of the files whose pictures were shown last."""
+        """Close the files."""
         with self._lock:
             self._open = []
 
 
 class StoredFrames:
-    """Pictures kept in a session file, or in a raw recording beside it."""
+    """Frames stored in a session file, or in a raw recording beside it."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -77,7 +77,7 @@ class StoredFrames:
         self._times_s = read_session(path).timestamp_s if self._raw_recording is not None else np.empty(0)
 
     def read_color(self, row: int) -> ByteImage | None:
-        """The colour picture of a row, None when it was not kept."""
+        """Return the colour frame of a row, None if it was not stored."""
         if self._raw_recording is not None:
             return self._raw_recording.load_color(float(self._times_s[row]))
         data = read_raw_color(self.path, row) if self._is_in_session else b""
@@ -86,7 +86,7 @@ class StoredFrames:
 
 @dataclass(frozen=True, slots=True)
 class OpenedSession:
-    """A session file that was handed over; ``patient_id`` is empty where nobody here has it."""
+    """Session file opened by its path; ``patient_id`` is empty if it is not listed."""
 
     patient_id: str
     session_id: str
@@ -95,11 +95,10 @@ class OpenedSession:
 
 
 class Library:
-    """Everything that is stored. May be used from several threads.
+    """All stored data of a folder; thread-safe.
 
-    What is done with patients' sessions stands in the log with the initials of ``get_initials`` does it; where it
-    cannot be
-    written, ``on_fault`` is told. The practice patient is nobody, and in no log.
+    What is done with patients' sessions is logged with the initials from ``get_initials``; faults of the log go to
+    ``on_fault``. The practice patient is in no log.
     """
 
     def __init__(
@@ -111,13 +110,13 @@ class Library:
         sessions_folder: Path | None = None,
         read_only: bool = False,
     ) -> None:
-        """``read_only``: also of a folder that cannot be written."""
+        """``read_only`` also opens a folder that cannot be written."""
         self.folder = folder
         self.get_initials: Callable[[], str] = lambda: ""
         self.startup_faults: list[CarpusFault] = []
         self.on_fault: Callable[[CarpusFault], None] = lambda fault: self.startup_faults.append(fault)
         self.error_limits = DEFAULT_LIMITS
-        """The clinic's own from its test and retest, as far as it has any."""
+        """The clinic's own limits, from its test-retest study, where it has any."""
         try:
             self.error_limits = read_limits(folder)
         except CarpusFault as fault:
@@ -131,28 +130,27 @@ class Library:
         self.patients.on_change = self.audit_log.log_patient
         self.frame_cache = FrameCache()
         self.unlisted: dict[str, SessionEntry] = {}
-        """Sessions that are in no list, remembered until the program ends: files that were handed over, and those of a
-        data folder that went away, which are brought home at the next start."""
+        """Sessions in no list, known until the program ends: files opened by their path, and recordings that wait on
+        this computer for the session folder."""
         self._results_cache: dict[Path, tuple[RepetitionChoices, SessionResults]] = {}
         self._shown_versions: dict[str, int] = {}
         self._last_names: Sequence[str] = ()
         self.get_angle_order: Callable[[], AngleOrder] = lambda: "zyx"
-        """In which order the wrist's angles are read in the window; files keep the papers'."""
+        """Order of the wrist's angles in the window; files keep that of the papers."""
         self.erased_pseudonyms = frozenset[str]()
-        """Pseudonyms of patients whose erasing was cut short before and is finished now, as they are compared."""
+        """Folded pseudonyms of patients whose interrupted erasure was finished now."""
         with suppress(ServerUnavailable):  # told by who asks for something
             self.resume_erasures()
 
     def resume_erasures(self) -> None:
-        """When the store is there: what an erasure that was cut short has left goes."""
         self.erased_pseudonyms = resume_erasures(self.store, self.log_writer)
 
     def close(self) -> None:
-        """May be called twice."""
+        """Close the store; may be called twice."""
         self.store.close()
 
     def pseudonyms(self) -> Sequence[str]:
-        """Every pseudonym and name there is, for what must not hold them."""
+        """Return every pseudonym and name, for texts that must not contain them."""
         with suppress(CarpusFault):  # those known last, while the store cannot be read
             self._last_names = [
                 text
@@ -164,26 +162,26 @@ class Library:
 
     # --- sessions -----------------------------------------------------------------------------------------
     def sessions(self, patient_id: str) -> Sequence[SessionEntry]:
-        """A patient's sessions, newest first: of a recording that was tracked more than once the newest result."""
+        """Return a patient's sessions, newest first, each recording by its newest result."""
         return select_latest_versions(self.session_list.patient_sessions(patient_id))
 
     def manual_measurements(self, patient_id: str) -> Sequence[ManualValue]:
-        """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
+        """Return all manual measurements of a patient in the order of entry."""
         return patients.read_manual_measurements(self.store, patient_id)
 
     def add_manual_measurements(self, patient_id: str, values: Sequence[ManualValue]) -> None:
-        """Keep what was measured by hand; what was entered before for the same stays readable."""
+        """Store manual measurements; earlier ones stay readable."""
         patients.add_manual_measurements(self.store, patient_id, values)
         self.audit_log.log_patient("entered_by_hand", patient_id, values=len(values))
 
     def matching_sessions(self, patient_id: str, set_up: SessionSetup) -> Sequence[SessionEntry]:
-        """Those with the discs of a set-up on the same hand, newest first."""
+        """Return sessions with the markers and hand of a set-up, newest first."""
         own = (set_up.side, set_up.exercise.protocol)
         entries = self.sessions(patient_id)
         return [entry for entry in entries if (entry.hand, get_exercise(entry.exercise).protocol) == own]
 
     def entry(self, session_id: str) -> SessionEntry:
-        """One session by its identity. Raises :class:`SessionUnreadable` for one that is not there."""
+        """Return a session by its id. Raises :class:`SessionUnreadable` if there is none."""
         if session_id in self.unlisted:
             return self.unlisted[session_id]
         with suppress(KeyError):
@@ -196,7 +194,7 @@ class Library:
         return False
 
     def owner_id(self, session_id: str) -> str:
-        """Whose session it is; empty for nobody's."""
+        """Return the patient of a session; empty for none."""
         if session_id in self.unlisted:
             return ""
         with suppress(KeyError):
@@ -204,8 +202,10 @@ class Library:
         return ""
 
     def open_file(self, path: Path) -> OpenedSession:
-        """A session by its file, wherever that lies. One that no list knows belongs to nobody, and is remembered until
-        the program ends; its file stays where it is. Raises what reading the file raises."""
+        """Open a session file anywhere; one that is not listed is known until the program ends.
+
+        Raises what reading the file raises.
+        """
         outline = read_outline(path)
         header = outline.header
         with suppress(KeyError):
@@ -217,7 +217,7 @@ class Library:
 
     # --- what is read of a session ------------------------------------------------------------------------
     def session(self, session_id: str) -> Session:
-        """A whole session, of the exercise that it is in the list with, its angles in the order that is chosen."""
+        """Return a session with its listed exercise and the chosen order of angles."""
         return with_angle_order(self._read_listed_session(session_id), self.get_angle_order())
 
     def _read_listed_session(self, session_id: str) -> Session:
@@ -225,19 +225,17 @@ class Library:
         return with_listed_exercise(read_session(entry.path), entry)
 
     def drop_cached_results(self, session_id: str) -> None:
-        """What was worked out of a session is worked out anew."""
         self._results_cache = {
             path: known for path, known in self._results_cache.items() if known[1].session_id != session_id
         }
 
     def read_frame(self, session_id: str, row: int) -> ByteImage | None:
-        """The colour picture of a row where pictures were kept, in the session or beside it, or beside another result
-        of the same recording."""
+        """Return the colour frame of a row, stored with this or another result of the recording."""
         paths = self.entry(session_id).path, *(one.path for one in self.result_versions(session_id))
         return self.frame_cache.read_frame(paths, row)
 
     def result_versions(self, session_id: str) -> Sequence[SessionEntry]:
-        """Every result of the recording of a session, the first one first."""
+        """Return every result of a session's recording, oldest first."""
         if session_id in self.unlisted:
             return [self.unlisted[session_id]]
         with suppress(KeyError):
@@ -251,7 +249,7 @@ class Library:
         return found
 
     def save_choices(self, session_id: str, choices: RepetitionChoices) -> None:
-        """Store it in place of what was read last. Raises :class:`ConcurrentChange` where that is not what holds."""
+        """Store choices in place of those read last. Raises :class:`ConcurrentChange`."""
         before, version = session_records.read_choices(self.store, session_id)
         self._shown_versions[session_id] = session_records.save_choices(
             self.store, session_id, choices, self._shown_versions.get(session_id, version)
@@ -262,20 +260,20 @@ class Library:
             self.audit_log.log_session("set_aside" if choices.is_session_excluded else "taken_back", session_id)
 
     def comment(self, session_id: str) -> str:
-        """What holds of it; empty where nothing was written."""
+        """Return the current comment, empty if there is none."""
         if session_id in self.unlisted:
             return ""
         return session_records.current_comment(session_records.read_comments(self.store, session_id))
 
     def save_comment(self, session_id: str, text: str) -> None:
-        """Add a comment, which holds from now on; what was written before stays readable."""
+        """Add a comment as the current one; earlier ones stay readable."""
         text = text.strip()[:MAX_COMMENT_CHARACTERS]
         if text != self.comment(session_id):
             session_records.add_comment(self.store, session_id, text, self.get_initials())
             self.audit_log.log_session("changed", session_id)
 
     def results(self, entry: SessionEntry) -> SessionResults:
-        """Figures of a session with its choices, computed once."""
+        """Return the results of a session with its choices, cached."""
         choices, order = session_records.read_choices(self.store, entry.session_id)[0], self.get_angle_order()
         known = self._results_cache.get(entry.path)
         if known is None or known[0] != choices or known[1].angle_order != order:
@@ -285,17 +283,16 @@ class Library:
         return known[1]
 
     def results_by_id(self, session_id: str) -> SessionResults:
-        """As :meth:`results`, by the session's identity."""
         return self.results(self.entry(session_id))
 
     def reload_error_limits(self) -> None:
-        """The clinic has measured its own error limits: from now on everything is judged by them."""
+        """Use the limits that the clinic has just measured."""
         self.error_limits = read_limits(self.folder)
         self._results_cache = {}
         self.audit_log.log_program("changed", limits=len(self.error_limits.studies))
 
     def history(self, patient_id: str) -> Sequence[SessionResults]:
-        """Figures of all sessions of a patient that can be read."""
+        """Return the results of all readable sessions of a patient."""
         out = []
         results = Counter(entry.recording_id for entry in self.session_list.patient_sessions(patient_id))
         for entry in self.sessions(patient_id):
@@ -313,8 +310,10 @@ class Library:
         deidentified: bool = False,
         form: TableDialect = MACHINE_DIALECT,
     ) -> Sequence[str]:
-        """Write a session as open formats into a folder, as it is listed and with a person's choices; the names of the
-        files. Raises what kept it from being written."""
+        """Export a session as listed, with a person's choices; return the names of the files.
+
+        Raises the fault that prevented it.
+        """
         path = self.entry(session_id).path
         by_hand = tuple(self.manual_measurements(self.owner_id(session_id)))  # of nobody's sessions there is none
         wanted = ExportRequest(path, lambda: (self._read_listed_session(session_id), self.choices(session_id)), by_hand)
@@ -336,14 +335,14 @@ class Library:
         return [str(path.relative_to(folder)) for path in done.files]
 
     def register_output_files(self, paths: Sequence[Path], kind: OutputKind, session_ids: Iterable[str]) -> None:
-        """Take down files that were made from sessions, so that they are named when one of these is erased."""
+        """Record files made from sessions, so that they are named when one of these is erased."""
         known = [one for one in session_ids if one not in self.unlisted]
         session_records.record_output_files(self.store, paths, kind, known)
         for session_id in known:
             self.audit_log.log_session("reported" if kind == "report" else "exported", session_id, files=len(paths))
 
     def read_marker_photo(self, patient_id: str, set_up: SessionSetup | None = None) -> ByteImage | None:
-        """The markers as they were stuck last time, or when last on the hand and of the protocol of a set-up."""
+        """Return the last photo of a patient's markers, for a set-up that of its hand and protocol."""
         for entry in self.sessions(patient_id) if set_up is None else self.matching_sessions(patient_id, set_up):
             if entry.simulated and patient_id != PRACTICE_PATIENT:
                 continue  # nobody's hand
@@ -355,7 +354,7 @@ class Library:
 
 
 def with_listed_exercise(session: Session, entry: SessionEntry) -> Session:
-    """The session with the exercise that a person said it was; its file is never changed."""
+    """Return the session with the exercise it is listed under; its file never changes."""
     if session.header.exercise == entry.exercise:
         return session
     return replace(session, header=replace(session.header, exercise=entry.exercise))

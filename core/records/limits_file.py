@@ -1,4 +1,4 @@
-"""The clinic's own error limits as a file of the data folder."""
+"""File of the clinic's own error limits in the data folder."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LIMITS_FILE, FORMAT, FORMAT_VERSION = "error_limits.json", "carpus-error-limits"
 
 
 def read_limits(data_folder: Path) -> ErrorLimits:
-    """The clinic's own limits, none where it has no such file. Raises :class:`SettingsInvalid` for a damaged one."""
+    """Return the clinic's own limits, none without a file. Raises :class:`SettingsInvalid`."""
     path = data_folder / LIMITS_FILE
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -74,9 +74,9 @@ def _parse_interval(value: Any) -> tuple[float, float]:
 
 
 def save_limits(data_folder: Path, studies: Sequence[RetestStudy]) -> Path:
-    """Put studies into force, each in place of an earlier one of its kind; the file, whole or as it was.
+    """Save studies, each in place of an earlier one of its kind; return the file.
 
-    Raises :class:`SettingsInvalid` where the one that is there is damaged, and the faults of writing.
+    Raises :class:`SettingsInvalid` if the present file is damaged, and the faults of writing.
     """
     path = data_folder / LIMITS_FILE
     kinds = {(one.protocol, one.exercise, one.angle_order) for one in studies}

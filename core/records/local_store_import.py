@@ -1,5 +1,7 @@
-"""What a computer has of its own when it meets its clinic's server: the store that it had alone or, of Carpus 0.2.0, a
-copy of the server's with changes that had not arrived. It goes to the server once."""
+"""Import of a computer's own store into the clinic's server, once, when they first meet.
+
+The store is one that the computer had alone or, of Carpus 0.2.0, a copy of the server's with queued changes.
+"""
 
 from __future__ import annotations
 
@@ -38,10 +40,10 @@ _MARK_DELIVERED = text(
 
 
 class LocalStoreImport:
-    """What lies in the SQLite ``path`` is made on a server in the open transaction ``server``; ``faults`` tell what
-    somebody else was quicker with, ``was_server_copy`` whether the server had all but the changes that waited.
+    """Import of the SQLite file ``path`` into an open transaction of the server.
 
-    Nobody comes back who was erased there, as its log says.
+    ``faults`` report rows that somebody else changed first; ``was_server_copy``: the server had all but the queued
+    changes. Patients erased on the server do not come back.
     """
 
     def __init__(self, path: Path, server: Connection) -> None:
@@ -71,8 +73,10 @@ class LocalStoreImport:
                         self._apply_queued(json.loads(row["change"]))
 
     def _import_rows(self, table: Table, rows: Sequence[Mapping[str, Any]]) -> None:
-        """Rows that the server lacks. A name that is taken there gets a number; a file of another session lies where
-        such a path leads already."""
+        """Insert rows that the server lacks.
+
+        A pseudonym that is taken gets a number; a session whose path is taken goes to :data:`LOST_FOLDER`.
+        """
         known = self._existing_values(table.c.id, [row["id"] for row in rows])
         names = {column.name for column in table.c}
         mine = [
@@ -104,7 +108,7 @@ class LocalStoreImport:
         return set(self._server.scalars(select(column).where(column.in_(values))))
 
     def _apply_queued(self, change: Sequence[Sequence[Any]]) -> None:
-        """One that waited, as 0.2.0 wrote it down: way, table, identity, values, version, mark."""
+        """Apply a queued change of 0.2.0: action, table, id, values, version, mark."""
         if change and change[0][0] == "join":
             self._import_rows(TABLES[change[0][1]], [{"id": row_id, **values} for _, _, row_id, values, *_ in change])
         else:
@@ -127,7 +131,7 @@ class LocalStoreImport:
 
 
 def _with_number(row: RowChange, number: int) -> RowChange:
-    """A new patient with a number behind the pseudonym, from the second on."""
+    """Put a number behind the pseudonym of a new patient, from the second on."""
     if number == 1 or row.action != "new" or row.table != PATIENT.name:
         return row
     named = {name: f"{row.values[name]} ({number})" for name in ("pseudonym", "folded")}

@@ -1,11 +1,8 @@
-"""Who opened, changed, exported or erased what, and when: rows that are only ever added to, by a trigger of the store.
+"""Audit log: who opened, changed, exported or erased what, and when. A trigger allows insertion only.
 
-That protects against mistakes of people and of programs, not against the owner of the computer, who can do with a file
-as he likes: a back-up kept elsewhere is what shows a later change.
-
-Nobody's name is in it, nor an identity: patients and sessions stand there by a fingerprint of the identity that the
-program gave them, so that of what was erased nobody can say whose it was. Facts are numbers and words
-of the program.
+That protects against mistakes of people and programs, not against the owner of the computer: a backup elsewhere shows
+later changes. The log has no names and no ids. Patients and sessions are entered by a fingerprint of their id, so that
+entries of erased ones belong to nobody. Facts are numbers and words of the program.
 """
 
 from __future__ import annotations
@@ -39,12 +36,12 @@ AuditSource = Literal["window", "command"]
 Fact = int | str
 
 _WORD = re.compile(r"[a-z0-9_.,-]{0,64}")
-"""A fact in words is one of the program's own: neither capitals nor blanks, so that no name slips in by a path."""
+"""Words of the program have no capitals and no blanks, so that no name slips in by a path."""
 
 
 @dataclass(frozen=True, slots=True)
 class AuditEntry:
-    """One deed. ``who`` the initials of the person, empty where none are set; ``subject`` as :func:`fingerprint`."""
+    """Entry of the log; ``subject`` is a :func:`fingerprint`."""
 
     number: int
     when: datetime
@@ -57,14 +54,13 @@ class AuditEntry:
 
 
 class AuditLogWriter:
-    """Adds to the log of one store."""
+    """Writer of a store's log."""
 
     def __init__(self, store: Store, source: AuditSource, get_initials: Callable[[], str] = lambda: "") -> None:
         self._store, self._source, self.get_initials = store, source, get_initials
 
     def write_entry(self, action: AuditAction, kind: SubjectKind, subject_id: str = "", **facts: Fact) -> None:
-        """Write a deed down. Raises the faults of writing; ValueError for a fact that could be a name: a mistake of
-        the caller."""
+        """Write an entry. Raises the faults of writing, and ValueError for a fact that could be a name."""
         if action not in get_args(AuditAction) or kind not in get_args(SubjectKind):
             raise ValueError(f"{action} {kind} is not of the log")
         if not all(isinstance(fact, int) or _WORD.fullmatch(fact) for fact in facts.values()):
@@ -78,10 +74,9 @@ class AuditLogWriter:
 
 
 class AuditLog:
-    """Takes down what is done with sessions and patients. The practice patient is nobody, and in no log; where the log
-    cannot be written ``on_fault`` is told: what was done is done.
+    """Log of what is done with sessions and patients, without the practice patient.
 
-    ``owner_id`` says whose a session is, and raises KeyError for one that is not in the list.
+    Faults of writing go to ``on_fault`` and undo nothing. ``owner_id`` returns a session's patient or raises KeyError.
     """
 
     def __init__(
@@ -95,12 +90,12 @@ class AuditLog:
                 self._write(action, "session", session_id, **facts)
 
     def log_patient(self, action: AuditAction, patient_id: str, **facts: Fact) -> None:
-        """What was done with a patient, or with all sessions of one."""
+        """Log an action on a patient or on all of a patient's sessions."""
         if patient_id != PRACTICE:
             self._write(action, "patient", patient_id, **facts)
 
     def log_program(self, action: AuditAction, **facts: Fact) -> None:
-        """What was done with the program or with everything."""
+        """Log an action on the program or on all data."""
         self._write(action, "program", "", **facts)
 
     def _write(self, action: AuditAction, kind: SubjectKind, subject_id: str, **facts: Fact) -> None:
@@ -112,7 +107,7 @@ class AuditLog:
 
 
 def is_patient_erased(store: Store, patient_id: str) -> bool:
-    """Whether a patient was erased, or is being erased: what is found of them later goes too."""
+    """Return whether a patient was, or is being, erased."""
     erased = AUDIT_LOG.c.did.in_(("erase_begun", "erased")), AUDIT_LOG.c.kind == "patient"
     return (
         store.row(select(AUDIT_LOG.c.id).where(*erased, AUDIT_LOG.c.subject == fingerprint(patient_id)).limit(1))
@@ -121,7 +116,7 @@ def is_patient_erased(store: Store, patient_id: str) -> bool:
 
 
 def read_log(store: Store) -> tuple[AuditEntry, ...]:
-    """The whole log, oldest first; of a line that is damaged the number is missing."""
+    """Return the whole log, oldest first; the numbers of damaged entries are missing."""
     rows = store.rows(select(AUDIT_LOG).order_by(AUDIT_LOG.c.at_ns, AUDIT_LOG.c.id))
     numbers = {row.id: number for number, row in enumerate(rows, 1)}
     return tuple(

@@ -1,5 +1,4 @@
-"""How sessions come into the store: those measured now, with what the last one said of the hand; those that were cut
-short; and those that waited on this computer."""
+"""Registration of sessions: new ones, interrupted ones and those that waited on this computer."""
 
 from __future__ import annotations
 
@@ -46,15 +45,14 @@ from carpus.core.results.progress import INVALIDATING_FINDINGS
 from carpus.core.session.reader import read_outline, read_session
 
 _MOVE_LOCK = threading.Lock()
-"""Held by who moves sessions from this computer: what Stop is publishing is not brought home as well, as when the
-server comes back at that moment."""
+"""Keeps a session that is being published from being imported at the same time."""
 MAX_LISTED_FILES = 3
-"""Files that are told one by one when the program starts; more are told together."""
+"""More unreadable files are reported together."""
 
 
 @dataclass(frozen=True, slots=True)
 class RecoveredSession:
-    """A session that had been cut short and has been finished; ``duration_s`` of it are there."""
+    """Interrupted session that was completed; ``duration_s`` of it are saved."""
 
     patient_id: str
     session_id: str
@@ -64,7 +62,7 @@ class RecoveredSession:
 
 
 def recover_sessions(library: Library) -> tuple[Sequence[RecoveredSession], Sequence[CarpusFault]]:
-    """Finish interrupted sessions; take these, and files that were copied in, into the store."""
+    """Complete interrupted sessions, and list them and files that were copied in."""
     faults = [*library.startup_faults, *library.store.startup_faults]
     library.startup_faults, library.store.startup_faults = [], []
     try:
@@ -105,7 +103,7 @@ def recover_sessions(library: Library) -> tuple[Sequence[RecoveredSession], Sequ
 
 
 def _session_folder(library: Library, patient_id: str, subject_id: str) -> Path | None:
-    """Where recordings of a patient lie, or of a pseudonym; None for a patient who was erased."""
+    """Return the session folder of a patient or pseudonym, None for an erased patient."""
     owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else library.patients.id_of_pseudonym(subject_id)
     if is_patient_id(patient_id):
         if is_patient_erased(library.store, patient_id):
@@ -116,11 +114,11 @@ def _session_folder(library: Library, patient_id: str, subject_id: str) -> Path 
 
 
 PUBLISH_TIMEOUT_S = 10.0
-"""A share that hangs is waited for so long; the session then waits on this computer, where it can be reviewed."""
+"""After that the session stays on this computer for now, where it can be reviewed."""
 
 
 def _publish(path: Path, get_folder: Callable[[], Path]) -> Path:
-    """As :func:`publish_session`, for a person who waits. What arrives later than that is found at the next look."""
+    """Publish a session with a time limit; a late copy is found by the next scan."""
     done: list[Path | CarpusFault] = []
 
     def copy() -> None:
@@ -148,21 +146,25 @@ def _publish(path: Path, get_folder: Callable[[], Path]) -> Path:
 
 
 class SessionIntake:
-    """Where sessions that are measured go in a data folder, and who hears of a finished one."""
+    """Paths and registration of new sessions."""
 
     def __init__(self, library: Library) -> None:
         self._library = library
 
     def new_path(self, set_up: SessionSetup) -> Path:
-        """A free path on this computer for a session that begins now, whatever the data folder does meanwhile. Raises
-        :class:`OutputNotWritable`."""
+        """Return a free path on this computer, whatever happens to the data folder.
+
+        Raises :class:`OutputNotWritable`.
+        """
         folder = spool_folder(self._library.folder) / set_up.patient_id
         make_private_folder(folder)
         return free_session_path(folder, set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone())
 
     def register(self, set_up: SessionSetup, path: Path) -> str:
-        """Put a finished session into the data folder and the store, and remember how it was set up. Where one of them
-        cannot be reached it waits on this computer, which is told."""
+        """Publish and list a finished session and save its set-up; return its id.
+
+        If the folder or the store cannot be reached, it waits on this computer and a fault is reported.
+        """
         library = self._library
         try:
             path = _publish(path, partial(library.session_list.patient_folder, set_up.patient_id))
@@ -180,7 +182,7 @@ class SessionIntake:
         return session_id
 
     def last_hand_length_mm(self, set_up: SessionSetup, *, simulated: bool) -> float:
-        """Length of this hand of the patient as the last session of the kind measured it; NaN before the first."""
+        """Return the length of this hand in the last session of the kind, NaN before the first."""
         for entry in read_or_default(lambda: self._library.sessions(set_up.patient_id), ()):
             if entry.hand != set_up.side:
                 continue
@@ -198,7 +200,7 @@ class SessionIntake:
         return float("nan")
 
     def last_straight_fingers(self, set_up: SessionSetup) -> tuple[bool, ...]:
-        """What the last session with these discs said of the hand's fingers, thumb to little; straight before one."""
+        """Return which fingers (thumb to little) were straight at the last calibration with these markers."""
         if set_up.protocol.has_fingers:
             for entry in read_or_default(lambda: self._library.matching_sessions(set_up.patient_id, set_up), ()):
                 with suppress(SessionUnreadable):
@@ -206,6 +208,6 @@ class SessionIntake:
         return ALL_STRAIGHT
 
     def recover_interrupted(self) -> None:
-        """Finish what a fault left behind, as far as possible."""
+        """Complete interrupted sessions as far as possible."""
         with suppress(CarpusFault):
             recover_sessions(self._library)

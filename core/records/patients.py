@@ -1,5 +1,4 @@
-"""Who is behind a pseudonym: names are in the store and nowhere else; and what is written about a patient: values
-measured by hand, and the goals."""
+"""Patients, their manual measurements and goals; names are stored here and nowhere else."""
 
 from __future__ import annotations
 
@@ -37,12 +36,12 @@ WORDS = (
     "Raven", "Robin", "Rowan", "Saffron", "Sparrow", "Spruce", "Swallow", "Thistle", "Topaz", "Tulip", "Walnut",
     "Willow", "Wren",
 )  # fmt: skip
-"""Of names that are nobody's: easy to say and to hear across a room."""
+"""Words of pseudonyms: easy to say and to hear across a room."""
 _NUMBERS = range(10, 100)
 
 
 def suggest_pseudonym(taken: Collection[str], chance: random.Random | None = None) -> str:
-    """A free pseudonym such as ``Linden 42``; never made from anything known of the patient.
+    """Return a free pseudonym such as ``Linden 42``, chosen at random.
 
     >>> suggest_pseudonym((), random.Random(7)).split()[0] in WORDS
     True
@@ -59,18 +58,18 @@ def suggest_pseudonym(taken: Collection[str], chance: random.Random | None = Non
 
 
 class Patients:
-    """The list of patients of a store; the practice patient is in no list."""
+    """Patient list of a store, without the practice patient."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
         self.on_change: Callable[[AuditAction, str], None] = lambda did, patient_id: None
-        """Is told who was added or changed, by identity, once that is stored."""
+        """Called with the action and the id after a patient was added or changed."""
 
     def search(self, text: str = "", *, include_archived: bool = False, limit: int | None = None) -> list[Patient]:
-        """Patients whose pseudonym, name, diagnosis or note holds every word of ``text``; last session first,
-        ``limit`` of them.
+        """Find patients whose pseudonym, name, diagnosis or note contains every word of ``text``.
 
-        Without those in the archive, unless ``archived``, and without archived sessions in the counts.
+        Last session first. Archived patients are left out unless ``include_archived``; archived sessions are never
+        counted.
         """
         these: list[ColumnElement[bool]] = [PATIENT.c.id != PRACTICE, PATIENT.c.erasing == 0]
         if not include_archived:
@@ -87,34 +86,34 @@ class Patients:
         return [_patient_from_row(row) for row in self._store.rows(query.order_by(*order).limit(limit))]
 
     def get(self, patient_id: str) -> Patient:
-        """Raises KeyError for an identity that is not in the store."""
+        """Return the patient with this id. Raises KeyError if there is none."""
         row = self._store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
         if row is None:
             raise KeyError(patient_id)
         return _patient_from_row(row)
 
     def has(self, patient_id: str) -> bool:
-        """Whether there is one of this identity."""
+        """Return whether there is a patient with this id."""
         return self._store.row(select(PATIENT.c.id).where(PATIENT.c.id == patient_id)) is not None
 
     def id_of_pseudonym(self, pseudonym: str) -> str:
-        """The identity behind a pseudonym; empty for nobody's."""
+        """Return the id of a pseudonym, empty if there is none."""
         row = self._store.row(select(PATIENT.c.id).where(PATIENT.c.folded == fold_name(pseudonym)))
         return str(row[0]) if row else ""
 
     def suggest_pseudonym(self, chance: random.Random | None = None) -> str:
-        """A random pseudonym that no patient has."""
+        """Return a random free pseudonym."""
         return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))], chance)
 
     def save(self, patient: Patient) -> str:
-        """Enter a patient who is new, or change one; the identity. Raises what :meth:`add` and :meth:`change` do."""
+        """Add or change a patient; return the id. Raises what :meth:`add` and :meth:`change` do."""
         if not patient.patient_id:
             return self.add(patient)
         self.change(patient)
         return patient.patient_id
 
     def add(self, patient: Patient, now: datetime | None = None) -> str:
-        """Enter a new patient; returns the identity given. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
+        """Add a patient; return the new id. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
         patient_id = new_id()
         self._store.apply(
             [
@@ -127,10 +126,10 @@ class Patients:
         return patient_id
 
     def change(self, patient: Patient) -> None:
-        """Replace what is written of a patient, as it was read in its ``version``, 0 for any; the sessions stay.
+        """Change a patient as read in its ``version``, 0 for any.
 
-        Raises :class:`PseudonymTaken`, :class:`NameUnsuited`, :class:`ConcurrentChange`. Files recorded under an
-        earlier pseudonym keep it.
+        Raises :class:`PseudonymTaken`, :class:`NameUnsuited`, :class:`ConcurrentChange`. Session files keep an earlier
+        pseudonym.
         """
         values = patient_columns(patient)
         row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former).where(PATIENT.c.id == patient.patient_id))
@@ -148,13 +147,13 @@ class Patients:
         self._store.apply([update_row(PATIENT, patient_id, archived="")])
 
     def diagnoses(self) -> list[str]:
-        """The clinic's own list of diagnoses and operations, those of most patients first."""
+        """Return the clinic's own list of diagnoses and operations, most frequent first."""
         had = Counter(fold_name(row.diagnosis) for row in self._store.rows(select(PATIENT.c.diagnosis)))
         listed = {fold_name(row.words): str(row.words) for row in self._store.rows(select(DIAGNOSIS.c.words))}
         return [words for _, words in sorted(listed.items(), key=lambda one: (-had[one[0]], one[0]))]
 
     def set_diagnosis_listed(self, diagnosis: str, *, is_listed: bool) -> None:
-        """Take a diagnosis into the clinic's list, or out of it; a patient who has it keeps it."""
+        """Add a diagnosis to the clinic's list or remove it; patients keep theirs."""
         same = [row.id for row in self._store.rows(select(DIAGNOSIS)) if fold_name(row.words) == fold_name(diagnosis)]
         if is_listed and not same:
             self._store.apply([insert_row(DIAGNOSIS, new_id(), words=diagnosis)])
@@ -167,7 +166,7 @@ class Patients:
 
 
 ColumnTypes = Mapping[str, Any]
-"""What a person writes down of a value, each a column by its name, with the type that it is read as."""
+"""Type of each column that a person fills in."""
 
 
 def _column_types(kind: Any) -> ColumnTypes:
@@ -179,7 +178,7 @@ _PATIENT, _HOME_PLAN = _column_types(Patient), _column_types(HomePlan)
 
 
 def _to_columns(value: object, types: ColumnTypes) -> dict[str, Any]:
-    """Texts and numbers as they are, days by ISO 8601 and empty for none, several texts in a line each."""
+    """Convert to columns: days as ISO 8601, empty for None; several texts one per line."""
     columns = {name: getattr(value, name) for name in types}
     for name, one in columns.items():
         if one is None or isinstance(one, date):
@@ -190,7 +189,7 @@ def _to_columns(value: object, types: ColumnTypes) -> dict[str, Any]:
 
 
 def _from_columns(row: Row[Any], types: ColumnTypes) -> dict[str, Any]:
-    """What :func:`_to_columns` stored; of a choice the first where another program stored what is none."""
+    """Convert columns back; unknown choices of another program become the first choice."""
     read = {name: getattr(row, name) for name in types}
     for name, hint in types.items():
         origin: Any = get_origin(hint)
@@ -204,7 +203,7 @@ def _from_columns(row: Row[Any], types: ColumnTypes) -> dict[str, Any]:
 
 
 def patient_columns(patient: Patient) -> dict[str, Any]:
-    """What is written of a patient as it is stored. Raises :class:`NameUnsuited`."""
+    """Return a patient's columns. Raises :class:`NameUnsuited`."""
     kept = patient.with_normalized_names()
     search = fold_name(f"{kept.pseudonym} {kept.name} {kept.diagnosis} {kept.note}")
     return _to_columns(kept, _PATIENT) | {"folded": fold_name(kept.pseudonym), "search": search}
@@ -219,7 +218,7 @@ def _patient_from_row(row: Row[Any]) -> Patient:
 
 
 def add_manual_measurements(store: Store, patient_id: str, values: Iterable[ManualValue]) -> None:
-    """Add entries, each with its own time or now; what was entered before for the same stays readable."""
+    """Add measurements, with their own time or now; earlier ones stay readable."""
     now, first_ns = datetime.now(UTC), time.time_ns()
     store.apply(
         [
@@ -235,7 +234,7 @@ def add_manual_measurements(store: Store, patient_id: str, values: Iterable[Manu
 
 
 def read_manual_measurements(store: Store, patient_id: str) -> list[ManualValue]:
-    """Everything that was ever entered of a patient, in order; without measures that this Carpus does not know."""
+    """Return all measurements of a patient in order, without measures unknown to this version."""
     known = [measure.id for measure in MEASURES]
     query = select(MANUAL_MEASUREMENT).where(
         MANUAL_MEASUREMENT.c.patient_id == patient_id, MANUAL_MEASUREMENT.c.measure.in_(known)
@@ -253,7 +252,7 @@ def _measurement_from_row(row: Row[Any]) -> ManualValue:
 
 
 def read_goals(store: Store, patient_id: str) -> Goals:
-    """The targets that were last set for each exercise and hand of a patient; NaN for none."""
+    """Return the last goals (degrees, NaN for none) by exercise and hand."""
     out: dict[tuple[str, Side], tuple[float, float]] = {}
     for row in store.rows(select(GOAL).where(GOAL.c.patient_id == patient_id)):
         stored = null_to_nan(row.positive_deg), null_to_nan(row.negative_deg)
@@ -262,7 +261,7 @@ def read_goals(store: Store, patient_id: str) -> Goals:
 
 
 def goal_change(patient_id: str, exercise: str, side: Side, positive_deg: float, negative_deg: float) -> RowChange:
-    """The change that sets one. It is stored as in the session files: supination from the palm down."""
+    """Return the change that sets a goal; stored as in session files, supination from palm down."""
     positive_deg, negative_deg = from_clinical_targets_deg((positive_deg, negative_deg), find_exercise(exercise))
     return upsert_row(
         GOAL, f"{patient_id}:{exercise}:{side}", patient_id=patient_id, exercise=exercise, side=side,
@@ -271,21 +270,21 @@ def goal_change(patient_id: str, exercise: str, side: Side, positive_deg: float,
 
 
 def read_home_plan(store: Store, patient_id: str) -> HomePlan | None:
-    """What a patient was last given to do at home; None for nothing."""
+    """Return a patient's last home plan, None for none."""
     rows = store.rows(select(HOME_PLAN).where(HOME_PLAN.c.patient_id == patient_id))
     return next(iter(store.valid_rows(rows, lambda row: HomePlan(**_from_columns(row, _HOME_PLAN)))), None)
 
 
 def save_home_plan(store: Store, patient_id: str, plan: HomePlan) -> None:
-    """In place of the one before."""
+    """Save a home plan in place of the last one."""
     store.apply([upsert_row(HOME_PLAN, f"{patient_id}:home", patient_id=patient_id, **_to_columns(plan, _HOME_PLAN))])
 
 
 def nan_to_null(value: float) -> float | None:
-    """A number as it is stored: what is not known is no number."""
+    """Convert NaN to NULL."""
     return None if math.isnan(value) else float(value)
 
 
 def null_to_nan(value: float | None) -> float:
-    """What :func:`nan_to_null` stored."""
+    """Convert NULL to NaN."""
     return math.nan if value is None else value

@@ -1,7 +1,7 @@
-"""The PIN of the lock: kept as Argon2id, tried so often and then after a pause.
+"""PIN of the lock: stored as Argon2id, with a pause after too many tries.
 
-It hides names, pictures and figures from those who pass by. It protects no file: whoever reads the data folder with
-another program needs no PIN, and whoever may write there can take the PIN away.
+It hides names, frames and results from passers-by. It protects no file: whoever may read the data folder needs no PIN,
+and whoever may write there can remove it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ PAUSE = timedelta(minutes=1)
 
 @dataclass(frozen=True, slots=True)
 class PinAttempt:
-    """What came of a PIN: ``is_correct``, or ``tries_left`` tries before a pause, or ``pause_s`` until the next one."""
+    """Outcome of a try: correct, or the tries left before a pause, or the seconds of the pause."""
 
     is_correct: bool
     tries_left: int = MAX_TRIES
@@ -33,19 +33,21 @@ class PinAttempt:
 
 
 class Pin:
-    """The PIN of one data folder."""
+    """PIN of a data folder."""
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / PIN_FILE
 
     @property
     def is_set(self) -> bool:
-        """Whether there is one. A file that cannot be read is one that nobody knows: it stays locked."""
+        """True if there is a PIN; with an unreadable file the lock stays closed."""
         return self._path.exists()
 
     def set(self, pin: str) -> None:
-        """Set or change it. ValueError for one that is too short or too long; raises :class:`OutputNotWritable`,
-        :class:`PinUncheckable`."""
+        """Set or change the PIN.
+
+        Raises ValueError for a wrong length, :class:`OutputNotWritable`, :class:`PinUncheckable`.
+        """
         argon2 = _argon2()
         if not MIN_CHARACTERS <= len(pin) <= MAX_CHARACTERS:
             raise ValueError(f"{len(pin)} signs")
@@ -58,8 +60,10 @@ class Pin:
             raise write_fault(self._path, cause) from cause
 
     def check(self, pin: str, now: datetime | None = None) -> PinAttempt:
-        """Whether it is the one; counted where it is not, also over the end of the program. During a pause nothing is
-        tried. Raises :class:`OutputNotWritable` where a wrong one could not be counted, :class:`PinUncheckable`."""
+        """Check a PIN; wrong tries are counted in the file. During a pause nothing is checked.
+
+        Raises :class:`OutputNotWritable` if the try cannot be counted, :class:`PinUncheckable`.
+        """
         argon2 = _argon2()
         when = now or datetime.now(UTC)
         kept = self._read()
@@ -97,7 +101,6 @@ class Pin:
 
 
 def _argon2() -> ModuleType:
-    """Loaded when a PIN is used, not when the program starts; without it nothing is opened, and that is said."""
     try:
         import argon2
     except ImportError as cause:  # also where its compiled part does not fit the computer

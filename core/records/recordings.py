@@ -1,5 +1,4 @@
-"""Recordings on this computer's own disk: from the journal to the session file, at Stop or after a kill, and from there
-into the data folder, which may be a share."""
+"""Recordings on this computer: from the journal to the session file, and from there to the data folder."""
 
 from __future__ import annotations
 
@@ -50,20 +49,20 @@ from carpus.core.session.writer import SessionWriter
 log = logging.getLogger(__name__)
 
 _SUFFIXES = (RAW_SUFFIX, MARKERS_SUFFIX, ".h5")
-"""What is published of a recording; the session last: what goes with it is there when it comes."""
+"""Files of a recording in the order of publishing: the session last, when its companions are there."""
 
 
 def spool_folder(data_folder: Path) -> Path:
-    """On this computer's own disk, one folder for each data folder, and in it one for each patient; nothing is made."""
+    """Return the local folder of a data folder's recordings, with a folder per patient; none is made."""
     name = hashlib.sha256(str(data_folder.absolute()).encode()).hexdigest()[:12]
     return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
 
 
 def write_session(journal: Path, recovered: str = "") -> Path | None:
-    """Write the session of a journal beside it; its path. None where no frame had been stored. The journal stays.
+    """Write the session of a journal beside it; return its path, None without a frame.
 
-    ``recovered`` is when an interrupted recording is finished, ISO 8601. Raises the faults of writing, and
-    :class:`SessionUnreadable` for what is no journal; then nothing is left behind.
+    ``recovered`` is the time at which an interrupted recording is completed (ISO 8601). The journal stays. Raises the
+    faults of writing and :class:`SessionUnreadable`; then nothing is left behind.
     """
     draft = SessionDraft(journal)
     try:
@@ -74,18 +73,20 @@ def write_session(journal: Path, recovered: str = "") -> Path | None:
 
 
 class SessionDraft:
-    """The session file of a journal in the making; may follow while the journal grows, so that the end is quick. It
-    knows nothing but the journal: a kill costs no more than to begin again."""
+    """Session file being written from a journal, also while that grows, so that the end is quick.
+
+    All comes from the journal, so after a kill it starts again.
+    """
 
     def __init__(self, journal: Path) -> None:
         self._journal = JournalReader(journal)
         self._target = journal.with_suffix(".h5")
         self._is_written = _has_session(self._target, self._journal.session_id)
-        """Whether a program was killed after the session had its name, and before the journal went."""
+        """A program was killed after the session got its name and before the journal was deleted."""
         self._writer: SessionWriter | None = None
 
     def read(self) -> None:
-        """Take what the journal has by now."""
+        """Read what the journal has by now."""
         image = self._journal.empty_session
         if image is None or self._is_written:
             return
@@ -102,16 +103,16 @@ class SessionDraft:
 
     @property
     def frame_count(self) -> int:
-        """Frames taken so far."""
+        """Number of frames read so far."""
         return len(self._writer) if self._writer is not None else 0
 
     def flush(self) -> None:
-        """Write all that was taken: no more frames come."""
+        """Write all that was read; no more frames follow."""
         if self._writer is not None:
             self._writer.flush()
 
     def finish(self, recovered: str = "") -> Path | None:
-        """Write all of it; the file's path, None where there is no frame."""
+        """Write the rest; return the file's path, None without a frame."""
         if self._is_written:
             return self._target
         self.read()
@@ -128,7 +129,7 @@ class SessionDraft:
         return writer.path
 
     def discard(self) -> None:
-        """Let go of the journal, and of a file that is not finished. May be called twice."""
+        """Close the journal and delete an unfinished file. May be called twice."""
         self._journal.close()
         if self._writer is not None:
             self._writer.abandon()
@@ -142,9 +143,7 @@ def _has_session(path: Path, session_id: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class RecoveryResult:
-    """``recovered`` the files finished; ``in_progress`` what is still being recorded; ``faults`` one for each file
-    left;
-    ``empty`` recordings that had ended before their first frame was stored."""
+    """Completed files, recordings still in progress, one fault per file left, and empty recordings."""
 
     recovered: tuple[Path, ...]
     in_progress: tuple[Path, ...]
@@ -153,10 +152,9 @@ class RecoveryResult:
 
 
 def recover_recordings(folder: Path, now: datetime | None = None, ignored: Collection[Path] = ()) -> RecoveryResult:
-    """Finish every interrupted recording of a folder and the folders in it: journals, and part files of Carpus 0.2.0.
-    What cannot be finished stays as it is, and what is ``ignored`` is not looked at.
+    """Complete interrupted recordings below a folder: journals, and part files of Carpus 0.2.0.
 
-    Raises :class:`RecordingMissing` when there is no such folder.
+    Files that cannot be completed stay as they are. Raises :class:`RecordingMissing` without a folder.
     """
     if not folder.is_dir():
         raise RecordingMissing(folder)
@@ -180,8 +178,10 @@ def recover_recordings(folder: Path, now: datetime | None = None, ignored: Colle
 
 
 def _recover_journal(path: Path, when: str, faults: list[CarpusFault]) -> Path | None:
-    """The session of a journal; the journal itself while it is recorded, None where nothing had been stored. One whose
-    bytes went bad holds more than was read of it: it is kept under another name."""
+    """Return the completed session, the journal itself while it is recorded, None without a frame.
+
+    A journal with damaged bytes holds more than was read: it is kept under another name.
+    """
     own = lock_journal(path)
     if own is None:
         return path
@@ -202,7 +202,7 @@ def _recover_journal(path: Path, when: str, faults: list[CarpusFault]) -> Path |
 
 
 def _recover_part(part: Path, when: str) -> Path | None:
-    """As :func:`_recover_journal`; who records with an older Carpus, perhaps on another computer, adds to its file."""
+    """Complete a part file, which an older Carpus, perhaps on another computer, may still write."""
     if is_being_written(part) or abs(time.time() - part.stat().st_mtime) < STALE_AFTER_S:
         return part
     target = reader.finish_part(part, when)
@@ -211,7 +211,7 @@ def _recover_part(part: Path, when: str) -> Path | None:
 
 
 def publish_session(path: Path, folder: Path) -> Path:
-    """Move a finished session and what lies beside it into a folder, perhaps on another disk; where it is then.
+    """Move a finished session and its companions to a folder, perhaps on another disk; return its path.
 
     Raises :class:`OutputNotWritable` and :class:`DiskFull`; then it is still here.
     """
@@ -221,14 +221,13 @@ def publish_session(path: Path, folder: Path) -> Path:
 
 
 def remove_published(path: Path) -> None:
-    """Take away what has been copied; the session last."""
+    """Delete the local files of a published recording, the session last."""
     for suffix in _SUFFIXES:
         path.with_suffix(suffix).unlink(missing_ok=True)
 
 
 def copy_session(path: Path, folder: Path) -> Path:
-    """Put a finished session and what lies beside it into a folder as well. Run again after a kill it goes on: what has
-    arrived is not copied twice."""
+    """Copy a finished session and its companions to a folder; continues after a kill."""
     make_private_folder(folder)
     there = [suffix for suffix in _SUFFIXES if path.with_suffix(suffix).is_file()]
     target, number = folder / path.name, 1
@@ -245,7 +244,6 @@ def copy_session(path: Path, folder: Path) -> Path:
 
 
 def _is_different_file(source: Path, target: Path) -> bool:
-    """Whether another file has the name."""
     return os.path.lexists(target) and not (target.is_file() and filecmp.cmp(source, target, shallow=False))
 
 
@@ -271,9 +269,11 @@ def _place_file(source: Path, target: Path) -> None:
 def import_spooled(
     data_folder: Path, find_folder: Callable[[str, str], Path | None]
 ) -> tuple[list[Path], list[CarpusFault]]:
-    """Finish what was interrupted on this computer, and publish what waits, into the folder of each patient, by
-    identity and pseudonym; of whom there is none, it is erased. The sessions that had been interrupted, as they lie
-    now, and what is to be told."""
+    """Complete interrupted local recordings and publish waiting ones to their patients' folders.
+
+    ``find_folder`` takes a patient's id and pseudonym and returns None for an erased patient, whose recordings are
+    deleted. Returns the new paths of the interrupted sessions, and faults to report.
+    """
     place = spool_folder(data_folder)
     if not place.is_dir():
         return [], []

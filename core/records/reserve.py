@@ -1,4 +1,4 @@
-"""Room that is kept in a data folder, so that on a full disk its list can still be opened and a patient erased."""
+"""Reserved space in a data folder: on a full disk the store can still be opened and a patient erased."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from carpus.core.platform.durable import open_private
 
 RESERVE_FILE = ".reserve"
 RESERVE_BYTES = 2 << 20
-"""Of pages that the store writes before it can let others go."""
+"""For pages that SQLite writes before it can free others."""
 MIN_FREE_BYTES = 20 * RESERVE_BYTES
 
 
 def create_reserve(folder: Path) -> None:
-    """Take the room where there is plenty and none is taken yet."""
+    """Reserve the space if there is plenty and none is reserved."""
     path = folder / RESERVE_FILE
     with contextlib.suppress(OSError):
         if not path.exists() and shutil.disk_usage(folder).free > MIN_FREE_BYTES:
@@ -25,7 +25,7 @@ def create_reserve(folder: Path) -> None:
 
 
 def free_reserve(folder: Path) -> bool:
-    """Give the room back; whether there was any."""
+    """Free the space; return whether there was any."""
     try:
         (folder / RESERVE_FILE).unlink()
     except OSError:

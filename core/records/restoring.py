@@ -1,8 +1,8 @@
-"""The way back from a backup: what would change, and a data folder that is written whole before it takes its place.
+"""Restoring a backup: what would change, and a data folder that is complete before it takes its place.
 
-A restore writes ``.NAME.restoring`` beside the data folder. Whole and compared it is ``.NAME.restored``, which takes
-the name when no program has the folder open: at once, or, after a kill, at the next start. What was there is kept
-beside it. What was erased since the backup stays erased, and the log goes on.
+A restore writes ``.NAME.restoring`` beside the data folder. Complete and verified it is ``.NAME.restored``, and takes
+the name once no program has the folder open: at once or at the next start. The old folder is kept beside it. What was
+erased since the backup stays erased, and the log continues.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ from carpus.core.records.store import Store
 
 @dataclass(frozen=True, slots=True)
 class LogHistory:
-    """What the log knows by now: its rows, and the fingerprints of what is erased."""
+    """Log entries up to now, and fingerprints of what was erased."""
 
     entries: tuple[Mapping[str, Any], ...] = ()
     erased: frozenset[str] = frozenset()
@@ -51,8 +51,10 @@ class LogHistory:
 
 @dataclass(frozen=True, slots=True)
 class RestorePlan:
-    """What a restore would change: paths of session files that come, change and go; how many patients and single
-    sessions of the backup were erased since, and do not come."""
+    """Paths of session files that a restore adds, replaces and removes.
+
+    ``erased_count`` patients and single sessions of the backup were erased since and do not come back.
+    """
 
     added: tuple[str, ...]
     replaced: tuple[str, ...]
@@ -61,7 +63,7 @@ class RestorePlan:
 
 
 def read_history(backup_folder: Path, store: Store | None) -> LogHistory:
-    """Read what was done until now: in the store that is there, and as the newest backup of the place has it."""
+    """Read the log of the present store and of the newest backup."""
     known = _fingerprints(store) if store is not None else set[str]()
     past = [_store_history(store)] if store is not None else []
     with (
@@ -79,7 +81,7 @@ def _store_history(store: Store) -> LogHistory:
 
 
 def plan_restore(backup: Backup, backup_folder: Path, data_folder: Path, history: LogHistory) -> RestorePlan:
-    """Find out what of the sessions that are there now would be different."""
+    """Compare the sessions of a backup with those that are there."""
     with _open_backup_store(backup, backup_folder) as store:
         people, paths = _find_erased(store, history) if store else ([], {})
     going = (*(f"{SESSIONS_PREFIX}{one}/" for one in people), *(f"{SESSIONS_PREFIX}{one}" for one in paths.values()))
@@ -103,12 +105,11 @@ def restore(
     progress: Progress = lambda _done, _total: None,
     overwrite: bool = False,
 ) -> int:
-    """Write a backup beside ``target``, every content checked on its way; :func:`activate_restored` gives it the
-    name. How
-    many patients and sessions that were erased since were taken out again.
+    """Write a verified backup beside ``target``; :func:`activate_restored` renames it.
 
-    Settings come only where there are none. Raises :class:`OutputExists` for a folder with something in it unless it
-    is to be replaced, :class:`BackupMismatch`, :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
+    Returns how many patients and sessions, erased since, were left out. Settings are written only where there are none.
+    Raises :class:`OutputExists` for a folder with content unless ``overwrite``, :class:`BackupMismatch`,
+    :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
     """
     if not overwrite and target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise OutputExists(target)
@@ -144,19 +145,19 @@ def restore(
 
 
 def has_restored_folder(target: Path) -> bool:
-    """Whether a whole data folder lies beside a place and waits for its name."""
+    """Return whether a complete restored folder waits for its name."""
     return _sibling(target, "restored").is_dir()
 
 
 def delete_unfinished(target: Path) -> None:
-    """Delete what a restore that was killed has left beside a data folder."""
+    """Delete what a killed restore left."""
     shutil.rmtree(_sibling(target, "restoring"), ignore_errors=True)
 
 
 def activate_restored(target: Path, now: datetime) -> Path | None:
-    """Give a restored folder the name, which no program may have open; where the folder lies now that had it.
+    """Rename a restored folder to ``target``, which no program may have open.
 
-    Raises :class:`OutputNotWritable`.
+    Returns where the old folder is now. Raises :class:`OutputNotWritable`.
     """
     aside = None
     try:
@@ -198,7 +199,7 @@ def _restore_file(backup_folder: Path, file: BackupFile, target: Path) -> None:
 
 
 def _apply_history(folder: Path, history: LogHistory) -> int:
-    """Take out of a restored folder what was erased since, and add to its log what was done since."""
+    """Erase again what was erased since the backup, and add the later log entries."""
     left = [one for one in (folder / SESSIONS_PREFIX).glob("*") if fingerprint(one.name) in history.erased]
     for one in left:
         shutil.rmtree(one)
@@ -219,8 +220,7 @@ def _apply_history(folder: Path, history: LogHistory) -> int:
 
 
 def _find_erased(store: Store, history: LogHistory) -> tuple[list[str], dict[str, str]]:
-    """Patients of a store that were erased since, and of the others' sessions the erased ones, with their paths: every
-    result of such a recording."""
+    """Return erased patients of a store, and erased sessions of the others with their paths."""
     people = [str(row.id) for row in store.rows(select(PATIENT.c.id)) if fingerprint(row.id) in history.erased]
     rows = store.rows(select(SESSION.c.id, SESSION.c.patient_id, SESSION.c.recording_id, SESSION.c.path))
     recordings = {row.recording_id for row in rows if fingerprint(row.id) in history.erased}
@@ -229,14 +229,14 @@ def _find_erased(store: Store, history: LogHistory) -> tuple[list[str], dict[str
 
 
 def _fingerprints(store: Store) -> set[str]:
-    """Fingerprints of who and what is in a store, and not being erased."""
+    """Return fingerprints of all patients and sessions that are not being erased."""
     queries: list[Select[Any]] = [select(table.c.id).where(table.c.erasing == 0) for table in (PATIENT, SESSION)]
     return {fingerprint(row.id) for query in queries for row in store.rows(query)}
 
 
 @contextmanager
 def _open_backup_store(backup: Backup | None, backup_folder: Path) -> Iterator[Store | None]:
-    """The store that a backup holds, in memory. Raises :class:`BackupMismatch`, :class:`PatientListUnreadable`."""
+    """Open the store of a backup in memory. Raises :class:`BackupMismatch`, :class:`PatientListUnreadable`."""
     found = next((one for one in (backup.files if backup else ()) if one.path == STORE_FILE), None)
     if found is None:
         yield None

@@ -1,5 +1,7 @@
-"""Erasing, archiving, what is due and the log, of the whole data folder. How many years records must be kept is the
-clinic's to say: laws differ."""
+"""Erasing, archiving, retention and the log of a data folder.
+
+For how many years records must be kept is set by the clinic: laws differ.
+"""
 
 from __future__ import annotations
 
@@ -21,12 +23,12 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import parse_time
 
 RETENTION_YEARS = (0, 3, 5, 10, 15, 20, 30)
-"""To choose from; 0 is not set."""
+"""Choices; 0 is not set."""
 
 
 @dataclass(frozen=True, slots=True)
 class DuePatient:
-    """A patient whose last session is so old that nothing of it need be kept; ``keep_until`` when that day was."""
+    """Patient whose records need no longer be kept, since ``keep_until``."""
 
     patient_id: str
     pseudonym: str
@@ -37,7 +39,7 @@ class DuePatient:
 
 
 def retention_end(recorded: datetime, years: int) -> date | None:
-    """The last day on which a record of that day must be there; None where no years are set.
+    """Return the last day on which a record must be kept, None if no years are set.
 
     >>> retention_end(datetime(2024, 2, 29), 10)
     datetime.date(2034, 3, 1)
@@ -52,8 +54,7 @@ def retention_end(recorded: datetime, years: int) -> date | None:
 
 
 def find_due_patients(store: Store, years: int, today: date) -> list[DuePatient]:
-    """Patients of whom nothing need be kept any more, the oldest first: their last session decides, also one that is
-    archived or simulated."""
+    """Return patients whose last session, archived or not, need no longer be kept; oldest first."""
     last, last_s = (
         func.max(SESSION.c.recorded).label("last_of_all"),
         func.max(SESSION.c.recorded_s).label("last_of_all_s"),
@@ -76,8 +77,7 @@ def find_due_patients(store: Store, years: int, today: date) -> list[DuePatient]
 
 @dataclass(frozen=True, slots=True)
 class ArchivedItem:
-    """A patient or a session in the archive: ``item_id`` brings it back; ``recorded`` None for a patient;
-    ``patient_id`` whose it is."""
+    """Archived patient or session; ``recorded`` is None for a patient."""
 
     item_id: str
     pseudonym: str
@@ -89,27 +89,27 @@ class ArchivedItem:
 
 
 class RecordRetention:
-    """Plans are made first and shown; what a plan says is what goes."""
+    """Erasure, archive and log of a data folder."""
 
     def __init__(self, library: Library) -> None:
         self._library, self._store = library, library.store
 
     def plan_session(self, session_id: str) -> ErasurePlan:
-        """What goes with a session. Raises :class:`SessionUnreadable` for one that is not there."""
+        """Plan the erasure of a session. Raises :class:`SessionUnreadable` if there is none."""
         try:
             return erasure.plan_session(self._store, session_id)
         except KeyError:
             raise SessionUnreadable(session_id, phrase("not in the list of patients")) from None
 
     def plan_patient(self, patient_id: str) -> ErasurePlan:
-        """What goes with a patient. Raises :class:`SessionUnreadable` for one that is not there."""
+        """Plan the erasure of a patient. Raises :class:`SessionUnreadable` if there is none."""
         try:
             return erasure.plan_patient(self._store, patient_id)
         except KeyError:
             raise SessionUnreadable(patient_id, phrase("not in the list of patients")) from None
 
     def erase(self, plan: ErasurePlan) -> int:
-        """Do what a plan says. Raises what :func:`erasure.erase` does."""
+        """Erase as planned. Raises what :func:`erasure.erase` does."""
         for one in plan.results:
             self._library.drop_cached_results(one.session_id)
         self._library.frame_cache.clear()
@@ -124,7 +124,7 @@ class RecordRetention:
         self._library.audit_log.log_patient("archived", patient_id)
 
     def unarchive(self, item_id: str) -> None:
-        """A patient or a session, by :attr:`ArchivedItem.item_id`."""
+        """Restore a patient or session from the archive by its id."""
         if item_id in self._library.patients.archive_times():
             self._library.patients.unarchive(item_id)
             self._library.audit_log.log_patient("brought_back", item_id)
@@ -133,7 +133,7 @@ class RecordRetention:
             self._library.audit_log.log_session("brought_back", item_id)
 
     def list_archived(self) -> list[ArchivedItem]:
-        """What can be brought back, last archived first."""
+        """Return the archived patients and sessions, last archived first."""
         library, found = self._library, []
         for patient_id, since in library.patients.archive_times().items():
             entries = library.session_list.patient_sessions(patient_id, include_archived=True)
@@ -148,18 +148,17 @@ class RecordRetention:
         return sorted(found, key=lambda one: one.since, reverse=True)
 
     def due_patients(self, years: int, today: date) -> list[DuePatient]:
-        """Patients of whom nothing need be kept any more."""
+        """Return patients whose records need no longer be kept."""
         return find_due_patients(self._store, years, today)
 
     def read_log(self) -> tuple[AuditEntry, ...]:
-        """The log of what was done; that it was read is in it too, after what is returned."""
+        """Return the log, then log that it was read."""
         found = read_log(self._store)
         self._library.audit_log.log_program("read_log")
         return found
 
     def subject_names(self) -> dict[str, str]:
-        """Pseudonyms of the patients, and of those whose sessions there are, by what stands for them in the log: of who
-        was erased there is none."""
+        """Return names of patients and sessions by their fingerprint; erased ones have none."""
         known = {}
         for record in self._library.patients.search(include_archived=True):
             pseudonym = record.pseudonym

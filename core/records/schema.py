@@ -1,7 +1,7 @@
-"""The tables of the store, the same in SQLite and in PostgreSQL.
+"""Tables of the store, the same in SQLite and PostgreSQL.
 
-Every row has an ``id`` and a ``version`` that rises when the row is changed, so that two people who change one thing
-notice. Times are ISO 8601 texts with zone; ``*_s`` are seconds since 1970, ``*_ns`` nanoseconds, to put rows in order.
+Every row has an ``id`` and a ``version`` that rises with each change, so that concurrent changes are noticed. Times are
+ISO 8601 texts with zone; ``*_s`` (seconds since 1970) and ``*_ns`` sort rows.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from sqlalchemy import REAL, BigInteger, Column, Double, ForeignKey, Index, Inte
 from sqlalchemy.types import TypeEngine
 
 VERSION = "2"
-"""Of the schema; each has its script among the migrations."""
+"""Schema version; each has a migration script."""
 METADATA = MetaData()
 _REAL: TypeEngine[float] = Double().with_variant(REAL(), "sqlite")
 _LONG: TypeEngine[int] = BigInteger().with_variant(Integer(), "sqlite")
@@ -52,10 +52,9 @@ PATIENT = _table(
     _numbers("sessions", "results", "erasing", "takes_part"),
     _reals("added_s", "last_s"),
 )
-"""``folded``: the pseudonym as it is compared. ``former``: earlier ones, each a line, which files may still
-bear. ``onset``: whether ``onset_day`` is of an operation or an injury. ``archived``: since when, empty in the lists.
-What is counted, and
-``last``, is of recordings that are in the lists and not simulated; it is worked out whenever a session changes."""
+"""``folded``: the pseudonym as it is compared. ``former``: earlier pseudonyms, one per line, which files may still
+have. ``onset``: operation or injury, on ``onset_day``. ``archived``: since when, else empty. Counts and ``last*``
+are of listed, not simulated recordings, updated with each session."""
 Index("patient_last", PATIENT.c.last_s, PATIENT.c.added_s)
 Index(
     "patient_copy_found", PATIENT.c.search, PATIENT.c.archived, PATIENT.c.erasing, PATIENT.c.last_s, PATIENT.c.added_s,
@@ -72,7 +71,7 @@ SESSION = _table(
     _reals("recorded_s", "created_s", "duration_s"),
     Column("size", _LONG, nullable=False, server_default="0"),
 )
-"""``path`` with slashes, in the folder of the sessions. ``by``: initials of who recorded."""
+"""``path``: relative to the session folder, with slashes. ``by``: initials."""
 Index("session_of_patient", SESSION.c.patient_id, SESSION.c.recorded_s)
 
 COMMENT = _table("comment", _foreign_key("session"), _texts("text", "by", "entered"), Column("entered_ns", _LONG))
@@ -82,12 +81,12 @@ CORRECTION = _table(
     _texts("left_out", "edges_s", "reason"),
     _numbers("not_counted"),
 )
-"""``left_out`` and ``edges_s`` as JSON, by the number of the repetition."""
+"""``left_out`` and ``edges_s``: JSON by the number of the repetition."""
 MANUAL_MEASUREMENT = _table(
     "measured", _foreign_key("patient"), _texts("measure", "way", "side", "day", "tries", "place", "by", "entered"),
     Column("entered_ns", _LONG, nullable=False),
 )  # fmt: skip
-"""By a person with a goniometer, a dynamometer, a questionnaire; ``tries`` as JSON."""
+"""Measured with goniometer, dynamometer or questionnaire; ``tries`` as JSON."""
 SET_UP = _table(
     "set_up", _foreign_key("patient"), _texts("side", "exercise", "discs", "set_id"),
     _numbers("repetitions", "keep_pictures", "ends_free", "for_child"),
@@ -100,26 +99,25 @@ HOME_PLAN = _table(
     "home_plan", _foreign_key("patient"), _texts("exercises", "made", "again", "at", "note", "language"),
     _numbers("times", "rounds"),
 )  # fmt: skip
-"""The last sheet for home; ``exercises`` in a line each, ``again`` the next appointment."""
+"""Last home plan; ``exercises`` one per line, ``again``: the next appointment."""
 EXERCISE_SET = _table("exercise_set", _texts("name", "discs", "parts"), _numbers("place", "gone"))
 REPORT_FORM = _table("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
 RECIPIENT = _table("recipient", _texts("address"), _reals("used_s"))
 DIAGNOSIS = _table("diagnosis", _texts("words"))
-"""The clinic's own list, to choose from; what a patient has stands with the patient."""
+"""The clinic's own list to choose from; a patient's diagnosis is in the patient's row."""
 OUTPUT_FILE = _table("made", _foreign_key("session"), _texts("path", "kind"))
 """Files outside the data folder that were made from a session."""
 BACKUP = _table("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
 AUDIT_LOG = _table(
     "deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True)
 )
-"""Only ever added to. ``subject``: a fingerprint of the patient's or session's id, so that what was erased is
-nobody's."""
+"""Insert only. ``subject``: fingerprint of a patient's or session's id."""
 
 FILE_STATE = Table(
     "seen", METADATA, Column("path", Text, primary_key=True), Column("size", _LONG, nullable=False),
     Column("changed_ns", _LONG, nullable=False), Column("reason", Text, nullable=False), sqlite_strict=True,
 )  # fmt: skip
-"""How files looked when they were last read; ``reason`` why one is no session."""
+"""Files as last read; ``reason`` why one is not a session."""
 
 TABLES = {
     table.name: table
@@ -141,7 +139,7 @@ TABLES = {
         AUDIT_LOG,
     )
 }
-"""Of what people write, in an order in which no row comes before what it belongs to."""
+"""Tables of what people write, ordered so that rows come after those they refer to."""
 
 SQLITE_LOG = """
 CREATE TRIGGER deed_stays BEFORE UPDATE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;

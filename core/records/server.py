@@ -1,5 +1,7 @@
-"""A clinic's PostgreSQL as the store of all its computers. One that does not answer is told at once, and nobody waits
-for it again until somebody looks whether it is back."""
+"""A clinic's PostgreSQL as the store of all its computers.
+
+A server that does not answer is reported at once and not waited for again until :meth:`Server.ping`.
+"""
 
 from __future__ import annotations
 
@@ -20,23 +22,23 @@ from carpus.core.records.database import migrate
 
 logging.getLogger("sqlalchemy.pool").addHandler(logging.NullHandler())  # what a broken line says is told as a fault
 STALL_TIMEOUT_S = 6.0
-"""A line on which nothing came for so long is cut: the window waits for it."""
+"""A connection without an answer for so long is closed: the window waits for it."""
 RETRY_AFTER_S = 10.0
-"""So long nobody but who looks waits for a server that did not answer."""
+"""After a missing answer the server is not asked again for so long."""
 _OPTIONS = {
     "connect_timeout": 3, "tcp_user_timeout": 4000, "keepalives_idle": 5, "keepalives_interval": 5,
     "keepalives_count": 3, "application_name": "carpus",
     "options": "-c lock_timeout=4000 -c idle_in_transaction_session_timeout=10000",
 }  # fmt: skip
 _BUSY, _DISK_FULL, _READ_ONLY = ("55P03", "40P01"), ("53100",), ("42501", "25006")
-"""As PostgreSQL calls them: another writes, no room, no right to write."""
+"""PostgreSQL's SQLSTATE codes."""
 
 
 class Server:
-    """Reading and writing as in :class:`core.records.database.Database`; nothing is asked before the first use.
+    """Reading and writing as in :class:`core.records.database.Database`; connects at the first use.
 
-    ``prepare`` is called in a transaction of its own the first time that the server answers, when its tables are
-    there and of this version; what it returns is called when that is stored.
+    ``prepare`` is called in its own transaction when the server first answers and its tables are of this version; what
+    it returns is called after the commit.
     """
 
     def __init__(self, url: str, prepare: Callable[[Connection], Callable[[], None]]) -> None:
@@ -52,22 +54,21 @@ class Server:
 
     @property
     def is_away(self) -> bool:
-        """Whether it did not answer when it was last asked."""
+        """True if the server did not answer when it was last asked."""
         return self._retry_at_s > 0.0
 
     def close(self) -> None:
-        """May be called twice."""
+        """Close all connections; may be called twice."""
         self._engine.dispose()
 
     def ping(self) -> None:
-        """Ask whether it is there. Raises :class:`ServerUnavailable` and the faults of a store that is not to be
-        used."""
+        """Ask whether the server answers. Raises :class:`ServerUnavailable` and other faults of a store."""
         self._retry_at_s = min(self._retry_at_s, time.monotonic())
         with self.reading():
             pass
 
     def purge_deleted(self) -> bool:
-        """A server sees to it by itself."""
+        """Do nothing: a server does it itself."""
         return True
 
     @contextlib.contextmanager
@@ -77,14 +78,14 @@ class Server:
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
-        """All of it is stored, or, after an exception, nothing; one writes at a time, whichever the computer."""
+        """Open a transaction that is rolled back after an exception; one writer at a time of all computers."""
         with self._translate_errors(), self._connect() as connection, connection.begin():
             connection.execute(text("SELECT pg_advisory_xact_lock(2026)"))
             yield connection
 
     @contextlib.contextmanager
     def snapshot(self) -> Iterator[Connection]:
-        """To read for long, all of it as of one moment."""
+        """Open a long reading transaction that sees one state of the data."""
         self.ping()
         options = {"isolation_level": "REPEATABLE READ"}
         with (
@@ -112,7 +113,7 @@ class Server:
 
     @contextlib.contextmanager
     def _setup_transaction(self) -> Iterator[Connection]:
-        """While no other computer makes the server ready: one that brings much takes minutes."""
+        """Open a transaction while no other computer sets up the server, which may take minutes."""
         with self._engine.begin() as connection:
             try:
                 connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
@@ -123,8 +124,10 @@ class Server:
 
     @contextlib.contextmanager
     def _checked_connection(self) -> Iterator[Connection]:
-        """A line on which the server has just answered, a new one where an old one was cut; it is cut again where
-        nothing comes on it any more."""
+        """Open a connection that has just answered, a new one in place of one that was closed.
+
+        It is closed again when it stalls.
+        """
         for is_last in (False, True):
             with contextlib.closing(self._engine.connect()) as connection:
                 line = connection.connection.driver_connection
@@ -164,6 +167,6 @@ class Server:
 
 
 def _shut_down(connection: Any) -> None:
-    """End a connection from another thread than the one that waits for its answer."""
+    """End a connection from another thread than the one that waits for it."""
     with contextlib.suppress(Exception), socket.fromfd(connection.fileno(), socket.AF_INET, socket.SOCK_STREAM) as wire:
         wire.shutdown(socket.SHUT_RDWR)

@@ -1,8 +1,8 @@
-"""Which sessions there are: found in the store by identity, in the folder by path, and made anew from the files.
+"""List of sessions: found by id in the store, by path in the folder, and rebuilt from the files.
 
-A file is read again only when its size or its time has changed. One that cannot be a session is set apart: it stays
-where it is, is named once, and is not opened again while it is the same. A copy of a session that is there already is
-set apart too, so that it counts once."""
+A file is read again only if its size or time changed. A file that cannot be a session stays where it is, is reported
+once, and is not read again while it is the same; so is a copy of a listed session.
+"""
 
 from __future__ import annotations
 
@@ -44,19 +44,19 @@ COPY_REASON = "a copy of "
 
 @dataclass(frozen=True, slots=True)
 class FileState:
-    """A file as it was when it was looked at; ``reason`` why it is no session."""
+    """State of a file when it was last read; ``reason`` why it is not a session."""
 
     size: int
     modified_ns: int
     reason: str = ""
 
     def is_unchanged(self, other: FileState) -> bool:
-        """Whether a file that looks like ``other`` need not be read again."""
+        """Return whether a file in the state ``other`` need not be read again."""
         return (self.size, self.modified_ns) == (other.size, other.modified_ns)
 
 
 def find_session_files(folder: Path) -> dict[Path, FileState]:
-    """Every file of a folder that is named like a session, as it looks now."""
+    """Return the state of every file below a folder that is named like a session."""
     found: dict[Path, FileState] = {}
     for path in sorted(iter_paths(folder, ".h5")):
         try:
@@ -70,12 +70,12 @@ def find_session_files(folder: Path) -> dict[Path, FileState]:
 
 
 def read_file_states(store: Store) -> dict[str, FileState]:
-    """What was looked at before, by path."""
+    """Return the stored states by path."""
     return {str(row.path): FileState(row.size, row.changed_ns, row.reason) for row in store.rows(select(FILE_STATE))}
 
 
 def save_file_states(store: Store, states: Mapping[str, FileState], removed: Iterable[str] = ()) -> None:
-    """Take down how files looked, and forget those that are ``removed``."""
+    """Save states of files, and delete those of ``removed`` paths."""
     paths = [*states, *removed]
     values = [
         {"path": path, "size": one.size, "changed_ns": one.modified_ns, "reason": one.reason}
@@ -91,7 +91,7 @@ def save_file_states(store: Store, states: Mapping[str, FileState], removed: Ite
 
 
 def is_storable_path(path: str) -> bool:
-    """Whether the store can hold a file's name; some systems have names that are no text."""
+    """Return whether the store can hold a file's name; some systems have names that are not text."""
     try:
         path.encode("utf-8")
     except UnicodeEncodeError:
@@ -100,23 +100,25 @@ def is_storable_path(path: str) -> bool:
 
 
 MAX_NAME_CHARACTERS = 40
-"""Of a pseudonym in a file's name, which no system lets be as long as one likes."""
+"""Of a pseudonym in a file name, since systems limit the length."""
 PENDING_FOLDER = "corrections"
-"""In the data folder: sessions tracked again that nobody has decided about."""
+"""Folder of re-analysed sessions that nobody has decided about."""
 PENDING_COPY_SUFFIX = ".h5.new"
-"""Of one that is wanted: hidden beside its session until it is in the list."""
+"""Accepted result, hidden beside its session until it is listed."""
 BATCH_ROWS = 500
-"""Rows of one change when the list is made anew."""
+"""Rows of one transaction when the list is rebuilt."""
 
 
 SHARE_MARKER = ".carpus-is-there"
-"""In a share that holds sessions, or held some: who finds it knows that it is the share, and not its empty place."""
+"""File in a share with sessions: tells the mounted share from its empty mount point."""
 
 
 def check_share(store: Store) -> None:
-    """Raises :class:`FolderMissing` for a clinic's share that is away, :class:`SessionShareEmpty` where only its
-    place may be
-    there; the files would come back with it, and what was written into the place would be hidden."""
+    """Check that the clinic's share is mounted.
+
+    Raises :class:`FolderMissing`, or :class:`SessionShareEmpty` for what may be the mount point only: files written
+    there would be hidden once the share is back.
+    """
     root = store.sessions_folder
     mark = root / SHARE_MARKER
     if not store.uses_share or mark.exists():
@@ -132,7 +134,7 @@ def check_share(store: Store) -> None:
 
 
 class SessionList:
-    """The sessions of a store."""
+    """Sessions of a store."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
@@ -140,8 +142,10 @@ class SessionList:
         self._resolved_folder = self.folder.resolve()  # asked of every file whenever the list is made
 
     def patient_sessions(self, patient_id: str, *, include_archived: bool = False) -> list[SessionEntry]:
-        """The patient's sessions, nobody's for none, newest first, every result of a recording; without those in the
-        archive, unless ``archived``."""
+        """Return all results of a patient (empty: of nobody), newest first.
+
+        Archived sessions are left out unless ``include_archived``.
+        """
         query = select(SESSION).where(SESSION.c.patient_id == (patient_id or None), SESSION.c.erasing == 0)
         if not include_archived:
             query = query.where(SESSION.c.archived == "")
@@ -149,15 +153,15 @@ class SessionList:
         return [self._entry_from_row(row) for row in self._store.rows(query.order_by(*order))]
 
     def get(self, session_id: str) -> SessionEntry:
-        """Raises KeyError for an identity that is not in the store."""
+        """Return the session with this id. Raises KeyError if there is none."""
         return self._entry_from_row(self._row(session_id))
 
     def owner_id(self, session_id: str) -> str:
-        """The patient whose session it is, empty for nobody's; raises KeyError for one that is not in the store."""
+        """Return the session's patient, empty for none. Raises KeyError without such a session."""
         return self._row(session_id).patient_id or ""
 
     def last_patient_id(self) -> str:
-        """Whose session was made last, also a simulated one; empty for nobody's and the practice patient's."""
+        """Return the patient of the last session; empty for none and for the practice patient."""
         query = select(SESSION.c.patient_id).where(SESSION.c.erasing == 0, SESSION.c.archived == "")
         row = self._store.row(query.order_by(SESSION.c.created_s.desc()).limit(1))
         return "" if row is None or row.patient_id in (None, PRACTICE) else str(row.patient_id)
@@ -169,19 +173,22 @@ class SessionList:
         return row
 
     def recording_versions(self, recording_id: str) -> list[SessionEntry]:
-        """Every session file that came of one recording, whoever it belongs to, the first one first."""
+        """Return all results of a recording, oldest first."""
         query = select(SESSION).where(SESSION.c.recording_id == recording_id, SESSION.c.erasing == 0)
         return [
             self._entry_from_row(row) for row in self._store.rows(query.order_by(SESSION.c.created_s, SESSION.c.path))
         ]
 
     def result_versions(self, session_id: str) -> list[SessionEntry]:
-        """Every result of the recording of a session, the first one first. Raises KeyError."""
+        """Return all results of a session's recording, oldest first. Raises KeyError."""
         return self.recording_versions(self._row(session_id).recording_id)
 
     def patient_folder(self, patient_id: str) -> Path:
-        """The patient's own private folder, which has the patient's identity for a name. Raises the faults of
-        :func:`check_share`, :class:`OutputNotWritable`, also for an identity that this program did not give."""
+        """Return the patient's private folder, named by the id; it is created.
+
+        Raises the faults of :func:`check_share` and :class:`OutputNotWritable`, also for an id that this program did
+        not give.
+        """
         folder = self.folder / patient_id
         check_share(self._store)
         if not changes.is_patient_id(patient_id):
@@ -192,7 +199,7 @@ class SessionList:
         return folder
 
     def new_path(self, patient_id: str, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
-        """A free path for a session in the patient's folder. Raises the faults of :meth:`patient_folder`."""
+        """Return a free path in the patient's folder. Raises the faults of :meth:`patient_folder`."""
         return free_session_path(self.patient_folder(patient_id), pseudonym, exercise, hand, when)
 
     def add(
@@ -204,10 +211,11 @@ class SessionList:
         exercise: str = "",
         extra_changes: ChangeSet = (),
     ) -> SessionEntry:
-        """Take a finished session file into the list, of an ``exercise`` where a person said another, in one step with
-        what is ``extra_changes`` to be stored. ``current_path`` is where it is as long as it has not got its name
-        yet. Raises
-        :class:`SessionUnreadable`."""
+        """List a finished session file, together with ``extra_changes``.
+
+        ``exercise`` replaces the one in the file; ``current_path`` is where the file lies until it gets its name.
+        Raises :class:`SessionUnreadable`.
+        """
         file = current_path or path
         outline = read_outline(file)
         before = self.recording_versions(outline.header.recording_id)
@@ -224,11 +232,11 @@ class SessionList:
         return self.get(outline.header.session_id)
 
     def move_to_patient(self, session_id: str, patient_id: str) -> None:
-        """Give a session to another patient, with all that lies beside it: written anew under that one's pseudonym and
-        into that one's folder, so that nothing of it says whose it was taken for. Results that wait for a decision go.
+        """Move a session with its companions to another patient.
 
-        Raises :class:`SessionUnreadable` for a file that is not whole, :class:`ConcurrentChange`, the faults of
-        writing; then all is as it was.
+        The file is rewritten under that patient's pseudonym, so that nothing names the wrong one. Pending results are
+        deleted. Raises :class:`SessionUnreadable`, :class:`ConcurrentChange` and the faults of writing; then nothing
+        changed.
         """
         entry, pseudonym = self.get(session_id), Patients(self._store).get(patient_id).pseudonym
         if not entry.path.exists():
@@ -255,11 +263,11 @@ class SessionList:
                 one.unlink()
 
     def set_exercise(self, session_id: str, exercise: str) -> None:
-        """List a session as another exercise; the file keeps what was chosen then."""
+        """List a session under another exercise; the file keeps its own."""
         self._store.apply([update_row(SESSION, session_id, exercise=exercise)])
 
     def archive(self, session_id: str, now: datetime | None = None) -> None:
-        """Take a recording with all its results out of every list and count."""
+        """Archive a recording with all its results: it is in no list and no count."""
         self._update_recording(session_id, archived=(now or datetime.now(UTC)).isoformat(timespec="seconds"))
 
     def unarchive(self, session_id: str) -> None:
@@ -269,7 +277,7 @@ class SessionList:
         self._store.apply([update_row(SESSION, one.session_id, **values) for one in self.result_versions(session_id)])
 
     def list_archived(self) -> list[tuple[SessionEntry, str, datetime]]:
-        """Of each archived recording the first result, whose it is and since when."""
+        """Return the first result of each archived recording, its patient, and since when."""
         query = select(SESSION).where(SESSION.c.archived != "", SESSION.c.erasing == 0).order_by(SESSION.c.created_s)
         found: dict[str, Row[Any]] = {}
         for row in self._store.rows(query):
@@ -280,9 +288,9 @@ class SessionList:
         ]
 
     def relative_path(self, path: Path) -> str:
-        """Relative to the sessions' folder, so that the data folder can be moved as a whole.
+        """Return a path relative to the session folder, so that the data folder can be moved.
 
-        Raises :class:`SessionUnreadable` for a file that lies elsewhere.
+        Raises :class:`SessionUnreadable` for a file elsewhere.
         """
         for one, folder in ((path, self.folder), (path.resolve(), self._resolved_folder)):
             if one.is_relative_to(folder):
@@ -306,14 +314,16 @@ class SessionList:
 
 
 def free_session_path(folder: Path, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
-    """A name in a folder that no session has yet."""
+    """Return a free name for a session in a folder."""
     stem = f"{to_file_name(pseudonym) or 'patient'}_{when:%Y-%m-%d_%H%M%S}_{to_file_name(exercise) or 'session'}_{hand}"
     return find_free_name(folder / f"{stem}.h5")
 
 
 def find_pending_results(store: Store, session_ids: Collection[str]) -> Iterator[Path]:
-    """New results of these sessions that nobody has decided about. One that is damaged, or not finished, is known by
-    its name, which is that of its session's file, where no other session's is like it."""
+    """Yield pending results of these sessions.
+
+    A damaged or unfinished one is recognised by its name, if it is like that of no other session.
+    """
     named = {row.id: Path(row.path).stem for row in store.rows(select(SESSION.c.id, SESSION.c.path))}
     mine, others = (
         {stem for one, stem in named.items() if (one in session_ids) is is_mine} for is_mine in (True, False)
@@ -333,18 +343,20 @@ def find_pending_results(store: Store, session_ids: Collection[str]) -> Iterator
 
 
 class SessionFileScanner:
-    """Brings the list up to date with the files that are there, or makes it anew: all but names, notes and what people
-    wrote comes of the files."""
+    """Scanner that updates or rebuilds the list from the session files.
+
+    Only names, notes and what people wrote do not come from the files.
+    """
 
     def __init__(self, store: Store) -> None:
         self._store, self._session_list = store, SessionList(store)
         self._folder = store.sessions_folder
 
     def scan(self, *, reports_faults: bool = True) -> ScanResult:
-        """Read what was copied in or changed since the last look; a session whose file is gone stays in the list.
+        """Read new and changed files; sessions whose file is gone stay listed.
 
-        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient. What cannot
-        be read is remembered as told, unless nobody ``reports_faults`` of it.
+        An unknown pseudonym becomes a patient; a file without one is listed without a patient. Unreadable files are
+        stored as reported unless ``reports_faults`` is False.
         """
         before, (there, nameless) = read_file_states(self._store), self._current_files()
         known = {row.path: row for row in self._store.rows(select(SESSION))}
@@ -384,8 +396,10 @@ class SessionFileScanner:
         current: Iterable[str],
         new_states: dict[str, FileState],
     ) -> int:
-        """Put what was read into the list; how many sessions changed it. A further copy of a session counts once: the
-        one that is known, of new ones the longest, then the first by name."""
+        """List what was read; return how many sessions changed.
+
+        A copy of a session is not listed: the known file stays, else the longest, then the first by name.
+        """
         current, rows = set(current), {row.id: row for row in known.values()}
         holds = {path: outline.header.session_id for path, outline in found}
         other = {row.id for path, row in known.items() if holds.get(path, row.id) != row.id}
@@ -433,7 +447,7 @@ class SessionFileScanner:
         return taken
 
     def _current_files(self) -> tuple[dict[str, FileState], list[str]]:
-        """Files named like sessions, but for those that are being erased; and those whose names cannot be kept."""
+        """Return files named like sessions that are not being erased, and names that cannot be stored."""
         going = {str(row[0]) for row in self._store.rows(select(SESSION.c.path).where(SESSION.c.erasing == 1))}
         found = {
             path.relative_to(self._folder).as_posix(): look for path, look in find_session_files(self._folder).items()
@@ -442,7 +456,7 @@ class SessionFileScanner:
         return there, [path for path in found if not is_storable_path(path)]
 
     def filter_new_faults(self, faults: Iterable[CarpusFault]) -> list[CarpusFault]:
-        """Of faults with files of this folder those that are new, or whose file has changed; remembers them."""
+        """Return faults whose file is new or changed, and store its state."""
         fresh: list[CarpusFault] = []
         before = read_file_states(self._store)
         for fault in faults:
@@ -461,7 +475,7 @@ class SessionFileScanner:
         return fresh
 
     def unrecoverable_parts(self) -> set[Path]:
-        """Part files that could not be finished and have not changed since."""
+        """Return part files that could not be completed and have not changed since."""
         found = set()
         for name, look in read_file_states(self._store).items():
             path = self._folder / name
@@ -472,7 +486,7 @@ class SessionFileScanner:
         return found
 
     def duplicate_files(self, path: str) -> list[Path]:
-        """Files that were set apart as copies of a session's."""
+        """Return files known as copies of a session."""
         return [
             self._folder / name
             for name, one in read_file_states(self._store).items()
@@ -480,7 +494,6 @@ class SessionFileScanner:
         ]
 
     def _is_unfinished_part(self, path: str) -> bool:
-        """Whether a path is of a part file that is still there and could not be finished."""
         return path.endswith(".part") and (self._folder / path).exists()
 
 
@@ -506,5 +519,5 @@ def _session_columns(path: str, patient_id: str | None, outline: SessionOutline)
 
 
 def to_file_name(text: str) -> str:
-    """A text as it stands in names of files."""
+    """Convert a text for use in a file name."""
     return re.sub(r"\W+", "-", text)[:MAX_NAME_CHARACTERS].strip("-")

@@ -1,4 +1,4 @@
-"""What people write about a session: comments in all versions, what they left out or moved, what was made of it."""
+"""Records of a session: comments in all versions, a person's choices, and files made from it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OutputKind = Literal["report", "export"]
 
 @dataclass(frozen=True, slots=True)
 class Comment:
-    """What was written, by whose initials, and when; an empty text took the one before away."""
+    """Comment with initials; an empty text deletes the one before."""
 
     text: str
     initials: str
@@ -33,25 +33,25 @@ class Comment:
 
 
 def read_comments(store: Store, session_id: str) -> tuple[Comment, ...]:
-    """All of a session, oldest first; the last one holds."""
+    """Return all comments of a session, oldest first; the last one is current."""
     query = select(COMMENT).where(COMMENT.c.session_id == session_id).order_by(COMMENT.c.entered_ns, COMMENT.c.id)
     return tuple(Comment(row.text, row.by, parse_time(row.entered, row.entered_ns / 1e9)) for row in store.rows(query))
 
 
 def current_comment(comments: Sequence[Comment]) -> str:
-    """The comment that holds; empty where there is none."""
+    """Return the current comment, empty for none."""
     return comments[-1].text if comments else ""
 
 
 def add_comment(store: Store, session_id: str, text: str, initials: str) -> None:
-    """Add one, which holds from now on; what was written before stays readable."""
+    """Add a comment as the current one; earlier ones stay readable."""
     entered = datetime.now(UTC).isoformat(timespec="seconds")
     row = {"session_id": session_id, "text": text, "by": initials, "entered": entered, "entered_ns": time.time_ns()}
     store.apply([insert_row(COMMENT, new_id(), **row)])
 
 
 def read_choices(store: Store, session_id: str) -> tuple[RepetitionChoices, int]:
-    """What a person left out or moved, and its version; nothing and 0 where nothing is."""
+    """Return a person's choices and their version; 0 where nothing was chosen."""
     row = store.row(select(CORRECTION).where(CORRECTION.c.session_id == session_id))
     if row is None:
         return RepetitionChoices(), 0
@@ -65,16 +65,16 @@ def _choices_from_row(row: Row[Any]) -> RepetitionChoices:
 
 
 def save_choices(store: Store, session_id: str, choices: RepetitionChoices, version: int) -> int:
-    """Store them in place of the ``version`` that they were made from (0 for none); the version that they have now.
+    """Store choices made from a ``version`` (0 for none); return the new version.
 
-    Raises :class:`ConcurrentChange` where somebody else was quicker.
+    Raises :class:`ConcurrentChange`.
     """
     store.apply([choices_change(session_id, choices, version)])
     return version + 1
 
 
 def choices_change(session_id: str, choices: RepetitionChoices, version: int = 0) -> RowChange:
-    """The change that stores them."""
+    """Return the change that stores choices."""
     values = {
         "left_out": json.dumps(choices.excluded, ensure_ascii=False), "edges_s": json.dumps(choices.edges_s),
         "not_counted": int(choices.is_session_excluded), "reason": choices.session_exclusion_reason,
@@ -85,7 +85,7 @@ def choices_change(session_id: str, choices: RepetitionChoices, version: int = 0
 
 
 def record_output_files(store: Store, paths: Iterable[Path], kind: OutputKind, session_ids: Sequence[str]) -> None:
-    """Take down files that were just made from these sessions, so that they can be named when one is erased."""
+    """Record files made from sessions, so that they can be named when one is erased."""
     store.apply(
         [
             insert_row(OUTPUT_FILE, new_id(), session_id=session_id, path=str(path.absolute()), kind=kind)
@@ -96,6 +96,6 @@ def record_output_files(store: Store, paths: Iterable[Path], kind: OutputKind, s
 
 
 def find_output_files(store: Store, session_ids: Iterable[str]) -> list[Path]:
-    """What was made from any of these sessions, alone or with others, and is still there."""
+    """Return existing files that were made from any of these sessions."""
     rows = store.rows(select(OUTPUT_FILE.c.path).where(OUTPUT_FILE.c.session_id.in_(list(session_ids))).distinct())
     return [Path(path) for path in sorted(row.path for row in rows) if os.path.isfile(path)]  # noqa: PTH113  # also where nobody may look

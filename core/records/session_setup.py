@@ -1,5 +1,7 @@
-"""What was chosen before measuring, and for whom; and sets: exercises that run one after the other with the same discs,
-as a therapist puts them together, which belong to the clinic and to no patient."""
+"""Choices before a measurement, and sets: exercises done one after the other with the same markers.
+
+Sets belong to the clinic, not to a patient.
+"""
 
 from __future__ import annotations
 
@@ -18,15 +20,15 @@ if TYPE_CHECKING:
 
 
 MARKERS_SUFFIX = ".markers.jpg"
-"""Ends, in place of ``.h5``, the picture of the discs as they were stuck: the hand and nothing of the room."""
+"""Replaces ``.h5`` in the name of the marker photo, which shows the hand and nothing of the room."""
 PRACTICE_PATIENT = "practice"
-"""Identity of the practice patient: always the last row, simulated camera, nothing counts."""
+"""Id of the practice patient: last in lists, with a simulated camera."""
 PRACTICE_REPETITIONS = 3
 
 
 @dataclass(frozen=True, slots=True)
 class SetPart:
-    """One exercise of a set: until ``repetitions`` are done or, where these are 0, for ``seconds``; then ``rest_s``."""
+    """Exercise of a set: ``repetitions`` or, if these are 0, ``seconds``; then a rest."""
 
     exercise: Exercise
     repetitions: int = 10
@@ -36,8 +38,7 @@ class SetPart:
 
 @dataclass(frozen=True, slots=True)
 class SetRun:
-    """A set that runs; ``run_id`` is the same for all its sessions, ``part_index`` the part that it has come to, from
-    0."""
+    """Set that is being done; ``run_id`` is the same in all its sessions, ``part_index`` counts from 0."""
 
     set_id: str
     name: str
@@ -45,7 +46,7 @@ class SetRun:
     parts: tuple[SetPart, ...]
     part_index: int = 0
     goals_deg: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Targets of the exercises for this hand of the patient, as of :class:`SessionSetup`."""
+    """Goals by exercise for this hand of the patient, as in :class:`SessionSetup`."""
 
     @property
     def part(self) -> SetPart:
@@ -54,9 +55,9 @@ class SetRun:
 
 @dataclass(frozen=True, slots=True)
 class SessionSetup:
-    """What was chosen before measuring.
+    """Choices before a measurement.
 
-    Targets in degrees of the trained angle with its sign (the negative direction below zero), NaN for none.
+    Targets in degrees of the trained angle, signed (negative direction below zero), NaN for none.
     """
 
     patient_id: str
@@ -68,17 +69,16 @@ class SessionSetup:
     target_negative_deg: float
     stores_frames: bool = False
     is_dip_free: bool = False
-    """Whether the end joints of the fingers are measured by themselves, not taken to follow the middle joints."""
+    """The DIP joints are measured, not inferred from the PIP joints."""
     protocol_name: str = ""
-    """Name of the marker protocol; empty for the exercise's usual one."""
+    """Marker protocol; empty for the default one of the exercise."""
     for_child: bool = False
-    """Whether the patient's view speaks and draws for a child."""
+    """The patient's screen is for a child."""
     set_run: SetRun | None = None
-    """The set that it is a part of."""
 
     @property
     def subject_id(self) -> str:
-        """What a session file says of whose it is; of the practice patient the same in every language."""
+        """Subject of the session file: the pseudonym, or the practice patient in every language."""
         return PRACTICE_PATIENT if self.patient_id == PRACTICE_PATIENT else self.pseudonym
 
     @property
@@ -87,7 +87,7 @@ class SessionSetup:
 
 
 def practice_setup(pseudonym: str) -> SessionSetup:
-    """What the practice patient does first."""
+    """Return the first set-up of the practice patient."""
     nothing = float("nan")
     return SessionSetup(PRACTICE_PATIENT, pseudonym, "right", EXERCISES[0], PRACTICE_REPETITIONS, nothing, nothing)
 
@@ -99,7 +99,7 @@ MAX_REPETITIONS, MAX_SECONDS, MAX_REST_S = 50, 600, 600
 
 @dataclass(frozen=True, slots=True)
 class ExerciseSet:
-    """A set by its name; ``protocol_name`` the marker protocol that all its exercises are done with."""
+    """Named set; ``protocol_name`` is the marker protocol of all its exercises."""
 
     set_id: str
     name: str
@@ -127,19 +127,19 @@ DEFAULT_SETS = (
 
 
 def new_set_id() -> str:
-    """For a set that is not kept yet."""
+    """Return an id for a new set."""
     return str(uuid.uuid4())
 
 
 def start_set(exercise_set: ExerciseSet, set_up: SessionSetup, goals: Goals) -> SessionSetup:
-    """The first exercise of a set, for the patient, hand and choices of a set-up, with the goals there are."""
+    """Return the set-up of a set's first exercise, with the patient's goals."""
     own = {exercise: targets for (exercise, side), targets in goals.items() if side == set_up.side}
     course = SetRun(exercise_set.set_id, exercise_set.name, str(uuid.uuid4()), exercise_set.parts, goals_deg=own)
     return with_part(replace(set_up, protocol_name=exercise_set.protocol_name), course)
 
 
 def next_part(set_up: SessionSetup) -> SessionSetup | None:
-    """The exercise that comes after the one of a set-up; None after the last and outside a set."""
+    """Return the set-up of the next exercise, None after the last and outside of a set."""
     course = set_up.set_run
     if course is None or course.part_index + 1 >= len(course.parts):
         return None
@@ -147,7 +147,7 @@ def next_part(set_up: SessionSetup) -> SessionSetup | None:
 
 
 def with_part(set_up: SessionSetup, set_run: SetRun) -> SessionSetup:
-    """A set-up at the part that a course has come to, with the goals of its exercise."""
+    """Return the set-up of the current part, with the goals of its exercise."""
     part, none = set_run.part, float("nan")
     positive, negative = set_run.goals_deg.get(part.exercise.id, (none, none))
     return replace(

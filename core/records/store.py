@@ -1,4 +1,4 @@
-"""The open store of one data folder: rows are read, and changed by whole changes."""
+"""The open store of a data folder: rows are read, and changed together."""
 
 from __future__ import annotations
 
@@ -39,19 +39,18 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 SESSIONS_FOLDER = "sessions"
 LOCK_TIMEOUT_S = 60.0
-"""To wait for another program that opens the store: one that brings a large one up to date takes long."""
+"""Wait for another program that opens the store; migrating a large one takes long."""
 MAX_DETAIL_CHARACTERS = 100
-"""Signs of what is wrong with a row."""
 BATCH_ROWS = 500
 PRACTICE_NAME = "Practice patient"
 
 
 class Store:
-    """May be used from several threads and programs at once. It lies in the data folder, as SQLite, or, with the
-    ``url`` of one, in a clinic's PostgreSQL, which is first asked when something is read. A damaged file is set aside,
-    told, and made again. Raises what :class:`Database` does; with a server each use raises :class:`ServerUnavailable`
-    while
-    that does not answer.
+    """Store of a data folder, safe for several threads and programs.
+
+    It is a SQLite file in the folder or, with a ``url``, a clinic's PostgreSQL, which is first asked when something is
+    read. A damaged file is set aside, reported and rebuilt. Raises what :class:`Database` does; with a server every use
+    raises :class:`ServerUnavailable` while that does not answer.
     """
 
     def __init__(
@@ -62,18 +61,18 @@ class Store:
         on_fault: Callable[[CarpusFault], None] = lambda _: None,
         copy: sqlite3.Connection | None = None,
     ) -> None:
-        """``copy``: of a folder that cannot be written, for :func:`open_to_read`."""
+        """``copy`` is the content of a read-only folder's store, for :func:`open_to_read`."""
         self.folder = folder
         self.sessions_folder = sessions_folder or folder / SESSIONS_FOLDER
         self.uses_share = self.sessions_folder != folder / SESSIONS_FOLDER
-        """Whether the sessions lie in a folder of several computers, which is never made here and keeps its rights."""
+        """The sessions lie in a folder of several computers, which is never created here."""
         if copy is None:
             make_private_folder(folder)
             if not self.uses_share:
                 make_private_folder(self.sessions_folder)
         self._on_fault, self._reported_rows = on_fault, set[str]()
         self.startup_faults: list[CarpusFault] = []
-        """What was found when the store was opened."""
+        """Faults found when the store was opened."""
         self.server: Server | None = None
         self._path = folder / STORE_FILE
         if url:
@@ -91,8 +90,10 @@ class Store:
             _ensure_practice_patient(connection)
 
     def _prepare_server(self, connection: Connection) -> Callable[[], None]:
-        """Make a server ready in an open transaction, and give it what this computer has of its own; what is then to be
-        done once that is stored."""
+        """Prepare a server in an open transaction and import this computer's own store.
+
+        Returns what to do after the commit.
+        """
         _ensure_practice_patient(connection)
         if not self._path.is_file():
             return lambda: None
@@ -147,7 +148,7 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """May be called twice."""
+        """Close the store; may be called twice."""
         self._database.close()
 
     def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
@@ -159,16 +160,15 @@ class Store:
             return connection.execute(query).first()
 
     def apply(self, changes: ChangeSet) -> None:
-        """Make a change, whole or not at all.
+        """Apply changes together or not at all.
 
-        Raises :class:`ConcurrentChange` where somebody else was quicker, :class:`PseudonymTaken` and the faults of
-        writing.
+        Raises :class:`ConcurrentChange`, :class:`PseudonymTaken` and the faults of writing.
         """
         with self._database.writing() as connection:
             apply_changes(connection, changes)
 
     def valid_rows(self, rows: Iterable[Row[Any]], parse: Callable[[Row[Any]], T]) -> list[T]:
-        """What ``parse`` makes of each row of one with an ``id``; a damaged one is left out, and told once."""
+        """Parse rows with an ``id``; damaged ones are left out and reported once."""
         found = []
         for row in rows:
             try:
@@ -180,18 +180,21 @@ class Store:
         return found
 
     def execute_local(self, *statements: Insert | Delete | Update) -> None:
-        """Change what has no version."""
+        """Execute statements on tables without versions."""
         with self._database.writing() as connection:
             for statement in statements:
                 connection.execute(statement)
 
     @property
     def is_server_away(self) -> bool:
-        """Whether there is a server that did not answer when it was last asked."""
+        """True if there is a server that did not answer when it was last asked."""
         return self.server is not None and self.server.is_away
 
     def copy_to_memory(self) -> sqlite3.Connection:
-        """All of it as SQLite in memory, as of one moment. Raises :class:`PatientListUnreadable` and its kinds."""
+        """Copy the store to SQLite in memory, in one transaction.
+
+        Raises :class:`PatientListUnreadable` and its kinds.
+        """
         if self.server is None:
             return copy_to_memory(self._path)
         copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
@@ -202,7 +205,7 @@ class Store:
         return copy
 
     def purge_deleted(self) -> bool:
-        """Bring what was taken out to the disk as taken out; whether it is."""
+        """Remove deleted content from the disk; return False while another program reads."""
         return self._database.purge_deleted()
 
 
@@ -212,7 +215,7 @@ def open_to_read(
     url: str = "",
     on_fault: Callable[[CarpusFault], None] = lambda _: None,
 ) -> Store:
-    """The store of a folder for who only reads: also of one that cannot be written. Raises the faults of a store."""
+    """Open a store for reading, also in a read-only folder. Raises the faults of a store."""
     try:
         return Store(folder, sessions_folder, url, on_fault)
     except (OutputNotWritable, DiskFull):
@@ -221,7 +224,10 @@ def open_to_read(
 
 @contextmanager
 def _exclusive_lock(path: Path) -> Iterator[None]:
-    """While no other program opens that store. Raises :class:`PatientListBusy`, :class:`OutputNotWritable`."""
+    """Keep other programs from opening the store.
+
+    Raises :class:`PatientListBusy`, :class:`OutputNotWritable`.
+    """
     end = time.monotonic() + LOCK_TIMEOUT_S
     lock = path.with_suffix(".lock")
     make_private_file(lock)
@@ -238,24 +244,23 @@ def _exclusive_lock(path: Path) -> Iterator[None]:
 
 
 def _ensure_practice_patient(connection: Connection) -> None:
-    """See that the practice patient is there."""
     if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)).first() is None:
         practice = insert_row(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE_NAME, side="right")
         apply_changes(connection, [practice])
 
 
 def new_id() -> str:
-    """A new random identity of a row."""
+    """Return a new random id of a row."""
     return uuid.uuid4().hex
 
 
 def has_store(folder: Path) -> bool:
-    """Whether there is a store in a folder."""
+    """Return whether a folder has a store."""
     return (folder / STORE_FILE).is_file()
 
 
 def require_store(folder: Path) -> None:
-    """Raises :class:`FolderMissing`, :class:`DataFolderMissing` for one without a store: a look makes none."""
+    """Raise :class:`FolderMissing` or :class:`DataFolderMissing` for a folder without a store."""
     if not folder.is_dir():
         raise FolderMissing(folder)
     if not has_store(folder):

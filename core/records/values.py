@@ -1,4 +1,4 @@
-"""What the store says of patients and sessions, as values."""
+"""Values of patients and sessions in the store."""
 
 from __future__ import annotations
 
@@ -18,18 +18,16 @@ AffectedSide = Literal["both", "right", "left"]
 Dominance = Literal["unknown", "right", "left", "both"]
 AgeBand = Literal["", "0-9", "10-19", "20-29", "30-39", "40-49", "50-59", "60-69", "70-79", "80 and over"]
 Onset = Literal["", "operation", "injury"]
-"""Of each the first is taken where another program stored what is none."""
+"""In all of these an unknown value from another program becomes the first choice."""
 
 
 @dataclass(frozen=True, slots=True)
 class Patient:
-    """A patient, the same from the store to the screens.
+    """Patient, the same from the store to the screens.
 
-    What a person writes down comes first, each a column of the store by its name; ``name`` is optional and stays in the
-    store, as the diagnosis does, or the operation, with the day of ``onset``. What the store adds is given by name:
-    ``last_session`` None and ``last_exercise`` empty before the first session; ``session_count`` counts a recording
-    once, however often it was tracked; ``result_count`` counts every file. Sessions of a simulated hand are nobody's
-    movement: they are neither counted nor the last one. ``version`` rises with every change by a person.
+    The positional fields are filled in by a person and are columns of the store. Name, diagnosis and onset are stored
+    here only. Keyword fields come from the store: ``session_count`` counts each recording once, ``result_count`` every
+    file; simulated sessions are not counted. ``version`` rises with every change.
     """
 
     pseudonym: str
@@ -56,7 +54,7 @@ class Patient:
             raise ValueError(f"age band {self.age_band!r}")
 
     def with_normalized_names(self) -> Patient:
-        """The same with names as they are kept. Raises :class:`NameUnsuited`."""
+        """Return the patient with names in their stored form. Raises :class:`NameUnsuited`."""
         return replace(
             self,
             pseudonym=normalize_name(self.pseudonym),
@@ -67,8 +65,11 @@ class Patient:
 
 @dataclass(frozen=True, slots=True)
 class HomePlan:
-    """What a patient was last given to do at home: exercises by their ids, ``times`` in a row, ``rounds`` a day; the
-    next appointment, None for none, with its time as it was typed; a line; the patient's language by two letters."""
+    """Last home plan of a patient.
+
+    ``exercises`` by id, ``times`` in a row, ``rounds`` a day; ``again`` at ``at`` is the next appointment; ``language``
+    by two letters.
+    """
 
     exercises: tuple[str, ...]
     times: int
@@ -82,11 +83,9 @@ class HomePlan:
 
 @dataclass(frozen=True, slots=True)
 class SessionEntry:
-    """One session file as the store knows it.
+    """Listed session file.
 
-    ``recorded`` when the hand moved, ``created`` when the file was made; ``recording_id`` as in the file;
-    ``initials`` the
-    initials of who recorded it.
+    ``recorded``: when the hand moved; ``created``: when the file was written; ``initials`` of the therapist.
     """
 
     session_id: str
@@ -104,7 +103,7 @@ class SessionEntry:
 
 @dataclass(frozen=True, slots=True)
 class ScanResult:
-    """What a look at the files found: sessions entered, and one fault for each file it could not read."""
+    """Number of sessions listed by a scan, and a fault for each unreadable file."""
 
     session_count: int
     faults: tuple[CarpusFault, ...]
@@ -115,7 +114,7 @@ U = TypeVar("U")
 
 
 def read_or_default(read: Callable[[], T], default: U) -> T | U:
-    """What is read of a store, something else while its server does not answer: for who measures all the same."""
+    """Return what ``read`` returns, ``default`` while the server is away."""
     try:
         return read()
     except ServerUnavailable:
@@ -123,17 +122,17 @@ def read_or_default(read: Callable[[], T], default: U) -> T | U:
 
 
 def valid_choice(choices: Sequence[T], stored: T) -> T:
-    """What is stored where it is one of the choices, else the first: a row that another program wrote."""
+    """Return the stored value if it is a choice, else the first choice."""
     return stored if stored in choices else choices[0]
 
 
 def parse_time(stored: str, stamp_s: float) -> datetime:
-    """A time as it is stored, by its stamp where another program wrote what is none, or none with a zone."""
+    """Parse a stored time; if it is none or has no zone, use its stamp."""
     return datetime.fromisoformat(stored) if is_moment(stored) else datetime.fromtimestamp(stamp_s, UTC)
 
 
 def select_latest_versions(entries: Iterable[SessionEntry]) -> list[SessionEntry]:
-    """Of every recording its newest result, the recordings newest first."""
+    """Return the newest result of each recording, newest recording first."""
     newest: dict[str, SessionEntry] = {}
     for entry in sorted(entries, key=lambda entry: (entry.created.timestamp(), str(entry.path))):
         newest[entry.recording_id] = entry
@@ -141,7 +140,7 @@ def select_latest_versions(entries: Iterable[SessionEntry]) -> list[SessionEntry
 
 
 def entry_from_outline(path: Path, outline: SessionOutline) -> SessionEntry:
-    """A session as the store would know it, of a file that is not in it."""
+    """Return the entry of a session file that is not listed."""
     header = outline.header
     return SessionEntry(
         header.session_id, path, header.recording_time, datetime.fromisoformat(header.created), header.recording_id,
@@ -151,8 +150,10 @@ def entry_from_outline(path: Path, outline: SessionOutline) -> SessionEntry:
 
 @dataclass(frozen=True, slots=True)
 class BackupSettings:
-    """``folder`` for back-ups, empty for none; by itself each day from ``hour`` on, -1 for never; a reminder after
-    ``remind_days``. The newest ``keep`` are kept, and one of each month for ``months``."""
+    """Settings of backups: ``folder`` (empty: none) and daily ``hour`` (-1: never).
+
+    A reminder comes after ``remind_days``. The newest ``keep`` backups stay, and one of each month for ``months``.
+    """
 
     folder: str = ""
     hour: int = 18

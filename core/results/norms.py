@@ -71,8 +71,8 @@ def wrist_norm(movement: str, angle: int, exercise: Exercise) -> Norm | None:
     """Of one direction, or the sum of both for an arc, where the exercise trains this angle.
 
     >>> from carpus.core.model.hand.exercises import get_exercise
-    >>> results = wrist_norm("arc", 1, get_exercise("WRIST_FE"))
-    >>> (results.low_deg, results.high_deg), wrist_norm("flexion", 1, get_exercise("WRIST_RU"))
+    >>> norm = wrist_norm("arc", 1, get_exercise("WRIST_FE"))
+    >>> (norm.low_deg, norm.high_deg), wrist_norm("flexion", 1, get_exercise("WRIST_RU"))
     ((120.0, 150.0), None)
     """
     ends = DIRECTIONS[angle] if movement == "arc" else (movement,)

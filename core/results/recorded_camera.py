@@ -25,8 +25,8 @@ UNKNOWN_CAMERA = RecordedCamera()
 def parse_camera(parameters: str) -> RecordedCamera:
     """What the parameters of a session say.
 
-    >>> said = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
-    >>> parse_camera(said) == RecordedCamera("77", "2026-11-20T09:00+00:00", 5.0)
+    >>> parameters = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
+    >>> parse_camera(parameters) == RecordedCamera("77", "2026-11-20T09:00+00:00", 5.0)
     True
     """
     source = parameter_section(parameters, "source")

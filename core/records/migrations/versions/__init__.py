@@ -1,1 +1,1 @@
-"""The versions of the store, in order."""
+"""Schema versions of the store, in order."""

@@ -1,4 +1,4 @@
-"""The first version, as it was published: its script is never changed."""
+"""Version 1, as it was published: its script never changes."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ revision, down_revision, branch_labels, depends_on = "1", None, None, None
 
 
 def upgrade() -> None:
-    """Make all tables."""
+    """Create all tables."""
     connection = op.get_bind()
     script = Path(__file__).with_name(f"1.{connection.dialect.name}.sql").read_text(encoding="utf-8")
     if connection.dialect.name == "sqlite":

@@ -1,4 +1,4 @@
-"""The second version: every computer works on the one store, which needs nothing of what copies of it needed."""
+"""Version 2: all computers use the one store, so what their copies of it needed is dropped."""
 
 from alembic import op
 
@@ -11,8 +11,11 @@ TABLES = (
 
 
 def upgrade() -> None:
-    """On a server ``delivered`` stays: a window of 0.2.0 that is still open delivers by it what waits there. In SQLite
-    the outbox stays where changes wait in it, until the server is met."""
+    """Drop the tables of the copies.
+
+    On a server ``delivered`` stays for windows of 0.2.0 that are still open. In SQLite the outbox stays while changes
+    wait in it for the server.
+    """
     connection = op.get_bind()
     if connection.dialect.name == "postgresql":
         gone = ["FUNCTION carpus_next_step() CASCADE", "FUNCTION carpus_gone() CASCADE", "SEQUENCE carpus_step"]
