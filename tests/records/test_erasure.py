@@ -268,7 +268,9 @@ def test_while_the_share_is_away_nothing_is_erased(
         assert path.exists()
         files_of = erasure._files_to_delete
         with monkeypatch.context() as meanwhile:
-            meanwhile.setattr(erasure, "_files_to_delete", lambda *of: share.rename(tmp_path / "away") and files_of(*of))
+            meanwhile.setattr(
+                erasure, "_files_to_delete", lambda *of: share.rename(tmp_path / "away") and files_of(*of)
+            )
             erasure.resume_erasures(house.store, house.log)
         (tmp_path / "away").rename(share)
         assert path.exists()
