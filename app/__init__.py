@@ -1,1 +1,1 @@
-"""Starts Carpus: commands, settings and the one place where parts are put together."""
+"""Commands, settings, the Python interface and the composition of the desktop application."""

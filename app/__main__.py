@@ -1,4 +1,4 @@
-"""``carpus`` on the command line: one subcommand per job, exit codes, one place where faults become words."""
+"""The ``carpus`` command line: subcommands, exit codes, and failures as one line on stderr."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ if _INTERRUPTED is signal.default_int_handler:
 
 
 def build_parser(asked: Sequence[str]) -> CommandParser:
-    """The command line; only the command that is asked for brings its options."""
+    """Return the parser of the command line; only the requested command is imported."""
     out = CommandParser(
         prog="carpus",
         description="Carpus follows blue paper discs on a hand with a depth camera, for hand rehabilitation.\n\n"
@@ -66,7 +66,13 @@ def build_parser(asked: Sequence[str]) -> CommandParser:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command; 0 done, 1 could not be done (one line on stderr), 2 wrong usage."""
+    """Run one command and return its exit code.
+
+    Returns
+    -------
+    int
+        0 done, 1 could not be done (one line on stderr says why). Wrong usage exits with 2.
+    """
     asked = sys.argv[1:] if argv is None else argv
     if _is_session_file(asked):
         asked = ["review", *asked]
@@ -99,7 +105,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _is_session_file(asked: Sequence[str]) -> bool:
-    """Whether a file stands where a command should: the system opens a session by a double-click."""
+    """Tell a session file in place of a command: the system passes one on a double-click."""
     name = next(iter(asked), "")
     return name.lower().endswith(".h5") and not name.startswith("-") and name not in COMMANDS
 
@@ -117,7 +123,7 @@ def _run(asked: Sequence[str]) -> int:
 
 
 def _describe_failure(cause: Exception) -> str | None:
-    """One sentence, or None where nobody is left to tell."""
+    """Return one sentence about a failure, None if the reader of the output went away."""
     if isinstance(cause, CarpusFault):
         from carpus.core.model.fault_text import format_fault_line
 

@@ -1,6 +1,4 @@
-"""What commands have in common: how wrong usage is told, and values are read; standard output and error, told of where
-they cannot be written, with a progress bar for people; what asks the program to stop (Ctrl+C, a shutdown, a closed
-terminal)."""
+"""Parts shared by all commands: parser, option types, messages, progress bar, stop signals."""
 
 from __future__ import annotations
 
@@ -27,11 +25,15 @@ if TYPE_CHECKING:
 
 _STOP_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 SUMMARY_AFTER_S = 10.0
-"""What took as long is told at its end in one line, with how fast it went."""
+"""Work that took this long ends with a line that states its speed."""
 
 
 def reopen_closed_streams() -> None:
-    """A stream closed by whoever started us would give its number to the next file, and messages would go there."""
+    """Open closed standard streams on the null device.
+
+    The next file that is opened would otherwise get the number of a closed stream, and messages would be written into
+    it.
+    """
     for number in range(3):
         try:
             os.fstat(number)
@@ -41,9 +43,10 @@ def reopen_closed_streams() -> None:
 
 
 def flush_stream(stream: TextIO) -> OSError | None:
-    """Write out what ``stream`` still holds; returns why that is impossible.
+    """Flush ``stream``; return the error if that is impossible.
 
-    What it holds then goes nowhere: the interpreter would try again at its end, and end in 120.
+    An unwritable stream is redirected to the null device: the interpreter would flush it again at exit and end with
+    120.
     """
     try:
         stream.flush()
@@ -57,34 +60,33 @@ def flush_stream(stream: TextIO) -> OSError | None:
 
 
 def print_message(sentence: str, prefix: str = "carpus") -> None:
-    """One line on standard error, where that can be written."""
+    """Print one line on standard error, if that can be written."""
     with suppress(OSError):  # it waits in the stream, and comes once there is room
         print(f"{prefix}: {sentence}", file=sys.stderr, flush=True)
 
 
 def print_fault(fault: CarpusFault) -> None:
-    """One line of what a source tells and does not raise."""
+    """Print one line about a fault that does not end the command."""
     from carpus.core.model.fault_text import format_fault_line
 
     print_message(format_fault_line(fault))
 
 
 def report_usage_error(command: str, sentence: str) -> int:
-    """Wrong usage that no option shows by itself: one line, and the exit code."""
+    """Print one line about wrong usage that argparse cannot see; return exit code 2."""
     print_message(sentence, f"carpus {command}")
     return 2
 
 
 class ShowProgress(Protocol):
-    """Draws that ``done`` of ``total`` are done (None where nobody knows), with a ``note`` behind it."""
+    """Callback with the number done, the total (None if unknown) and a note."""
 
     def __call__(self, done: int, total: int | None, note: str = "") -> None: ...
 
 
 @contextmanager
 def progress_bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
-    """A bar with how fast it goes and the time left, which goes when the work is over; nothing where stderr is no
-    terminal. Of work that took long one line stays, of any."""
+    """Show a progress bar on a terminal; after long work, print one line of summary."""
     from tqdm import tqdm  # as long to load as a tenth of the tracker
 
     begin_s = time.monotonic()
@@ -107,9 +109,9 @@ def progress_bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
 
 
 def handle_stop_signals(action: Callable[[], object]) -> None:
-    """From now on whatever asks to stop makes ``action`` happen.
+    """Call ``action`` when the program is asked to stop.
 
-    What the program was told to ignore by whoever started it (nohup, a job in the background) it goes on ignoring.
+    Signals that were ignored at the start stay ignored (nohup, background jobs).
     """
     for name in _STOP_SIGNALS:
         number = getattr(signal, name, None)  # Windows knows no SIGHUP
@@ -118,14 +120,13 @@ def handle_stop_signals(action: Callable[[], object]) -> None:
 
 
 class CommandParser(argparse.ArgumentParser):
-    """Tells wrong usage in one line and ends in 2; an unknown name or option comes with what was probably meant."""
+    """Parser that reports wrong usage in one line and suggests the nearest known name."""
 
     def __init__(self, *args: Any, **options: Any) -> None:
         options.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
         super().__init__(*args, **options)
 
     def error(self, message: str) -> NoReturn:
-        """End with one line on stderr."""
         said = " ".join(message.removeprefix("argument ").split()).rstrip(".")
         ends = "" if said.endswith("?") else "."
         self.exit(2, f"{self.prog}: {said}{ends} “{self.prog} --help” shows how.\n")
@@ -140,7 +141,7 @@ class CommandParser(argparse.ArgumentParser):
             raise argparse.ArgumentError(action, f"no “{value}” is known; {describe_known_names(str(value), names)}")
 
     def reject_unknown(self, extra: Sequence[str]) -> NoReturn:
-        """End because of words that no option asked for."""
+        """Exit with 2 because of arguments that belong to no option."""
         word = extra[0]
         meant = find_similar_name(word.partition("=")[0], self._option_string_actions) if word.startswith("-") else None
         also = f"; did you mean “{meant}”?" if meant else ""
@@ -148,7 +149,7 @@ class CommandParser(argparse.ArgumentParser):
 
 
 def parse_table_form(text: str) -> TableDialect:
-    """The form of tables of a region; a region that there is not is wrong usage."""
+    """Return the table form of a region; an unknown region is wrong usage."""
     from carpus.ui.kit.table_file import regional_table_form
 
     try:
@@ -158,7 +159,7 @@ def parse_table_form(text: str) -> TableDialect:
 
 
 def add_region_option(parser: argparse.ArgumentParser) -> None:
-    """The option in whose form tables are written."""
+    """Add ``--region``, the form in which tables are written."""
     parser.add_argument(
         "--region",
         type=parse_table_form,
@@ -171,7 +172,7 @@ def add_region_option(parser: argparse.ArgumentParser) -> None:
 
 
 def number_type(low: float = -math.inf, high: float = math.inf, unit: str = "") -> Callable[[str], float]:
-    """Reads a number from ``low`` to ``high``; anything else is wrong usage."""
+    """Return an argparse type for a number from ``low`` to ``high``."""
 
     def read(text: str) -> float:
         try:
@@ -187,7 +188,7 @@ def number_type(low: float = -math.inf, high: float = math.inf, unit: str = "") 
 
 
 def count_type(low: int, high: int) -> Callable[[str], int]:
-    """Reads a whole number from ``low`` to ``high``; anything else is wrong usage."""
+    """Return an argparse type for a whole number from ``low`` to ``high``."""
 
     def read(text: str) -> int:
         try:
@@ -202,7 +203,7 @@ def count_type(low: int, high: int) -> Callable[[str], int]:
 
 
 def parse_camera_address(text: str) -> str:
-    """``KIND`` or ``KIND:WHICH`` of a live camera; an unknown kind is wrong usage."""
+    """Check ``KIND`` or ``KIND:WHICH`` of a live camera; an unknown kind is wrong usage."""
     try:
         validate_address(text)
     except CameraUnknown as fault:

@@ -1,4 +1,4 @@
-"""The one composition root: settings to concrete objects to a window."""
+"""The composition root: builds the desktop application from its settings."""
 
 from __future__ import annotations
 
@@ -59,11 +59,15 @@ def compose(
     today: date | None = None,
     startup_faults: Sequence[CarpusFault] = (),
 ) -> Desktop:
-    """Put the application together. Raises what the data folder raises (:class:`PatientListUnreadable` and others).
+    """Build the desktop application.
 
-    ``practice_renderer`` renders the practice patient in another way; ``speed`` plays what is stored faster than it
-    was; ``startup_faults`` is
-    told on the first screen.
+    ``practice_renderer`` renders the practice patient in another way; ``speed`` plays stored recordings faster than
+    they were; ``startup_faults`` are shown on the first screen.
+
+    Raises
+    ------
+    PatientListUnreadable
+        And the other faults of opening a data folder.
     """
     # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
     sys.setswitchinterval(THREAD_SWITCH_S)
@@ -115,7 +119,7 @@ def compose(
 def _show_startup_notices(
     journey: MainController, recovered: Sequence[RecoveredSession], faults: Sequence[CarpusFault]
 ) -> None:
-    """On the first screen: which sessions were finished, and what went wrong."""
+    """Show recovered sessions and faults above the patient list."""
     place, messages = journey.patients.screen.notice_layout, journey.messages
     for found in recovered:
         look = partial(journey.navigator.open_screen, "review", found.session_id, found.patient_id)
@@ -127,7 +131,6 @@ def _show_startup_notices(
 
 
 def _connect_settings(screen: SettingsScreen, journey: MainController, theme: Theme) -> None:
-    """What the settings lead to, and cards that others have."""
     from carpus.ui.screens.settings.camera_card import CameraCard
 
     way, camera = journey.navigator, journey.camera_state
@@ -146,7 +149,7 @@ def _connect_settings(screen: SettingsScreen, journey: MainController, theme: Th
 def _build_data_protection(
     journey: MainController, keeper: PreferencesController, settings: Settings, folder: Path | None
 ) -> DataProtection:
-    """The flows about records, back-up and lock, and their cards among the settings."""
+    """Build the dialogs for backup, lock, records and erasure, and their cards in the settings."""
     context, patients = journey.context, journey.patients.screen
     records = RecordRetention(context.library)
     backing_up = BackupController(

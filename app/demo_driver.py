@@ -1,6 +1,6 @@
-"""The whole way without a person: the real windows on a platform without a screen, driven by keys and clicks.
+"""The complete workflow without a person, on the real windows and without a display.
 
-patient -> simulated camera -> markers -> live -> record -> stop -> review -> progress -> report.
+Patient, simulated camera, markers, live, record, stop, review, progress, report: by keys and clicks.
 """
 
 from __future__ import annotations
@@ -40,13 +40,13 @@ from carpus.ui.words.finger_angles import find_finger_angle
 REPETITIONS = 2
 TIMEOUT_S = 60.0
 STEP_LINE_EVERY_S = 4.0
-"""How often a line says what is going on where no terminal shows a bar."""
+"""Interval of the lines that state the progress where no terminal shows a bar."""
 Progress = Callable[[int, int | None], None]
 
 
 @dataclass(frozen=True, slots=True)
 class DemoResult:
-    """Where the session and its report are, and what came out, in lines."""
+    """Files of a demo run and its results as lines of text."""
 
     session: Path
     report: Path
@@ -54,23 +54,22 @@ class DemoResult:
 
 
 class StepLog:
-    """Says every few seconds which step runs and how far it is, where no terminal shows a bar."""
+    """Prints the running step every few seconds where no terminal shows a bar."""
 
     def __init__(self, is_terminal: bool) -> None:
         self._is_terminal = is_terminal
         self.begin_step("opening the window")
 
     def begin_step(self, step: str) -> None:
-        """Name the step that begins; it is said at once."""
+        """Start a step and print its name."""
         self._step, self._done, self._total = step, 0, 0
         self._write_line()
 
     def update(self, done: int, total: int) -> None:
-        """How much of the step is done."""
         self._done, self._total = done, total
 
     def tick(self) -> None:
-        """Called again and again while the step runs."""
+        """Print the step again if enough time has passed; called while it runs."""
         if time.monotonic() - self._last_line_s >= STEP_LINE_EVERY_S:
             self._write_line()
 
@@ -81,7 +80,7 @@ class StepLog:
 
 
 class DemoDriver:
-    """Presses keys and clicks as a person would; waits for what must follow, never for a time."""
+    """Presses keys and clicks like a person; waits for conditions, never for a fixed time."""
 
     def __init__(
         self,
@@ -89,7 +88,11 @@ class DemoDriver:
         is_stopping: Callable[[], bool] = lambda: False,
         on_wait: Callable[[], None] = lambda: None,
     ) -> None:
-        """``is_stopping`` ends the way, by a KeyboardInterrupt at its next wait; ``on_wait`` is called at each wait."""
+        """Wrap a desktop.
+
+        ``is_stopping`` is asked at each wait and ends the run by KeyboardInterrupt; ``on_wait`` is called at each
+        wait.
+        """
         self.desktop = desktop
         self._on_wait = on_wait
         self.controller = desktop.controller
@@ -98,7 +101,7 @@ class DemoDriver:
         desktop.controller.messages.fault_shown.connect(self._shown_faults.append)
 
     def run_until(self, condition: Callable[[], bool], timeout_s: float = TIMEOUT_S) -> None:
-        """Let the window live until something holds; a fault it tells meanwhile ends the way."""
+        """Process events until ``condition`` holds; raise a fault that the window shows meanwhile."""
         end_s = time.monotonic() + timeout_s
         while not condition():
             if self._is_stopping():
@@ -115,7 +118,7 @@ class DemoDriver:
         self.run_until(lambda: self.controller.place == place)
 
     def press_key(self, key: Qt.Key, widget: QWidget | None = None) -> None:
-        """A key on a widget, or on the one that has the keyboard."""
+        """Press a key on a widget, by default the one with the keyboard focus."""
         now: QWidget | None = self.desktop.shell.focusWidget()
         QTest.keyClick(widget or now or self.desktop.shell, key)
 
@@ -126,7 +129,7 @@ class DemoDriver:
         self.press_key(Qt.Key.Key_Return, journey.patients.screen.search)
 
     def capture_frame(self) -> None:
-        """Space as soon as the hand has been seen for half a second."""
+        """Press Space once the hand has been visible for half a second."""
         self.run_until_screen("markers")
         markers, source = self.controller.markers.screen, self.controller.current.source
         assert source is not None
@@ -138,7 +141,7 @@ class DemoDriver:
         self.run_until(lambda: markers.labels is not None)
 
     def click_markers(self, pixel: FloatArray) -> None:
-        """Click on pixels of the picture, in the order of the protocol, and start."""
+        """Click pixels (M, 2) in the order of the protocol, and start measuring."""
         markers = self.controller.markers.screen
         for u, v in pixel:
             self.desktop.application.processEvents()  # what came or went beside the picture may still make it smaller
@@ -152,7 +155,7 @@ class DemoDriver:
         self.run_until_screen("live")
 
     def record(self, repetitions: int, progress: Callable[[int], None] = lambda _: None) -> str:
-        """Space; wait for so many repetitions; Space again. The session that is then reviewed."""
+        """Record so many repetitions and return the id of the session."""
         live = self.controller.live.screen
         self.press_key(Qt.Key.Key_Space, live)
         self.run_until(lambda: live.recording.state == "recording")
@@ -168,13 +171,12 @@ class DemoDriver:
         return self.controller.current.session_id
 
     def click_tab(self, place: str) -> None:
-        """Click a tab of the patient."""
         button = self.desktop.shell.top_bar.navigation_buttons()[PATIENT_TABS.index(place)]
         QTest.mouseClick(button, Qt.MouseButton.LeftButton)
         self.run_until_screen(place)
 
     def save_report(self, path: Path) -> None:
-        """Make the report from the review and save it."""
+        """Create the report from the review and save it."""
         self.controller.review.screen.card.report_button.click()
         self.run_until_screen("report")
         saved: list[str] = []
@@ -184,7 +186,7 @@ class DemoDriver:
 
 
 def run_demo(settings: Settings, progress: Progress) -> DemoResult:
-    """Walk the whole way on the practice patient; raises the first fault that the windows would tell."""
+    """Run the complete workflow on the practice patient; raise the first fault that is shown."""
     settings = replace(settings, screen=ScreenSettings("light"), first_start=WelcomeSettings(answered=True))
     steps = StepLog(sys.stderr.isatty())
     stopping = threading.Event()
@@ -230,13 +232,13 @@ def run_demo(settings: Settings, progress: Progress) -> DemoResult:
 
 
 def _handle_qt_message(_kind: object, _context: object, message: str) -> None:
-    """What Qt has to say, but for what a platform without a screen cannot do for windows that have none."""
+    """Print a message of Qt, except one that concerns platforms without a screen only."""
     if "does not support propagateSizeHints" not in message:
         sys.stderr.write(f"{message}\n")
 
 
 def format_results(figures: SessionResults) -> list[str]:
-    """The main figures of a session as plain lines."""
+    """Return the main results of a session as lines of text."""
     quality = figures.quality
     shares = f"{format_rounded(100.0 * quality.measured_share, 1)} % measured, {quality.dropped_frames} missing"
     lines = [f"Frames:  {quality.frames} in {format_rounded(figures.duration_s, 1)} s, {shares}"]

@@ -1,4 +1,4 @@
-"""What ``import carpus`` offers to researchers: tracking, sessions and simulated recordings as values. No screen.
+"""The functions of ``import carpus`` for researchers: tracking, sessions, simulation; no screen.
 
 import carpus
 for frame in carpus.track("recording", "clicks.json"):
@@ -52,15 +52,22 @@ from carpus.core.tracking.filter.settings import Profile, TrackerSettings
 FilterName = Literal["default", "paper"]
 Dip = Literal["coupled", "free"]
 _UNIT_BY_SUFFIX = {"_deg_s": "deg/s", "_mm_s": "mm/s", "_deg": "deg", "_mm": "mm", "_px": "px", "_s": "s"}
-"""By the end of a column's name."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wrist:
-    """The wrist of one picture, degrees: + radial, + flexion, + supination on both hands, from the
-    palm down (thumb up is + 90); ``*_sd_deg`` their standard deviations.
-    ``position_m`` (3,), ``rotation_w2_w0`` (3, 3) and ``velocity_m_s`` (3,) of W2 in W0;
-    ``angular_velocity_deg_s`` (3,) in W2, which the papers' filter has none of. NaN where the hand is lost."""
+    """Wrist of one frame; NaN while the hand is lost.
+
+    Angles and their standard deviations are in degrees: + radial, + flexion, + supination on both hands, from the
+    palm down (thumb up is + 90).
+
+    Attributes
+    ----------
+    position_m, rotation_w2_w0, velocity_m_s : ndarray (3,), (3, 3), (3,)
+        Pose and velocity of W2 in W0.
+    angular_velocity_deg_s : ndarray (3,)
+        In W2; NaN with the papers' filter.
+    """
 
     deviation_deg: float
     flexion_deg: float
@@ -76,12 +83,20 @@ class Wrist:
 
 @dataclass(frozen=True, slots=True)
 class HandFrame:
-    """One picture as tracked, without looking back.
+    """One tracked frame, without smoothing.
 
-    ``time_s`` as in the recording; ``status`` tracked, predicted, lost or doubtful; ``joint_names`` (J,) with
-    ``joint_angles_deg``, ``joint_angles_sd_deg`` and ``joint_velocity_deg_s`` (J,), empty for six discs;
-    ``marker_names`` (M,) with ``marker_position_cam_m`` (M, 3) in camera axes and ``marker_measured`` (M,) whether each
-    disc was seen.
+    Attributes
+    ----------
+    time_s : float
+        Time as in the recording.
+    status : str
+        ``tracked``, ``predicted``, ``lost`` or ``doubtful``.
+    joint_angles_deg, joint_angles_sd_deg, joint_velocity_deg_s : ndarray (J,)
+        In the order of ``joint_names``; empty with six markers.
+    marker_position_cam_m : ndarray (M, 3)
+        In the axes of the camera, in the order of ``marker_names``.
+    marker_measured : ndarray of bool (M,)
+        True for markers that were visible.
     """
 
     time_s: float
@@ -98,8 +113,10 @@ class HandFrame:
 
 @dataclass(frozen=True, slots=True)
 class ProposedClicks:
-    """Where the discs of a flat hand are: pixels [u, v] by marker, and of each whether no other name is nearly as good.
-    A person looks at it before anything is measured with it."""
+    """Proposed markers of a flat hand, for a person to confirm.
+
+    ``markers`` has the pixel [u, v] of each label; ``sure`` is False where another label fits nearly as well.
+    """
 
     hand: Side
     protocol: str
@@ -111,7 +128,13 @@ class ProposedClicks:
         return len(self.markers) == len(get_protocol(self.protocol).markers)
 
     def clicks(self) -> Clicks:
-        """As the tracker takes them. Raises :class:`CalibrationImpossible` where a marker has no disc."""
+        """Return the clicks for the tracker.
+
+        Raises
+        ------
+        CalibrationImpossible
+            A marker was not found.
+        """
         protocol = get_protocol(self.protocol)
         lacking = [name for name in protocol.markers if name not in self.markers]
         if lacking:
@@ -119,20 +142,22 @@ class ProposedClicks:
         return Clicks(self.hand, protocol, np.array([self.markers[name] for name in protocol.markers]))
 
     def write(self, path: str | Path) -> None:
-        """Write the file of clicks; one that is there already is kept and is :class:`OutputExists`."""
+        """Write the file of clicks. Raises :class:`OutputExists`."""
         write_clicks(Path(path), self.clicks())
 
 
 @dataclass(frozen=True, slots=True)
 class OpenedSession(Session):
-    """A session with its tables, measures and provenance beside its arrays."""
+    """A session with tables, measures and provenance beside its arrays."""
 
     def tables(self) -> Mapping[str, Any]:
-        """``wrist``, ``joints``, ``markers``, ``events``, ``repetitions``, ``measures``: tidy, NaN for unknown; as
-        pandas' data frames where that is installed, else as columns by name.
+        """Return ``wrist``, ``joints``, ``markers``, ``events``, ``repetitions`` and ``measures``.
 
-        A data frame over time has the time after the first picture as its index (:class:`pandas.TimedeltaIndex`), and
-        ``attrs["units"]`` says the unit of every column that has one.
+        Returns
+        -------
+        mapping of str to DataFrame, or to columns by name where pandas is not installed
+            Tidy, NaN for unknown values. Data frames over time have the time after the first frame as their index
+            (:class:`pandas.TimedeltaIndex`); ``attrs["units"]`` has the unit of each column.
         """
         figures = self._figures()
         found: dict[str, Any] = dict(build_tables(self)) | {"repetitions": build_repetition_table(self, figures)}
@@ -145,15 +170,17 @@ class OpenedSession(Session):
         return {name: _to_data_frame(pandas, columns, self) for name, columns in found.items()}
 
     def measures(self) -> Sequence[Any]:
-        """Every figure with its unit, as :class:`core.results.measures_table.MeasureRow`, of repetitions that count:
-        what a person left out or moved in the review is kept beside the file."""
+        """Return all measures as :class:`core.results.measures_table.MeasureRow`.
+
+        Repetitions that were excluded or moved in the review count as they are stored beside the file.
+        """
         return build_measure_rows(self._figures(), self.path.stem)
 
     def _figures(self) -> SessionResults:
         return compute_session_results(self, read_choices(self.path))
 
     def provenance(self) -> Mapping[str, Any]:
-        """Of what, by what and with what it was made."""
+        """Return the origin of the data and the software and settings that made them."""
         return build_provenance(self)
 
 
@@ -167,13 +194,32 @@ def track(
     profile: Profile = "standard",
     lost_after_s: float = 1.5,
 ) -> Iterator[HandFrame]:
-    """Track a stored recording picture by picture, as they come.
+    """Track a stored recording and yield its frames as they come.
 
-    ``clicks`` is the file of first-frame clicks, or what :func:`propose_clicks` gave; ``filter="paper"`` is the papers'
-    method, as ``carpus track --filter paper``: colour alone, end joints coupled, angles in the hand paper's ZYX.
-    ``lost_after_s`` without three markers of the palm the hand is lost. Raises a
-    :class:`core.model.errors.CarpusFault` that
-    says what is wrong with a file, and at once ``SettingsInvalid`` for a setting that has a value that it cannot have.
+    Parameters
+    ----------
+    path : path
+        Recording of any kind.
+    clicks : path or ProposedClicks
+        File of first-frame clicks, or the result of :func:`propose_clicks`.
+    filter : {"default", "paper"}
+        ``paper`` is the method of the papers, as ``carpus track --filter paper``: colour only, DIP coupled, angles in
+        the ZYX order of the hand paper.
+    dip : {"coupled", "free"}
+        DIP at two thirds of the PIP angle, or measured.
+    use_depth : bool
+        False for colour only.
+    profile : {"slow", "standard", "brisk"}
+        How fast the hand moves.
+    lost_after_s : float
+        Time without three palm markers after which the hand is lost.
+
+    Raises
+    ------
+    SettingsInvalid
+        At once, for a setting with an impossible value.
+    CarpusFault
+        Says what is wrong with a file (:mod:`core.model.errors`).
     """
     where = "carpus.track"
     chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
@@ -194,10 +240,10 @@ def write_session(
     profile: Profile = "standard",
     lost_after_s: float = 1.5,
 ) -> OpenedSession:
-    """Track a stored recording into a session file that is new, as ``carpus track`` does; the session, opened.
+    """Track a stored recording into a new session file, as ``carpus track``, and open it.
 
-    ``exercise`` by its id (``WRIST_FE``) has its repetitions counted; the papers' method does not look back, whatever
-    ``smooth`` says; the rest as in :func:`track`.
+    The repetitions of an ``exercise`` (its id, such as ``WRIST_FE``) are counted. ``smooth`` is ignored by the
+    papers' method, which has no smoother. Other parameters as in :func:`track`.
     """
     where = "carpus.write_session"
     _check(where, "smooth", smooth, bool)
@@ -225,7 +271,7 @@ def write_session(
 def _build_settings(
     where: str, method: str, dip: Dip, use_depth: bool, profile: Profile, lost_after_s: float
 ) -> TrackSettings:
-    """Checked settings. Raises :class:`SettingsInvalid` with one sentence."""
+    """Return checked settings. Raises :class:`SettingsInvalid`."""
     wanted: dict[str, Any] = {"dip": dip, "use_depth": use_depth, "profile": profile, "lost_after_s": lost_after_s}
     _check(where, "filter", method, FilterName)
     known = TrackerSettings()
@@ -238,20 +284,19 @@ def _build_settings(
 
 
 def _check_path(where: str, name: str, value: object) -> Path:
-    """A path as given. Raises :class:`SettingsInvalid` for what is none."""
+    """Return ``value`` as a path. Raises :class:`SettingsInvalid`."""
     if not isinstance(value, (str, Path)) or "\0" in str(value):
         raise SettingsInvalid(where, f"{name} is {value!r}, a path expected")
     return Path(value)
 
 
 def _load_clicks(where: str, clicks: str | Path | ProposedClicks) -> Clicks:
-    """Clicks as proposed or of a file. Raises :class:`SettingsInvalid` for what is neither, and the faults of both."""
+    """Return proposed clicks, or those of a file. Raises :class:`SettingsInvalid` and their faults."""
     return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(_check_path(where, "clicks", clicks))
 
 
 def _to_list(where: str, name: str, value: object) -> list[Any]:
-    """One or several; what is no collection, or a single text or path, is one. Raises :class:`SettingsInvalid` for
-    none."""
+    """Return the items of a collection, or a single value in a list. Raises :class:`SettingsInvalid`."""
     found = list(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else [value]
     if not found:
         raise SettingsInvalid(where, f"{name} is empty, one at least expected")
@@ -264,7 +309,7 @@ _TYPE_NAMES: Mapping[Any, str] = {
 
 
 def _check_fields(where: str, wanted: Mapping[str, Any], kind: type) -> None:
-    """Raise :class:`SettingsInvalid` for what is no field of a dataclass, or no such value as its type says."""
+    """Check values against the fields of a dataclass. Raises :class:`SettingsInvalid`."""
     hints = get_type_hints(kind)
     for name, value in wanted.items():
         if name not in hints:
@@ -275,7 +320,7 @@ def _check_fields(where: str, wanted: Mapping[str, Any], kind: type) -> None:
 def _check(
     where: str, name: str, value: object, hint: Any, limits: tuple[float, float] = (-math.inf, math.inf)
 ) -> None:
-    """Raise :class:`SettingsInvalid` for a value that is not of a type, or a number beyond its limits."""
+    """Check a value against its type and limits. Raises :class:`SettingsInvalid`."""
     if isinstance(hint, UnionType):
         if value is None:
             return
@@ -298,7 +343,7 @@ def _check(
 
 
 def _check_names(where: str, name: str, value: object, known: Sequence[str]) -> None:
-    """Raise :class:`SettingsInvalid` for what is no mapping from known names to texts, nor None."""
+    """Check a mapping from known names to texts. Raises :class:`SettingsInvalid`."""
     if value is None:
         return
     if not isinstance(value, Mapping):
@@ -324,7 +369,6 @@ def _check_picture(
 
 
 def _show_warning(fault: CarpusFault) -> None:
-    """What a command says on stderr before it tracks."""
     warnings.warn(format_fault_line(fault), stacklevel=2)
 
 
@@ -368,7 +412,7 @@ def _hand_frame(found: TrackedFrame, joint_names: Sequence[str], markers: tuple[
 
 
 def _to_data_frame(pandas: Any, columns: Mapping[str, Any], session: Session) -> Any:
-    """A table as a data frame, with the time after the first picture as its index where it has times."""
+    """Return a table as a data frame, indexed by time where it has times."""
     frame = pandas.DataFrame(columns)
     frame.attrs["units"] = {
         name: unit
@@ -383,9 +427,10 @@ def _to_data_frame(pandas: Any, columns: Mapping[str, Any], session: Session) ->
 
 
 def open_session(path: str | Path) -> OpenedSession:
-    """A session file as values: header, calibration, times, status, motion, smoothed motion, markers, events; tables,
-    measures and provenance when asked for. The file is never changed; that one of a data
-    folder was opened stands in the log there. Read by a process of its own."""
+    """Open a session file in a process of its own; the file is never changed.
+
+    The opening of a session in a data folder is written into the folder's log.
+    """
     named = _check_path("carpus.open_session", "path", path)
     session = reader.read_session(named)
     log_session_action("opened", named, session.header.session_id)
@@ -400,10 +445,10 @@ def propose_clicks(
     depth: Any = None,
     depth_unit_m: float = 1e-3,
 ) -> ProposedClicks:
-    """Where the discs of a flat hand lie, for a person to confirm.
+    """Propose the markers of a flat hand, for a person to confirm.
 
-    ``frame`` is a recording (its first picture counts), a :class:`Frame`, or a picture (H, W, 3) uint8 RGB with its
-    ``depth`` (H, W) uint16 in ``depth_unit_m`` if there is one. Markers without a likely disc are left out.
+    ``frame`` is a recording (its first frame is used), a :class:`Frame`, or an RGB image (H, W, 3) of uint8 with its
+    ``depth`` (H, W) of uint16 in ``depth_unit_m``. Markers without a likely candidate are absent.
     """
     where = "carpus.propose_clicks"
     _check(where, "hand", hand, Side)
@@ -446,11 +491,20 @@ def export(
     deidentified: bool = False,
     region: str | None = None,
 ) -> ExportResult:
-    """Write sessions as csv, json, c3d, trc, mot, bids or h5 into a folder, in which nothing is overwritten.
+    """Write sessions as csv, json, c3d, trc, mot, bids or h5; existing files are never overwritten.
 
-    Tables (csv) are for programs; with a ``region`` (``de_DE``) for a spreadsheet there: its separator and decimal
-    sign, UTF-8 with a mark. What could not be written stands in ``refused`` of the answer. Of sessions of a data folder
-    it stands in the log there. Raises ``SettingsInvalid`` for an unknown format or region, no format or no session.
+    Tables are for programs; with a ``region`` such as ``de_DE`` for a spreadsheet there: its separator, decimal sign
+    and a UTF-8 mark. Exports of a data folder are written into its log.
+
+    Returns
+    -------
+    ExportResult
+        Its ``refused`` has what could not be written.
+
+    Raises
+    ------
+    SettingsInvalid
+        Unknown format or region, no format or no session.
     """
     where = "carpus.export"
     _check(where, "deidentified", deidentified, bool)
@@ -482,13 +536,34 @@ def compare(
     lag_s: float | None = None,
     drift_percent: float = 0.0,
 ) -> Comparison:
-    """How far a session agrees with C3D, TRC, MOT, a CSV table or list of readings, or another session.
+    """Compute the agreement of a session with a reference measurement.
 
-    ``columns`` angle (or ``time``) to column, a minus before it turns its sign; ``markers`` disc to marker. The clocks
-    are at most ``most_shift_s`` apart; ``lag_s`` by how much later things happen on the reference's, where it is known,
-    and ``drift_percent`` by how much that runs fast. Of each of
-    ``pairs``: ``figures_deg`` with bias, limits, rmse, correlation, icc, cmc. Readings without a time are compared with
-    the repetitions that count: what a person left out of them is left out here.
+    Parameters
+    ----------
+    session : path
+        Session file.
+    reference : path
+        C3D, TRC, MOT, CSV table, list of readings, or another session.
+    columns : mapping
+        Angle (or ``time``) to column; a minus before the column changes its sign.
+    markers : mapping
+        Carpus marker to marker of the reference.
+    radians : bool, optional
+        Unit of the reference's angles, where it does not say.
+    smoothed : bool
+        Compare the smoothed results.
+    most_shift_s : float
+        Largest shift between the two clocks.
+    lag_s : float, optional
+        Known lag of the reference's clock; no shift is searched.
+    drift_percent : float
+        How much the reference's clock runs fast.
+
+    Returns
+    -------
+    Comparison
+        Each of ``pairs`` has ``figures_deg``: bias, limits of agreement, rmse, correlation, icc, cmc. Readings
+        without a time are compared with the included repetitions.
     """
     where = "carpus.compare"
     _check(where, "smoothed", smoothed, bool)
@@ -508,8 +583,10 @@ def compare(
 
 
 def simulate(folder: str | Path, **options: Any) -> Truth:
-    """A synthetic recording as a TUM folder, with clicks and truth beside it; ``options`` are those of
-    :class:`core.simulation.spec.RecordingSpec`. Its true values."""
+    """Simulate a recording as a TUM folder with clicks and truth, and return the true values.
+
+    ``options`` are the fields of :class:`core.simulation.spec.RecordingSpec`.
+    """
     where = "carpus.simulate"
     _check_fields(where, options, RecordingSpec)
     return recording.simulate(RecordingSpec(**options), _check_path(where, "folder", folder))

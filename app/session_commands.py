@@ -1,7 +1,6 @@
-"""What people wrote about a session, for a command or a script that has its file; and what it does with sessions that
-lie in a data folder, which stands in the log of that folder, as what the window does.
+"""What commands and scripts read from, and log in, the data folder of a session file.
 
-Files that lie elsewhere are a person's own; nothing is written down of them.
+Files outside a data folder are a person's own: nothing is logged.
 """
 
 from __future__ import annotations
@@ -32,11 +31,11 @@ if TYPE_CHECKING:
 
 
 STORE_FILE = "records.sqlite3"
-"""As in :mod:`core.records`, which is loaded only for a file that lies in a data folder."""
+"""As in :mod:`core.records`, which is imported only for files of a data folder."""
 
 
 def find_data_folder(path: Path) -> Path | None:
-    """The data folder in which a file lies, or this computer's for one on the clinic's share; None for any other."""
+    """Return the data folder of a file (this computer's for a file on its share), or None."""
     parents = Path(os.path.realpath(path)).parents
     settings, _ = load_valid_settings()
     share = sessions_folder(settings)
@@ -46,13 +45,12 @@ def find_data_folder(path: Path) -> Path | None:
 
 
 def has_store(folder: Path) -> bool:
-    """Whether a data folder has a list of patients: in it or, of this computer's own, on the clinic's server."""
+    """Tell whether a data folder has a patient list, in it or on the clinic's server."""
     return (folder / STORE_FILE).is_file() or bool(_find_server_url(folder))
 
 
 def require_store(folder: Path) -> None:
-    """Raises :class:`FolderMissing`, :class:`DataFolderMissing` for a folder without a list of patients: a look makes
-    none."""
+    """Raise :class:`FolderMissing` or :class:`DataFolderMissing` for a folder without a patient list."""
     if not has_store(folder):
         raise DataFolderMissing(folder) if folder.is_dir() else FolderMissing(folder)
 
@@ -60,8 +58,13 @@ def require_store(folder: Path) -> None:
 def open_store(
     folder: Path, *, read_only: bool = False, on_fault: Callable[[CarpusFault], None] = print_fault
 ) -> Store:
-    """That of a data folder, on the clinic's server where it is this computer's own; also of one that cannot be
-    written, for who ``read_only``. Raises what :func:`require_store` does, and the faults of a store."""
+    """Open the store of a data folder, on the clinic's server if it is this computer's own.
+
+    Raises
+    ------
+    FolderMissing, DataFolderMissing
+        There is no patient list. And the faults of a store.
+    """
     from carpus.core.records.store import Store, open_to_read
 
     require_store(folder)
@@ -71,7 +74,7 @@ def open_store(
 
 
 def make_server_copier(folder: Path) -> Callable[[], sqlite3.Connection] | None:
-    """Makes a copy of the store of a data folder that lies on the clinic's server; None for any other."""
+    """Return a function that copies a store from the clinic's server, None for a local store."""
 
     def copy_store() -> sqlite3.Connection:
         with open_store(folder) as store:
@@ -95,12 +98,11 @@ def _is_default_folder(folder: Path, settings: Settings) -> bool:
 
 
 def is_practice_file(path: Path) -> bool:
-    """Whether a file of a data folder is the practice patient's."""
     return Path(os.path.realpath(path)).parent.name == PRACTICE_PATIENT
 
 
 def read_choices(path: Path) -> RepetitionChoices:
-    """What a person left out or moved of a session; nothing outside every data folder."""
+    """Return excluded and moved repetitions of a session; empty outside a data folder."""
     from carpus.core.results.repetition_rows import RepetitionChoices
 
     folder = find_data_folder(path)
@@ -113,7 +115,7 @@ def read_choices(path: Path) -> RepetitionChoices:
 
 
 def read_comment(path: Path) -> str:
-    """What the therapist wrote of a session last; empty outside every data folder."""
+    """Return the therapist's latest comment on a session; empty outside a data folder."""
     folder = find_data_folder(path)
     if folder is None:
         return ""
@@ -124,7 +126,7 @@ def read_comment(path: Path) -> str:
 
 
 def read_report_form(folder: Path) -> ReportForm:
-    """The form of reports of a data folder."""
+    """Return the report form of a data folder."""
     from carpus.core.records.clinic_records import read_form
     from carpus.core.results.report_form import ReportForm
 
@@ -135,7 +137,7 @@ def read_report_form(folder: Path) -> ReportForm:
 
 
 def find_session_files(places: Iterable[Path]) -> Iterator[Path]:
-    """Session files, and those of folders, in order. Raises :class:`FolderMissing`."""
+    """Yield session files and those in folders, in order. Raises :class:`FolderMissing`."""
     for place in places:
         if not place.exists():
             raise FolderMissing(place)
@@ -147,9 +149,15 @@ def read_figures(
     on_fault: Callable[[CarpusFault], object],
     raters_by_file: Mapping[str, str] = MappingProxyType({}),
 ) -> tuple[list[SessionResults], dict[str, str]]:
-    """Figures of all sessions, and their raters by session id; ``on_fault`` hears of those that cannot be read.
+    """Read the results of all sessions, and their raters by session id.
 
-    Raises :class:`FolderMissing`, and :class:`StudyUnsuited` where none can be read.
+    Unreadable sessions are passed to ``on_fault``.
+
+    Raises
+    ------
+    FolderMissing
+    StudyUnsuited
+        No session can be read.
     """
     from carpus.core.results.session_results import compute_session_results
     from carpus.core.session.reader import read_session
@@ -173,8 +181,7 @@ def read_figures(
 
 
 def open_library(folder: Path, *, read_only: bool = False) -> Library:
-    """Of a data folder, with the clinic's server and share where it is this computer's own; also of one that cannot be
-    written, for who ``read_only``."""
+    """Open the library of a data folder, with the clinic's server and share if it is this computer's own."""
     from carpus.core.records.library import Library
 
     url, share = _find_server_url(folder), _find_shared_folder(folder)
@@ -185,12 +192,12 @@ def open_library(folder: Path, *, read_only: bool = False) -> Library:
 
 
 def user_initials() -> str:
-    """Of the person at this computer, as the window knows them."""
+    """Return the therapist's initials of the settings."""
     return load_valid_settings()[0].report.therapist
 
 
 def log_session_action(action: AuditAction, path: Path, session_id: str) -> None:
-    """Take down what a command does with a session; where that cannot be written a warning is said."""
+    """Log what a command does with a session; a failure to log is a warning."""
     folder = find_data_folder(path)
     if folder is not None and not is_practice_file(path):
         log_folder_action(folder, action, "session", session_id)
@@ -199,7 +206,7 @@ def log_session_action(action: AuditAction, path: Path, session_id: str) -> None
 def log_folder_action(
     folder: Path, action: AuditAction, kind: SubjectKind = "program", identity: str = "", **facts: int | str
 ) -> None:
-    """Take down what a command does with a data folder; where that cannot be written a warning is said."""
+    """Log what a command does with a data folder; a failure to log is a warning."""
     from carpus.core.records.log import AuditLogWriter
 
     try:
@@ -210,7 +217,7 @@ def log_folder_action(
 
 
 def log_created_files(sessions: Sequence[tuple[Path, str]], files: Sequence[Path], kind: OutputKind) -> None:
-    """Take down what was made from sessions, each with its identity, so that it is named when one of them is erased."""
+    """Log files made from sessions, so that erasing a session can name them."""
     from carpus.core.records.session_records import record_output_files
 
     folders = {path: find_data_folder(path) for path, _ in sessions}
@@ -227,8 +234,7 @@ def log_created_files(sessions: Sequence[tuple[Path, str]], files: Sequence[Path
 
 
 def log_export(done: ExportResult, *, deidentified: bool) -> None:
-    """Take down what was exported of sessions of a data folder, so that it is named when one of these is erased; what
-    leads back to nobody is only noted."""
+    """Log exported files, so that erasing a session can name them; de-identified ones are only noted."""
     shared = [path for path in done.files if not any(path in of for of in done.files_by_session.values())]
     for path, own in done.files_by_session.items():
         if find_data_folder(path) is None:

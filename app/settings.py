@@ -1,7 +1,7 @@
-"""All that a person may choose, gathered: frozen sections read from TOML over the shipped defaults.
+"""All settings: frozen sections, read from TOML files over the shipped defaults.
 
-Each section is declared beside the code it configures; an unknown key or a value of the wrong kind is
-:class:`SettingsInvalid` and names the key.
+Each section is declared beside the code that it configures. An unknown key or a value of the wrong type raises
+:class:`SettingsInvalid` with the key.
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ if TYPE_CHECKING:
     from carpus.core.pipeline.track import TrackSettings
 
 SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
-"""The first is written by people, the second by the window; the second goes over the first."""
+"""Written by people and by the window; the second overrides the first."""
 LAST_FOLDER_FILE = "last-data-folder.txt"
 
 TRACKING = ("detection", "calibration", "tracker")
-"""Sections that decide how pictures become a session."""
+"""Sections that configure tracking."""
 DATA_VARIABLE = "CARPUS_DATA"
 OBSOLETE = {
     *(
@@ -79,7 +79,7 @@ OBSOLETE = {
         )
     ),
 }  # fmt: skip
-"""Settings of earlier versions, and whole tables of them: accepted and ignored."""
+"""Settings and sections of earlier versions: accepted and ignored."""
 
 logger = logging.getLogger(__name__)
 T = TypeVar("T")
@@ -88,8 +88,11 @@ Values = Mapping[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class ScreenSettings:
-    """``theme`` of the window; ``text_scale`` 1, 1.25 or 1.5; ``language`` a code of two letters, or the
-    computer's; ``research``: whether what only research needs is shown."""
+    """Appearance of the window.
+
+    ``text_scale`` is 1, 1.25 or 1.5; ``language`` a code of two letters or ``system``; ``research`` shows what only
+    research needs.
+    """
 
     theme: Literal["light", "dark", "system"] = "system"
     text_scale: float = 1.0
@@ -103,7 +106,7 @@ class ScreenSettings:
 
 @dataclass(frozen=True, slots=True)
 class CameraSettings:
-    """``uri`` of one of several cameras; ``intrinsics`` a ROS camera file measured for it; both may be empty."""
+    """``uri`` of one of several cameras and ``intrinsics``, a ROS camera file; both may be empty."""
 
     uri: str = ""
     intrinsics: str = ""
@@ -111,9 +114,12 @@ class CameraSettings:
 
 @dataclass(frozen=True, slots=True)
 class RecordingSettings:
-    """``folder`` of patients and sessions, empty for the user's own; ``keep_pictures`` pictures of the hand with
-    each session where the disk has room; ``smooth`` each session when it is stored; ``start``: at the key, counted down
-    after it, or by itself over a hand that lies still."""
+    """Where and how sessions are recorded.
+
+    ``folder`` of patients and sessions is empty for the user's own; ``keep_pictures`` saves video where the disk has
+    space; ``smooth`` runs the smoother after each recording; ``start`` is at the key, after a countdown, or when the
+    hand lies still.
+    """
 
     folder: str = ""
     keep_pictures: bool = True
@@ -131,9 +137,11 @@ def _is_server_url(text: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class RecordsSettings:
-    """``retention_years`` for which records must be kept, 0 for not set: laws differ. ``url`` of a clinic's PostgreSQL
-    (``postgresql://user@host/carpus``), empty for this computer alone; ``sessions`` a folder that all its computers
-    share, empty for the data folder's own."""
+    """Patient records.
+
+    ``retention_years`` is 0 if not set; ``url`` of a clinic's PostgreSQL server (``postgresql://user@host/carpus``)
+    and ``sessions``, a shared folder, are empty for this computer alone.
+    """
 
     retention_years: int = 0
     url: str = ""
@@ -148,7 +156,7 @@ class RecordsSettings:
 
 @dataclass(frozen=True, slots=True)
 class LockSettings:
-    """``after_min`` minutes without a key the window locks, where there is a PIN; 0 for never."""
+    """Idle minutes until the window locks, if there is a PIN; 0 for never."""
 
     after_min: int = 10
 
@@ -159,35 +167,35 @@ class LockSettings:
 
 @dataclass(frozen=True, slots=True)
 class StreamSettings:
-    """``on``: live angles, places and events go out over Lab Streaming Layer, which anybody in the network can read."""
+    """``on`` sends live angles, positions and events over Lab Streaming Layer, readable in the network."""
 
     on: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class PatientSettings:
-    """``sound``: the patient's view beeps once whenever a goal is reached."""
+    """``sound``: a beep in the patient's view whenever a goal is reached."""
 
     sound: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class UpdatesSettings:
-    """``folder`` in which the clinic lays packages of Carpus, as ``make release`` makes it; empty: nobody looks."""
+    """``folder`` with packages of ``make release``; empty to never look for updates."""
 
     folder: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class WelcomeSettings:
-    """``answered``: what the first start offers was taken up or declined, and is not offered again."""
+    """``answered``: the offer of the first start was answered and is not shown again."""
 
     answered: bool = False
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Everything, one section each."""
+    """All sections."""
 
     screen: ScreenSettings = field(default_factory=ScreenSettings)
     camera: CameraSettings = field(default_factory=CameraSettings)
@@ -202,21 +210,20 @@ class Settings:
     first_start: WelcomeSettings = field(default_factory=WelcomeSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
     tracking: Mapping[str, Values] = field(default_factory=dict, metadata=NOT_IN_FILE)
-    """What a person's file says in the sections of :data:`TRACKING`."""
+    """Sections of :data:`TRACKING` as the user's file has them."""
     run_folder: Path | None = field(default=None, metadata=NOT_IN_FILE)
-    """The data folder that was named for this run alone."""
+    """Data folder named for this run only."""
 
     @cached_property
     def track(self) -> TrackSettings:
-        """What decides how pictures become a session. All that tracks is loaded with it: a window that starts does not
-        wait for that."""
+        """Settings of tracking, whose modules are imported only here to keep the start fast."""
         from carpus.core.pipeline.track import TrackSettings
 
         return replace(_build_section(TrackSettings, self.tracking, "", SETTINGS_FILE), smooth=self.recording.smooth)
 
     @property
     def data_folder(self) -> Path:
-        """Where patients and sessions are: as named for this run, else by ``CARPUS_DATA``, else by the setting."""
+        """Folder of patients and sessions: of this run, of ``CARPUS_DATA``, or of the setting."""
         if self.run_folder is not None:
             return self.run_folder
         named = os.environ.get(DATA_VARIABLE) or self.recording.folder
@@ -224,22 +231,22 @@ class Settings:
 
 
 def default_data_folder() -> Path:
-    """Where patients and sessions belong on this system."""
+    """Return the user's default folder of patients and sessions."""
     return Path(platformdirs.user_data_dir("carpus", appauthor=False))
 
 
 def sessions_folder(settings: Settings) -> Path | None:
-    """The shared folder of the sessions; None for the data folder's own."""
+    """Return the shared session folder, None if sessions are in the data folder."""
     return expand_home(settings.records.sessions) if settings.records.sessions else None
 
 
 def settings_folder() -> Path:
-    """Where this person's settings are."""
+    """Return the folder of the user's settings."""
     return Path(platformdirs.user_config_dir("carpus", appauthor=False))
 
 
 def load_settings(folder: Path | None = None) -> Settings:
-    """The shipped defaults with this person's settings and what was chosen in the window over them."""
+    """Load the defaults, overridden by the user's settings and preferences."""
     settings, faults = load_valid_settings(folder)
     for fault in faults:
         raise fault
@@ -247,7 +254,7 @@ def load_settings(folder: Path | None = None) -> Settings:
 
 
 def load_valid_settings(folder: Path | None = None) -> tuple[Settings, list[CarpusFault]]:
-    """For the window, which starts whatever a file holds: one that cannot be used is left out, and its fault told."""
+    """Load the settings without the files that cannot be used, and the faults of those."""
     folder = folder or settings_folder()
     merged = _load_defaults()
     faults: list[CarpusFault] = []
@@ -260,13 +267,13 @@ def load_valid_settings(folder: Path | None = None) -> tuple[Settings, list[Carp
 
 
 def _load_defaults() -> Values:
-    """The shipped file, but for what the code says itself when it tracks."""
+    """Load the shipped file, without the tracking sections whose defaults are in the code."""
     shipped = _parse_toml("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
     return {name: section for name, section in shipped.items() if name not in TRACKING}
 
 
 def _build_settings(values: Values, file: str) -> Settings:
-    """All sections; what a person says of tracking is looked at now, so that its fault is told now."""
+    """Build all sections; tracking settings are checked now, so that their faults are shown now."""
     tracking = {name: values[name] for name in TRACKING if values.get(name)}
     if tracking:
         from carpus.core.pipeline.track import TrackSettings
@@ -277,7 +284,7 @@ def _build_settings(values: Values, file: str) -> Settings:
 
 
 def _read_own_settings(path: Path) -> Values:
-    """What a person's file says, sound as far as it goes; nothing where there is no file."""
+    """Read and check the user's file; empty if there is none."""
     try:
         own = _drop_obsolete(_parse_toml(str(path), path.read_bytes()), path) if path.exists() else {}
     except OSError as cause:
@@ -287,7 +294,6 @@ def _read_own_settings(path: Path) -> Values:
 
 
 def _drop_obsolete(values: Values, path: Path, where: str = "") -> Values:
-    """Drop settings of earlier versions, with a line in the log."""
     kept: dict[str, Any] = {}
     for name, value in values.items():
         place = f"{where}{name}"
@@ -314,10 +320,13 @@ _PREFERENCE_FIELDS = {
 
 
 def save_preferences(before: Settings, chosen: Settings, folder: Path | None = None) -> None:
-    """Store what a person has changed in the window, and nothing else.
+    """Save what was changed in the window, and nothing else.
 
-    What was named for one run, or stands in the person's own file, is no choice made in the window. Raises
-    :class:`OutputNotWritable`, :class:`DiskFull`.
+    Values of one run and of the user's own file are not saved.
+
+    Raises
+    ------
+    OutputNotWritable, DiskFull
     """
     path = (folder or settings_folder()) / PREFERENCES_FILE
     try:
@@ -337,7 +346,7 @@ def save_preferences(before: Settings, chosen: Settings, folder: Path | None = N
 
 
 def _read_preferences(path: Path) -> dict[str, dict[str, Any]]:
-    """What a file of preferences says; one that cannot be used is kept under another name."""
+    """Read the preferences; an invalid file is kept under another name."""
     try:
         return {section: dict(values) for section, values in _read_own_settings(path).items()}
     except SettingsInvalid:
@@ -346,7 +355,7 @@ def _read_preferences(path: Path) -> dict[str, dict[str, Any]]:
 
 
 def save_last_data_folder(data_folder: Path, folder: Path | None = None) -> Path | None:
-    """Remember the data folder that a window opens; the one of the start before, where that was another."""
+    """Save the data folder of this start; return that of the last one if it was another."""
     path = (folder or settings_folder()) / LAST_FOLDER_FILE
     before = ""
     with suppress(OSError, UnicodeError):
@@ -359,7 +368,7 @@ def save_last_data_folder(data_folder: Path, folder: Path | None = None) -> Path
 
 
 def _format_value(value: object) -> str:
-    """As TOML writes it, which writes texts, numbers and truths as JSON does."""
+    """Format a value as TOML, which writes texts, numbers and booleans as JSON does."""
     if isinstance(value, Mapping):
         return f"{{{', '.join(f'{name} = {_format_value(one)}' for name, one in sorted(value.items()))}}}"
     return json.dumps(value, ensure_ascii=False)
@@ -383,7 +392,7 @@ def _merge(below: Values, above: Values) -> Values:
 
 
 def _build_section(kind: type[T], values: Values, where: str, file: str) -> T:
-    """A dataclass from a table; every key must be one of its fields, but for those that no file has."""
+    """Build a dataclass from a table whose keys must be its fields."""
     hints = typing.get_type_hints(kind)
     known = settable_names(kind)
     found: dict[str, Any] = {}
@@ -403,8 +412,10 @@ def _build_section(kind: type[T], values: Values, where: str, file: str) -> T:
 
 
 def with_data_folder(settings: Settings, folder: Path | None) -> Settings:
-    """The settings with the data folder named on the command line: without the clinic's server, shared folder and daily
-    backup, which are those of its own data folder."""
+    """Return the settings for a data folder named on the command line.
+
+    Server, shared folder and daily backup belong to the own data folder and are switched off.
+    """
     if folder is None or folder.absolute() == settings.data_folder.absolute():
         return settings
     records, backup = replace(settings.records, url="", sessions=""), replace(settings.backup, hour=-1)
@@ -412,7 +423,7 @@ def with_data_folder(settings: Settings, folder: Path | None) -> Settings:
 
 
 def with_saved_folder(settings: Settings, folder: Path) -> Settings:
-    """The settings with another data folder; also from the next start on, unless this run had a folder of its own."""
+    """Return the settings with another data folder, saved unless this run had its own."""
     if settings.run_folder is not None:
         return replace(settings, run_folder=folder)
     os.environ.pop(DATA_VARIABLE, None)  # it would go over what was just chosen

@@ -1,5 +1,4 @@
-"""Opens whatever recording a path names; the one place that knows all kinds. Of many: which are meant, where the clicks
-of each are, and where its session goes."""
+"""Opens recordings of all kinds, and plans the inputs and outputs of a batch."""
 
 from __future__ import annotations
 
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 COLOR_LIST = "rgb.txt"
 REALSENSE_SUFFIX = ".db3"
 FILE_SUFFIXES = (".oni", ".carpusraw", REALSENSE_SUFFIX)
-"""What recordings that are one file are called; a raw recording is known whatever its name."""
+"""Suffixes of recordings in one file; a raw recording is recognized by its content."""
 
 
 def open_recording(
@@ -32,11 +31,16 @@ def open_recording(
     data_folder: Path | None = None,
     notice: NoticeHandler = ignore_notice,
 ) -> FrameSource:
-    """A folder or file of any kind in :data:`RECORDINGS` as a source. The readers are loaded when needed.
+    """Open a folder or file of any kind in :data:`RECORDINGS`; readers are imported when needed.
 
-    ``registered``: whether depth lies on colour in an .oni file that does not say so itself, None when nobody knows.
-    ``leave_out_damaged``: a missing or damaged picture of a folder is left out, counted and told, not a fault.
-    ``data_folder``: what is kept there of the camera is used where the recording brings no intrinsics of its own.
+    Parameters
+    ----------
+    registered : bool, optional
+        Whether depth is registered to colour in an .oni file that does not say so; None if unknown.
+    leave_out_damaged : bool
+        Count and report missing or damaged images of a folder instead of raising a fault.
+    data_folder : Path, optional
+        Folder with stored calibrations, used if the recording has no intrinsics.
     """
     source = _open_by_kind(path, _OpenOptions(need_depth, registered, leave_out_damaged, notice))
     if data_folder is None:
@@ -47,7 +51,7 @@ def open_recording(
 
 
 def open_board(recording: Path | None, notice: NoticeHandler) -> FrameSource:
-    """What a printed board is looked at with: a recording, also without depth, or None for the live camera."""
+    """Open a recording of the calibration board, or the live camera if None."""
     if recording is None:
         from carpus.app.settings import load_settings
 
@@ -56,8 +60,7 @@ def open_board(recording: Path | None, notice: NoticeHandler) -> FrameSource:
 
 
 def open_card(recording: Path | None, settings: Settings, notice: NoticeHandler) -> FrameSource:
-    """What a printed card is looked at with, calibrated by what is kept of it: a recording, or None for the live
-    camera."""
+    """Open a recording of the check card, or the live camera if None, with its stored calibration."""
     from carpus.core.capture.calibrated_source import with_stored_calibration
 
     if recording is None:
@@ -66,7 +69,7 @@ def open_card(recording: Path | None, settings: Settings, notice: NoticeHandler)
 
 
 def _open_named_camera(settings: Settings, notice: NoticeHandler) -> FrameSource:
-    """The live camera of the settings, named as it was given."""
+    """Open the live camera of the settings, with the name it was given."""
     from carpus.core.capture.calibrated_source import with_given_name
     from carpus.core.capture.devices.cameras import open_camera
 
@@ -75,7 +78,7 @@ def _open_named_camera(settings: Settings, notice: NoticeHandler) -> FrameSource
 
 @dataclass(frozen=True, slots=True)
 class _OpenOptions:
-    """As in :func:`open_recording`."""
+    """Options of :func:`open_recording`."""
 
     need_depth: bool
     registered: bool | None
@@ -133,14 +136,14 @@ RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _OpenOptions], F
     (_is_realsense, _open_realsense),
     (_is_raw, _open_raw),
 )
-"""Every kind: whether a path is of it, and how it is opened; the first that is it counts."""
+"""Every kind: how it is recognized and how it is opened; the first match counts."""
 
 
 _INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
 
 
 def warn_assumed_intrinsics(source: FrameSource, path: Path, notice: NoticeHandler) -> None:
-    """``notice`` hears where nobody measured how the camera of a recording sees."""
+    """Notify that the intrinsics of a recording were not measured."""
     origin = source.info.camera.origin
     if origin in _INTRINSICS:
         notice(IntrinsicsAssumed(path, _INTRINSICS[origin]))
@@ -156,14 +159,16 @@ def _open_by_kind(path: Path, options: _OpenOptions) -> FrameSource:
 
 
 CLICKS_FILE = "calibration.json"
-"""The clicks of a recording that is a folder; those of ``NAME.oni`` are in ``NAME.calibration.json`` beside it."""
+"""Clicks of a recording folder; those of ``NAME.oni`` are in ``NAME.calibration.json`` beside it."""
 SESSION_SUFFIX = ".h5"
 
 
 @dataclass(frozen=True, slots=True)
 class TrackingInput:
-    """One recording (or session, tracked again), its ``clicks`` (None for a session), the ``session`` to be made and
-    what that is called in tables: its path in the folder of all."""
+    """One recording or session to track.
+
+    ``clicks`` is None for a session; ``session`` is the file to write, and ``name`` its relative path for tables.
+    """
 
     recording: Path
     clicks: Path | None
@@ -172,23 +177,23 @@ class TrackingInput:
 
 
 def is_recording(path: Path) -> bool:
-    """Whether a path looks like one recording or session, and not like a folder of many."""
+    """Tell one recording or session from a folder of many."""
     if path.is_dir():
         return (path / COLOR_LIST).exists()
     return path.suffix.lower() in (*FILE_SUFFIXES, SESSION_SUFFIX)
 
 
 def is_batch(named: Sequence[Path], output: Path) -> bool:
-    """Whether a folder of sessions is asked for, not one session."""
+    """Tell whether the output is a folder of sessions rather than one session."""
     if len(named) > 1 or output.is_dir():
         return True
     return output.suffix != SESSION_SUFFIX and named[0].is_dir() and not is_recording(named[0])
 
 
 def find_recordings(folder: Path, excluded: Path) -> Iterator[Path]:
-    """Recordings in a folder and the folders in it, in the order of their names, but for the folder ``excluded``.
+    """Yield the recordings below a folder, sorted by name, except those in ``excluded``.
 
-    Sessions are not among them: they are results, tracked again only where they are named.
+    Sessions are results and are tracked again only if they are named.
     """
     for path in sorted(folder.iterdir()):
         if path.name.startswith(".") or (path.is_dir() and path.resolve() == excluded.resolve()):
@@ -201,9 +206,9 @@ def find_recordings(folder: Path, excluded: Path) -> Iterator[Path]:
 
 
 def plan_inputs(named: Sequence[Path], output: Path) -> list[TrackingInput]:
-    """All that is named, folders searched; each once, sessions under ``output`` as the recordings lie to each other.
+    """List all recordings to track, each once, with their session files under ``output``.
 
-    What is named and is no folder of recordings counts as one recording, there or not: its fault is told later.
+    A path that is no folder of recordings counts as one recording; its fault is reported later.
     """
     found: dict[Path, Path] = {}
     base = Path(os.path.commonpath([path.resolve().parent for path in named]))
@@ -229,7 +234,7 @@ def plan_inputs(named: Sequence[Path], output: Path) -> list[TrackingInput]:
 
 
 def find_clicks_file(recording: Path) -> Path | None:
-    """Where the clicks of a recording are to be; None for a session, which brings its own."""
+    """Return the file of a recording's clicks; None for a session, which contains them."""
     if recording.is_dir():
         return recording / CLICKS_FILE
     if recording.suffix.lower() == SESSION_SUFFIX:

@@ -1,1 +1,1 @@
-"""Many recordings in one go: found, tracked side by side, their faults and measures gathered in tables."""
+"""Tracking of many recordings: worker processes, retries, results."""

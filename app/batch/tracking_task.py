@@ -1,6 +1,6 @@
-"""One recording of many: tracked, or left as it is where that was done before, and measured.
+"""One recording of a batch: track it unless a session exists, then measure it.
 
-Runs in a process of its own, here or on another machine: what goes in and comes out are plain values.
+Runs in a process of its own, here or on another machine, so tasks and outcomes are plain values.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Result = Literal["tracked", "kept", "fault"]
 
 @dataclass(frozen=True, slots=True)
 class TrackingTask:
-    """What is to be done with one recording."""
+    """Everything a worker needs to track one recording."""
 
     tracking_input: TrackingInput
     settings: TrackSettings
@@ -41,13 +41,22 @@ class TrackingTask:
     exercise: str = ""
     leave_out_damaged: bool = False
     software_version: str = __version__
-    """Whoever tracks it has the same, or the numbers of one table would not be of one program."""
+    """Workers must have the same version: one table must not mix the results of two programs."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrackingOutcome:
-    """What came of it: shares 0 to 1 of ``frames``, NaN after a fault; ``messages`` the fault, or what is doubtful;
-    ``measures`` of the session."""
+    """Result of one task.
+
+    Attributes
+    ----------
+    messages : tuple of str
+        The fault, or what is uncertain about the session.
+    tracked, lost : float
+        Share of frames, 0 to 1; NaN after a fault.
+    is_retryable : bool
+        True if the fault may be gone at the next try.
+    """
 
     tracking_input: TrackingInput
     result: Result
@@ -57,11 +66,10 @@ class TrackingOutcome:
     lost: float = float("nan")
     measures: tuple[MeasureRow, ...] = ()
     is_retryable: bool = False
-    """Of a fault: whether it may be gone when tried again."""
 
 
 def execute_task(task: TrackingTask) -> TrackingOutcome:
-    """Do one task; whatever goes wrong is part of the outcome."""
+    """Run one task; every failure becomes part of the outcome."""
     if task.software_version != __version__:
         return fault_outcome(
             task.tracking_input, f"the worker has Carpus {__version__}, and {task.software_version} was asked for"
@@ -79,7 +87,7 @@ def execute_task(task: TrackingTask) -> TrackingOutcome:
 
 
 def fault_outcome(tracking_input: TrackingInput, sentence: str, *, is_retryable: bool = False) -> TrackingOutcome:
-    """The outcome of a recording that could not be tracked."""
+    """Return the outcome of a recording that could not be tracked."""
     return TrackingOutcome(tracking_input, "fault", (sentence,), is_retryable=is_retryable)
 
 

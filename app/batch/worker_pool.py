@@ -1,5 +1,8 @@
-"""Tasks in processes of their own, here or beside the workers of a Dask scheduler (other machines that see the same
-folders and have Carpus installed): one that dies, hangs or grows takes nothing along."""
+"""Worker processes for batch tracking, local or on a Dask cluster.
+
+A recording that crashes, hangs or fills the memory ends its own process only. Cluster workers are machines that see
+the same folders and have Carpus installed.
+"""
 
 from __future__ import annotations
 
@@ -22,27 +25,26 @@ from carpus.core.session.atomic_files import remove_leftovers
 
 Work = Callable[[TrackingTask], TrackingOutcome]
 MAX_TRIES = 3
-"""Of what may pass: another run's file, a share that stutters, a process that died."""
+"""Tries of a task whose fault is retryable: a file in use, a slow network share, a dead process."""
 TIME_LIMIT_S = 120.0 * 60.0
 DIED_TEXT = "the process that tracked it ended without a word (memory, or someone ended it); track it again"
 LATE_TEXT = (
     "it was not done after {minutes:g} minutes and was given up; look at the recording, or set a longer --time-limit"
 )
 _MAX_TASKS = 25
-"""Of one process, so that what a library forgets to free does not add up."""
+"""Tasks after which a process is replaced, so that leaks of libraries do not add up."""
 _GRACE_S = 15.0
 
 
 def count_cores() -> int:
-    """Processes that this one may use at a time."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def run_tasks(
     tasks: Sequence[TrackingTask], process_count: int, run: Work = execute_task, limit_s: float = TIME_LIMIT_S
 ) -> Iterator[TrackingOutcome]:
-    """Outcomes as they come, of ``process_count`` processes at a time. What may pass is tried :data:`MAX_TRIES`
-    times."""
+    """Yield outcomes as they come, from ``process_count`` processes; retryable faults are retried."""
     children, pool = WorkerPool(), ThreadPoolExecutor(process_count, "batch")
 
     def run_with_retries(task: TrackingTask) -> TrackingOutcome:
@@ -63,7 +65,7 @@ def run_tasks(
 
 
 class WorkerPool:
-    """Processes that take one task after the other; for any number of threads."""
+    """Processes that each run one task after the other; may be used by several threads."""
 
     def __init__(self) -> None:
         self._idle: list[_Worker] = []
@@ -71,7 +73,7 @@ class WorkerPool:
         self.is_closed = False
 
     def run_task(self, task: TrackingTask, limit_s: float, run: Work = execute_task) -> TrackingOutcome:
-        """One task done in an idle process, or in a new one; a process that died or took too long is a fault."""
+        """Run one task in an idle or new process; a dead or late process is a fault."""
         try:
             child = self._idle.pop()
         except IndexError:
@@ -93,7 +95,7 @@ class WorkerPool:
         return fault_outcome(task.tracking_input, DIED_TEXT, is_retryable=True)
 
     def close(self) -> None:
-        """All of them stop."""
+        """End all processes."""
         self.is_closed = True
         all_of_them = [*self._idle, *self._busy]
         for child in all_of_them:
@@ -103,7 +105,7 @@ class WorkerPool:
 
 
 class _Worker(ChildProcess):
-    """One process, and how many tasks it was given."""
+    """One worker process and the number of its tasks."""
 
     def __init__(self) -> None:
         super().__init__(serve, name="batch")
@@ -111,7 +113,7 @@ class _Worker(ChildProcess):
         self.timed_out = False
 
     def run_task(self, task: TrackingTask, run: Work, limit_s: float) -> TrackingOutcome | None:
-        """What came of a task; None where the process ended before it answered, or was late."""
+        """Return the outcome of a task, None if the process ended or was late."""
         self.task_count += 1
         with contextlib.suppress(EOFError, OSError):
             self.link.send((run, task))
@@ -123,7 +125,7 @@ class _Worker(ChildProcess):
 
 
 def serve(link: Connection) -> NoReturn:
-    """Take tasks and answer, in the child, until the owner hangs up or asks it to end; what is under way is tidied."""
+    """Run tasks in the child process until the owner closes the link or asks it to end."""
     os.umask(0o077)  # whatever is written is about a patient: for its owner only
     os.dup2(2, 1)  # what a library prints is none of the command's output
     signal.signal(signal.SIGTERM, _raise_interrupt)
@@ -140,17 +142,17 @@ def _raise_interrupt(*_: object) -> NoReturn:
 
 
 CONNECT_TIMEOUT_S = 15.0
-"""A scheduler that is there answers within this time."""
+"""Time that a scheduler has to answer."""
 _WORKERS = WorkerPool()
-"""Of this worker; they end with it."""
+"""The processes of this Dask worker; they end with it."""
 
 
 class RetryableError(Exception):
-    """A fault that may be gone when tried again: what Dask retries."""
+    """A fault that Dask retries."""
 
 
 def run_on_worker(task: TrackingTask, limit_s: float) -> TrackingOutcome:
-    """What a worker does with one task, in a process beside it."""
+    """Run one task in a process beside a Dask worker."""
     outcome = _WORKERS.run_task(task, limit_s)
     if outcome.is_retryable:
         raise RetryableError(" ".join(outcome.messages))
@@ -160,10 +162,17 @@ def run_on_worker(task: TrackingTask, limit_s: float) -> TrackingOutcome:
 def run_tasks_on_scheduler(
     address: str, tasks: Sequence[TrackingTask], limit_s: float = TIME_LIMIT_S
 ) -> Iterator[TrackingOutcome]:
-    """Outcomes as they come. What a worker that died was at is done by another; what ends one after the other, or may
-    pass and does not, is a fault. A task that an earlier run left under way is not begun twice.
+    """Yield outcomes as they come from the workers of a Dask scheduler.
 
-    Raises :class:`ExtraMissing` and :class:`SchedulerUnreachable`, both before anything is tracked.
+    A task whose worker died is done by another one. Tasks that an earlier run left on the scheduler are not started
+    twice.
+
+    Raises
+    ------
+    ExtraMissing
+        The Python package distributed is not installed.
+    SchedulerUnreachable
+        The scheduler does not answer; nothing has been tracked.
     """
     try:
         from distributed import Client, Security, as_completed

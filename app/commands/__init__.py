@@ -1,7 +1,7 @@
-"""The commands of ``carpus``; each has a module of its name with ``add_arguments(parser)`` and ``run(arguments)``.
+"""The commands of ``carpus``.
 
-In a module's name - is _. It is loaded only when its command is asked for: tracking a file needs no window, and no
-help text a tracker.
+Each has a module of its name (- becomes _) with ``add_arguments(parser)`` and ``run(arguments)``, imported only when
+the command is requested: tracking a file needs no window, and a help text no tracker.
 """
 
 from __future__ import annotations

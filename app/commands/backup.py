@@ -1,4 +1,4 @@
-"""``carpus backup``: everything of a data folder onto another disk, read back and compared."""
+"""``carpus backup``: copies a data folder to another disk and compares the copy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``carpus calibrate_hand-camera``: prints the board, and measures from it how a camera sees."""
+"""``carpus calibrate-camera``: prints the calibration board, and calibrates a camera with it."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def _boards(arguments: argparse.Namespace) -> list[Board]:
 
 
 def _collect_views(source: FrameSource, gathering: ViewCollector, *, is_live: bool) -> None:
-    """Look at the frames: all of a recording; of a camera until it is enough, or until Ctrl+C."""
+    """Collect views of the board: all of a recording, or of a camera until there are enough or Ctrl+C."""
     from carpus.core.calibration.camera.board_views import WANTED_VIEWS
 
     said = ""

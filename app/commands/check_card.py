@@ -1,4 +1,4 @@
-"""``carpus check-card``: 30 seconds of a printed card say how far off a camera measures."""
+"""``carpus check-card``: measures how far off a camera is with 30 seconds of a printed card."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def _print_figures(reading: CardReading) -> None:
 
 
 def _count_frames(source: FrameSource) -> Iterator[Frame]:
-    """The frames, counted for the person who waits."""
+    """Yield the frames under a progress bar."""
     with progress_bar("looking at the card") as show:
         for count, frame in enumerate(source.frames(), start=1):
             show(count, source.info.frame_count)

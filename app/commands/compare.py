@@ -1,4 +1,4 @@
-"""``carpus compare``: how far a session agrees with another measurement of the same movement."""
+"""``carpus compare``: agreement of a session with another measurement of the same movement."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ EXAMPLE = "carpus compare session.h5 reference.c3d --output out/agreement"
 
 
 def parse_mapping(text: str) -> dict[str, str]:
-    """``NAME=VALUE,...``; anything else is wrong usage."""
+    """Parse ``NAME=VALUE,...``; anything else is wrong usage."""
     pairs = [part.split("=", 1) for part in text.split(",") if part.strip()]
     if not pairs or any(len(pair) != 2 or not pair[0].strip() or not pair[1].strip() for pair in pairs):
         raise argparse.ArgumentTypeError(f"{text!r} is not made of NAME=THEIRS,...")
@@ -26,7 +26,7 @@ def parse_mapping(text: str) -> dict[str, str]:
 
 
 def parse_marker_mapping(text: str) -> dict[str, str]:
-    """As :func:`parse_mapping`, of discs."""
+    """Parse ``MARKER=NAME,...``; an unknown marker is wrong usage."""
     found = {name.upper(): value for name, value in parse_mapping(text).items()}
     unknown = [name for name in found if name not in SITES]
     if unknown:

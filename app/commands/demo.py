@@ -1,4 +1,4 @@
-"""``carpus demo``: the desktop on a simulated camera and patient; without a display the whole way by itself."""
+"""``carpus demo``: the desktop with a simulated camera and patient; unattended without a display."""
 
 from __future__ import annotations
 

@@ -33,20 +33,21 @@ if TYPE_CHECKING:  # nothing of Qt without a display
 
 
 def has_display() -> bool:
-    """Whether a window can be seen here."""
+    """Tell whether a window can be shown."""
     if os.environ.get("QT_QPA_PLATFORM"):
         return os.environ["QT_QPA_PLATFORM"] not in ("offscreen", "minimal")
     return not sys.platform.startswith("linux") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Open the window and stay until it is closed."""
     return open_window(getattr(arguments, "data_folder", None), is_demo=False)
 
 
 def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None = None) -> int:
-    """The window, on the real world or on the simulated camera; ``session`` is opened in it, or in the one there is.
-    Opened again, with the settings as they are then, once a language was chosen."""
+    """Show the desktop until it is closed, again after a change of language, and return the exit code.
+
+    ``session`` is opened in it, or in the desktop that is open already.
+    """
     if not has_display():
         print_message("there is no display here; “carpus demo” shows the whole way without one.")
         return 1
@@ -89,9 +90,10 @@ def _open_desktop(
     session: Path | None,
     startup_faults: Sequence[CarpusFault],
 ) -> tuple[Desktop, SingleInstance] | int:
-    """The window put together, on another folder where a person chose one; or the exit code where there is none.
-    ``default_folder`` is the folder that one named for this start stands in for; None where there is nothing to be
-    told."""
+    """Build the desktop, on another data folder if a person chose one; return the exit code if there is none.
+
+    ``default_folder`` is the usual data folder, to say that this start has another one; None to say nothing.
+    """
     from carpus.app import compose
     from carpus.app.desktop import folder_window
     from carpus.app.desktop.log import show_uncaught_errors
@@ -134,7 +136,6 @@ def _open_desktop(
 
 
 def _run_desktop(desktop: Desktop, session: Path | None, *, is_demo: bool, is_reopened: bool) -> int:
-    """Show the window until it is closed."""
     try:
         desktop.show(is_reopened=is_reopened)
         if is_demo and not desktop.is_closed:
@@ -157,7 +158,7 @@ def _finish_restore(folder: Path) -> None:
 
 
 def _delete_windows(qt: QApplication) -> None:
-    """Let go of all widgets, also of screens never shown: they would be styled with the new ones."""
+    """Delete all widgets, also hidden ones: they would be styled together with the new ones."""
     from PySide6.QtCore import QEvent
 
     gc.unfreeze()

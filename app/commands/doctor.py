@@ -1,4 +1,4 @@
-"""``carpus doctor``: what this computer lacks, with a remedy for each."""
+"""``carpus doctor``: checks this computer and names a remedy for each finding."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def without_folders(text: str, data_folder: Path) -> str:
-    """A line of the doctor without the names of this person's folders: they often hold the person's name.
+    """Replace folder names in a line of the doctor: they often contain a person's name.
 
     >>> without_folders("/users/ada/data/a: full", Path("/users/ada/data"))
     '(data folder)/a: full'

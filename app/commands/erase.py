@@ -1,4 +1,4 @@
-"""``carpus erase``: a session or a patient, for good; says first what would go, and does it only when told again."""
+"""``carpus erase``: erases a session or a patient, after showing what would be deleted."""
 
 from __future__ import annotations
 

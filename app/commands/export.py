@@ -16,7 +16,7 @@ ALL = "all"
 
 
 def parse_formats(text: str) -> tuple[str, ...]:
-    """Names of formats, separated by commas; an unknown one is wrong usage."""
+    """Parse names of formats, separated by commas; an unknown one is wrong usage."""
     names = tuple(dict.fromkeys(name.strip().lower() for name in text.split(",") if name.strip()))
     unknown = [name for name in names if name not in (*FORMATS, ALL)]
     if unknown or not names:
@@ -69,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def find_sessions(paths: list[Path]) -> list[Path]:
-    """The sessions named, of folders all that lie in them; each once. Raises :class:`SessionsMissing`."""
+    """Return session files and those in folders, each once. Raises :class:`SessionsMissing`."""
     out: list[Path] = []
     for path in paths:
         found = sorted(path.rglob("*.h5")) if path.is_dir() else [path]

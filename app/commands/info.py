@@ -1,4 +1,4 @@
-"""``carpus info``: what a recording or session holds."""
+"""``carpus info``: shows details of a recording or session."""
 
 from __future__ import annotations
 

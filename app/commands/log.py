@@ -1,4 +1,4 @@
-"""``carpus log``: what was done with patients' data, by whom and when."""
+"""``carpus log``: shows the log of a data folder: who did what, and when."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``carpus progress``: a patient's figures over all sessions, as a table or as the progress report."""
+"""``carpus progress``: a patient's results over all sessions, as a table or as a report."""
 
 from __future__ import annotations
 
@@ -84,9 +84,15 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _find_figures(subject: str, places: list[Path], limits: ErrorLimits) -> list[tuple[Path, SessionResults]]:
-    """Sessions of a patient that can be read, with their figures: of a data folder those that the list of patients has
-    as this patient's and not in the archive, of any other the files that carry the pseudonym. Raises
-    :class:`PatientUnknown` or :class:`SessionsMissing` for none."""
+    """Return the readable sessions of a patient with their results.
+
+    In a data folder the patient list decides who is meant, without archived sessions; elsewhere the pseudonym in each
+    file.
+
+    Raises
+    ------
+    PatientUnknown, SessionsMissing
+    """
     from carpus.app.session_commands import has_store
 
     out: list[tuple[Path, SessionResults]] = []
@@ -104,7 +110,7 @@ def _find_figures(subject: str, places: list[Path], limits: ErrorLimits) -> list
 
 
 def _figures_in_library(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionResults]], list[str]]:
-    """Of a data folder; and the pseudonyms of its patients."""
+    """Return sessions of a data folder with their results, and the pseudonyms of its patients."""
     from carpus.app.session_commands import open_library
     from carpus.core.records.session_list import SessionFileScanner
 
@@ -130,7 +136,7 @@ def _figures_in_library(subject: str, folder: Path) -> tuple[list[tuple[Path, Se
 def _figures_in_files(
     subject: str, place: Path, limits: ErrorLimits
 ) -> tuple[list[tuple[Path, SessionResults]], list[str]]:
-    """Of files that lie in no data folder, or are named one by one; and every pseudonym that they carry."""
+    """Return sessions outside a data folder with their results, and all pseudonyms in the files."""
     from carpus.app.session_commands import find_session_files, read_choices
     from carpus.core.results.session_results import compute_session_results
     from carpus.core.session.reader import read_outline, read_session

@@ -1,4 +1,4 @@
-"""``carpus record``: raw colour and depth from the camera to disk."""
+"""``carpus record``: records raw colour and depth from the camera."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from carpus.core.pipeline.recorder import Recorder
 EXAMPLE = "carpus record --output out/hand.carpusraw --seconds 30"
 MAX_RECORDING_S = 86400.0
 MAX_WAITING_FRAMES = 90
-"""Three seconds of pictures may wait for a slow disk."""
+"""Three seconds of frames may wait for a slow disk."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -108,8 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _record_frames(
     source: FrameSource, recorder: Recorder[RawWriter | TumWriter, Frame], total: int | None, *, live: bool
 ) -> tuple[int, int]:
-    """Hand the pictures to the recorder until they end, are enough or somebody stops; how many, and how many were
-    missing between them."""
+    """Record until the source ends, ``total`` is reached or Ctrl+C; return frames and missing frames."""
     count, missed = 0, 0
     with progress_bar("recording") as show, contextlib.suppress(KeyboardInterrupt):
         for frame in source.frames():
@@ -130,4 +129,4 @@ def _write_frame(writer: RawWriter | TumWriter, frame: Frame) -> None:
 
 
 def _ignore_fault(_fault: Exception) -> None:
-    """Nothing to do at once: finishing the recording raises it."""
+    """Do nothing: finishing the recording raises the fault."""

@@ -1,4 +1,4 @@
-"""``carpus recover``: finish sessions that were cut short."""
+"""``carpus recover``: finishes interrupted sessions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``carpus report``: the report of a session, or of several, as PDF."""
+"""``carpus report``: the report of a session, or the progress report of several, as PDF."""
 
 from __future__ import annotations
 

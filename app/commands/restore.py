@@ -1,4 +1,4 @@
-"""``carpus restore``: a back-up into a new data folder, as on a new computer."""
+"""``carpus restore``: restores a backup into a new data folder."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _read_past(place: Path, folder: Path) -> LogHistory:
-    """What was done since, as the data folder that was backed up knows it, if it is there, and the newest backup."""
+    """Read what was done since the backup, from the data folder if it exists and the newest backup."""
     from carpus.app.session_commands import open_library
     from carpus.core.records.restoring import read_history
     from carpus.core.records.store import has_store

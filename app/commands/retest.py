@@ -1,5 +1,7 @@
-"""``carpus retest``: SEM and smallest real change from people who were measured more than once; with ``--store`` they
-are the clinic's own error limits."""
+"""``carpus retest``: SEM and MDC95 from people who were measured more than once.
+
+With ``--store`` they become the clinic's own error limits.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``carpus review FILE``, or only ``carpus FILE.h5``: the desktop with one session open, wherever its file lies."""
+"""``carpus review FILE``, or ``carpus FILE.h5``: opens the desktop with one session."""
 
 from __future__ import annotations
 

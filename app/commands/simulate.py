@@ -1,4 +1,4 @@
-"""``carpus simulate``: a synthetic patient before a synthetic camera, with the truth beside it."""
+"""``carpus simulate``: a synthetic recording with ground truth."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from carpus.core.simulation.spec import ACCESSORIES, HABITS, NONE, RecordingSpec
 
 
 def parse_number_or_drawn(text: str) -> float | None:
-    """A number, or None for ``drawn``: each person's own."""
+    """Parse a number, or None for ``drawn``: a value drawn for each person."""
     if text == "drawn":
         return None
     try:
@@ -27,11 +27,11 @@ def parse_number_or_drawn(text: str) -> float | None:
 
 
 _METAVARS = {"mm": "MM", "deg": "DEGREES", "m": "METRES", "px": "PIXELS", "hz": "HZ", "share": "SHARE"}
-"""What stands for a value, by the last word of an option; N where none fits."""
+"""Placeholders of values by the last word of an option; N for others."""
 
 
 def names_type(known: Collection[str]) -> Callable[[str], str]:
-    """Reads names with + between; an unknown one is wrong usage."""
+    """Return an argparse type for known names with + between."""
 
     def read(text: str) -> str:
         for name in filter(None, text.split("+")):
@@ -119,7 +119,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def build_spec(arguments: argparse.Namespace) -> RecordingSpec:
-    """The recording that the options describe."""
+    """Build the specification of a recording from the options."""
     values = {name.replace("-", "_"): getattr(arguments, name.replace("-", "_")) for name, _ in _OPTIONS}
     return RecordingSpec(
         **values,

@@ -1,4 +1,4 @@
-"""``carpus track``: a stored recording, or an earlier session, to a session file."""
+"""``carpus track``: tracks a stored recording, or a session again, into a session file."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ EXERCISE_NAMES = tuple(exercise.id for exercise in EXERCISES)
 
 
 def parse_pseudonym(text: str) -> str:
-    """A name that can stand in a list; anything else is wrong usage."""
+    """Parse a pseudonym: a short line of text."""
     try:
         name = normalize_name(text)
     except NameUnsuited:
@@ -58,7 +58,7 @@ def parse_pseudonym(text: str) -> str:
 
 
 def parse_moment(text: str) -> str:
-    """A date, or a date and time, here where no zone is given; anything else is wrong usage."""
+    """Parse a date, with or without time, in local time unless a zone is given."""
     try:
         return to_iso(datetime.fromisoformat(text))
     except ValueError:
@@ -126,7 +126,6 @@ def _add_batch_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_method_options(parser: argparse.ArgumentParser) -> None:
-    """How it is tracked."""
     parser.add_argument(
         "--filter",
         choices=("default", "paper"),
@@ -164,7 +163,6 @@ def _add_method_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_recording_options(parser: argparse.ArgumentParser) -> None:
-    """What the recording does not say, and whether it is streamed."""
     parser.add_argument(
         "--start-angles",
         type=number_type(-MAX_START_DEG, MAX_START_DEG, "degrees"),
@@ -198,7 +196,7 @@ def _add_recording_options(parser: argparse.ArgumentParser) -> None:
 
 
 _RECORDING_OPTIONS = ("calibration", "start_angles", "subject", "exercise", "recorded")
-"""Options that a session answers itself."""
+"""Options whose values a session contains already."""
 COLOR_ONLY_WARNING = (
     "Without depth a palm tilted towards the camera looks almost like one tilted away, its mirror image; "
     "check the signs of flexion and pro/supination, or track with depth."
@@ -213,11 +211,11 @@ _OPTIONS_WITHOUT_PAPER_FILTER = {
     "--discs on-skin": ("discs", "on-skin"),
     "--smooth": ("smooth", True),
 }
-"""Options that ask for what the papers' method has not."""
+"""Options that the papers' method does not have."""
 
 
 def apply_options(arguments: argparse.Namespace, base: TrackSettings) -> TrackSettings:
-    """``base`` with what the options say over it; an option that was not given leaves it as it is."""
+    """Return the settings ``base`` changed by the given options."""
     tracker = base.tracker
     told = {"profile": arguments.profile, "use_depth": arguments.depth, "dip": arguments.dip}
     tracker = replace(tracker, **{name: value for name, value in told.items() if value is not None})
@@ -232,14 +230,14 @@ def apply_options(arguments: argparse.Namespace, base: TrackSettings) -> TrackSe
 
 
 def find_options_without_paper_filter(arguments: argparse.Namespace) -> list[str]:
-    """Options given that the papers' method could only pass over."""
+    """List given options that the papers' method would ignore."""
     return [
         option for option, (name, value) in _OPTIONS_WITHOUT_PAPER_FILTER.items() if getattr(arguments, name) == value
     ]
 
 
 def _has_conflict(arguments: argparse.Namespace, settings: TrackSettings) -> bool:
-    """Whether the options contradict each other, told on stderr."""
+    """Tell whether options contradict each other, with a message on stderr."""
     told = find_options_without_paper_filter(arguments) if isinstance(settings, PaperTrackSettings) else []
     if told:
         report_usage_error(
@@ -274,7 +272,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
-    """One recording, from its first picture to its last."""
     source = open_recording(
         arguments.recording,
         leave_out_damaged=arguments.leave_out_damaged,
@@ -313,7 +310,7 @@ def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> 
 
 
 def _open_stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener:
-    """The open stream of a hand, once somebody listens, though not waited for without end."""
+    """Open the stream of a hand; wait a limited time for a listener."""
     from carpus.core.pipeline.lsl_stream import SampleStream, import_pylsl
 
     begun_s: list[float] = []
@@ -325,7 +322,6 @@ def _open_stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Lis
 
 
 def _track_many(named: list[Path], arguments: argparse.Namespace) -> int:
-    """All that is named, into a folder."""
     usual = load_settings().track
     chosen = apply_options(arguments, usual)
     if _has_conflict(arguments, chosen):
@@ -338,7 +334,7 @@ def _track_many(named: list[Path], arguments: argparse.Namespace) -> int:
 
 
 def _retrack_session(arguments: argparse.Namespace, *, was_warned: bool) -> int:
-    """A session tracked again: as it was, and what differs is said."""
+    """Track a session again with its own settings, and print the differences."""
     given = [f"--{name.replace('_', '-')}" for name in _RECORDING_OPTIONS if getattr(arguments, name)]
     if given:
         return report_usage_error("track", f"a session brings its own; leave out {' and '.join(given)}.")
@@ -378,20 +374,20 @@ def _describe_differences(before: StoredSettings | None, settings: TrackSettings
 
 
 def warn_of_date(recorded: RecordingDate | None) -> None:
-    """Say on stderr where a session's date is only that of a file."""
+    """Print a warning if a session's date is only that of a file."""
     if recorded is None or recorded.source == "file":
         day = "unknown" if recorded is None else f"taken from its file ({recorded.time[:10]})"
         print_message(f"the recording does not say when the hand moved: {day}; --recorded DATE says it.")
 
 
 def warn_of_experiment(settings: TrackSettings, protocol: MarkerProtocol) -> None:
-    """Say on stderr that fingers by colour alone are an experiment."""
+    """Print a warning that tracking fingers by colour only is experimental."""
     if protocol.has_fingers and not settings.uses_depth:
         print_message(HAND_COLOR_ONLY_WARNING)
 
 
 def warn_of_findings(verdict: Verdict) -> None:
-    """Say on stderr what is doubtful about a calibration."""
+    """Print the findings of a calibration that do not block it."""
     for finding in verdict.findings:
         if finding.blocks:
             continue  # this ends the command, and is said there
@@ -399,7 +395,7 @@ def warn_of_findings(verdict: Verdict) -> None:
 
 
 def print_report(report: TrackReport) -> None:
-    """Where the session is and its main figures."""
+    """Print the session file and its main results."""
     from carpus.core.results.session_results import (
         compute_session_results,  # all measures: nobody waits for them at the start
     )

@@ -1,4 +1,4 @@
-"""``carpus track RECORDING... --output FOLDER``: many recordings, side by side, begun again where it was left."""
+"""``carpus track RECORDING... --output FOLDER``: tracks many recordings; can be continued."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _HEAD = ("recording", "session", "outcome", "frames", "tracked_share", "lost_sha
 
 
 def check_outcomes(folder: Path) -> None:
-    """Raise :class:`OutputExists` where the file of the table's name is somebody else's."""
+    """Raise :class:`OutputExists` if a foreign file has the name of the table."""
     path = folder / OUTCOMES_FILE
     if path.exists():
         with path.open(newline="", encoding="utf-8", errors="replace") as file:
@@ -39,7 +39,7 @@ def check_outcomes(folder: Path) -> None:
 
 
 def write_outcomes(outcomes: Sequence[TrackingOutcome], folder: Path) -> Path:
-    """The table of all that was asked for, in place of that of an earlier run. Raises :class:`OutputNotWritable`."""
+    """Write the table of all recordings, replacing that of an earlier run. Raises :class:`OutputNotWritable`."""
     rows = (
         (
             str(each.tracking_input.recording),
@@ -55,7 +55,7 @@ def write_outcomes(outcomes: Sequence[TrackingOutcome], folder: Path) -> Path:
 
 
 def message_lines(outcomes: Sequence[TrackingOutcome]) -> list[str]:
-    """What was said of recordings, as a table for the terminal: faults first, then what is doubtful."""
+    """Format messages about recordings as a table for the terminal, faults first."""
     told = [
         each for result in ("fault", "tracked", "kept") for each in outcomes if each.result == result and each.messages
     ]
@@ -75,7 +75,7 @@ _SINGLE_OPTIONS = ("calibration", "start_angles", "recorded")
 """Options that only one recording can have."""
 
 ApplyOptions = Callable[[TrackSettings], TrackSettings]
-"""The options of the command line over settings."""
+"""Applies the options of the command line to settings."""
 
 
 def run_many(
@@ -85,9 +85,10 @@ def run_many(
     default_settings: TrackSettings,
     apply_options: ApplyOptions,
 ) -> int:
-    """Track all that is named into the folder ``output``, with ``apply_options`` over the ``default_settings``
-    settings of recordings, or
-    over a session's own; the exit code."""
+    """Track recordings into the folder ``output`` and return the exit code.
+
+    ``apply_options`` changes ``default_settings``, or a session's own settings.
+    """
     given = [f"--{name.replace('_', '-')}" for name in _SINGLE_OPTIONS if getattr(arguments, name)]
     if given:
         return report_usage_error(
@@ -132,7 +133,7 @@ def run_many(
 
 
 def _format_pace(done: Sequence[TrackingOutcome], begin_s: float) -> str:
-    """Frames tracked a second, of all processes together; nothing before the first."""
+    """Format the frames per second of all processes together; empty before the first."""
     frames = sum(each.frames for each in done if each.result == "tracked")
     return f"{format_rounded(frames / max(time.monotonic() - begin_s, 1e-3))} frames a second" if frames else ""
 

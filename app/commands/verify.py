@@ -1,4 +1,4 @@
-"""``carpus verify``: whether a session or recording is whole and unchanged."""
+"""``carpus verify``: checks that a session or recording is complete and unchanged."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _verify_recording(path: Path) -> int:
-    """Decode every picture; a recording has check sums of its own at most, and no seal."""
+    """Decode every image; a recording has checksums of its own at most."""
     from carpus.app.sources import open_recording
 
     told: list[CarpusFault] = []

@@ -1,1 +1,1 @@
-"""The desktop application: what stands behind the ports of the windows, and which screen follows which."""
+"""The desktop application: implements the ports of the windows and connects the screens."""

@@ -1,4 +1,4 @@
-"""Who looks at a patient or a session leaves a line in the audit log."""
+"""Logs who opened a patient or a session."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from carpus.core.records.library import Library
 
 
 class AccessLogger(QObject):
-    """Watches the journey; changes nothing of it."""
+    """Logs openings when a screen is shown."""
 
     log_failed = Signal(object)
-    """Something could not be written into the log, from whatever thread."""
+    """Emitted from any thread when the log cannot be written."""
 
     def __init__(self, journey: MainController, library: Library) -> None:
         super().__init__(journey)
@@ -40,6 +40,6 @@ class AccessLogger(QObject):
             self._last_access = ("", "")
 
     def _is_new_access(self, place: str, identity: str) -> bool:
-        """Not only back from the help."""
+        """Return False on return from help or settings."""
         before, self._last_access = self._last_access, (place, identity)
         return before != self._last_access

@@ -1,4 +1,4 @@
-"""What the window looks like: typeface, style, language and theme, as chosen or as the system has them."""
+"""Typeface, style, language and theme of the window."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from carpus.ui.kit.theme import Theme, ThemeName
 
 
 def create_application(arguments: list[str]) -> QApplication:
-    """The Qt application, with the bundled typeface and the plain style under the design."""
+    """Return the Qt application with the bundled typeface and Qt's plain style."""
     running = QApplication.instance()
     qt = running if isinstance(running, QApplication) else QApplication(arguments)
     qt.setApplicationName("Carpus")
@@ -29,7 +29,7 @@ def create_application(arguments: list[str]) -> QApplication:
 
 
 def apply_appearance(qt: QApplication, settings: Settings) -> Theme:
-    """Language, theme and style as chosen."""
+    """Apply language, theme and style of the settings."""
     language.set_window_language(settings.screen.language)
     theme = Theme(theme_name(qt, settings), settings.screen.text_scale)
     apply_style(qt, theme)
@@ -37,7 +37,7 @@ def apply_appearance(qt: QApplication, settings: Settings) -> Theme:
 
 
 def theme_name(qt: QApplication, settings: Settings) -> ThemeName:
-    """The theme chosen, or the system's."""
+    """Return the chosen theme, or that of the system."""
     if settings.screen.theme != "system":
         return settings.screen.theme
     return "dark" if qt.styleHints().colorScheme() == Qt.ColorScheme.Dark else "light"

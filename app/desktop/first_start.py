@@ -1,5 +1,4 @@
-"""The very first start: a look at the computer, where the data will lie, and the offer of a guided first session, which
-is led from bubble to bubble by where the person is."""
+"""The first start: checks of the computer, the data folder, and a guided first session."""
 
 from __future__ import annotations
 
@@ -33,7 +32,7 @@ REFRESH_EVERY_MS = 150
 
 
 class TourController(QObject):
-    """``ended`` when it was left or finished. It looks at the screens, and presses what a person could press."""
+    """Guides through a session with bubbles; ``ended`` when it was cancelled or finished."""
 
     ended = Signal()
 
@@ -80,7 +79,7 @@ class TourController(QObject):
         return next((view.bubble for view in self._views.values() if view.bubble is not None), None)
 
     def start(self, *, is_requested: bool) -> None:
-        """From the beginning; only for the practice patient unless it was asked for."""
+        """Start the tour; only for the practice patient unless ``is_requested``."""
         self._is_requested = is_requested
         self._read_bubbles = frozenset()
         self._is_report_saved = False
@@ -93,13 +92,12 @@ class TourController(QObject):
             self.ended.emit()
 
     def stop(self) -> None:
-        """The window closes, or it was left: nothing is looked at any more."""
         self._clock.stop()
         for view in self._views.values():
             view.show_bubble(None)
 
     def advance(self) -> None:
-        """What the bubble speaks of is done; where only a person can do it, the bubble has been read."""
+        """Press the control that the bubble points at, or mark the bubble as read."""
         bubble = self.bubble
         if bubble == "end":
             self.cancel()
@@ -114,7 +112,7 @@ class TourController(QObject):
         self.refresh()
 
     def refresh(self) -> None:
-        """Show the bubble of this moment, and no other."""
+        """Show the bubble of the present state, and no other."""
         if not self.is_on:
             return
         moment = self.tour_state()
@@ -141,7 +139,6 @@ class TourController(QObject):
         )
 
     def _find_button(self, bubble: Bubble) -> QAbstractButton:
-        """The control that a bubble speaks of."""
         journey = self._controller
         buttons: dict[Bubble, Callable[[], QAbstractButton]] = {
             "patient": lambda: journey.patients.screen.card.start_button,
@@ -175,7 +172,7 @@ class TourController(QObject):
 
 
 class WelcomeController(QObject):
-    """A panel below the empty list, until it is answered or there is a patient. It takes no key from the search."""
+    """Shows a panel below the empty patient list; it takes no key from the search."""
 
     def __init__(
         self,
@@ -204,7 +201,7 @@ class WelcomeController(QObject):
         )
 
     def show_if_first_start(self) -> None:
-        """Offer it where nobody has answered it and nobody is in the list."""
+        """Show the panel unless it was answered or there are patients."""
         if self._preferences.first_start_answered or self.panel is not None or self._library.store.is_server_away:
             return
         if self._library.patients.search(limit=1):
@@ -223,7 +220,7 @@ class WelcomeController(QObject):
         self._background.join()
 
     def run_checks(self) -> None:
-        """At the computer, beside the window."""
+        """Check the computer in the background."""
         panel = self.panel
         if panel is None:
             return
@@ -244,7 +241,7 @@ class WelcomeController(QObject):
         )
 
     def _check_window(self) -> list[Check]:
-        """What only the window knows."""
+        """Check screen size and fonts."""
         name = self.tr("Screen")
         room = QGuiApplication.primaryScreen().availableGeometry()
         found = self.tr("{width} × {height} for windows").format(width=room.width(), height=room.height())

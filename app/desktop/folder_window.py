@@ -1,4 +1,4 @@
-"""A window of its own where the data folder cannot be used: why, and which other one is to be."""
+"""A window for a data folder that cannot be used: the reason, and the choice of another one."""
 
 from __future__ import annotations
 
@@ -19,14 +19,13 @@ from carpus.ui.words.fault_words import fault_words
 
 
 def choose_data_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> Path | None:
-    """Tell why the data folder cannot be used; the folder the person chose instead, None to end."""
+    """Show why the data folder cannot be used; return another one, None to quit."""
     theme = apply_appearance(qt, settings)
     return FolderWindow(theme, fault_words(fault), Path.home()).run()
 
 
 class FolderWindow:
-    """A card in an empty window. ``chosen_folder`` is the folder that the person named, None when they closed the
-    window."""
+    """A card in an empty window; ``chosen_folder`` is None if it was closed."""
 
     def __init__(self, theme: Theme, words: MessageText, start: Path) -> None:
         self.chosen_folder: Path | None = None
@@ -40,7 +39,7 @@ class FolderWindow:
         self.shell.closing.connect(self._loop.quit)
 
     def run(self) -> Path | None:
-        """Show it and wait for the answer."""
+        """Show the window and wait for the answer."""
         self.shell.show()
         self._show_card()
         self._loop.exec()

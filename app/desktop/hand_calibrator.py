@@ -1,4 +1,4 @@
-"""From the clicks on a picture to a calibration, and to the start of tracking."""
+"""From the clicks on a frame to a calibration and the start of tracking."""
 
 from __future__ import annotations
 
@@ -19,16 +19,15 @@ from carpus.core.pipeline.track import TrackSettings
 from carpus.ui.shell.view_models import CalibrationAssessment, CalibrationLimits, FoundMarker, LabelProposal
 
 SAME_MARKER_PX = 3.0
-"""Nearer than this two places are the same disc."""
+"""Pixels closer than this are on the same marker."""
 
 BeginTracking = Callable[[CalibrationOutcome, Sequence[Frame]], None]
-"""Called with the chosen outcome and the pictures it was made from, the clicked one first."""
+"""Called with the chosen outcome and its frames, the clicked one first."""
 
 
 @dataclass(frozen=True, slots=True)
 class CalibrationFrames:
-    """Where the calibration's pictures come from; ``still_frames``: the picture to click on, then its neighbours in
-    time."""
+    """Source of the frames; ``still_frames`` returns the frame to click on, then its neighbours in time."""
 
     is_live: bool
     current_frame: Callable[[], Frame | None]
@@ -36,9 +35,9 @@ class CalibrationFrames:
 
 
 class HandCalibrator:
-    """One calibration, from the held picture to the start of tracking.
+    """One calibration, from the frozen frame to the start of tracking.
 
-    ``last_length_mm`` of the same hand in an earlier session, NaN for none.
+    ``last_length_mm`` is the hand length of an earlier session, NaN for none.
     """
 
     def __init__(
@@ -76,7 +75,7 @@ class HandCalibrator:
 
     @property
     def previous_straight_fingers(self) -> tuple[bool, ...]:
-        """What was said of this hand last time, thumb to little."""
+        """Answer of the last session for this hand, thumb to little finger."""
         return self._last_straight_fingers
 
     @property
@@ -87,21 +86,20 @@ class HandCalibrator:
         return self._frames.current_frame()
 
     def freeze_frame(self) -> Frame:
-        """Fix the picture, and find all blue discs on it, so that clicks snap at once."""
+        """Freeze a frame and find its marker candidates, so that clicks snap at once."""
         self._held_frames = tuple(self._frames.still_frames())
         settings = self._settings
         self._candidates = find_marker_candidates(self._held_frames[0], self._camera, settings.detection)
         return self._held_frames[0]
 
     def count_candidates(self) -> int:
-        """How many spots of the held picture look like discs of paper."""
         return len(self._candidates)
 
     def candidate_px(self) -> FloatArray:
         return self._candidates.pixel
 
     def hand_area(self) -> FloatArray | None:
-        """Box of the blue discs: corners (2, 2); None when hardly any is seen."""
+        """Return the corners (2, 2) of the box of all candidates; None if there are too few."""
         if len(self._candidates) < len(self._protocol.palm):
             return None
         return np.stack((self._candidates.pixel.min(axis=0), self._candidates.pixel.max(axis=0)))
@@ -119,7 +117,7 @@ class HandCalibrator:
         return FoundMarker(found.pixel[0], _width_px(found, 0))
 
     def propose_labels(self, named: Mapping[str, FloatArray]) -> Mapping[str, LabelProposal]:
-        """Names for the discs found when the picture was held."""
+        """Propose labels for the candidates of the frozen frame."""
         blobs, markers = self._candidates, self._protocol.markers
         known: dict[int, int] = {}
         for name, pixel in named.items():
@@ -134,7 +132,7 @@ class HandCalibrator:
         }
 
     def assess(self, clicks: Clicks, start_angles_rad: FloatArray) -> CalibrationAssessment:
-        """Measure and judge; called in the background."""
+        """Calibrate and assess the result; runs in the background."""
         held, settings = self._held_frames, self._settings
         outcome = calibrate_hand(clicks, held, self._camera, settings.calibration, settings.detection, start_angles_rad)
         outcome = check_hand_length(outcome, self._last_length_mm)
@@ -142,11 +140,11 @@ class HandCalibrator:
         return CalibrationAssessment(outcome.verdict, outcome.calibration)
 
     def start_tracking(self, calibration: Calibration) -> None:
-        """Start tracking from one of the calibrations judged here."""
+        """Start tracking with one of the calibrations assessed before."""
         outcome, held = next(pair for pair in reversed(self._outcomes) if pair[0].calibration is calibration)
         self._begin_tracking(outcome, held)
 
 
 def _width_px(blobs: Detections, number: int) -> float:
-    """Width of a round disc of a blob's area."""
+    """Return the diameter of a disc with the blob's area."""
     return 2.0 * float(np.sqrt(blobs.area_px[number] / np.pi))

@@ -1,4 +1,4 @@
-"""The program's own log, for who helps with it: no line names a patient. What nobody caught goes there too."""
+"""The program's own log, for support; no line contains a patient's name."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from carpus.core.model.errors import CarpusFault
 from carpus.core.platform.durable import make_private_folder
 
 SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
-"""A path or a file's name with a pseudonym in it."""
+"""A path or file name that contains a pseudonym."""
 LOG_FILE, LOG_BYTES = "carpus.log", 1_000_000
 
 
 class RedactingFormatter(logging.Formatter):
-    """Lines of the log without pseudonyms: the names of patients' folders and files are cut out of every path."""
+    """Formatter that cuts pseudonyms and the paths of patients out of each line."""
 
     def __init__(self) -> None:
         super().__init__("%(asctime)s %(name)s %(levelname)s %(message)s")
         self.find_pseudonyms: Callable[[], Sequence[str]] = lambda: ()
-        """What else must not be in the log: asked for each line, of which there are few."""
+        """Returns further names to cut out; called for each line, of which there are few."""
 
     def format(self, record: logging.LogRecord) -> str:
         text = SESSION_PATH.sub("…", super().format(record))
@@ -39,7 +39,7 @@ LOG_FORMATTER = RedactingFormatter()
 
 
 def start_log() -> None:
-    """Log into the user's own folder; where that cannot be written there is no log."""
+    """Log into the user's log folder; without a log if that cannot be written."""
     folder = Path(platformdirs.user_log_dir("carpus", appauthor=False))
     handler: logging.Handler
     try:
@@ -56,7 +56,7 @@ def start_log() -> None:
 
 
 def show_uncaught_errors(show_error: Callable[[Exception], None]) -> None:
-    """From now on what nobody caught becomes a message and a line in the log, never a traceback."""
+    """Turn uncaught exceptions into a message and a line in the log."""
 
     def hook(kind: type[BaseException], value: BaseException, trace: TracebackType | None) -> None:
         logging.getLogger("carpus").error("uncaught", exc_info=(kind, value, trace))

@@ -1,6 +1,6 @@
-"""Puts the screens together: patient, exercise, camera, markers, live, review, progress, report.
+"""Connects the screens: top bar, keys, shared services, and the end of the program.
 
-Each knows its own way (:mod:`ui.shell.flow`); here is what belongs to none: the top bar, the keys, the end.
+Each screen has a flow of its own (:mod:`ui.shell.flow`).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
 
 @dataclass(frozen=True, slots=True)
 class AppServices:
-    """What the journey needs besides the window."""
+    """What the controller needs besides the window."""
 
     library: Library
     open_source: OpenSourceFunction
@@ -44,17 +44,17 @@ class AppServices:
     settings: Settings
     is_demo: bool
     today: Callable[[], date]
-    """The day now: the program may stand open for days."""
+    """Returns the present day: the program may stay open for days."""
 
 
 class MainController(Screens):
-    """The way through the screens, and what they share."""
+    """Owner of the screens' flows and of what they share."""
 
     def __init__(self, shell: MainWindow, theme: Theme, services: AppServices) -> None:
         super().__init__(shell)
         self._shell, self._library = shell, services.library
         self.handle_escape: Callable[[], bool] = lambda: False
-        """Asked first when Esc is pressed: True where that closed something, and the person stays where they are."""
+        """Called first for Esc; returns True if it closed something, and the screen stays."""
         self.settings, self.is_demo = services.settings, services.is_demo
         self.current = CurrentSelection(source_choice=SourceChoice("practice" if services.is_demo else "camera"))
         self.background = Background()
@@ -101,7 +101,7 @@ class MainController(Screens):
             self.patients.screen.refresh()
 
     def _on_server_restored(self) -> None:
-        """Who was typed while it was away is who the list says, and every screen reads what it could not."""
+        """Look up the open patient again, and let every screen read what it could not."""
         now, patients = self.current, self._library.patients
         row = now.patient
         if row is not None and row.patient_id and not patients.has(row.patient_id):
@@ -142,7 +142,7 @@ class MainController(Screens):
         self.review.screen.repeat_requested.connect(lambda: self.navigator.open_screen("live"))
 
     def _check_new_results(self) -> None:
-        """What was tracked again and waits for a decision, also from before the program was started."""
+        """Show results of re-analysis that wait for a decision, also from an earlier start."""
         if "correct" in self.navigator.flows or Corrections(self._library).has_pending:
             self.correct.refresh_pending()
 
@@ -171,7 +171,7 @@ class MainController(Screens):
             (self.markers.navigate_back if self.place == "markers" else self.camera.open)()
 
     def review_file(self, path: Path) -> None:
-        """Open a session file handed over from outside; not while something is measured or asked."""
+        """Open a session file from outside, unless something is measured or asked."""
         if self.messages.is_busy or self.navigator.is_recording() or self.current.source is not None:
             return
         try:
@@ -204,13 +204,13 @@ class MainController(Screens):
 
     @property
     def is_at_work(self) -> bool:
-        """Whether something is measured, or worked on that would end with the window."""
+        """True while something is measured or runs that would end with the window."""
         measures = self.current.source is not None and self.navigator.underlying_screen in SETUP_STEPS
         works = any(flow.is_busy for flow in self.navigator.flows.values())
         return measures or works or self.background.is_busy
 
     def close(self) -> None:
-        """The window closes: finish what runs, in order, and wait for it."""
+        """End everything in order, and wait for it."""
         self.server_monitor.stop()
         self.camera_state.stop()
         for flow in self.navigator.flows.values():

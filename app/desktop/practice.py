@@ -1,5 +1,7 @@
-"""The practice patient: what it does in each exercise, whose still hand takes a second to draw and whose movement is
-drawn while a person looks and clicks."""
+"""The practice patient: its movements, rendered while a person looks and clicks.
+
+The still hand is rendered first, within a second.
+"""
 
 from __future__ import annotations
 
@@ -24,16 +26,16 @@ _MOTION_OVERRIDES: dict[str, dict[str, Any]] = {
     "opposition": {"seconds": 11.5, "repetitions": 4, "range_share": 1.0},
     "reach_grasp": {"speed_hz": 0.3, "repetitions": 2, "range_share": 0.6},
 }
-"""A touch of each finger, which falls short of none; reaches that so few pictures can follow."""
+"""Opposition must touch each finger; a reach must be slow enough for 15 frames a second."""
 _FPS = 15.0
-"""Few pictures: they are drawn before the first report can be made. A real camera has 30 a second."""
+"""Half the frames of a real camera: they are rendered before the first report."""
 _TILT_DEG, _HAND_TILT_DEG = 4.0, {"right": 11.0, "left": 8.0}
-"""The thumb's discs face sideways: for them the thumb side is turned up, as far as the verdict allows."""
+"""The thumb's markers face sideways: tilt that side up as far as the calibration allows."""
 _READ_AHEAD = 8
 
 
 def practice_spec(set_up: SessionSetup) -> RecordingSpec:
-    """A short take: three repetitions, now and then a hidden marker, a false blue spot."""
+    """Return a short recording with now and then a hidden marker or a false blue spot."""
     exercise = set_up.exercise
     usual = RecordingSpec(
         seed=5,
@@ -58,12 +60,12 @@ def practice_spec(set_up: SessionSetup) -> RecordingSpec:
 
 
 def practice_play_count(set_up: SessionSetup) -> int:
-    """How often the take is played until the patient has done what is asked."""
+    """Return how often the recording is played for all repetitions of the set-up."""
     return max(1, math.ceil(set_up.repetitions / (practice_spec(set_up).repetitions or 1)))
 
 
 def render_practice(set_up: SessionSetup, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
-    """The take as a source, and how long it is still at its start."""
+    """Return the recording as a source, and the seconds for which it is still at its start."""
     from carpus.core.simulation.recording import render_cached
 
     folder = render_cached(practice_spec(set_up), progress, workers=os.cpu_count() or 1)
@@ -71,7 +73,7 @@ def render_practice(set_up: SessionSetup, progress: Callable[[int, int], None]) 
 
 
 def render_practice_start(set_up: SessionSetup) -> tuple[FrameSource, float] | None:
-    """The same hand in the same place, as long as it is still; None where the whole take was drawn before."""
+    """Return the still part of the recording; None if all of it was rendered before."""
     from carpus.core.simulation.recording import SimulatedSource, is_cached
 
     if is_cached(practice_spec(set_up)):
@@ -80,7 +82,7 @@ def render_practice_start(set_up: SessionSetup) -> tuple[FrameSource, float] | N
 
 
 class PracticeRenderer:
-    """Draws the practice patient's takes one after the other, in a thread of its own that ends with the patient."""
+    """Renders the patient's exercises one after the other in a thread."""
 
     def __init__(
         self,
@@ -98,13 +100,13 @@ class PracticeRenderer:
         self._lock = threading.Lock()
 
     def start(self) -> None:
-        """Begin with what is not there yet."""
+        """Start rendering what is missing."""
         if len(self._rendered) < len(self._set_ups):
             # No daemon: one that still draws while the program ends would be cut off in the middle, which aborts it.
             threading.Thread(target=self._run, name="practice takes", daemon=False).start()
 
     def choose(self, exercise: str) -> None:
-        """The exercise that the patient does next, as soon as it is drawn."""
+        """Play an exercise next, as soon as it is rendered."""
         with self._lock:
             self._chosen_exercise = exercise
             self._patient.set_next_recording(self._rendered.get(exercise))

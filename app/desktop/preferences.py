@@ -1,4 +1,4 @@
-"""The settings screen: shows what is chosen, acts at once where it can, and stores it."""
+"""The settings screen: shows the preferences, applies them at once where possible, saves them."""
 
 from __future__ import annotations
 
@@ -33,12 +33,14 @@ SETTING_PATHS = {
     "research": ("screen", "research"), "therapist": ("report", "therapist"), "angle_order": ("report", "angle_order"),
     "stream": ("stream", "on"), "patient_sound": ("patient", "sound"), "start": ("recording", "start"),
 }  # fmt: skip
-"""Where in the settings each preference stands: the part, and its field."""
+"""Section and field of each preference in the settings."""
 
 
 class PreferencesController(QObject):
-    """Keeps the window's choices; the data folder counts from the next start on. ``language_chosen``: the window
-    is to be put together again in another language."""
+    """Applies and saves preferences; a new data folder is used from the next start on.
+
+    ``language_chosen``: the window must be built again in another language.
+    """
 
     language_chosen = Signal()
 
@@ -52,13 +54,13 @@ class PreferencesController(QObject):
         *,
         is_demo: bool = False,
     ) -> None:
-        """Of a demo nothing is stored: its settings are not those of the clinic."""
+        """Connect to the settings screen; a demo saves nothing."""
         super().__init__(controller)
         self._is_demo = is_demo
         self._controller, self._theme, self._settings = controller, theme, settings
         self._folder, self._resolve_theme = folder, resolve_theme
         self.find_language_obstacle: Callable[[], str] = str
-        """Asked before the language changes: why it cannot now; empty where it can."""
+        """Returns why the language cannot change now; empty if it can."""
         self._shown_folder = str(settings.data_folder)
         way = controller.navigator
         way.factories["settings"] = self._create_flow
@@ -115,7 +117,7 @@ class PreferencesController(QObject):
 
     @property
     def first_start_answered(self) -> bool:
-        """Whether what the first start offers was answered before."""
+        """True if the offer of the first start was answered."""
         return self._settings.first_start.answered
 
     def _save_changes(self, before: Settings) -> None:
@@ -127,10 +129,10 @@ class PreferencesController(QObject):
             self._controller.messages.show_fault(fault)
 
     def save(self, **changed: BackupSettings | RecordsSettings | LockSettings | WelcomeSettings) -> None:
-        """Store the parts of the settings that a card of its own has changed."""
+        """Save sections of the settings that a card of its own has changed."""
         before, self._settings = self._settings, replace(self._settings, **changed)  # type: ignore[arg-type]
         self._save_changes(before)
 
     def follow_system(self) -> None:
-        """The system changed between light and dark."""
+        """Follow a change between light and dark."""
         self._theme.choose(self._resolve_theme(self._settings))

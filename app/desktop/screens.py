@@ -1,4 +1,4 @@
-"""The screens: each is loaded and made when it is first asked for, since a start would wait for all of them."""
+"""The screens, each imported and created when it is first needed, to keep the start fast."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ SLOW_CORE_MODULES = (
     "carpus.core.calibration.card.measure",
     "carpus.core.results.side_by_side",
 )
-"""What takes longest to load of what screens use, and has nothing of Qt in it: for whatever thread."""
+"""Slow imports of the screens without Qt, which any thread may load."""
 PLACES = (
     "patients", "exercise", "camera", "markers", "live", "sessions", "review", "progress", "report", "by_hand",
     "beside", "board", "card", "help", "correct",
@@ -41,7 +41,7 @@ PLACES = (
 
 
 class Screens(QObject):
-    """Each screen's flow by its place."""
+    """Each screen's flow by its name."""
 
     navigator: Navigator
     patients: PatientsFlow
@@ -63,14 +63,14 @@ class Screens(QObject):
     if not TYPE_CHECKING:
 
         def __getattr__(self, place: str) -> Flow:
-            """A place that no screen was gone to yet is made now."""
+            """Create the flow of a screen that was not shown yet."""
             if place not in PLACES:
                 raise AttributeError(place)
             return self.way.flow(place)
 
 
 def load_flow_class(place: str) -> Callable[[ScreenContext], Flow]:
-    """Load what the screen of a place is made of."""
+    """Import a screen and return the class of its flow."""
     match place:
         case "patients":
             from carpus.ui.screens.patients.flow import PatientsFlow
@@ -136,15 +136,17 @@ def load_flow_class(place: str) -> Callable[[ScreenContext], Flow]:
 
 
 def load_core() -> Iterator[str]:
-    """Load, module by module, what has nothing of Qt in it; in whatever thread."""
+    """Import :data:`SLOW_CORE_MODULES` one by one, in any thread."""
     for module in SLOW_CORE_MODULES:
         import_module(module)
         yield module
 
 
 def load_screens() -> Iterator[str]:
-    """Load, one by one, what all screens are made of. For the window's thread alone: Qt makes a class when it is first
-    named, and where two threads name one each at once the process ends."""
+    """Import all screens one by one, in the window's thread.
+
+    Qt creates a class when it is first named; if two threads do that at once the process ends.
+    """
     for place in PLACES:
         load_flow_class(place)
         yield place

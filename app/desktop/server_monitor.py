@@ -1,5 +1,7 @@
-"""Looks whether the clinic's server answers, beside the window: while it does not, the window says so and shows nothing
-of it; when it is back, what was measured meanwhile is listed."""
+"""Checks in the background whether the clinic's server answers.
+
+Without the server the window shows no records; when it is back, sessions measured meanwhile are listed.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +20,7 @@ CatchUp = tuple[Sequence[RecoveredSession], Sequence[CarpusFault]]
 
 
 class ServerMonitor(QObject):
-    """``server_lost`` when the server no longer answers; ``server_restored`` with what :func:`recover` found, when it
-    does again."""
+    """Emits ``server_lost``, and ``server_restored`` with the result of :func:`recover`."""
 
     server_lost = Signal()
     server_restored = Signal(object)
@@ -34,7 +35,6 @@ class ServerMonitor(QObject):
             self._clock.start()
 
     def stop(self) -> None:
-        """The window closes."""
         self._clock.stop()
         self._background.join()
 
@@ -56,7 +56,7 @@ class ServerMonitor(QObject):
 
 
 def _check_server(library: Library, was_away: bool) -> CatchUp | None:
-    """What was caught up with, None where there is nothing to. Raises :class:`ServerUnavailable`."""
+    """Return what was recovered after an outage, None otherwise. Raises :class:`ServerUnavailable`."""
     assert library.store.server is not None
     library.store.server.ping()
     if not was_away:

@@ -1,4 +1,4 @@
-"""One Carpus at a time on one data folder; a second one brings the first to the front."""
+"""One Carpus at a time per data folder; a second one brings the first to the front."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ TIMEOUT_MS = 500
 
 
 class SingleInstance:
-    """Holds a data folder for this process until :meth:`release`."""
+    """Lock on a data folder until :meth:`release`."""
 
     def __init__(self, folder: Path) -> None:
         self._name = "carpus-" + hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:16]
@@ -24,11 +24,14 @@ class SingleInstance:
         self._server: QLocalServer | None = None
 
     def acquire(self) -> bool:
-        """Whether no other Carpus has the folder. Where no lock can be written, what opens the folder tells why."""
+        """Take the lock; return False if another Carpus has it.
+
+        If no lock can be written, opening the folder fails with the reason.
+        """
         return self._lock.tryLock(0) or self._lock.error() != QLockFile.LockError.LockFailedError
 
     def listen(self, on_request: Callable[[Path | None], None]) -> None:
-        """From now on a second Carpus that calls makes ``on_request`` happen, with the file that it was to open."""
+        """Call ``on_request`` with the session file of each second Carpus, or None."""
         QLocalServer.removeServer(self._name)  # of a process that was ended by force
         self._server = QLocalServer()
         self._server.setSocketOptions(QLocalServer.SocketOption.UserAccessOption)
@@ -43,7 +46,7 @@ class SingleInstance:
             self._read_request(caller, on_request)  # what came before anybody listened
 
     def _read_request(self, caller: QLocalSocket, on_request: Callable[[Path | None], None]) -> None:
-        """One line: the path, or nothing."""
+        """Read one line: a path, or nothing."""
         if not caller.canReadLine():
             return
         path = os.fsdecode(bytes(caller.readLine().data()).rstrip(b"\n"))
@@ -53,7 +56,7 @@ class SingleInstance:
         on_request(Path(path) if path else None)
 
     def notify_running_instance(self, session: Path | None = None) -> bool:
-        """Ask the Carpus that has the folder to come to the front and to open a file; whether it answered."""
+        """Ask the running Carpus to come to the front and open a file; return True if it answered."""
         socket = QLocalSocket()
         socket.connectToServer(self._name)
         answered = socket.waitForConnected(TIMEOUT_MS)
@@ -64,7 +67,7 @@ class SingleInstance:
         return bool(answered)
 
     def release(self) -> None:
-        """May be called twice."""
+        """Release the lock; may be called twice."""
         if self._server is not None:
             self._server.close()
             self._server = None

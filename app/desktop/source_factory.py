@@ -1,4 +1,4 @@
-"""Opens the source that was chosen: live camera, stored recording, or the practice patient."""
+"""Opens the chosen source: live camera, stored recording, or the practice patient."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ from carpus.ui.shell.current_selection import OpenSource, SourceChoice
 from carpus.ui.shell.source_opener import Progress
 
 RECENT_FRAMES = 16
-"""Half a second: what the neutral pose is averaged over at most."""
+"""Half a second: the neutral pose is averaged over at most these frames."""
 
 
 class SourceFactory:
-    """Knows all kinds of sources. ``speed`` above 1 plays what is stored faster than it was."""
+    """Opens all kinds of sources; ``speed`` above 1 plays stored recordings faster."""
 
     def __init__(
         self,
@@ -53,10 +53,10 @@ class SourceFactory:
         )
         self._render_practice_start = render_practice_start
         self.is_streaming: Callable[[], bool] = lambda: settings.stream.on
-        """Whether live values go out to other programs; asked whenever tracking begins."""
+        """Returns whether live values are sent to other programs; asked when tracking starts."""
 
     def open(self, choice: SourceChoice, set_up: SessionSetup, progress: Progress) -> OpenSource:
-        """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""
+        """Open the chosen source; waits for camera, disk or renderer, so it runs in the background."""
         # The first calibration and the first repetition need them: half a second each in which nothing would answer.
         import_module("scipy.optimize")
         import_module("scipy.signal")
@@ -81,7 +81,7 @@ class SourceFactory:
         return self._build_open_source(session, source, set_up, _live_frames(session), on_begin=live.lock_exposure)
 
     def _open_practice(self, set_up: SessionSetup, progress: Progress) -> OpenSource:
-        """The still hand at once; what it does in each exercise is drawn beside it, in the order of the course."""
+        """Open the still hand at once; the movements are rendered meanwhile."""
         course = set_up.set_run
         parts = [] if course is None else [part.exercise for part in course.parts]
         set_ups = {one.id: replace(set_up, exercise=one) for one in (set_up.exercise, *parts)}
@@ -124,7 +124,7 @@ class SourceFactory:
         return self._build_open_source(session, source, set_up, pictures, asks, recording=Path(choice.path))
 
     def _track_settings(self, set_up: SessionSetup) -> TrackSettings:
-        """The settings with what this set-up says of the end joints."""
+        """Return the tracking settings with the set-up's choice for the DIP joints."""
         track = self._settings.track
         return replace(track, tracker=replace(track.tracker, dip="free")) if set_up.is_dip_free else track
 
@@ -156,7 +156,7 @@ class SourceFactory:
         asks: bool = False,
         **told: Any,
     ) -> OpenSource:
-        """What is opened, with what else :class:`MeasurementController` is ``told`` of it."""
+        """Build the open source; other arguments go to :class:`MeasurementController`."""
         track = self._track_settings(set_up)
         measuring = MeasurementController(
             session, source.info, set_up, track, self._new_sessions,
@@ -176,12 +176,12 @@ class SourceFactory:
 
 
 def _live_frames(session: LiveSession) -> CalibrationFrames:
-    """The newest picture, and those before it going back: the hand has been still up to now."""
+    """Return the frames of a live session, newest first: the hand was still up to now."""
     return CalibrationFrames(True, session.current_frame, lambda: session.recent_frames(RECENT_FRAMES)[::-1])
 
 
 def read_opening_frames(source: FrameSource, still_s: float) -> list[Frame]:
-    """The first frames of a recording, as far as the neutral pose may reach. Raises :class:`RecordingEmpty`."""
+    """Read the first frames of a recording, for the neutral pose. Raises :class:`RecordingEmpty`."""
     opening: list[Frame] = []
     with _closing(source.frames()) as frames:
         for frame in frames:
@@ -195,7 +195,7 @@ def read_opening_frames(source: FrameSource, still_s: float) -> list[Frame]:
 
 @contextlib.contextmanager
 def _closing(frames: Iterator[Frame]) -> Iterator[Iterator[Frame]]:
-    """A walk that gives its files back here, although it is not walked to its end."""
+    """Close an iterator of frames that is not read to its end."""
     try:
         yield frames
     finally:

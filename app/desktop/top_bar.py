@@ -1,4 +1,4 @@
-"""The top bar: who is open, where one is, how camera, disk and recording are."""
+"""The top bar: patient, screen, and the state of camera, disk and recording."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from carpus.ui.screens.review.screen import ReviewScreen
 
 MAX_NAME_LENGTH = 24
-"""Letters of a recording's name in the top bar."""
+"""Characters of a recording's name in the top bar."""
 
 
 class TopBarController(QObject):
-    """Tells who is open, where one is, how camera, disk and recording are."""
+    """Shows patient, screen, and the state of camera, disk and recording."""
 
     def __init__(self, context: ScreenContext, review: Callable[[], ReviewScreen]) -> None:
         super().__init__(context.window)
@@ -38,7 +38,7 @@ class TopBarController(QObject):
         self._camera.availability_checked.connect(self.show_camera)
 
     def refresh(self) -> None:
-        """All of it, for the place."""
+        """Update everything for the present screen."""
         bar, row, set_up, place = (
             self._shell.top_bar,
             self._current.patient,
@@ -66,7 +66,7 @@ class TopBarController(QObject):
         self._shell.banner.show_lines(self.banner_lines())
 
     def banner_lines(self) -> list[str]:
-        """What must not be forgotten of what is on the screen: that it is simulated, or was doubtful."""
+        """Return warnings about the data on the screen: simulated, uncertain, server unavailable."""
         now, place = self._current, self._navigator.screen_name
         figures = self._review().results if place == "review" else None
         simulated = False
@@ -97,7 +97,7 @@ class TopBarController(QObject):
         return [*lines, *self._navigator.current_flow.banner_lines()]
 
     def show_camera(self) -> None:
-        """The camera in words; on the live screen the counters speak."""
+        """Show the state of the camera; on the live screen :meth:`show_counters` does."""
         camera, now, place = self._shell.top_bar.camera, self._current, self._navigator.screen_name
         if place == "live":
             return
@@ -117,8 +117,7 @@ class TopBarController(QObject):
             camera.show_state("bad", self.tr("No camera"))
 
     def show_reanalysis(self, percent: int, new_results: int) -> None:
-        """How far a session is that is tracked again, -1 when none is, and how many new results wait for a decision;
-        not while measuring."""
+        """Show the progress of a re-analysis (-1 for none) and the number of new results to review."""
         self._reanalysis = (percent, new_results)
         button = self._shell.top_bar.reanalysis_button
         if self._navigator.screen_name == "live":
@@ -135,13 +134,13 @@ class TopBarController(QObject):
             button.show_text("", "")
 
     def show_recording(self, state: str, seconds: float) -> None:
-        """The pill, the red line, and no way aside meanwhile."""
+        """Show the state of the recording; help and settings are locked meanwhile."""
         self._shell.top_bar.recording_pill.show_state(state, seconds)  # type: ignore[arg-type]
         self._shell.top_bar.show_recording(state == "recording")
         self._shell.top_bar.lock_overlays(state != "off")
 
     def show_counters(self, counters: LiveCounters) -> None:
-        """Pictures a second, what a recording lost, and for how long the disk has room."""
+        """Show the frame rate, dropped frames, and the recording time left on the disk."""
         least = 12 if self._current.source_kind == "practice" else 25  # 15 are drawn, as few as are enough
         few = counters.fps < least
         words = self.tr("{count} pictures/s, under {least}") if few else self.tr("{count} pictures/s")

@@ -1,4 +1,4 @@
-"""The application put together: what it shows first, how it is called to the front, and how all of it ends."""
+"""The assembled application: start, second instance, change of language, end."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.recent_locations import RecentLocations, encode_geometry, restore_window
 
 PRELOAD_DELAY_MS = 200
-"""After the first picture, which need not wait for it."""
+"""Preloading starts after the first paint."""
 
 
 def start_garbage_collection(application: QApplication) -> None:
-    """Begin to collect garbage; all that was built by now stays, and is not looked through again while frames come."""
+    """Start collecting garbage; all objects of the start are exempt, to save time per frame."""
     gc.collect()
     gc.freeze()
     if application.findChild(GarbageCollector) is None:  # another language opens the window again
@@ -41,7 +41,7 @@ def start_garbage_collection(application: QApplication) -> None:
 
 @dataclass(eq=False)
 class DataProtection:
-    """What keeps, hides and erases."""
+    """Dialogs for backup, lock, records and erasure."""
 
     erasing: DeletionController
     lists: RecordListsController
@@ -51,7 +51,7 @@ class DataProtection:
 
 @dataclass(eq=False)
 class Desktop:
-    """The application put together; :meth:`close` ends every thread of it."""
+    """The assembled application; :meth:`close` ends all its threads."""
 
     application: QApplication
     shell: MainWindow
@@ -63,15 +63,14 @@ class Desktop:
     tour: TourController
     preferences: PreferencesController
     system_connections: tuple[QMetaObject.Connection, ...] = ()
-    """What the system tells, until this is closed."""
+    """Signals of the system, disconnected at the end."""
     must_reopen: bool = False
-    """Whether another window, with the settings as they are now, is to be opened once this one is closed."""
+    """True if a new window with the present settings must be opened after this one."""
     _closed: bool = False
     _preloading: Background = field(default_factory=Background)
 
     def show(self, *, is_reopened: bool = False) -> None:
-        """Bring up the first screen and tell of what was recovered; once reopened, the settings, from where that came,
-        without the PIN that was typed before."""
+        """Show the first screen; after a change of language the settings, without asking for the PIN again."""
         # The newest session is on top, but for simulated ones, which count nowhere.
         self.controller.patients.open(self.library.session_list.last_patient_id() if self.controller.is_demo else "")
         restore_window(self.shell, RecentLocations(self.library.folder).window_geometry())
@@ -90,8 +89,7 @@ class Desktop:
         )
 
     def _preload(self) -> None:
-        """While the window waits for the person: what the other screens are made of, as far as it may be in a thread of
-        its own."""
+        """Import what the other screens need while the window is idle."""
 
         def work() -> None:
             for _ in load_core():
@@ -101,7 +99,7 @@ class Desktop:
         self._preloading.run(work, lambda _: self._preload_next(load_screens()), self.controller.messages.show_fault)
 
     def _preload_next(self, loaded: Iterator[str]) -> None:
-        """The next module, when the window has done what came meanwhile."""
+        """Import the next module when the window is idle again."""
         if self._closed:
             return
         if next(loaded, ""):
@@ -110,30 +108,29 @@ class Desktop:
             start_garbage_collection(self.application)
 
     def reopen(self) -> None:
-        """The language was changed: this window closes, and who opened it opens another one."""
+        """Close the window for a new one in another language."""
         self.must_reopen = True
         self.shell.close_without_prompt()
 
     def find_language_obstacle(self) -> str:
-        """One sentence where the window cannot be put together again now, else nothing."""
+        """Return why the language cannot be changed now, empty if it can."""
         journey, safe = self.controller, self.data_protection
         busy = journey.is_at_work or safe.backing_up.is_busy or self.tour.is_on or journey.messages.is_busy
         return tr("The language can be changed when nothing is measured or worked on any more.") if busy else ""
 
     def come_to_front(self) -> None:
-        """Another start on the same data folder: this window is what was wanted."""
         self.shell.setWindowState(self.shell.windowState() & ~Qt.WindowState.WindowMinimized)
         self.shell.raise_()
         self.shell.activateWindow()
 
     def on_second_instance(self, session: Path | None) -> None:
-        """Another start on the same data folder, with the session file that it was to open."""
+        """Come to the front and open the session of a second instance."""
         self.come_to_front()
         if session is not None:
             self.open_session(session)
 
     def open_session(self, session: Path) -> None:
-        """Show a session by its file; where the window is locked, once somebody has opened it."""
+        """Show a session file, after unlocking if the window is locked."""
         locking = self.data_protection.locking
         if locking.is_locked:
             once = Qt.ConnectionType.SingleShotConnection
@@ -143,11 +140,10 @@ class Desktop:
 
     @property
     def is_closed(self) -> bool:
-        """Whether everything was let go of."""
         return self._closed
 
     def close(self) -> None:
-        """Finish what runs and let go of everything; may be called twice."""
+        """End everything; may be called twice."""
         if not self._closed:
             self._closed = True
             for connection in self.system_connections:
@@ -164,9 +160,8 @@ class Desktop:
 
 
 def close_on_signals(desktop: Desktop) -> None:
-    """Ctrl+C in the terminal, its closing, a log-out or a shutdown close the window as a person would.
+    """Close the window on Ctrl+C, the end of the terminal, log-out or shutdown; recordings are finished.
 
-    Recordings are finished. Python hears of a signal when it next runs, at the latest when the journey looks for a
-    camera.
+    Python handles a signal when it next runs, at the latest at the next check for a camera.
     """
     handle_stop_signals(lambda: desktop.shell.close_without_prompt())

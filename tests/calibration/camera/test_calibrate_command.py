@@ -1,4 +1,4 @@
-"""``carpus calibrate_hand-camera``: the board as PDF, a recording to a camera file, and what later recordings make of
+"""``carpus calibrate-camera``: the board as PDF, a recording to a camera file, and what later recordings make of
 it."""
 
 from __future__ import annotations
