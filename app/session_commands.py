@@ -98,6 +98,7 @@ def _is_default_folder(folder: Path, settings: Settings) -> bool:
 
 
 def is_practice_file(path: Path) -> bool:
+    """Tell whether a file of a data folder belongs to the practice patient."""
     return Path(os.path.realpath(path)).parent.name == PRACTICE_PATIENT
 
 

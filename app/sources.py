@@ -33,14 +33,9 @@ def open_recording(
 ) -> FrameSource:
     """Open a folder or file of any kind in :data:`RECORDINGS`; readers are imported when needed.
 
-    Parameters
-    ----------
-    registered : bool, optional
-        Whether depth is registered to colour in an .oni file that does not say so; None if unknown.
-    leave_out_damaged : bool
-        Count and report missing or damaged images of a folder instead of raising a fault.
-    data_folder : Path, optional
-        Folder with stored calibrations, used if the recording has no intrinsics.
+    ``registered`` tells whether depth is registered to colour in an .oni file that does not say so. With
+    ``leave_out_damaged`` missing or damaged images are counted and reported instead of raising a fault.
+    ``data_folder`` has stored calibrations, for recordings without intrinsics.
     """
     source = _open_by_kind(path, _OpenOptions(need_depth, registered, leave_out_damaged, notice))
     if data_folder is None:
