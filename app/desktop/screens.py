@@ -66,7 +66,7 @@ class Screens(QObject):
             """Create the flow of a screen that was not shown yet."""
             if place not in PLACES:
                 raise AttributeError(place)
-            return self.way.flow(place)
+            return self.navigator.flow(place)
 
 
 def load_flow_class(place: str) -> Callable[[ScreenContext], Flow]:

@@ -177,7 +177,7 @@ class FingerCurves(Chart):
         ]
         drawing = CurveDrawing(self.plot_style, placed)
         for number, (curves, _) in enumerate(self._curves):
-            curves.set_drawing_source(lambda _, number=number: (drawing, number))
+            curves.set_drawing_source(lambda _, number=number: (drawing, number))  # type: ignore[misc]
 
     def _paint_values(self, painter: QPainter) -> None:
         scale = self._theme.text_scale
