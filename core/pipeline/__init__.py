@@ -1,1 +1,1 @@
-"""The live engine: threads with one job each, joined by bounded channels with named policies."""
+"""The live engine: threads with one task each, joined by bounded queues."""

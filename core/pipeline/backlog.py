@@ -1,4 +1,4 @@
-"""Frames on their way to the tracker: how many may wait, which are left out, how far the tracker is behind."""
+"""Frames waiting for the tracker."""
 
 from __future__ import annotations
 
@@ -17,18 +17,20 @@ from carpus.core.pipeline.queues import BlockingQueue, BoundedQueue, QueueClosed
 from carpus.core.pipeline.recording import LiveRecording
 
 MAX_PREVIEW_WAITING = 16
-"""Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""
+"""Frames that may wait while nothing is recorded: half a second, so that the preview stays current."""
 FOLLOW_INTERVAL_S = 0.08
-"""A hand is followed by a picture in so long: after a second without any, fingers may be taken for one another."""
+"""The hand is tracked at least this often: after a second without frames, fingers may be confused."""
 MAX_MEMORY_SHARE = 0.5
-"""No more than this part of the memory that is free when a recording begins is for pictures that wait."""
+"""Largest share of the memory free at the start of a recording that waiting frames may use."""
 
 Pipeline = Callable[[Frame], TrackedFrame]
 
 
 class QueuedFrame(NamedTuple):
-    """A frame on its way to the tracker, and to the recording, that were current when it was captured; ``recording``
-    None where it is not recorded."""
+    """Frame with the tracker and the recording that were current when it was captured.
+
+    ``recording`` is None if the frame is not recorded.
+    """
 
     frame: Frame
     captured_at_s: float
@@ -37,14 +39,12 @@ class QueuedFrame(NamedTuple):
 
 
 class Backlog:
-    """Frames that wait for the tracker, in the order in which they were captured.
+    """Frames waiting for the tracker, in order of capture.
 
-    Of what is recorded ``capacity`` may wait. Of what is not only the last half second does. A frame without room is
-    left
-    out, and counted in the next one. With ``is_blocking`` whoever puts waits instead. A person waits while all that was
-    recorded is tracked and stored (``is_finishing_recording``): then what comes is left out, and missed by nobody,
-    but for as
-    much as it takes to follow the hand, once nothing recorded waits.
+    ``capacity`` recorded frames may wait, of others only those of the last half second. A frame without room is dropped
+    and counted in the next one; with ``is_blocking`` the caller waits instead. While a recording is being finished
+    (``is_finishing_recording``), new frames are dropped without being counted; once no recorded frame waits, as many
+    are tracked as it takes to follow the hand.
     """
 
     def __init__(self, capacity: int, fps: float, *, is_blocking: bool) -> None:
@@ -61,11 +61,11 @@ class Backlog:
         self._processed_at_s: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
 
     def __len__(self) -> int:
-        """Frames that wait now."""
+        """Number of waiting frames."""
         return len(self._queue)
 
     def __iter__(self) -> Iterator[QueuedFrame]:
-        """For the tracker's thread: each frame in turn, worked through when the next one is asked for."""
+        """Yield each frame to the tracking thread; it counts as processed when the next one is requested."""
         for captured in self._queue:
             yield captured
             with self._lock:
@@ -74,12 +74,12 @@ class Backlog:
 
     @property
     def submission_count(self) -> int:
-        """Frames handed over or about to be."""
+        """Number of frames submitted or announced."""
         return self._submission_count
 
     @property
     def lag_s(self) -> float:
-        """How long the tracker takes for what waits, as fast as it has been lately; NaN where it has not been seen."""
+        """Time that the tracker needs for the waiting frames at its recent speed; NaN if unknown."""
         waiting = len(self)
         with self._lock:
             count, work_s = len(self._processed_at_s), math.nan
@@ -88,19 +88,19 @@ class Backlog:
         return waiting * work_s / max(count - 1, 1) if waiting else 0.0
 
     def has_pending(self, count: int | None = None) -> bool:
-        """Whether a frame waits or is worked on, of the first ``count`` handed over."""
+        """Return whether any of the first ``count`` frames waits or is being processed."""
         with self._lock:
             return self._processed_count < (
                 self._submission_count if count is None else min(count, self._submission_count)
             )
 
     def announce(self) -> None:
-        """A frame is about to be put: who waits until the tracker is through waits for this one too."""
+        """Announce a frame, so that whoever waits for the tracker waits for this one too."""
         with self._lock:
             self._submission_count += 1
 
     def submit(self, queued: QueuedFrame) -> None:
-        """Hand over a frame that was expected, or leave it out."""
+        """Queue an announced frame, or drop it."""
         frame, room = queued.frame, self.capacity
         if self._dropped_before:
             frame = replace(frame, dropped_before=frame.dropped_before + self._dropped_before)
@@ -124,25 +124,27 @@ class Backlog:
             self._submission_count -= 1
 
     def is_stale(self, queued: QueuedFrame) -> bool:
-        """Whether a frame waited for a recording that has failed: what is seen is to be of now, and the next recording
-        to find room."""
+        """Return whether a frame waited for a failed recording and the queue is long.
+
+        Such frames are skipped, so that the preview stays current and the next recording finds room.
+        """
         failed = queued.recording is not None and queued.recording.row_recorder.fault is not None
         return failed and not self.is_blocking and len(self) >= MAX_PREVIEW_WAITING
 
     def clear(self) -> None:
-        """Nothing that waits is worked through any more, as another pipeline begins."""
+        """Drop all waiting frames, as another tracker starts."""
         taken = len(self._queue.drain())
         with self._lock:
             self._processed_count += taken
         self._dropped_before = 0
 
     def close(self) -> None:
-        """No more frames come; those that wait are still worked through. May be called twice."""
+        """Accept no more frames; waiting ones are still processed. May be called twice."""
         self._queue.close()
 
 
 def compute_capacity(frame: Frame | None, limit: int) -> int:
-    """How many pictures like this one may wait in memory: ``limit``, or what the share of the free memory holds."""
+    """Return how many frames like this one may wait: ``limit``, or what the share of the free memory holds."""
     free = read_free_memory_bytes()
     if frame is None or free is None:
         return limit
@@ -151,7 +153,7 @@ def compute_capacity(frame: Frame | None, limit: int) -> int:
 
 
 def read_free_memory_bytes() -> int | None:
-    """Memory that programs may still take without others being swapped out; None where the system does not tell."""
+    """Return the memory available without swapping; None if the system does not state it."""
     with suppress(OSError):
         for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
             if line.startswith("MemAvailable:"):

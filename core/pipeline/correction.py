@@ -1,8 +1,8 @@
-"""A session tracked again after a person has put markers right, from the blobs that it stored.
+"""Re-tracking of a session from its stored detections with corrected markers.
 
-What a person says of one picture holds from that picture on: a spot that is no disc is followed and left out, a disc
-that was not found is added, and where a disc of the palm had the wrong place the hand is looked for anew among the
-named ones. What comes before the first correction is tracked as it was. The old file is never changed.
+A correction holds from its frame on: a false marker is excluded, a missing one is added, and after a correction of the
+palm the hand is reacquired from the labelled blobs. Frames before the first correction are tracked as before. The old
+file is never changed.
 """
 
 from __future__ import annotations
@@ -40,13 +40,12 @@ from carpus.core.tracking.association.operator_labels import SAME_POSITION_PX, R
 from carpus.core.tracking.tracker import Tracker
 
 MAX_STEP_PX, HOLD_TIME_S = 7.0, 0.5
-"""A disc moves no further than this from picture to picture; so soon after a correction its name must have held."""
+"""Largest movement of a marker between two frames; time within which the tracker must confirm a corrected label."""
 
 
 @dataclass(frozen=True, slots=True)
 class CorrectionTask:
-    """A session with its blobs, where the new one goes, and what was put right; ``initials`` the initials of who
-    did."""
+    """Session with its detections, the output file, the corrections, and the initials of who made them."""
 
     session: Session
     table: DetectionTable
@@ -56,9 +55,10 @@ class CorrectionTask:
 
 
 def load_task(origin: Path, output: Path, corrections: Sequence[Correction], initials: str = "") -> CorrectionTask:
-    """Read what is needed. Raises :class:`MarkersNotCorrectable` for a session without stored blobs, or tracked by
-    another
-    filter."""
+    """Read the session to be corrected.
+
+    Raises :class:`MarkersNotCorrectable` if it has no stored detections or another filter tracked it.
+    """
     session, table = read_session(origin), read_detections(origin)
     if not len(table.frame):
         raise MarkersNotCorrectable(origin, phrase("it stored no blue spots"))
@@ -68,55 +68,52 @@ def load_task(origin: Path, output: Path, corrections: Sequence[Correction], ini
 
 
 def correct(task: CorrectionTask, progress: Progress | None = None) -> None:
-    """Track again and store. When it cannot be done there is no output."""
+    """Track the session again and store it; after a fault there is no output."""
     if task.output.exists():
         raise OutputExists(task.output)
-    session, settings = task.session, _read_settings(task.session)
+    session, stored = task.session, settings_from_json(task.session.header.parameters)
+    settings = TrackSettings() if stored is None else stored.settings
     ordered = _merge_corrections(task)
-    retracking = _Retracker(session, task.table, settings, ordered)
+    retracker = _Retracker(session, task.table, settings, ordered)
     writer = create_retrack_writer(
-        session, task.output, settings, retracking.noise, session.calibration, {"corrected": "yes"},
+        session, task.output, settings, retracker.noise, session.calibration, {"corrected": "yes"},
     )  # fmt: skip
-    said = [
-        Event(float(session.timestamp_s[one.row]), CORRECTED, correction_to_json(one, task.initials)) for one in ordered
+    events = [
+        Event(float(session.timestamp_s[each.row]), CORRECTED, correction_to_json(each, task.initials))
+        for each in ordered
     ]
     write_tracked(
-        writer, retracking.frames(), retracking.smooth if settings.smooth else None, session.calibration.verdict,
-        len(session), progress, [*session_notes(session), *said],
+        writer, retracker.frames(), retracker.smooth if settings.smooth else None, session.calibration.verdict,
+        len(session), progress, [*session_notes(session), *events],
     )  # fmt: skip
 
 
 def _merge_corrections(task: CorrectionTask) -> list[Correction]:
-    """The corrections in the order of their pictures, one of each: what was said last of a marker counts.
+    """Return the corrections by frame, one for each; the last one of a marker counts.
 
-    Raises :class:`MarkersNotCorrectable` for a picture or a marker that is not there, or a place that is none.
+    Raises :class:`MarkersNotCorrectable` for an unknown frame or marker, or a place outside the image.
     """
     session, origin = task.session, task.output.name
     places: dict[int, dict[str, tuple[float, float] | None]] = {}
-    for one in task.corrections:
-        if not 0 <= one.row < len(session):
-            raise MarkersNotCorrectable(origin, phrase("it has no picture {number}", number=one.row + 1))
-        for name, place in one.places.items():
+    for correction in task.corrections:
+        if not 0 <= correction.row < len(session):
+            raise MarkersNotCorrectable(origin, phrase("it has no picture {number}", number=correction.row + 1))
+        for name, place in correction.places.items():
             if name not in session.header.protocol.markers:
                 raise MarkersNotCorrectable(origin, phrase("it has no marker {name}", name=name))
             size = (session.camera.width_px, session.camera.height_px)
             if place is not None and not all(0 <= at <= most for at, most in zip(place, size, strict=True)):
                 raise MarkersNotCorrectable(origin, phrase("a marker was put beside the picture"))
-        places.setdefault(one.row, {}).update(one.places)
+        places.setdefault(correction.row, {}).update(correction.places)
     return [Correction(row, places[row]) for row in sorted(places)]
-
-
-def _read_settings(session: Session) -> TrackSettings:
-    told = settings_from_json(session.header.parameters)
-    return told.settings if told is not None else TrackSettings()
 
 
 def find_lost_corrections(
     session: Session, table: DetectionTable, corrections: Sequence[Correction]
 ) -> tuple[str, ...]:
-    """Markers that the new result, with its spots, does not have where the person put them, nor soon after."""
+    """Return the markers that the new result does not have at their corrected places, nor soon after."""
     markers = list(session.header.protocol.markers)
-    out = []
+    lost = []
     for correction in corrections:
         begin = correction.row
         end = int(np.searchsorted(session.timestamp_s, session.timestamp_s[begin] + HOLD_TIME_S)) + 1
@@ -131,12 +128,12 @@ def find_lost_corrections(
                     spot_px = spots.locate(begin, np.array(place))
                     held |= spot_px is not None and bool(np.linalg.norm(measured_px - spot_px) < SAME_POSITION_PX)
             if not held:
-                out.append(name)
-    return tuple(dict.fromkeys(out))
+                lost.append(name)
+    return tuple(dict.fromkeys(lost))
 
 
 class _Retracker:
-    """The way through the stored blobs, with the corrections on its way."""
+    """Tracker over the stored detections that applies the corrections at their frames."""
 
     def __init__(
         self, session: Session, table: DetectionTable, settings: TrackSettings, corrections: Sequence[Correction]
@@ -145,8 +142,8 @@ class _Retracker:
         self.noise = session_noise(session, settings)
         self._corrections = {correction.row: correction for correction in corrections}
         self._smoothed: list[KinematicState] = []
-        own = self.noise.adapt_settings(settings.tracker)
-        self._tracker = Tracker(session.calibration, session.camera, own, keep_history=settings.smooth)
+        tracker_settings = self.noise.adapt_settings(settings.tracker)
+        self._tracker = Tracker(session.calibration, session.camera, tracker_settings, keep_history=settings.smooth)
 
     def frames(self) -> Iterator[TrackedFrame]:
         return retrack_frames(self._session, self._tracker, self.noise, self._frame_detections)
@@ -164,7 +161,7 @@ class _Retracker:
         return blobs if correction is None else self._apply_correction(correction, blobs)
 
     def _apply_correction(self, correction: Correction, blobs: Detections) -> Detections:
-        """The blobs of the corrected picture: the named ones, and what else may be a disc."""
+        """Return the detections of a corrected frame: the labelled blobs, and others that may be markers."""
         session = self._session
         markers = session.header.protocol.markers
         before = session.markers.measured_px[correction.row]
@@ -181,21 +178,21 @@ class _Retracker:
         for name, place in correction.places.items():
             old = before[markers.index(name)]
             is_false = np.isfinite(old).all() and not _is_near(named, old)
-            shown = None if name in palm else place  # the palm is found anew, its discs where they are on it
+            shown = None if name in palm else place  # the palm is reacquired, with its markers
             if is_false or shown is not None:
                 not_px = ((float(old[0]), float(old[1])),) if is_false else ()
                 self._tracker.add_operator_label(MarkerLabel(correction.row, name, shown, not_px), is_asked_again=False)
         return blobs
 
     def _reacquire(self, time_s: float) -> None:
-        """From here on the hand is looked for, and what came before is not looked back at from there."""
+        """Reacquire the hand from this time on; frames before it are smoothed separately."""
         self._collect_smoothed()
         self._tracker.drop_track(time_s)
-        self._tracker.pop_steps()  # taken already
+        self._tracker.pop_steps()  # collected already
 
 
 def with_added_detections(blobs: Detections, places: FloatArray) -> Detections:
-    """The blobs, and one more for each place (P, 2) that none of them is at: its depth is unknown."""
+    """Return the detections with one more for each place (P, 2) that has none; its depth is unknown."""
     missing = np.array([place for place in places if not _is_near(blobs.pixel, place)]).reshape(-1, 2)
     if not len(missing):
         return blobs
@@ -217,7 +214,7 @@ def _is_near(pixels: FloatArray, place: FloatArray) -> bool:
 
 
 def _match_places(blobs: Detections, places: FloatArray) -> BoolArray:
-    """Which blobs (D,) are at one of the places (P, 2)."""
+    """Return a mask (D,) of the detections that are at one of the places (P, 2)."""
     if not len(blobs) or not len(places):
         return np.zeros(len(blobs), dtype=np.bool_)
     between = np.linalg.norm(blobs.pixel[:, None] - places[None], axis=-1)
@@ -231,21 +228,21 @@ PROGRESS_EVERY_FRAMES = 15
 
 
 def correct_in_process(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
-    """Carry a task out in a process of its own and wait for it: whether it was done; False if ``stopping`` came first.
+    """Correct a session in a process of its own; return False if ``stopping`` came first.
 
-    Raises what went wrong there; :class:`ReanalysisFailed` where the process died.
+    Raises the fault of the process, or one if the process died.
     """
     child = ChildProcess(correct_as_child, task, name="correcting")
     try:
         while not stopping.is_set():
             if not child.link.poll(POLL_S):
                 continue
-            said: tuple[int, int] | CarpusFault | None = child.link.recv()
-            if said is None:
+            message: tuple[int, int] | CarpusFault | None = child.link.recv()
+            if message is None:
                 return True
-            if isinstance(said, CarpusFault):
-                raise said
-            progress(*said)
+            if isinstance(message, CarpusFault):
+                raise message
+            progress(*message)
         return False
     except (EOFError, BrokenPipeError, ConnectionResetError):
         raise ReanalysisFailed(task.output.name, phrase("its process ended")) from None
@@ -255,26 +252,26 @@ def correct_in_process(task: CorrectionTask, progress: Callable[[int, int], None
 
 
 def correct_as_child(link: Connection, task: CorrectionTask) -> None:
-    """Carry a task out in the child: frames done and in all are sent now and then, then None, or the fault."""
+    """Correct a session in the child process: send progress, then None or the fault."""
     lower_priority()
 
     def report_progress(done: int, total: int | None) -> None:
         if done % PROGRESS_EVERY_FRAMES == 0:
             link.send((done, total or 0))
 
-    said: CarpusFault | None = None
+    message: CarpusFault | None = None
     try:
         correct(task, report_progress)
     except CarpusFault as fault:
-        said = fault
-    except Exception as cause:  # the one catch of this process: told, not printed
-        said = ReanalysisFailed("", f"{type(cause).__name__}: {cause}")
-    with suppress(OSError):  # the owner may be gone, which may be the cause
-        link.send(said)
+        message = fault
+    except Exception as cause:  # reported to the owner, not printed
+        message = ReanalysisFailed("", f"{type(cause).__name__}: {cause}")
+    with suppress(OSError):  # the owner may have died, which may be the cause
+        link.send(message)
 
 
 def _remove_part_files(task: CorrectionTask) -> None:
-    """A process that was killed leaves a part behind: the session it was made from is still there."""
+    """Remove the part files of a killed process; the original session still exists."""
     name = glob.escape(task.output.name)
     for path in task.output.parent.glob(f"{name}.????????.part*"):
         path.unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Pictures stored compactly: the hand and its surroundings as they are, the room about it black and without depth."""
+"""Compact raw recordings: only the hand and its surroundings, the rest black and without depth."""
 
 from __future__ import annotations
 
@@ -15,17 +15,18 @@ from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.model.types import Frame, Region, TrackedFrame, TrackStatus
 
 MARGIN_SHARE = {False: 1.5, True: 0.6}
-"""How far the area reaches beyond the box of the discs, in its larger side: of the palm's alone to the finger tips and
-past them, of the whole hand's a hand's breadth."""
+"""Margin around the markers as a share of their box: for the palm alone up to the fingertips and beyond, for the whole
+hand about a hand's breadth.
+"""
 MIN_MARGIN_PX = 48.0
 STALE_S = 0.5
-"""A hand that was seen longer ago may have left the area."""
+"""A hand seen longer ago may have left the region."""
 MAX_REGIONS = 2048
-"""Areas: a minute and more, longer than a picture waits for a slow disk."""
+"""More than a minute of regions: longer than a frame waits for a slow disk."""
 
 
 class FrameSink(Protocol):
-    """The raw recording in the making."""
+    """Raw recording being written."""
 
     @property
     def path(self) -> Path: ...
@@ -40,7 +41,7 @@ class FrameSink(Protocol):
 
 
 class HandRegions:
-    """Where the hand was last seen; told in the tracking thread, asked in the storing one."""
+    """Image regions of the hand over time; updated by the tracking thread, read by the writing thread."""
 
     def __init__(self, camera: Camera, protocol: MarkerProtocol) -> None:
         self._camera, self._protocol = camera, protocol
@@ -50,8 +51,7 @@ class HandRegions:
         self._regions.append((tracked.timestamp_s, compute_hand_region(tracked, self._camera, self._protocol)))
 
     def find_region(self, time_s: float) -> Region | None:
-        """Where the hand is in a picture of that time, which may have waited for the disk; None while it is lost, or
-        not yet tracked nearly so far: then whole pictures are kept."""
+        """Return the region of the hand at a time; None if the hand is lost or was not tracked recently."""
         for known_s, area in reversed(self._regions.copy()):
             if known_s <= time_s:
                 return area if time_s - known_s <= STALE_S else None
@@ -59,12 +59,12 @@ class HandRegions:
 
 
 def compute_hand_region(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Region | None:
-    """The hand and its surroundings in the picture of a frame; None where the hand is not known."""
+    """Return the image region of the hand and its surroundings; None if the hand is lost."""
     places = tracked.marker_position_cam_m
-    known = places[np.isfinite(places).all(axis=1)]
-    if tracked.status is TrackStatus.LOST or len(known) < len(protocol.palm) or (known[:, 2] < 0.1).any():
+    known_m = places[np.isfinite(places).all(axis=1)]
+    if tracked.status is TrackStatus.LOST or len(known_m) < len(protocol.palm) or (known_m[:, 2] < 0.1).any():
         return None
-    pixel = camera.distort(camera.project(known))
+    pixel = camera.distort(camera.project(known_m))
     seen = tracked.marker_measured_px[np.isfinite(tracked.marker_measured_px).all(axis=1)]
     pixel = np.concatenate((pixel, seen))
     low, high = pixel.min(axis=0), pixel.max(axis=0)
@@ -75,7 +75,7 @@ def compute_hand_region(tracked: TrackedFrame, camera: Camera, protocol: MarkerP
 
 
 def mask_outside(frame: Frame, region: Region | None) -> Frame:
-    """The frame with nothing outside the area; colours black and depth 0 there."""
+    """Return the frame with black colours and no depth outside the region."""
     if region is None:
         return frame
     part = np.s_[region.top : region.bottom, region.left : region.right]
@@ -89,7 +89,7 @@ def mask_outside(frame: Frame, region: Region | None) -> Frame:
 
 
 class HandCropWriter:
-    """Hands pictures on to a raw recording, each with the hand's surroundings alone."""
+    """Writer that passes frames on to a raw recording, cropped to the hand's surroundings."""
 
     def __init__(self, sink: FrameSink, find_region: Callable[[float], Region | None]) -> None:
         self._sink, self._find_region = sink, find_region

@@ -2,14 +2,14 @@
 
 ::
 
-    source -> [capture] --+--> newest picture, last 20 pictures          (screen, calibration)
-                          +--> NeverDrop  -> [pictures]  raw pictures    (before anything may be lost)
-                          +--> NeverDrop  -> [tracking] --+--> newest view, last 12 s   (screen, pulled by its timer)
-                                                          +--> NeverDrop -> [writing]   session file
+    source -> [capture] --+--> current frame, last 20 frames             (screen, calibration)
+                          +--> BoundedQueue -> [pictures]  raw recording (before anything may be lost)
+                          +--> BoundedQueue -> [tracking] --+--> current view, last 12 s   (screen, by its timer)
+                                                            +--> BoundedQueue -> [writing]   session file
 
-Consumers start first; a stop runs from the source to the sinks and drains. A busy computer falls behind and loses
-nothing: what is recorded waits for the tracker in memory, and the end of a recording waits until it is worked through.
-One catch at the top of each thread turns any exception into an event. Nothing here waits for the screen.
+Consumers start first; a stop runs from the source to the sinks and drains the queues. A busy computer falls behind
+and loses nothing: recorded frames wait for the tracker in memory, and the end of a recording waits for them. One
+handler at the top of each thread turns any exception into an event. Nothing here waits for the screen.
 """
 
 from __future__ import annotations
@@ -40,21 +40,21 @@ log = logging.getLogger(__name__)
 
 _POLL_S = 0.005
 _FRAME_TIMEOUT_S = 0.25
-"""A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
+"""A stop waits this long for a frame before it closes the source under the capture thread."""
 
 
 RECENT_FRAMES = 20
-"""The newest, for a calibration that begins."""
+"""Frames kept for a calibration."""
 HISTORY_S = 12.0
-"""Of tracked frames, for curves."""
+"""Tracked frames kept for curves."""
 ROW_BYTES, FRAME_BYTES = 4_000, 100_000
-"""On the disk by experience, for the time that is left."""
+"""Typical size on disk, for the estimate of the remaining time."""
 STOP_TIMEOUT_S = 10.0
-"""So long a camera may take to give up its last picture."""
+"""Time that a camera may take for its last frame."""
 
 
 class Listener(Protocol):
-    """Who hears every tracked frame and every event at once; called in the threads they come from, must not wait."""
+    """Receiver of every tracked frame and event, called in the threads they come from; must not wait."""
 
     def on_frame(self, frame: TrackedFrame) -> None: ...
 
@@ -62,12 +62,11 @@ class Listener(Protocol):
 
 
 class LiveSession:
-    """Runs a source; previews, tracks and records it. All methods may be called from any thread.
+    """Runs a source: previews, tracks and records it. All methods may be called from any thread.
 
-    Nothing but :meth:`start_recording`, :meth:`stop_recording` and :meth:`stop` waits for anything, and these wait for
-    the disk only. The session owns its source and closes it; where the source does not come back with a frame, it is
-    closed from the stopping thread, and its ``frames()`` must end then. With ``is_file`` the source is a file:
-    reading waits for tracking, tracking waits for the disk, and no frame is lost on the way.
+    Only :meth:`start_recording`, :meth:`stop_recording` and :meth:`stop` wait, and only for the disk. The session owns
+    its source and closes it, if need be from the stopping thread, upon which ``frames()`` must end. With ``is_file``
+    the source is a file: reading waits for tracking, tracking waits for the disk, and no frame is lost.
     """
 
     def __init__(self, source: FrameSource, settings: LiveSettings | None = None, *, is_file: bool = False) -> None:
@@ -106,14 +105,14 @@ class LiveSession:
         return self._source.info
 
     def start(self) -> None:
-        """Starts the threads, consumers first. A session is started once."""
+        """Start the threads, consumers first; may be called once."""
         self._tracking_thread.start()
         self._capture_thread.start()
 
     def stop(self) -> None:
-        """Ends everything from source to sink: what was captured is tracked, what was tracked is stored.
+        """Stop from source to sink: captured frames are tracked, tracked frames are stored.
 
-        A running recording is finished; a fault of it is told as an event. May be called twice.
+        A running recording is finished; its fault is reported as an event. May be called twice.
         """
         self._stopping.set()
         if self._capture_thread.is_alive():
@@ -141,16 +140,16 @@ class LiveSession:
         return self._frame_mailbox.peek()
 
     def recent_frames(self, count: int) -> list[Frame]:
-        """The last pictures, oldest first, at most ``count`` and at most about 20."""
+        """Return at most ``count`` of the last frames (about 20), oldest first."""
         with self._lock:
             return list(self._recent_frames)[-count:] if count > 0 else []
 
     # --- tracking -----------------------------------------------------------------------------
     def start_tracking(self, pipeline: Pipeline) -> None:
-        """From the next captured frame on, ``pipeline`` turns frames into tracked frames, in the tracking thread.
+        """Track frames by ``pipeline``, in the tracking thread, from the next one on.
 
-        One before it ends; curves and view start anew. Frames lost on the way are in the ``dropped_before`` of the
-        frame that it is given.
+        The previous tracking ends; curves and view start again. Frames lost on the way are counted in
+        ``dropped_before``.
         """
         with self._lock:
             self._pipeline = pipeline
@@ -159,12 +158,12 @@ class LiveSession:
             self._backlog.clear()
 
     def end_tracking(self) -> None:
-        """No further frame is tracked; the pictures go on."""
+        """Track no further frames; the preview goes on."""
         with self._lock:
             self._pipeline = None
 
     def set_listener(self, listener: Listener | None) -> None:
-        """Hand every tracked frame and event on from now; None for nobody. One that raises hears nothing more."""
+        """Set who receives every tracked frame and event; a listener that raises is removed."""
         self._listener = listener
 
     @property
@@ -172,11 +171,11 @@ class LiveSession:
         return self._pipeline is not None
 
     def current_view(self) -> TrackedView | None:
-        """The newest tracked frame with its picture; older ones that were not looked at are gone."""
+        """Return the last tracked frame with its image."""
         return self._view_mailbox.peek()
 
     def frames_since(self, index: int) -> list[TrackedFrame]:
-        """Tracked frames with an index above ``index``, oldest first, over the last 12 s or more."""
+        """Return tracked frames with an index above ``index``, oldest first, of the last 12 s or more."""
         with self._lock:
             return [tracked for tracked in self._history if tracked.index > index]
 
@@ -187,11 +186,10 @@ class LiveSession:
         open_frames: Callable[[], FrameSink] | None = None,
         before_close: Callable[[], None] = lambda: None,
     ) -> None:
-        """Opens the session file (and a raw recording) and stores everything captured from now on.
+        """Open the session file (and a raw recording) and store all frames from now on.
 
-        Both are opened, filled and closed in threads of their own, closed after ``before_close`` has come back.
-        Raises what
-        kept a file from opening; then nothing is recorded.
+        Both are written in threads of their own, and closed after ``before_close`` has returned. If a file cannot be
+        opened its fault is raised and nothing is recorded.
         """
         if self.is_recording or self._backlog.is_finishing_recording:
             raise RuntimeError("a recording runs already")
@@ -211,7 +209,7 @@ class LiveSession:
             self._recording = recording
 
     def pause_recording(self) -> None:
-        """Stores nothing until :meth:`resume_recording`; the pause is noted in the file."""
+        """Store nothing until :meth:`resume_recording`; the pause is noted in the file."""
         recording = self._recording
         if recording is not None and not recording.is_paused:
             self.add_event("pause", "")
@@ -224,20 +222,20 @@ class LiveSession:
             self.add_event("resume", "")
 
     def add_event(self, kind: str, text: str = "", time_s: float = math.nan) -> bool:
-        """Notes something in the running recording, at a time or at the newest frame's; False when there is none."""
+        """Add an event to the recording, by default at the current frame; return False if there is none."""
         recording, now_s = self._recording, time_s if math.isfinite(time_s) else self._current_time_s()
         self._notify(lambda listener: listener.on_event(now_s, kind))
         return recording is not None and recording.row_recorder.submit(QueuedEvent(now_s, kind, text))
 
     def notify_listener(self, kind: str, time_s: float) -> None:
-        """Says to who listens what is no event of the file: a repetition, which the finished file has in its table."""
+        """Notify the listener of an event that is not stored as such, such as a repetition."""
         self._notify(lambda listener: listener.on_event(time_s, kind))
 
     def stop_recording(self) -> Path:
-        """Waits until all that was captured is tracked and stored and the files are closed; the session file's path.
+        """Wait until all captured frames are tracked and stored; return the path of the session file.
 
-        :meth:`counters` tell how long the tracking takes. Raises the fault that ended the recording early (what reached
-        the disk is kept).
+        :meth:`counters` state the remaining time. Raises the fault that ended the recording early; data on the disk are
+        kept.
         """
         backlog = self._backlog
         with self._lock:
@@ -262,7 +260,7 @@ class LiveSession:
 
     @property
     def first_recorded_index(self) -> int | None:
-        """Index of the first frame of the running recording, None until it is captured."""
+        """Index of the first recorded frame; None until it is captured."""
         recording = self._recording
         return None if recording is None else recording.first_frame_index
 
@@ -273,7 +271,7 @@ class LiveSession:
 
     # --- what is told -------------------------------------------------------------------------
     def handle_notice(self, fault: Exception) -> None:
-        """For sources that tell something while they go on: the camera lost or back, pictures left out."""
+        """Report a notice of the source: camera lost or returned, images skipped."""
         kind: LiveEventKind = "notice"
         if isinstance(fault, CameraLost):
             kind = "camera_lost"
@@ -406,6 +404,6 @@ class LiveSession:
         self._events.append(LiveEvent(kind, self._current_time_s(), cause, value))
 
     def _current_time_s(self) -> float:
-        """Time of the newest frame, in the recording's own time."""
+        """Return the time of the current frame, on the recording's clock."""
         frame = self._frame_mailbox.peek()
         return math.nan if frame is None else frame.timestamp_s

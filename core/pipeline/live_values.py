@@ -1,4 +1,4 @@
-"""What bounds the live session, and what it tells: the newest view, events, counters."""
+"""Values of the live session: limits, current view, events, counters."""
 
 from __future__ import annotations
 
@@ -25,15 +25,21 @@ LiveEventKind = Literal[
 
 @dataclass(frozen=True, slots=True)
 class LiveSettings:
-    """Bounds of the live session.
+    """Limits of the live session.
 
-    ``tracking_waiting`` recorded frames that may wait for the tracker before new ones are left out: a minute of a
-    camera at twice the work that the computer can do, as they came, 1.5 GB of 640x480, fewer where the computer has
-    not twice as much memory free. ``pictures_waiting`` may wait for the disk before the raw recording ends; the newest
-    are the same as those above, so the two share their memory.
-    ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s); a
-    warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the room on the disk before a
-    recording runs.
+    Attributes
+    ----------
+    tracking_waiting : int
+        Recorded frames that may wait for the tracker: a minute at half the camera's speed (1.5 GB at 640x480); fewer if
+        less than twice that memory is free.
+    rows_waiting : int
+        Results that may wait for the disk, beside those frames (30 s), before the recording ends.
+    pictures_waiting : int
+        Frames that may wait for the disk before the raw recording ends; they share memory with those above.
+    low_disk_bytes : int
+        Free space below which a warning is given once.
+    folder : Path, optional
+        Session folder, for the free space before a recording.
     """
 
     tracking_waiting: int = 960
@@ -50,7 +56,7 @@ class LiveSettings:
 
 @dataclass(frozen=True, slots=True)
 class TrackedView:
-    """A picture and what was tracked in that same picture; ``captured_at_s`` on the clock of :func:`time.monotonic`."""
+    """Frame with its tracking result; ``captured_at_s`` on the clock of :func:`time.monotonic`."""
 
     frame: Frame
     tracked: TrackedFrame
@@ -59,12 +65,11 @@ class TrackedView:
 
 @dataclass(frozen=True, slots=True)
 class LiveEvent:
-    """Something rare that the person must be told.
+    """Rare event to be shown to the user.
 
-    ``time_s`` in the recording's own time (NaN before the first frame). ``cause`` is a
-    :class:`~core.model.errors.CarpusFault` or, where the program itself is wrong, any other exception; None where the
-    kind
-    says it all. ``value`` is the kind's figure: bytes left for ``disk_low``.
+    ``time_s`` on the recording's clock (NaN before the first frame). ``cause`` is a
+    :class:`~core.model.errors.CarpusFault`, another exception for an internal error, or None. ``value`` is a number of
+    the kind, such as the free bytes of ``disk_low``.
     """
 
     kind: LiveEventKind
@@ -74,18 +79,29 @@ class LiveEvent:
 
 
 StartMode = Literal["key", "countdown", "still"]
-"""When a recording begins: at the key, counted down after it, or by itself over a hand that lies still."""
+"""When a recording starts: at the key, after a countdown, or automatically over a still hand."""
 
 
 @dataclass(frozen=True, slots=True)
 class LiveCounters:
-    """Figures of the moment. Unknown is NaN or None.
+    """Current state of the live session; unknown values are NaN or None.
 
-    ``captured``, ``tracked`` frames since the start; ``dropped`` frames for which there was no room before the tracker,
-    and ``missing`` those that never came from the source; ``fps`` over the last two seconds; ``latency_*_ms`` from the
-    frame's arrival until it was tracked, over the last frames; ``frames_waiting`` how many wait for that;
-    ``tracking_lag_s`` how long it takes for these, as fast as it has been lately; ``rows_written`` and
-    ``frames_written`` of the running recording; ``disk_free_bytes`` and ``disk_minutes_left`` at its rate.
+    Attributes
+    ----------
+    captured, tracked : int
+        Frames since the start.
+    dropped, missing : int
+        Frames without room before the tracker; frames that never came from the source.
+    fps : float
+        Over the last two seconds.
+    latency_p50_ms, latency_p95_ms : float
+        From arrival to tracking result, over the last frames.
+    frames_waiting, tracking_lag_s
+        Frames waiting for the tracker, and the time it needs for them.
+    rows_written, frames_written : int
+        Of the running recording.
+    disk_free_bytes, disk_minutes_left
+        Free space, and the time until it is used up.
     """
 
     captured: int

@@ -1,7 +1,7 @@
-"""Live angles, positions, quality and events for other programs over Lab Streaming Layer (``carpus[stream]``).
+"""Live angles, positions, quality and events over Lab Streaming Layer (``carpus[stream]``).
 
-Two outlets, off by default: ``Carpus`` of type ``MoCap``, one sample a picture, and ``CarpusEvents`` of type
-``Markers``. Every sample has the time at which its picture was taken, on LSL's own clock.
+There are two outlets, off by default: ``Carpus`` of type ``MoCap``, one sample a frame, and ``CarpusEvents`` of type
+``Markers``. Samples have the capture time of their frame on LSL's clock.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from carpus.core.model.types import TrackedFrame
 
 NAME, EVENTS_NAME = "Carpus", "CarpusEvents"
 LIVE_ID = "carpus-live"
-"""The source's identity while the window measures: by it a listener finds the stream again."""
+"""Source identity, by which a listener finds the stream again."""
 
 
 class Channel(NamedTuple):
-    """One number of a sample: ``label``, ``marker`` or joint it is of, ``kind`` by the MoCap meta-data, ``unit``."""
+    """Channel of a sample: label, marker or joint, kind by the MoCap meta-data, unit."""
 
     label: str
     marker: str
@@ -32,21 +32,21 @@ class Channel(NamedTuple):
 
 
 def list_channels(protocol: MarkerProtocol, joint_names: Sequence[str]) -> tuple[Channel, ...]:
-    """What a sample holds, in order."""
-    out = [Channel("status", "", "Status", "0 tracked, 1 predicted, 2 lost, 3 doubtful")]
-    out += [Channel(f"wrist_{name}", "WRIST", "Angle", "degrees") for name in WRIST_ANGLES]
-    out += [Channel(f"wrist_{name}_sd", "WRIST", "AngleDeviation", "degrees") for name in WRIST_ANGLES]
+    """Return the channels of a sample in order."""
+    found = [Channel("status", "", "Status", "0 tracked, 1 predicted, 2 lost, 3 doubtful")]
+    found += [Channel(f"wrist_{name}", "WRIST", "Angle", "degrees") for name in WRIST_ANGLES]
+    found += [Channel(f"wrist_{name}_sd", "WRIST", "AngleDeviation", "degrees") for name in WRIST_ANGLES]
     for name in joint_names:
-        out += [Channel(name, name.split("_")[0], "Angle", "degrees")]
+        found += [Channel(name, name.split("_")[0], "Angle", "degrees")]
     for name in joint_names:
-        out += [Channel(f"{name}_sd", name.split("_")[0], "AngleDeviation", "degrees")]
+        found += [Channel(f"{name}_sd", name.split("_")[0], "AngleDeviation", "degrees")]
     for marker in protocol.markers:
-        out += [Channel(f"{marker}_{axis}", marker, f"Position{axis.upper()}", "meters") for axis in "xyz"]
-    return (*out, Channel("measured_share", "", "Confidence", "share"), Channel("nis", "", "Quality", "1"))
+        found += [Channel(f"{marker}_{axis}", marker, f"Position{axis.upper()}", "meters") for axis in "xyz"]
+    return (*found, Channel("measured_share", "", "Confidence", "share"), Channel("nis", "", "Quality", "1"))
 
 
 def build_sample(frame: TrackedFrame) -> list[float]:
-    """The numbers of a frame in the order of :func:`list_channels`; NaN where not known."""
+    """Return the values of a frame in the order of :func:`list_channels`; unknown ones are NaN."""
     share = frame.measured_share[np.isfinite(frame.measured_share)]
     return [
         float(frame.status),
@@ -62,7 +62,7 @@ def build_sample(frame: TrackedFrame) -> list[float]:
 
 @dataclass(slots=True)
 class SampleStream:
-    """Two open outlets; used by one thread. ``wall`` and ``monotonic`` clocks are injectable."""
+    """Two open outlets, to be used by one thread."""
 
     _samples: Any
     _events: Any
@@ -72,52 +72,54 @@ class SampleStream:
     def open(
         cls, clicks: Clicks, rate_hz: float, *, dip_free: bool, clock: Callable[[], float] | None = None
     ) -> SampleStream:
-        """Offer both outlets of the hand that was clicked; the first picture was taken at what ``clock``, asked once,
-        says in LSL's time: without it when it comes. Raises :class:`ExtraMissing` without pylsl."""
+        """Open both outlets of a hand; raises :class:`ExtraMissing` without pylsl.
+
+        ``clock`` gives the LSL time of the first frame and is called once; default is the time when it comes.
+        """
         lsl = import_pylsl()
-        said = list_channels(clicks.protocol, clicks.protocol.joint_names(dip_free))
-        info = lsl.StreamInfo(NAME, "MoCap", len(said), rate_hz, lsl.cf_float32, LIVE_ID)
+        listed_channels = list_channels(clicks.protocol, clicks.protocol.joint_names(dip_free))
+        info = lsl.StreamInfo(NAME, "MoCap", len(listed_channels), rate_hz, lsl.cf_float32, LIVE_ID)
         about = info.desc()
         about.append_child_value("manufacturer", "Carpus")
         about.append_child_value("hand", clicks.side)
         about.append_child_value("frame", "axes of the colour camera: x right, y down, z forward")
         listed = about.append_child("channels")
-        for channel in said:
-            one = listed.append_child("channel")
+        for channel in listed_channels:
+            entry = listed.append_child("channel")
             for name, text in (
                 ("label", channel.label), ("marker", channel.marker), ("object", "hand"), ("type", channel.kind),
                 ("unit", channel.unit),
             ):  # fmt: skip
-                one.append_child_value(name, text)
+                entry.append_child_value(name, text)
         marks = lsl.StreamInfo(EVENTS_NAME, "Markers", 1, lsl.IRREGULAR_RATE, lsl.cf_string, f"{LIVE_ID}-events")
         return cls(lsl.StreamOutlet(info), lsl.StreamOutlet(marks), _make_clock_offset(clock or lsl.local_clock))
 
     def on_frame(self, frame: TrackedFrame) -> None:
-        """One picture, with the time it was taken."""
+        """Send the sample of a frame with its capture time."""
         self._samples.push_sample(build_sample(frame), frame.timestamp_s + self._offset_s(frame.timestamp_s))
 
     def on_event(self, time_s: float, kind: str) -> None:
-        """Something that happened: its kind alone, for a note may name somebody."""
+        """Send an event, its kind alone: a note may contain names."""
         self._events.push_sample([kind], time_s + self._offset_s(time_s))
 
     def has_listener(self, timeout_s: float) -> bool:
-        """Whether somebody listens, within this time."""
+        """Return whether a listener connects within a time."""
         return bool(self._samples.wait_for_consumers(timeout_s))
 
 
 def _make_clock_offset(clock: Callable[[], float]) -> Callable[[float], float]:
-    known: list[float] = []
+    offsets: list[float] = []
 
     def offset_s(time_s: float) -> float:
-        if not known:
-            known.append(clock() - time_s)
-        return known[0]
+        if not offsets:
+            offsets.append(clock() - time_s)
+        return offsets[0]
 
     return offset_s
 
 
 def import_pylsl() -> Any:
-    """Pylsl. Raises :class:`ExtraMissing` where it, or the library it brings, is not there."""
+    """Import pylsl; raises :class:`ExtraMissing` if it or its library is missing."""
     try:
         import pylsl
     except (ImportError, RuntimeError, OSError) as cause:

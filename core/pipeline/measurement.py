@@ -1,4 +1,4 @@
-"""An open source with a patient before it: tracking begun from a calibration, recorded, smoothed and stored."""
+"""Measurement of a patient: tracking started from a calibration, recorded, smoothed and stored."""
 
 from __future__ import annotations
 
@@ -63,37 +63,36 @@ from carpus.core.tracking.tracker import Tracker
 log = logging.getLogger(__name__)
 
 _MARGIN_SHARE = 0.6
-"""The picture of the markers reaches this share of their box beyond it."""
+"""Margin of the marker image as a share of the markers' box."""
 MIN_FREE_BYTES = 100_000_000
-"""A recording does not begin with less: five minutes of a whole hand's rows, or ten seconds of pictures."""
+"""Free space needed to start: five minutes of a whole hand's rows, or ten seconds of images."""
 _MAX_LABELS_WAITING = 16
 
 
 class LivePipeline:
-    """That of the live session, begun at the neutral pose. Hands on what looking back needs, if wanted."""
+    """Tracker of the live session, started at the neutral pose; passes filter steps on to the smoother."""
 
     def __init__(self, pipeline: FramePipeline[Tracker], neutral_ends_s: float) -> None:
         self._pipeline = pipeline
         self._neutral_ends_s = neutral_ends_s
         self._has_started = False
         self.on_steps: Callable[[FilterSteps], None] | None = None
-        """Called in the tracking thread with the step of every frame; must not wait."""
+        """Called in the tracking thread with the filter steps of every frame; must not wait."""
         self.on_frame: Callable[[TrackedFrame], None] | None = None
-        """Called in the tracking thread with every frame; must not wait."""
+        """Called in the tracking thread with every tracked frame; must not wait."""
         self.on_label: Callable[[MarkerLabel, float], object] | None = None
-        """Called in the tracking thread with every answer that a frame has taken up, and that frame's time."""
+        """Called in the tracking thread with every label that a frame has applied, and that frame's time."""
         self._labels: BoundedQueue[MarkerLabel] = BoundedQueue(_MAX_LABELS_WAITING)
         self._labelled: set[str] = set()
         self._to_repeat: set[str] = set()
         self._is_repeating = False
 
     def repeat_labels(self) -> None:
-        """A recording begins: which spots were shown to be markers before it is told once more, of its own pictures."""
+        """Report the labels given so far once more, at the first frame of a recording."""
         self._is_repeating = True
 
     def add_label(self, label: MarkerLabel) -> None:
-        """What a person says of blue spots; from any thread, taken up with the next frame. Dropped where a dozen wait
-        already, as when no pictures come."""
+        """Add an operator's label for the next frame, from any thread; dropped if a dozen wait already."""
         with suppress(QueueFullError):
             self._labels.push(label)
 
@@ -109,12 +108,12 @@ class LivePipeline:
         self._report_labels(tracker.pop_applied_labels(), tracked)
         if self.on_frame is not None:
             self.on_frame(tracked)
-        kept, keep = tracker.pop_steps(), self.on_steps
-        if keep is not None:
-            keep(kept)
+        steps, on_steps = tracker.pop_steps(), self.on_steps
+        if on_steps is not None:
+            on_steps(steps)
         return tracked
 
-    def _report_labels(self, heard: list[MarkerLabel], tracked: TrackedFrame) -> None:
+    def _report_labels(self, labels: list[MarkerLabel], tracked: TrackedFrame) -> None:
         if self._is_repeating:
             self._is_repeating, self._to_repeat = False, set(self._labelled)
         markers = self._pipeline.tracker.markers
@@ -122,8 +121,8 @@ class LivePipeline:
             u, v = tracked.marker_measured_px[markers.index(name)]
             if np.isfinite(u):
                 self._to_repeat.remove(name)
-                heard.append(MarkerLabel(tracked.index, name, (float(u), float(v))))
-        for answer in heard:
+                labels.append(MarkerLabel(tracked.index, name, (float(u), float(v))))
+        for answer in labels:
             if answer.pixel is not None:
                 self._labelled.add(answer.marker)
             if self.on_label is not None:
@@ -131,7 +130,7 @@ class LivePipeline:
 
 
 class RecordedSession:
-    """A session while it is recorded: its journal, looked back at while that grows, and at the end its file."""
+    """Session being recorded: its journal, the smoothing in progress, and at the end its file."""
 
     def __init__(self, journal: RecordingJournal, smoothing: SmoothingProcess | None) -> None:
         self._journal, self._smoothing = journal, smoothing
@@ -157,20 +156,20 @@ class RecordedSession:
                 self._draft_rows = np.inf  # all over again it would hold up the journal
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:
-        """One event; before the first picture there is no time to put it at, so it waits for the first row."""
+        """Add an event; before the first frame it waits for the first row, since there is no time yet."""
         if np.isfinite(time_s):
             self._journal.add_event(time_s, kind, text)
         else:
             self._early_events.append((kind, text))
 
     def prepare(self) -> None:
-        """No more rows come: all of them go into the session file while the rest is looked back at."""
+        """Write all rows into the session file while the rest is smoothed; no more rows come."""
         self._journal.flush()
         with suppress(CarpusFault):
             self._update_draft(is_final=True)
 
     def _update_draft(self, *, is_final: bool = False) -> None:
-        """What is in the journal goes into the session file, so that the end is quick."""
+        """Write the journal's rows into the session file, so that little is left to do at the end."""
         draft, self._draft = self._draft or SessionDraft(self._journal.path), None
         try:
             draft.read()
@@ -182,7 +181,7 @@ class RecordedSession:
                 draft.discard()
 
     def close(self) -> None:
-        """Finish the session file; the journal goes. A session without a single frame is none."""
+        """Finish the session file and remove the journal; a session without frames is discarded."""
         if not self._times_s:
             self.discard()
             raise RecordingEmpty(self.path.name)
@@ -208,7 +207,7 @@ class RecordedSession:
             self._journal.add_smoothed(motion)
 
     def _pending_times_s(self) -> list[float]:
-        """Times of the frames that are not smoothed yet."""
+        """Return the times of the frames that are not smoothed yet."""
         return self._times_s[self._journal.smoother_row_count :]
 
     def abandon(self) -> None:
@@ -227,15 +226,18 @@ class RecordedSession:
 
 
 class MeasurementController:
-    """A running source: from the chosen calibration to stored sessions, as many as wanted.
+    """Controller of a running source: from calibration to stored sessions, as many as wanted.
 
-    ``recording`` is the stored one that is played, None of a camera: it plays from its first picture when recording
-    starts, so that none is missed; a camera has been running since it was opened. ``on_tracking_started`` is called
-    when
-    tracking begins,
-    ``on_recording_started`` when a recording has begun, ``on_exercise_changed`` when the same hand is to do another
-    exercise.
-    ``listener`` is asked who else hears what is tracked.
+    Parameters
+    ----------
+    recording : Path, optional
+        Stored recording to play, None for a camera. It plays from its first frame when recording starts.
+    on_tracking_started, on_recording_started : callable
+        Called when tracking or a recording has started.
+    on_exercise_changed : callable
+        Called when the same hand does another exercise.
+    listener : callable
+        Returns a listener of tracked frames for a calibration, or None.
     """
 
     def __init__(
@@ -281,16 +283,16 @@ class MeasurementController:
 
     @property
     def is_playback(self) -> bool:
-        """Whether the source is a stored recording, which is recorded from its first picture to its last."""
+        """Whether the source is a stored recording, which is recorded from its first frame to its last."""
         return self._is_playback
 
     @property
     def is_simulated(self) -> bool:
-        """Whether the pictures are of a simulated hand."""
+        """Whether the hand is simulated."""
         return is_simulated(self._info)
 
     def start_tracking(self, outcome: CalibrationOutcome, frames: Sequence[Frame]) -> None:
-        """Track from a calibration; ``frames`` are the pictures it was made from, the clicked one first."""
+        """Track from a calibration and the frames that it was made from, the clicked one first."""
         if self._recording is not None:
             recorded = find_recording_date(self._info, frames[0].timestamp_s, self._recording)
             self._identity = recorded.time if recorded else "", compute_recording_id(self._info, frames[0])
@@ -312,24 +314,23 @@ class MeasurementController:
         self._on_tracking_started()
 
     def set_exercise(self, set_up: SessionSetup) -> None:
-        """What is recorded next: another exercise of the same hand with the same discs. Not while a recording runs."""
+        """Set the next exercise of the same hand with the same markers; not while a recording runs."""
         assert not self._session.is_recording
         assert set_up.protocol == self._set_up.protocol
         self._set_up = set_up
         self._on_exercise_changed(set_up)
 
     def add_label(self, label: MarkerLabel) -> None:
-        """What a person says of blue spots of a picture shown: the tracker takes it up in its own thread, with the next
-        frame, and the recording notes it."""
+        """Add an operator's label of blobs; the tracker applies it with the next frame, and the recording notes it."""
         if self._pipeline is not None:
             self._pipeline.add_label(label)
 
     def start_recording(self) -> None:
         """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
-        calibration, pipeline, learnt = self._calibration, self._pipeline, self._noise
+        calibration, pipeline, noise = self._calibration, self._pipeline, self._noise
         assert calibration is not None
         assert pipeline is not None
-        assert learnt is not None
+        assert noise is not None
         path = self._new_sessions.new_path(self._set_up)
         _check_free_space(path.parent)
         now = datetime.now().astimezone()
@@ -339,37 +340,37 @@ class MeasurementController:
             protocol=calibration.clicks.protocol,
             subject_id=self._set_up.subject_id,
             exercise=self._set_up.exercise.id,
-            parameters=self._format_parameters(learnt),
+            parameters=self._format_parameters(noise),
             dip_free=self._settings.tracker.dip == "free",
             now=now,
             recorded=recorded,
             recording_id=identity,
         )
-        said = replace(self._info, recorded=recorded, recording_id=identity)
-        looking_back, finish_smoothing = None, lambda: None
+        info = replace(self._info, recorded=recorded, recording_id=identity)
+        smoothing, finish_smoothing = None, lambda: None
         if self._settings.smooth:
-            looking_back = SmoothingProcess(
-                TrackedHand(calibration, self.camera, learnt.adapt_settings(self._settings.tracker))
+            smoothing = SmoothingProcess(
+                TrackedHand(calibration, self.camera, noise.adapt_settings(self._settings.tracker))
             )
-            pipeline.on_steps, looked_back = looking_back.add_steps, looking_back.join
+            pipeline.on_steps, wait_for_smoothing = smoothing.add_steps, smoothing.join
 
             def finish_smoothing() -> None:
                 pipeline.on_steps = None  # the hand is followed meanwhile: what comes now is not of the recording
-                looked_back()
+                wait_for_smoothing()
 
         journal_path, patient_id = path.with_suffix(JOURNAL_SUFFIX), self._set_up.patient_id
         try:
             self._session.start_recording(
                 lambda: RecordedSession(
-                    RecordingJournal(journal_path, header, self.camera, calibration, patient_id), looking_back
+                    RecordingJournal(journal_path, header, self.camera, calibration, patient_id), smoothing
                 ),
-                self._frame_writer_opener(path.with_suffix(RAW_SUFFIX), said) if self._set_up.stores_frames else None,
+                self._frame_writer_opener(path.with_suffix(RAW_SUFFIX), info) if self._set_up.stores_frames else None,
                 finish_smoothing,
             )
         except BaseException:
             pipeline.on_steps = None
-            if looking_back is not None:
-                looking_back.cancel()
+            if smoothing is not None:
+                smoothing.cancel()
             raise
         # Asked for the outline when the recording ends, for which a person waits.
         threading.Thread(target=READING_PROCESS.start, name="reading", daemon=True).start()
@@ -380,14 +381,14 @@ class MeasurementController:
         self._on_recording_started()
 
     def _frame_writer_opener(self, path: Path, info: SourceInfo) -> Callable[[], HandCropWriter]:
-        """A raw recording of the hand and its surroundings, beside the session."""
+        """Return a function that opens a raw recording of the hand and its surroundings."""
         assert self._pipeline is not None
         hand = HandRegions(self.camera, self._set_up.protocol)
         self._pipeline.on_frame = hand.update
         return lambda: HandCropWriter(RawWriter(path, info), hand.find_region)
 
     def _format_parameters(self, noise: NeutralNoise) -> str:
-        """All settings as JSON, with what the exercise aimed at."""
+        """Return all settings as JSON, with the targets of the exercise."""
         read = self._set_up.target_positive_deg, self._set_up.target_negative_deg
         aims = from_clinical_targets_deg(read, self._set_up.exercise)
         set_up = {
@@ -405,7 +406,7 @@ class MeasurementController:
         return format_parameters(self._settings, describe_source(self._info), noise, set_up)
 
     def stop_recording(self) -> str:
-        """Store everything; the session's identity. A fault is raised once what reached the disk is finished."""
+        """Store everything and return the session id; a fault is raised after stored data are finished."""
         try:
             path = self._session.stop_recording()
         except RecordingEmpty:
@@ -421,17 +422,17 @@ class MeasurementController:
         return self._new_sessions.register(self._set_up, path)
 
     def close(self) -> None:
-        """End the source; a running recording is finished."""
+        """Close the source; a running recording is finished."""
         self._session.stop()
         self._session.set_listener(None)
 
 
 def _crop_markers(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:
-    """The picture about the markers, for the patient's card: the hand and nothing of the room."""
-    known = pixel[np.isfinite(pixel).all(axis=1)]
-    if not len(known):
+    """Return the image around the markers for the patient card, without the room."""
+    known_px = pixel[np.isfinite(pixel).all(axis=1)]
+    if not len(known_px):
         return None
-    low, high = known.min(axis=0), known.max(axis=0)
+    low, high = known_px.min(axis=0), known_px.max(axis=0)
     margin = _MARGIN_SHARE * float((high - low).max())
     left, top = (int(max(0.0, value - margin)) for value in low)
     right, bottom = (int(value + margin) + 1 for value in high)
@@ -439,7 +440,7 @@ def _crop_markers(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:
 
 
 def _save_image(path: Path, color_rgb: ByteImage) -> None:
-    """A small picture beside the session; without it nothing is lost, so nothing is told."""
+    """Save a small image beside the session; a failure is ignored, since it is not needed."""
     done, data = cv2.imencode(".jpg", cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR))
     if done:
         with suppress(OSError):
@@ -448,7 +449,7 @@ def _save_image(path: Path, color_rgb: ByteImage) -> None:
 
 
 def _check_free_space(folder: Path) -> None:
-    """Raise :class:`DiskFull` where no recording should begin."""
+    """Raise :class:`DiskFull` if there is too little space for a recording."""
     free = shutil.disk_usage(folder).free
     if free < MIN_FREE_BYTES:
         free_mb, least_mb = format_rounded(free / 1e6), format_rounded(MIN_FREE_BYTES / 1e6)

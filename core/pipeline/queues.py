@@ -1,14 +1,14 @@
-"""Channels between threads. Each has a bound and one policy for when it is reached; only one blocks who puts.
+"""Bounded queues between threads, each with one policy when it is full.
 
-===================  ===========================  ================================================
-channel              where                        policy at the bound
-===================  ===========================  ================================================
-:class:`BoundedQueue`   capture -> tracking          :class:`QueueFullError`: the new picture is left out and counted
-                     tracking or capture -> disk  the same: the recording ends with a fault
-                     screen -> tracking           the same, of what a person says: it is not taken in
-:class:`BlockingQueue`       file -> tracking -> disk     who puts waits: a file has time, and nothing of it is lost
-:class:`Mailbox`      anything -> screen           only the newest value is kept; who looks takes nothing away
-===================  ===========================  ================================================
+====================  ===========================  ===============================================
+queue                 where                        policy when full
+====================  ===========================  ===============================================
+BoundedQueue          capture -> tracking          QueueFullError: the frame is dropped and counted
+                      tracking or capture -> disk  the same: the recording ends with a fault
+                      screen -> tracking           the same: the operator's label is dropped
+BlockingQueue         file -> tracking -> disk     the producer waits: nothing of a file is lost
+Mailbox               anything -> screen           only the newest value is kept
+====================  ===========================  ===============================================
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ T = TypeVar("T")
 
 
 class QueueFullError(Exception):
-    """A channel that never drops has no room; internal, turned into a fault of the recording."""
+    """Raised when a bounded queue has no room."""
 
 
 class QueueClosedError(Exception):
-    """Something was put into a channel after its end."""
+    """Raised when an item is pushed into a closed queue."""
 
 
 class _BaseQueue(Generic[T]):
-    """Room for ``capacity`` items, one or more threads putting, one taking."""
+    """Queue of ``capacity`` items for several producers and one consumer."""
 
     def __init__(self, capacity: int) -> None:
         if capacity < 1:
-            raise ValueError("a channel needs room for one item")
+            raise ValueError("a queue needs room for one item")
         self.capacity = capacity
         self._items: deque[T] = deque()
         self._condition = threading.Condition()
@@ -45,71 +45,62 @@ class _BaseQueue(Generic[T]):
             return len(self._items)
 
     def drain(self) -> list[T]:
-        """Everything that waits now, oldest first, for who does not wait for more."""
+        """Remove and return all queued items, oldest first, without waiting."""
         with self._condition:
-            out = list(self._items)
+            items = list(self._items)
             self._items.clear()
             self._condition.notify_all()
-        return out
+        return items
 
     def __iter__(self) -> Iterator[T]:
-        """Items in order until the channel is closed and empty; waits for each."""
+        """Yield items in order, waiting for each, until the queue is closed and empty."""
         while True:
             with self._condition:
-                if not self._wait_for_item():
+                while not self._items and not self._closed:
+                    self._condition.wait()
+                if not self._items:
                     return
                 item = self._items.popleft()
                 self._condition.notify_all()
             yield item
 
     def close(self) -> None:
-        """No more items come; those that wait can still be taken. May be called twice."""
+        """Accept no more items; queued ones can still be taken. May be called twice."""
         with self._condition:
             self._closed = True
             self._condition.notify_all()
 
-    def _append(self, item: T) -> None:
-        self._items.append(item)
-        self._condition.notify_all()
-
-    def _wait_for_item(self) -> bool:
-        """Blocks until there is an item (True) or the channel is closed and empty (False)."""
-        while not self._items:
-            if self._closed:
-                return False
-            self._condition.wait()
-        return True
-
 
 class BoundedQueue(_BaseQueue[T]):
-    """Every item that was taken in comes out; without room :class:`QueueFullError` is raised and nothing is lost."""
+    """Queue that never drops an accepted item and raises :class:`QueueFullError` when full."""
 
     def push(self, item: T) -> None:
-        """Adds an item at once or raises."""
+        """Add an item at once or raise."""
         with self._condition:
             if self._closed:
                 raise QueueClosedError
             if len(self._items) == self.capacity:
                 raise QueueFullError
-            self._append(item)
+            self._items.append(item)
+            self._condition.notify_all()
 
 
 class BlockingQueue(_BaseQueue[T]):
-    """Nothing is lost: whoever puts waits for room. For sources that can wait, as files can."""
+    """Queue whose producer waits for room, for sources that can wait, such as files."""
 
     def push(self, item: T) -> None:
-        """Adds an item when there is room; raises :class:`QueueClosedError` after the end, also while waiting for
-        it."""
+        """Add an item when there is room; raises :class:`QueueClosedError` after the end."""
         with self._condition:
             while len(self._items) >= self.capacity and not self._closed:
                 self._condition.wait()
             if self._closed:
                 raise QueueClosedError
-            self._append(item)
+            self._items.append(item)
+            self._condition.notify_all()
 
 
 class Mailbox(Generic[T]):
-    """A mailbox for one value: putting replaces it, looking leaves it there.
+    """Holder of one value: posting replaces it, peeking leaves it.
 
     >>> box = Mailbox()
     >>> box.post(1); box.post(2)

@@ -1,4 +1,4 @@
-"""One recording with a thread of its own: all that is put comes to the disk, or the recording ends with a fault."""
+"""Recording in a thread of its own: every submitted item is stored, or the recording ends with a fault."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ POLL_S = 0.2
 
 
 class Sink(Protocol):
-    """What the recording thread owns while it runs: a file in the making."""
+    """File being written by the recording thread."""
 
     @property
     def path(self) -> Path:
-        """Where the finished file will be."""
+        """Path of the finished file."""
         ...
 
     def close(self) -> None:
@@ -29,11 +29,11 @@ class Sink(Protocol):
         ...
 
     def abandon(self) -> None:
-        """Stop after a fault; what is on the disk stays."""
+        """Stop after a fault; stored data are kept."""
         ...
 
     def discard(self) -> None:
-        """Remove the file again: nothing was recorded."""
+        """Remove the file: nothing was recorded."""
         ...
 
 
@@ -41,13 +41,19 @@ SinkT = TypeVar("SinkT", bound=Sink)
 
 
 class Recorder(Generic[SinkT, Item]):
-    """Opens, fills and closes one sink, all in its own thread, so that a slow disk holds up nobody else.
+    """Opens, fills and closes one sink in its own thread, so that a slow disk blocks nothing else.
 
-    ``write(sink, item)`` stores one item; ``on_fault(exception)`` is called once, from whichever thread met it.
-    When items come faster than they are stored until ``capacity`` of them wait, :class:`DiskTooSlow` ends the
-    recording: what waits is still written and the file is closed in good order. With ``is_blocking`` whoever puts
-    waits for
-    the disk instead.
+    Parameters
+    ----------
+    write : callable
+        Stores one item in the sink.
+    capacity : int
+        Items that may wait. If more come, :class:`DiskTooSlow` ends the recording: waiting items are still written and
+        the file is closed.
+    on_fault : callable
+        Called once with the exception that ended the recording, from any thread.
+    is_blocking : bool
+        The producer waits for the disk instead.
     """
 
     def __init__(
@@ -83,16 +89,16 @@ class Recorder(Generic[SinkT, Item]):
 
     @property
     def fault(self) -> Exception | None:
-        """What ended the recording early."""
+        """Exception that ended the recording early."""
         return self._fault
 
     @property
     def path(self) -> Path | None:
-        """Where the file is or will be, None until it is open."""
+        """Path of the file, None until it is open."""
         return self._path
 
     def start(self) -> None:
-        """Starts the thread and waits until the file is open; raises what kept it from opening."""
+        """Start the thread and wait until the file is open; raises its fault."""
         self._thread.start()
         self._opened.wait()
         if self._path is None and self._fault is not None:
@@ -100,7 +106,7 @@ class Recorder(Generic[SinkT, Item]):
             raise self._fault
 
     def submit(self, item: Item) -> bool:
-        """Hands over one item without waiting; False when the recording has ended."""
+        """Queue one item without waiting; return False if the recording has ended."""
         if self._free_slots is not None:
             while not self._free_slots.acquire(timeout=POLL_S):
                 if self._fault is not None:
@@ -116,7 +122,7 @@ class Recorder(Generic[SinkT, Item]):
         return True
 
     def finish(self) -> Path:
-        """Waits until everything handed over is stored and the file is closed; raises the fault that ended it early."""
+        """Wait until all items are stored and the file is closed; raises the fault that ended it early."""
         self._queue.close()
         self._thread.join()
         if self._fault is not None:
@@ -125,7 +131,7 @@ class Recorder(Generic[SinkT, Item]):
         return self._path
 
     def discard(self) -> None:
-        """Ends a recording that never began and removes its file."""
+        """End a recording that never began and remove its file."""
         self._is_discarded = True
         self._queue.close()
         self._thread.join()

@@ -1,4 +1,4 @@
-"""A running recording of the live session: its session and, if wanted, its raw pictures."""
+"""A running recording of the live session: the session file and, if wanted, the raw recording."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ _DISK_CHECK_ROWS = 30
 
 
 class SessionSink(Sink, Protocol):
-    """The session file in the making."""
+    """Session file being written."""
 
     def append(self, tracked: TrackedFrame) -> None: ...
 
     def add_event(self, time_s: float, kind: str, text: str) -> None: ...
 
     def prepare(self) -> None:
-        """No more rows come: all to the disk, and into what they become."""
+        """Write all rows to the disk and into the session file; no more come."""
         ...
 
 
 class QueuedEvent(NamedTuple):
-    """An event on its way to the session file."""
+    """Event waiting to be stored in the session file."""
 
     time_s: float
     kind: str
@@ -38,19 +38,17 @@ class QueuedEvent(NamedTuple):
 
 
 class LiveEventHandler(Protocol):
-    """Says something rare to the person who measures."""
+    """Receiver of rare events for the user."""
 
     def __call__(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None: ...
 
 
 class LiveRecording:
-    """The session file and the raw pictures, each opened, filled and closed in a thread of its own.
+    """Session file and raw recording, each opened, filled and closed in a thread of its own.
 
-    ``on_event`` hears what ends one of them early, and once that there is little room left. With ``is_blocking``
-    whoever puts
-    waits for the disk. ``before_close`` waits for what a finished file holds besides, beside the writing thread,
-    which writes
-    what is there meanwhile.
+    ``on_event`` receives the fault that ends one of them early, and once that the disk is nearly full. With
+    ``is_blocking`` the producer waits for the disk. ``before_close`` waits for the smoothing, while the writing thread
+    writes the rows that are there.
     """
 
     def __init__(
@@ -66,9 +64,9 @@ class LiveRecording:
     ) -> None:
         self.is_paused, self._before_close = False, before_close
         self.first_frame_index: int | None = None
-        """Index of the first frame that is recorded, None until it is captured."""
+        """Index of the first recorded frame, None until it is captured."""
         self.disk_free_bytes: int | None = None
-        """Bytes, as last looked at while a row was written."""
+        """Free space when a row was last written."""
         self._low_disk_bytes, self._on_event, self._has_warned = settings.low_disk_bytes, on_event, False
         self.row_recorder: Recorder[SessionSink, TrackedFrame | QueuedEvent | None] = Recorder(
             "writing",
@@ -90,7 +88,7 @@ class LiveRecording:
             )
 
     def start(self) -> None:
-        """Waits until the files are open. Raises what kept one from opening; then none is left behind."""
+        """Wait until the files are open; if one cannot be opened its fault is raised and none is left."""
         self.row_recorder.start()
         if self.frame_recorder is not None:
             try:
@@ -100,7 +98,7 @@ class LiveRecording:
                 raise
 
     def finish(self) -> Path:
-        """Waits until all is stored; the session file. Raises the fault that ended it early."""
+        """Wait until all is stored and return the session file; raises the fault that ended it early."""
         if self.row_recorder.fault is None:
             self.row_recorder.submit(None)
             self._before_close()
@@ -112,8 +110,7 @@ class LiveRecording:
                     self.frame_recorder.finish()
 
     def _write_row(self, sink: SessionSink, item: TrackedFrame | QueuedEvent | None) -> None:
-        """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then. None:
-        no more rows come."""
+        """Write one item (writing thread only); None means no more rows. Checks the free space now and then."""
         if item is None:
             sink.prepare()
         elif isinstance(item, QueuedEvent):
@@ -132,7 +129,7 @@ class LiveRecording:
 
 
 def read_free_bytes(folder: Path | None) -> int | None:
-    """Room on the disk of a folder, None when unknown."""
+    """Return the free space on the disk of a folder, None if unknown."""
     if folder is None:
         return None
     try:

@@ -1,7 +1,6 @@
-"""Looking back at a session while it grows, piece by piece, so that neither memory nor the end grow with it; and the
-owner's end of the process that does it, which is handed the steps.
+"""Smoothing of a session while it is recorded, in chunks, and the process that does it.
 
-In the process that tracks, draws and stores it would hold the interpreter's lock, and frames would be lost.
+In the process that tracks, draws and stores, the smoother would hold the interpreter's lock, and frames would be lost.
 """
 
 from __future__ import annotations
@@ -30,13 +29,14 @@ from carpus.core.tracking.smoother.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
 
 CHUNK_S, LAG_S = 8.0, 3.0
-"""So much is looked back at in one go, once so much that follows is known. In simulated recordings of 40 s that comes
-as near to the truth as looking back at all of it, and a stop finds 11 s at most still to be looked back at."""
+"""Length of a chunk, and of the data after it that are needed first. In simulated recordings of 40 s this comes as near
+to the truth as smoothing the whole, and at a stop at most 11 s are left.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class TrackedHand:
-    """What the tracker whose steps are looked back at was made of."""
+    """Calibration, camera and settings of the tracker whose steps are smoothed."""
 
     calibration: Calibration
     camera: Camera
@@ -45,14 +45,14 @@ class TrackedHand:
 
 @dataclass(frozen=True, slots=True)
 class SmoothedChunk:
-    """Frames in a row, looked back at: times (n,) and n rows of motion."""
+    """Consecutive smoothed frames: times (n,) and n rows of motion."""
 
     timestamp_s: FloatArray
     motion: Motion
 
 
 class ChunkedSmoother:
-    """Takes the steps of a tracker in order and gives them back, looked back at.
+    """Smoother of a tracker's filter steps in chunks.
 
     ``chunk_s`` and ``lag_s`` as :data:`CHUNK_S` and :data:`LAG_S`.
     """
@@ -62,7 +62,7 @@ class ChunkedSmoother:
         self._chunk_s, self._lag_s = chunk_s, lag_s
 
     def add_steps(self, steps: FilterSteps) -> Sequence[SmoothedChunk]:
-        """Take the steps of a frame; the piece that is due, if any."""
+        """Add the filter steps of a frame; return the chunk that is complete, if any."""
         record = self._record
         record.append_steps(steps)
         if not record.history:
@@ -71,12 +71,12 @@ class ChunkedSmoother:
         if newest_s - record.history[0].timestamp_s <= self._chunk_s + self._lag_s:
             return ()
         until_s = newest_s - self._lag_s
-        piece = self._smooth_until(until_s)
+        chunk = self._smooth_until(until_s)
         record.discard_before(until_s)
-        return piece
+        return chunk
 
     def finish(self) -> Sequence[SmoothedChunk]:
-        """All that is left, at the end."""
+        """Return the remaining frames, smoothed."""
         return self._smooth_until(math.inf)
 
     def _smooth_until(self, until_s: float) -> Sequence[SmoothedChunk]:
@@ -88,21 +88,20 @@ class ChunkedSmoother:
 
 SEND_EVERY_S = 0.5
 FRAMES_PER_MESSAGE = 15
-"""To pack their steps holds the interpreter's lock for less than a millisecond."""
+"""Pickling their steps holds the interpreter's lock for less than a millisecond."""
 MAX_WAITING = 3600
-"""Frames (30 MB of steps) that may wait for a process that is slow or stuck, before it is given up."""
+"""Frames (30 MB of steps) that may wait for a slow or stuck process before smoothing fails."""
 ANSWER_TIMEOUT_S = 60.0
-"""A loaded computer may take long to start a process."""
+"""A busy computer may take long to start a process."""
 FINISH_TIMEOUT_S = 30.0
-"""A finished recording waits so long for what is left to look back at: the last 11 s, a second's work, or more where a
-busy computer is behind."""
+"""Time that a finished recording waits for the rest: a second's work for the last 11 s, more on a busy computer."""
 
 
 class SmoothingProcess:
-    """Looks back at one recording while it grows, in a process of its own.
+    """Smooths one recording while it grows, in a process of its own.
 
-    A thread starts the process and talks to it; nobody else waits for either. Whatever goes wrong there is told by
-    :meth:`finish` alone.
+    A thread starts the process and talks to it; nothing else waits for either. A failure is raised by :meth:`finish`
+    alone.
     """
 
     def __init__(self, hand: TrackedHand, *, chunk_s: float = CHUNK_S, lag_s: float = LAG_S) -> None:
@@ -118,11 +117,11 @@ class SmoothingProcess:
 
     @property
     def pid(self) -> int | None:
-        """The process's number, None before it runs."""
+        """Process id, None before it runs."""
         return None if self._child is None else self._child.pid
 
     def add_steps(self, steps: FilterSteps) -> None:
-        """Take the steps of some frames, in order; never waits and never fails."""
+        """Add the filter steps of some frames, in order; never waits and never fails."""
         if len(self._waiting) >= MAX_WAITING:
             self._fail(f"{MAX_WAITING} frames behind")
         if self._failure:
@@ -132,25 +131,25 @@ class SmoothingProcess:
         self._has_started = True
 
     def pop_smoothed(self, timestamp_s: Sequence[float]) -> Motion | None:
-        """The motion at some frames' times, in order, as far as it is known by now: rows for the first of them, None
-        for none yet. What is given here is forgotten; frames that are not asked for are left out."""
-        pieces: list[SmoothedChunk] = []
+        """Return the motion of the first of the given frames that are smoothed by now; None if none is.
+
+        What is returned is forgotten; frames that are not asked for are skipped.
+        """
+        chunks: list[SmoothedChunk] = []
         while self._chunks and timestamp_s and self._chunks[0].timestamp_s[-1] <= timestamp_s[-1]:
-            pieces.append(self._chunks.popleft())
-        if not pieces:
+            chunks.append(self._chunks.popleft())
+        if not chunks:
             return None
         try:
-            return _select_motion(pieces, timestamp_s[: bisect_right(timestamp_s, pieces[-1].timestamp_s[-1])])
+            return _select_motion(chunks, timestamp_s[: bisect_right(timestamp_s, chunks[-1].timestamp_s[-1])])
         except SmoothingFailed as fault:
             self._fail(str(fault.detail))
             return None
 
     def finish(self, timestamp_s: Sequence[float]) -> Motion | None:
-        """The motion at the times of all frames that :meth:`pop_smoothed` has not given, in order; waits for what is
-        left.
-        None for no frames.
+        """Wait for the rest and return the motion at the given times; None for no frames.
 
-        Raises :class:`SmoothingFailed` where it is not all there after :data:`FINISH_TIMEOUT_S`.
+        Raises :class:`SmoothingFailed` if it is not complete after :data:`FINISH_TIMEOUT_S`.
         """
         self.join()
         if self._failure:
@@ -158,14 +157,14 @@ class SmoothingProcess:
         return _select_motion(self._chunks, timestamp_s)
 
     def join(self) -> None:
-        """Until all that was taken is looked back at, :data:`FINISH_TIMEOUT_S` at most; then it is given up."""
+        """Wait at most :data:`FINISH_TIMEOUT_S` until all steps are smoothed."""
         self._is_ending.set()
         self._thread.join(FINISH_TIMEOUT_S)
         self._abort(f"not done {FINISH_TIMEOUT_S:g} s after the end")
 
     @property
     def has_results(self) -> bool:
-        """Whether something came that :meth:`pop_smoothed` has not given yet."""
+        """Whether there are results that :meth:`pop_smoothed` has not returned yet."""
         return bool(self._chunks)
 
     def cancel(self) -> None:
@@ -180,9 +179,6 @@ class SmoothingProcess:
     def _fail(self, reason: str) -> None:
         self._failure = self._failure or reason
         self._waiting.clear()
-        self._kill()
-
-    def _kill(self) -> None:
         if self._child is not None:
             self._child.kill()
 
@@ -226,14 +222,14 @@ class SmoothingProcess:
 def _select_motion(chunks: Iterable[SmoothedChunk], timestamp_s: Sequence[float]) -> Motion | None:
     if not timestamp_s:
         return None
-    known_s = np.concatenate([np.empty(0), *(piece.timestamp_s for piece in chunks)])
+    known_s = np.concatenate([np.empty(0), *(chunk.timestamp_s for chunk in chunks)])
     missing = ~np.isin(timestamp_s, known_s)
     if missing.any():
         raise SmoothingFailed(detail=phrase("{np} frames missing", np=np.count_nonzero(missing)))
     rows = np.searchsorted(known_s, timestamp_s)
     return Motion(
         **{
-            field.name: np.concatenate([getattr(piece.motion, field.name) for piece in chunks])[rows]
+            field.name: np.concatenate([getattr(chunk.motion, field.name) for chunk in chunks])[rows]
             for field in fields(Motion)
         }
     )
@@ -241,23 +237,23 @@ def _select_motion(chunks: Iterable[SmoothedChunk], timestamp_s: Sequence[float]
 
 # --- in the child -----------------------------------------------------------------------------------------
 def run_smoother(link: Connection, hand: TrackedHand, chunk_s: float, lag_s: float) -> None:
-    """Look back at lists of steps, as often as they come while a recording runs, then at those that are left.
+    """Smooth lists of filter steps in the child process.
 
-    Both end with None. After each list the pieces that came due are sent (often none), after the last None the rest; a
-    text in their place says why it cannot go on.
+    Lists come while a recording runs, then at its end the rest; both end with None. After each list the complete chunks
+    are sent (often none), after the last None the rest; a text instead is the reason of a failure.
     """
     try:
-        pieces = ChunkedSmoother(hand, chunk_s, lag_s)
+        chunks = ChunkedSmoother(hand, chunk_s, lag_s)
         with ThreadPoolExecutor(1, initializer=lower_priority) as meanwhile:
-            meanwhile.submit(_answer_steps, link, pieces).result()
-        _answer_steps(link, pieces)  # somebody waits now: this thread gives way to nobody
-        link.send(pieces.finish())
-    except Exception as cause:  # the one catch of this process: told, not printed
-        with suppress(OSError):  # the owner may be gone, which may be the cause
+            meanwhile.submit(_answer_steps, link, chunks).result()
+        _answer_steps(link, chunks)  # a person waits now: this thread has normal priority
+        link.send(chunks.finish())
+    except Exception as cause:  # reported to the owner, not printed
+        with suppress(OSError):  # the owner may have died, which may be the cause
             link.send(f"{type(cause).__name__}: {cause}")
 
 
 def _answer_steps(link: Connection, smoother: ChunkedSmoother) -> None:
     """Answer lists of steps until None comes."""
     for frames in iter(link.recv, None):
-        link.send([piece for kept in frames for piece in smoother.add_steps(kept)])
+        link.send([chunk for steps in frames for chunk in smoother.add_steps(steps)])

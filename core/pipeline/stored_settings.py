@@ -1,4 +1,4 @@
-"""The settings that a session was tracked with, read back from its parameters, and how others differ from them."""
+"""Settings stored in a session, and how others differ from them."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ T = TypeVar("T")
 
 
 class StoredSettings(NamedTuple):
-    """``settings`` as the session was tracked, ``unknown`` the names of those that this Carpus does not have."""
+    """Settings of a session, and the names of those that this Carpus does not have."""
 
     settings: TrackSettings
     unknown: tuple[str, ...]
 
 
 def settings_from_json(parameters: str, kind: type[TrackSettings] = TrackSettings) -> StoredSettings | None:
-    """The settings that a session's parameters tell, as those of a ``kind`` of filter; None where they do not.
+    """Parse the settings in a session's parameters; None if there are none.
 
-    A setting that is newer than the session keeps its default; one that is gone is named.
+    A setting newer than the session keeps its default; a setting that no longer exists is named in ``unknown``.
     """
     try:
-        told = json.loads(parameters)["settings"]
+        stored = json.loads(parameters)["settings"]
     except (KeyError, TypeError, ValueError):
         return None
-    if not isinstance(told, Mapping):
+    if not isinstance(stored, Mapping):
         return None
     unknown: list[str] = []
-    return StoredSettings(_parse_settings(kind, told, "", unknown), tuple(unknown))
+    return StoredSettings(_parse_settings(kind, stored, "", unknown), tuple(unknown))
 
 
 def list_differences(before: TrackSettings, after: TrackSettings) -> list[str]:
-    """What differs, one text each: the setting's name, its value now and what it was."""
+    """Return the differing settings as text: name, new value and old value."""
     return list(_iter_differences(asdict(before), asdict(after)))
 
 
@@ -69,5 +69,5 @@ def _iter_differences(before: dict[str, Any], after: dict[str, Any], prefix: str
 
 
 def _format_value(value: Any) -> Any:
-    """A whole part of the settings is there or not."""
+    """Format a value; a whole section is on or off."""
     return "on" if isinstance(value, Mapping) else "off" if value is None else value

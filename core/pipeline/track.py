@@ -1,5 +1,7 @@
-"""The main job without a screen: a stored recording and its clicks to a complete session file; picture by picture, from
-blobs by way of discs and the state estimate to angles."""
+"""Tracking of stored recordings without a screen: from clicks and frames to a complete session file.
+
+Each frame goes from blobs to labelled markers, state estimate and angles.
+"""
 
 from __future__ import annotations
 
@@ -50,29 +52,29 @@ from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 
 AnyFrame = Frame | LazyFrame
-"""A frame, or one whose pictures are unpacked where they are looked at."""
+"""A frame, or one whose images are decoded when needed."""
 
 
 PIXEL_MODEL_SD_PX = 0.08
-"""Of a disc's centre, that a still hand does not show: shading, blur, the lens."""
+"""Error of a marker's centre that a still hand does not show: shading, blur, the lens."""
 DEPTH_RATIOS = (0.5, 2.0)
-"""No further off is the scatter of depths believed to be, as a still hand can lock to one step."""
+"""Accepted range of the depth noise ratio, since a still hand can lock to one step of depth."""
 
 
 class HandTracker(Protocol):
-    """Follows one calibrated hand through frames in order of time; :class:`Tracker`, or a filter of research."""
+    """Tracker of one calibrated hand; :class:`Tracker`, or a filter for research."""
 
     def begin_at_neutral(self, at_s: float | None = None) -> None:
-        """The hand is at its neutral pose again."""
+        """Set the hand back to its neutral pose."""
 
     def predict_measurement(self, timestamp_s: float) -> PredictedMeasurement | None:
-        """Where to look at that time; None for the whole picture."""
+        """Predict the measurement at a time; None to search the whole image."""
 
     def is_search_incomplete(self, blobs: Detections) -> bool:
-        """Whether the whole picture is to be searched after all."""
+        """Return whether the whole image has to be searched after all."""
 
     def add_operator_label(self, label: MarkerLabel) -> None:
-        """What a person says of the blue spots of a picture."""
+        """Add an operator's label of a frame's blobs."""
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
         """Track one frame by its blobs."""
@@ -82,14 +84,14 @@ AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
 
 
 class FramePipeline(Generic[AnyTracker]):
-    """Detector and tracker of one calibrated hand; call it with each frame in order."""
+    """Detector and tracker of one calibrated hand; to be called with each frame in order."""
 
     def __init__(self, detector: Detector, tracker: AnyTracker) -> None:
         self.detector = detector
         self.tracker = tracker
 
     def __call__(self, given: AnyFrame) -> TrackedFrame:
-        """Track one frame. Without a prediction the whole picture is searched."""
+        """Track one frame; without a prediction the whole image is searched."""
         expected = self.tracker.predict_measurement(given.timestamp_s)
         region = part = None
         if expected is not None:
@@ -110,28 +112,28 @@ class FramePipeline(Generic[AnyTracker]):
 
 
 SMOOTHING_FAILED = "not_looked_back"
-"""The event of a session that is stored as tracked, though looking back was asked for."""
+"""Event of a session whose smoothing failed."""
 
 
 def session_notes(session: Session) -> list[Event]:
-    """Its events, but for what only that tracking of it met."""
+    """Return the events of a session, without those of its processing."""
     return [event for event in session.events if event.kind != SMOOTHING_FAILED]
 
 
 def read_operator_labels(session: Session) -> dict[int, list[MarkerLabel]]:
-    """What was said of blue spots, by the row of the picture that took it up."""
-    out: dict[int, list[MarkerLabel]] = {}
+    """Return the operator's labels by the row of the frame that applied them."""
+    labels: dict[int, list[MarkerLabel]] = {}
     for event in session.events:
         if event.kind == OPERATOR_LABEL and len(session):
             row = int(abs(session.timestamp_s - event.time_s).argmin())
-            answer = MarkerLabel.from_json(event.text, row)
-            if answer is not None:
-                out.setdefault(row, []).append(answer)
-    return out
+            label = MarkerLabel.from_json(event.text, row)
+            if label is not None:
+                labels.setdefault(row, []).append(label)
+    return labels
 
 
 class SessionFrames:
-    """A :class:`core.capture.source.FrameSource` over the stored pictures of a session, times as in the session."""
+    """Stored images of a session as a :class:`core.capture.source.FrameSource`, with its times."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
@@ -148,31 +150,33 @@ class SessionFrames:
         )
 
     def frames(self) -> Iterator[Frame]:
-        """The frames in order; raises :class:`FrameDamaged` for one that cannot be decoded."""
+        """Yield the frames in order; raises :class:`FrameDamaged` if one cannot be decoded."""
         session = self._session
-        for row, kept in enumerate(read_raw(session.path)):
-            color = decode_color(kept.color)
+        for row, images in enumerate(read_raw(session.path)):
+            color = decode_color(images.color)
             if color is None:
                 raise FrameDamaged(session.path, phrase("colour picture {row}", row=row))
-            depth = decode_depth(kept.depth) if kept.depth else None
+            depth = decode_depth(images.depth) if images.depth else None
             time_s, dropped = float(session.timestamp_s[row]), int(session.quality.dropped_before[row])
             yield Frame(row, time_s, color, depth, self._unit_m, max(dropped, 0))
 
     def close(self) -> None:
-        """Nothing is held open between two walks."""
+        """Do nothing: no file is open between two passes."""
 
 
 T = TypeVar("T")
 
 Progress = Callable[[int, int | None], None]
-"""Called with frames done and frames in all (None when unknown)."""
+"""Called with the frames done and the frames in all (None if unknown)."""
 SmoothFunction = Callable[[], list[KinematicState]]
 
 
 @dataclass(frozen=True, slots=True)
 class TrackSettings:
-    """Everything that decides how a recording becomes a session. A filter of research has settings of a class of its
-    own, with a section more."""
+    """All settings that decide how a recording becomes a session.
+
+    A filter for research has a class of its own with one more section.
+    """
 
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
@@ -181,34 +185,34 @@ class TrackSettings:
 
     @property
     def dip_free(self) -> bool:
-        """Whether the end joints are followed for themselves."""
+        """Whether the DIP joints are tracked independently."""
         return self.tracker.dip == "free"
 
     @property
     def uses_depth(self) -> bool:
-        """Whether depth takes part in tracking."""
+        """Whether depth is used in tracking."""
         return self.tracker.use_depth
 
     def build_tracker(
         self, calibration: Calibration, camera: Camera, noise: NeutralNoise
     ) -> tuple[HandTracker, SmoothFunction | None]:
-        """What tracks a calibrated hand, and how it looks back if it is to."""
+        """Return the tracker of a calibrated hand, and its smoother if wanted."""
         tracker = Tracker(calibration, camera, noise.adapt_settings(self.tracker), keep_history=self.smooth)
         return tracker, tracker.smooth if self.smooth else None
 
     def adapt_calibration(self, calibration: Calibration, camera: Camera) -> Calibration:
-        """A new calibration as this filter has it."""
+        """Return a new calibration as this filter needs it."""
         return calibration
 
     def adapt_stored_calibration(self, session: Session) -> Calibration:
-        """The calibration of a session, whatever filter tracked that, as this filter has it."""
+        """Return the calibration of a session, of whatever filter, as this filter needs it."""
         is_other = is_of_other_filter(session.header.parameters)
         return with_w0_from_markers(session.calibration) if is_other else session.calibration
 
 
 @dataclass(frozen=True, slots=True)
 class TrackReport:
-    """What came of it: frames by status."""
+    """Number of frames by status."""
 
     output: Path
     frames: int
@@ -221,8 +225,17 @@ class TrackReport:
 
 @dataclass(frozen=True, slots=True)
 class NeutralNoise:
-    """What the still hand at the start taught: its noise, until when it was still (time of the recording), and the
-    size of its discs."""
+    """Noise estimated at the neutral pose.
+
+    Attributes
+    ----------
+    pixel_sd_px, depth_ratio : float
+        Standard deviation of a marker's centre; depth noise relative to the sensor's model.
+    neutral_ends_s : float
+        End of the neutral pose on the recording's clock.
+    disc_radius_m : float
+        Radius of the markers.
+    """
 
     pixel_sd_px: float
     depth_ratio: float
@@ -230,7 +243,7 @@ class NeutralNoise:
     disc_radius_m: float = 0.006
 
     def adapt_settings(self, settings: TrackerSettings) -> TrackerSettings:
-        """Tracker settings with this noise and these discs."""
+        """Return tracker settings with this noise and marker radius."""
         noise = replace(settings.noise, pixel_sd_px=self.pixel_sd_px, depth_ratio=self.depth_ratio)
         return replace(settings, noise=noise, marker_radius_m=self.disc_radius_m)
 
@@ -238,7 +251,7 @@ class NeutralNoise:
 def format_parameters(
     settings: TrackSettings, source: Mapping[str, Any], noise: NeutralNoise, set_up: Mapping[str, Any] | None = None
 ) -> str:
-    """All settings, what was learnt, the facts of the source, what was aimed at, and by which revision."""
+    """Return settings, neutral noise, source, targets and revision as JSON."""
     chosen = asdict(settings)
     content: dict[str, Any] = {"settings": chosen, "learnt": asdict(noise), "source": dict(source)}
     content["provenance"] = {"revision": source_revision(), "settings_sha256": sha256_of_settings(chosen)}
@@ -248,7 +261,7 @@ def format_parameters(
 
 
 def noise_from_json(parameters: str) -> NeutralNoise | None:
-    """What an earlier session learnt; None where its parameters do not say."""
+    """Return the neutral noise stored in a session's parameters; None if there is none."""
     try:
         return NeutralNoise(**json.loads(parameters)["learnt"])
     except (KeyError, TypeError, ValueError):
@@ -256,17 +269,17 @@ def noise_from_json(parameters: str) -> NeutralNoise | None:
 
 
 def is_of_other_filter(parameters: str) -> bool:
-    """Whether a filter of research tracked a session: its settings are a section that Carpus' own have not."""
+    """Return whether a filter for research tracked a session: its settings have a section of their own."""
     try:
-        told: Mapping[str, Any] = json.loads(parameters)["settings"]
-        own = {one.name for one in fields(TrackSettings)}
-        return any(isinstance(value, Mapping) for name, value in told.items() if name not in own)
+        stored: Mapping[str, Any] = json.loads(parameters)["settings"]
+        own_names = {one.name for one in fields(TrackSettings)}
+        return any(isinstance(value, Mapping) for name, value in stored.items() if name not in own_names)
     except (AttributeError, KeyError, TypeError, ValueError):
         return False
 
 
 def describe_source(info: SourceInfo) -> dict[str, Any]:
-    """What a session says about where its pictures came from."""
+    """Return what a session stores of its source."""
     return {
         "name": info.name,
         "nominal_fps": info.nominal_fps,
@@ -277,7 +290,7 @@ def describe_source(info: SourceInfo) -> dict[str, Any]:
 
 
 def noise_from_neutral(still: MeasurementNoise, neutral_ends_s: float, settings: TrackerSettings) -> NeutralNoise:
-    """Noise of one picture and discs' size as the still hand showed them, or the settings' where it could not."""
+    """Return the noise and marker radius at the neutral pose, or the settings' if they are unknown."""
     noise = settings.noise
     pixel_sd_px, depth_ratio = noise.pixel_sd_px, noise.depth_ratio
     if np.isfinite(still.pixel_sd_px):
@@ -291,7 +304,7 @@ def noise_from_neutral(still: MeasurementNoise, neutral_ends_s: float, settings:
 def build_pipeline(
     outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, noise: NeutralNoise, keep_history: bool = True
 ) -> FramePipeline[Tracker]:
-    """Detector and tracker for a calibrated hand; raises what :func:`require_calibration` does."""
+    """Build detector and tracker for a calibrated hand; raises what :func:`require_calibration` does."""
     calibration = require_calibration(outcome)
     detector = Detector(outcome.appearance, camera, settings.detection)
     tracker = Tracker(calibration, camera, noise.adapt_settings(settings.tracker), keep_history=keep_history)
@@ -299,34 +312,44 @@ def build_pipeline(
 
 
 _MAX_NEUTRAL_GAP_S = 0.25
-"""So soon after the still frames a hand is as it was."""
+"""The hand is still at the neutral pose so soon after the still frames."""
 
 
 def restart_at_neutral(
     frames: Iterable[T], tracker: HandTracker, neutral_ends_s: float, time_of: Callable[[T], float]
 ) -> Iterator[T]:
-    """The frames, the tracker set back to the neutral pose before the first that was not used to calibrate.
+    """Yield the frames; before the first after the calibration the tracker is set back to the neutral pose.
 
-    The still frames made the calibration; counted twice they would make it too sure of itself. Where the first frame
-    comes later than these, the hand may have moved meanwhile.
+    The still frames made the calibration; counted twice they would make it overconfident. If the first frame comes
+    later, the hand may have moved meanwhile.
     """
-    begun, is_first = False, True
+    start, is_first = False, True
     for frame in frames:
-        if not begun and (late_s := time_of(frame) - neutral_ends_s) > 0.0:
+        if not start and (late_s := time_of(frame) - neutral_ends_s) > 0.0:
             if is_first and _MAX_NEUTRAL_GAP_S < late_s < math.inf:
                 tracker.begin_at_neutral(neutral_ends_s)
             else:
                 tracker.begin_at_neutral()
-            begun = True
+            start = True
         is_first = False
         yield frame
 
 
 @dataclass(frozen=True, slots=True)
 class TrackingStart:
-    """A stored recording about to be tracked: its ``first_frame`` frame, all ``frames`` from that on, what tracks
-    them by the
-    chosen filter, and how that looks back if it is to."""
+    """Stored recording ready to be tracked.
+
+    Attributes
+    ----------
+    first_frame : Frame
+        First frame of the recording.
+    frames : iterator
+        All frames from the first on.
+    pipeline : FramePipeline
+        Detector and tracker.
+    smooth : callable, optional
+        Returns the smoothed states.
+    """
 
     first_frame: Frame
     frames: Iterator[AnyFrame]
@@ -343,8 +366,17 @@ def start_tracking(
     start_angles_rad: FloatArray | None = None,
     on_verdict: Callable[[Verdict], None] | None = None,
 ) -> TrackingStart:
-    """Calibrate from the first frames. A poor verdict is handed to ``on_verdict``; a click with no blob or no depth
-    raises, and :class:`RecordingEmpty` where there is no frame."""
+    """Calibrate from the first frames and build the tracker.
+
+    A poor verdict is passed to ``on_verdict``.
+
+    Raises
+    ------
+    CarpusFault
+        A click has no blob or no depth.
+    RecordingEmpty
+        There is no frame.
+    """
     frames: Iterator[AnyFrame] = source.lazy_frames() if isinstance(source, RawRecording) else source.frames()
     opening, camera = _read_neutral_frames(frames, settings.calibration.still_s), source.info.camera
     if not opening:
@@ -354,12 +386,12 @@ def start_tracking(
         on_verdict(outcome.verdict)  # also before a fault: it may say why a click has no depth
     calibration = settings.adapt_calibration(require_calibration(outcome), camera)
     ends_s = opening[outcome.capture_frames - 1].timestamp_s
-    learnt = noise_from_neutral(outcome.noise, ends_s, settings.tracker)
-    tracker, look_back = settings.build_tracker(calibration, camera, learnt)
+    noise = noise_from_neutral(outcome.noise, ends_s, settings.tracker)
+    tracker, smooth = settings.build_tracker(calibration, camera, noise)
     detector = Detector(outcome.appearance, camera, settings.detection)
     pipeline = FramePipeline(detector, tracker)
     ordered = restart_at_neutral(chain(opening, frames), tracker, ends_s, lambda frame: frame.timestamp_s)
-    return TrackingStart(opening[0], ordered, pipeline, look_back, calibration, learnt)
+    return TrackingStart(opening[0], ordered, pipeline, smooth, calibration, noise)
 
 
 def track_recording(
@@ -381,51 +413,76 @@ def track_recording(
     listener: Listener | None = None,
     labelled_session: Session | None = None,
 ) -> TrackReport:
-    """Track a recording from its first frame to its last into ``output``; smooth it if asked.
+    """Track a recording from its first frame to its last into ``output``; smooth it if wanted.
 
-    ``recorded`` is when the hand moved, if somebody knows; else the recording is asked, at last the date of the file
-    or folder ``path``, and ``on_date`` hears what it was. ``listener`` hears every frame as it is tracked.
-    ``labelled_session``: the session of the same pictures whose notes and answers hold again.
-    A poor verdict is handed to ``on_verdict`` and tracking goes on; a click with no blob or no depth raises.
-    When a picture cannot be read, nothing half-done is left behind.
+    A poor verdict is passed to ``on_verdict`` and tracking goes on; a click with no blob or no depth raises. After a
+    fault there is no output.
+
+    Parameters
+    ----------
+    source : FrameSource
+        The recording.
+    clicks : Clicks
+        Markers in the first frame.
+    output : Path
+        New session file.
+    settings : TrackSettings
+        Settings of detection, calibration and tracking.
+    subject_id, exercise, origin, set_up
+        Entries of the session's header and parameters.
+    start_angles_rad : ndarray, shape (3,), optional
+        Wrist angles of the neutral pose.
+    progress : callable, optional
+        Receives the frames done and in all.
+    on_verdict : callable, optional
+        Receives a poor calibration verdict.
+    recorded : RecordingDate, optional
+        Date of the recording if known; else that of the recording or, last, of ``path``.
+    path : Path, optional
+        File or folder of the recording.
+    on_date : callable, optional
+        Receives the date that is used.
+    listener : Listener, optional
+        Receives every tracked frame.
+    labelled_session : Session, optional
+        Session of the same frames whose notes and labels are applied again.
     """
     if output.exists():
         raise OutputExists(output)
-    begun = start_tracking(source, clicks, settings, start_angles_rad, on_verdict)
+    start = start_tracking(source, clicks, settings, start_angles_rad, on_verdict)
     if recorded is None:
-        recorded = find_recording_date(source.info, begun.first_frame.timestamp_s, path)
+        recorded = find_recording_date(source.info, start.first_frame.timestamp_s, path)
     if on_date is not None:
         on_date(recorded)
+    facts = describe_source(source.info) | ({"recorded_by": recorded.source} if recorded else {})
+    if path is not None:
+        with suppress(OSError):  # a missing image is reported when it is read
+            facts["sha256"] = sha256_of_recording(path)
     header = new_header(
         hand=clicks.side,
         protocol=clicks.protocol,
         subject_id=subject_id,
         exercise=exercise,
-        parameters=format_parameters(settings, _describe_recording(source.info, recorded, path), begun.noise, set_up),
+        parameters=format_parameters(settings, facts, start.noise, set_up),
         origin=origin,
         dip_free=settings.dip_free,
         recorded=recorded.time if recorded else "",
-        recording_id=compute_recording_id(source.info, begun.first_frame),
+        recording_id=compute_recording_id(source.info, start.first_frame),
     )
-    writer = SessionWriter.create(output, header, source.info.camera, begun.calibration)
-    answers = {} if labelled_session is None else read_operator_labels(labelled_session)
+    writer = SessionWriter.create(output, header, source.info.camera, start.calibration)
+    labels = {} if labelled_session is None else read_operator_labels(labelled_session)
 
-    def track_frame(frame: AnyFrame) -> TrackedFrame:
-        for answer in answers.get(frame.index, ()):
-            begun.pipeline.tracker.add_operator_label(answer)
-        return begun.pipeline(frame)
+    def track_frames() -> Iterator[TrackedFrame]:
+        for frame in start.frames:
+            for label in labels.get(frame.index, ()):
+                start.pipeline.tracker.add_operator_label(label)
+            tracked = start.pipeline(frame)
+            if listener is not None:
+                listener.on_frame(tracked)
+            yield tracked
 
-    tracked = _heard(map(track_frame, begun.frames), listener)
-    notes, verdict = () if labelled_session is None else session_notes(labelled_session), begun.calibration.verdict
-    return write_tracked(writer, tracked, begun.smooth, verdict, source.info.frame_count, progress, notes)
-
-
-def _describe_recording(info: SourceInfo, recorded: RecordingDate | None, path: Path | None) -> dict[str, Any]:
-    facts = describe_source(info) | ({"recorded_by": recorded.source} if recorded else {})
-    if path is not None:
-        with suppress(OSError):  # a picture that is not there is told where it is read
-            facts["sha256"] = sha256_of_recording(path)
-    return facts
+    notes, verdict = () if labelled_session is None else session_notes(labelled_session), start.calibration.verdict
+    return write_tracked(writer, track_frames(), start.smooth, verdict, source.info.frame_count, progress, notes)
 
 
 def retrack_session(
@@ -436,11 +493,10 @@ def retrack_session(
     progress: Progress | None = None,
     on_verdict: Callable[[Verdict], None] | None = None,
 ) -> TrackReport:
-    """Track a session again, from its pictures where it kept them, else from its detections.
+    """Track a session again, from its stored images if there are any, else from its detections.
 
-    From detections the session's own calibration and what it learnt are used again, so that equal settings give
-    equal angles. What was noted and answered while measuring holds again. The old file is not touched; the new one
-    names it as its origin, aims at the same, and is simulated where that was.
+    From detections the session's calibration and neutral noise are used again, so that equal settings give equal
+    angles. Notes and labels are applied again. The old file is not changed; the new one names it as its origin.
     """
     if output.exists():
         raise OutputExists(output)
@@ -463,43 +519,31 @@ def retrack_session(
             path=origin,
             labelled_session=session,
         )
-    return _retrack_detections(origin, session, output, settings, progress)
-
-
-def _retrack_detections(
-    origin: Path,
-    session: Session,
-    output: Path,
-    settings: TrackSettings,
-    progress: Progress | None,
-) -> TrackReport:
     table = read_detections(origin)
-    learnt = session_noise(session, settings)
+    noise = session_noise(session, settings)
     check_calibration(origin, session.calibration)
     calibration = settings.adapt_stored_calibration(session)
-    tracker, look_back = settings.build_tracker(calibration, session.camera, learnt)
-    tracked = retrack_frames(session, tracker, learnt, table.get_frame)
+    tracker, smooth = settings.build_tracker(calibration, session.camera, noise)
+    tracked = retrack_frames(session, tracker, noise, table.get_frame)
     facts = {"sha256": sha256_of_file(origin)}
-    writer = create_retrack_writer(session, output, settings, learnt, calibration, facts)
-    return write_tracked(
-        writer, tracked, look_back, calibration.verdict, len(session), progress, session_notes(session)
-    )
+    writer = create_retrack_writer(session, output, settings, noise, calibration, facts)
+    return write_tracked(writer, tracked, smooth, calibration.verdict, len(session), progress, session_notes(session))
 
 
 def retrack_frames(
     session: Session, tracker: HandTracker, noise: NeutralNoise, detections_of: Callable[[int], Detections]
 ) -> Iterator[TrackedFrame]:
-    """The frames of a session from the blobs of each row, with what was said of them while it was measured."""
-    times_s, answers = session.timestamp_s.tolist(), read_operator_labels(session)
+    """Track the stored detections of each row of a session, with the operator's labels."""
+    times_s, labels = session.timestamp_s.tolist(), read_operator_labels(session)
     for row in restart_at_neutral(range(len(session)), tracker, noise.neutral_ends_s, times_s.__getitem__):
         blobs = detections_of(row)
-        for answer in answers.get(row, ()):
-            tracker.add_operator_label(answer)
+        for label in labels.get(row, ()):
+            tracker.add_operator_label(label)
         yield tracker.step(row, times_s[row], blobs, max(int(session.quality.dropped_before[row]), 0))
 
 
 def session_noise(session: Session, settings: TrackSettings) -> NeutralNoise:
-    """What an earlier session learnt; where it does not say, what the settings take."""
+    """Return the neutral noise of a session, or that of the settings."""
     return noise_from_json(session.header.parameters) or noise_from_neutral(
         MeasurementNoise(), -np.inf, settings.tracker
     )
@@ -513,7 +557,7 @@ def create_retrack_writer(
     calibration: Calibration,
     facts: Mapping[str, str],
 ) -> SessionWriter:
-    """The file of another result of the recording that a session is of, from its blobs."""
+    """Create the file of another result of a session's recording, made from its detections."""
     old = session.header
     source = {"session": old.session_id, "from": "detections", **facts}
     source |= {SIMULATED: "yes"} if old.is_simulated else {}
@@ -531,15 +575,8 @@ def create_retrack_writer(
     return SessionWriter.create(output, header, session.camera, calibration)
 
 
-def _heard(frames: Iterator[TrackedFrame], listener: Listener | None) -> Iterator[TrackedFrame]:
-    for frame in frames:
-        if listener is not None:
-            listener.on_frame(frame)
-        yield frame
-
-
 def _read_neutral_frames(frames: Iterator[AnyFrame], still_s: float) -> list[Frame]:
-    """The first frames, as far as the neutral capture may reach, and the one that shows it is over."""
+    """Return the first frames, as far as the neutral pose may reach, and one more."""
     opening: list[Frame] = []
     for seen in frames:
         opening.append(frame := seen.decode(None))
@@ -557,8 +594,10 @@ def write_tracked(
     progress: Progress | None,
     notes: Iterable[Event],
 ) -> TrackReport:
-    """Store frames as they are tracked, then notes, the smoother's result where wanted, and the repetitions. When it
-    cannot be done nothing half-done is left behind: the recording is still there."""
+    """Store tracked frames, notes, the smoother's result if wanted, and the repetitions.
+
+    After a fault there is no output.
+    """
     counts = dict.fromkeys(TrackStatus, 0)
     done = 0
     with writer:
