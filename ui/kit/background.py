@@ -1,4 +1,4 @@
-"""Work that may wait for the disk, done beside the window's thread; the answer comes back as a signal."""
+"""Background work of the window in a worker thread, with the result returned as a signal."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class _Task(QRunnable):
 
 
 class Background(QObject):
-    """Runs one piece of work at a time in order; ``done`` and ``on_failed`` are called in the window's thread."""
+    """Runner of one task at a time, in order; callbacks run in the window's thread."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -53,7 +53,7 @@ class Background(QObject):
         on_failed: Callable[[Exception], None],
         owner: QObject | None = None,
     ) -> None:
-        """Start ``work``; one of the two is called later, unless ``owner`` has gone by then."""
+        """Start ``work`` and call ``on_done`` or ``on_failed`` later, unless ``owner`` has been destroyed."""
         answer = _TaskSignals()
         self._active_tasks.add(answer)
 
@@ -73,6 +73,9 @@ class Background(QObject):
         return bool(self._active_tasks)
 
     def join(self, timeout_ms: int = 60_000) -> bool:
-        """Wait until all work has run, as when the program ends: a slow computer stores a session for many seconds. A
-        disk that does not answer is not waited for for ever; what it has is finished at the next start."""
+        """Wait until all tasks are done, at most ``timeout_ms``; return whether they are.
+
+        A slow computer stores a session for many seconds. What a dead disk leaves undone is finished at the next
+        start.
+        """
         return self._pool.waitForDone(timeout_ms)

@@ -1,4 +1,4 @@
-"""The bundled typeface. Figures are tabular in the files themselves (resources/fonts/make_fonts.py)."""
+"""The bundled typeface; its digits are tabular (resources/fonts/make_fonts.py)."""
 
 from __future__ import annotations
 
@@ -18,9 +18,11 @@ _loaded: list[str] = []
 
 
 def load_fonts() -> tuple[str, ...]:
-    """Register the bundled faces with Qt; the families found. Needs a QGuiApplication; costs next to nothing twice, and
-    does it again where Qt has forgotten them: it has been seen, after many minutes, to draw single sizes in the
-    system's face and to keep to that. Registering drops what it keeps, so that it looks again."""
+    """Register the bundled fonts with Qt and return their families.
+
+    Needs a QGuiApplication. Call it again where Qt may have forgotten a font: after many minutes it has drawn single
+    sizes in the system's font and kept to that. Registering clears its cache.
+    """
     if _loaded and all(
         _is_available(size_px, weight) for size_px in _CHECKED_SIZES_PX for weight in (REGULAR, MEDIUM, SEMIBOLD)
     ):
@@ -40,7 +42,7 @@ def _is_available(size_px: int, weight: int) -> bool:
 
 
 def font(size_px: float, weight: int = REGULAR, *, display: bool | None = None) -> QFont:
-    """The face for a size already scaled: the display cut from 28 px up, or as told where a pixel is not a pixel."""
+    """Return the font for a scaled size in pixels; the display cut from 28 px up unless ``display`` says otherwise."""
     if display is None:
         display = size_px >= DISPLAY_FROM_PX
     face = QFont(DISPLAY_FAMILY if display else TEXT_FAMILY)

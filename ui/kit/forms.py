@@ -1,5 +1,4 @@
-"""A form as a table: each field is an attribute of a value with its label, its widget, and its rule with the words of
-its fault. One loop lays them out, fills them, checks them and reads them."""
+"""Forms declared as tables: each field has an attribute name, a label, a widget and a validator."""
 
 from __future__ import annotations
 
@@ -18,14 +17,16 @@ from carpus.ui.kit.layouts import row_layout
 from carpus.ui.kit.theme import Theme
 
 Validator = Callable[[Any], str]
-"""What is wrong with a value, in words; empty for nothing."""
+"""Returns the error message for a value, empty if it is valid."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Field:
-    """``name`` is the attribute; ``trailing`` stands behind the widget. One that ``continues_row`` stands in the line
-    of the
-    one before, right behind its widget where it has no label; ``stretch`` of the line's room is its own."""
+    """A row of the form, or a part of one.
+
+    ``name`` is the attribute, ``trailing`` are widgets behind the widget. A field that ``continues_row`` stands in
+    the row of the one before. ``stretch`` is its share of the row.
+    """
 
     name: str
     label: str
@@ -35,16 +36,19 @@ class Field:
     continues_row: bool = False
     stretch: int = 0
     change_signal: str = ""
-    """The signal of a change, where it is not that of its kind."""
+    """Signal of a change, if it is not the usual one of the widget."""
 
 
 def require_choice(message: str) -> Validator:
-    """One of several, of which none is chosen by itself."""
+    """Return a validator that reports ``message`` while nothing is chosen."""
     return lambda value: message if value is None else ""
 
 
 def limit_length(max_length: int, message: str) -> Validator:
-    """Nothing that is typed is ever cut; ``message`` name the ``{max_length}`` of letters that are too many."""
+    """Return a validator for texts longer than ``max_length``; ``message`` names the excess as ``{count}``.
+
+    Typed text is never cut.
+    """
     return lambda text: message.format(count=len(text) - max_length) if len(text) > max_length else ""
 
 
@@ -56,12 +60,15 @@ _WIDGET_ACCESS: Sequence[tuple[type[QWidget], Callable[[Any], Any], Callable[[An
     (QLineEdit, lambda line: " ".join(line.text().split()), QLineEdit.setText, "textChanged"),
     (QPlainTextEdit, lambda text: text.toPlainText().strip(), QPlainTextEdit.setPlainText, "textChanged"),
 )
-"""How each kind of widget is read and filled, and the signal by which it tells that it was changed. One of ours may
-have a ``value`` of its own, and ``set_value``."""
+"""How each kind of widget is read and written, and its signal of a change. A widget of our own may have ``value`` and
+``set_value``."""
 
 
 class Form(QObject):
-    """The widgets of a table by the names of its fields. ``changed`` whenever something else is in one."""
+    """Widgets of a table of fields, by field name.
+
+    Signals: ``changed`` when a value changes.
+    """
 
     changed = Signal()
 
@@ -70,7 +77,7 @@ class Form(QObject):
         self._fields = {field.name: field for field in fields}
         self._accessors: dict[str, tuple[Callable[[], Any], Callable[[Any], object]]] = {}
         self.labelled_widgets: dict[str, Any] = {}
-        """Each field under its label; the bare widget where it has none."""
+        """Each field's widget under its label; the bare widget if it has none."""
         for number, field in enumerate(fields):
             widget = field.widget
             read, show, tells = next(kind[1:] for kind in _WIDGET_ACCESS if isinstance(widget, kind[0]))
@@ -87,7 +94,7 @@ class Form(QObject):
                 self.labelled_widgets[field.name] = field.widget
 
     def layout_rows(self) -> list[QHBoxLayout]:
-        """All of it to be laid out from top to bottom."""
+        """Return the rows of the form, from top to bottom."""
         lines: list[QHBoxLayout] = []
         for name, part in self.labelled_widgets.items():
             if not self._fields[name].continues_row:
@@ -99,20 +106,20 @@ class Form(QObject):
         return lines
 
     def __getitem__(self, name: str) -> Any:
-        """The widget of a field."""
+        """Return the widget of a field."""
         return self._fields[name].widget
 
     def fill(self, value: object) -> None:
-        """Show what the attributes of a value are; none of several choices where it is not among them."""
+        """Show the attributes of ``value`` in the widgets."""
         for name, (_, show) in self._accessors.items():
             show(getattr(value, name))
 
     def values(self) -> dict[str, Any]:
-        """What is typed and chosen, by the names of the fields."""
+        """Return the values of all widgets, by field name."""
         return {name: read() for name, (read, _) in self._accessors.items()}
 
     def find_error(self) -> tuple[QWidget | None, str]:
-        """The first field that is wrong, and what is wrong with it; empty words where all is well."""
+        """Return the widget of the first invalid field and its message; (None, "") if all are valid."""
         for name, value in self.values().items():
             if words := self._fields[name].validator(value):
                 return self[name], words

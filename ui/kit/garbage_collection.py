@@ -1,4 +1,4 @@
-"""Cyclic garbage is collected in the window's thread alone: Qt's objects must not be destroyed in another one."""
+"""Cyclic garbage collection in the window's thread only: Qt objects must not be destroyed in another thread."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ COLLECT_INTERVAL_MS = 100
 
 
 def collect_due_garbage() -> None:
-    """Collect the oldest generation that is due, as Python does by itself where its collector is enabled."""
+    """Collect the oldest generation that is due, as Python's own collector would."""
     for generation in (2, 1, 0):
         if gc.get_count()[generation] > gc.get_threshold()[generation]:
             gc.collect(generation)
@@ -18,7 +18,7 @@ def collect_due_garbage() -> None:
 
 
 class GarbageCollector(QObject):
-    """Takes the place of Python's collector, which runs in whichever thread has just made an object."""
+    """Timer that replaces Python's collector, which runs in whichever thread has just allocated."""
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)

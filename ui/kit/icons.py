@@ -1,4 +1,4 @@
-"""Line icons from files, recoloured; state icons drawn here, each with a shape of its own."""
+"""Line icons from files, recoloured, and state icons drawn here."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _renderer(name: str, color: str) -> QSvgRenderer:
 
 
 def program_icon_image(size_px: int) -> QImage:
-    """Carpus's own, square: of its windows, and of what the installers bring."""
+    """Return the square program icon, for windows and installers."""
     picture = QImage(size_px, size_px, QImage.Format.Format_ARGB32)
     picture.fill(Qt.GlobalColor.transparent)
     painter = QPainter(picture)
@@ -41,7 +41,7 @@ def paint_icon(painter: QPainter, name: str, box: QRectF, color: QColor) -> None
 
 
 def paint_state(painter: QPainter, state: State, box: QRectF, fill: QColor, sign: QColor) -> None:
-    """Draw a state: disc with check, triangle with !, octagon with a cross, empty, half or dashed ring.
+    """Draw a state icon: disc with check, triangle with !, octagon with cross, empty, half or dashed ring.
 
     ``fill`` is the colour of the body, ``sign`` that of the mark inside.
     """
@@ -86,7 +86,7 @@ def paint_state(painter: QPainter, state: State, box: QRectF, fill: QColor, sign
 
 
 def octagon(center: QPointF, radius: float) -> QPolygonF:
-    """A stop-sign shape with two flat sides up and down."""
+    """Return a stop-sign polygon with two horizontal sides."""
     near = radius * 0.4142
     corners = ((near, -radius), (radius, -near), (radius, near), (near, radius),
                (-near, radius), (-radius, near), (-radius, -near), (-near, -radius))  # fmt: skip
@@ -94,7 +94,7 @@ def octagon(center: QPointF, radius: float) -> QPolygonF:
 
 
 def paint_logo(painter: QPainter, box: QRectF, color: QColor) -> None:
-    """The sign of Carpus: a wrist disc with five rays, drawn so that it stays clear at 20 px."""
+    """Draw the logo: a wrist disc with five rays, clear at 20 px."""
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.translate(box.topLeft())
@@ -111,6 +111,6 @@ def paint_logo(painter: QPainter, box: QRectF, color: QColor) -> None:
 
 
 def triangle(center: QPointF, radius: float) -> QPolygonF:
-    """A warning's shape, point up, about a place."""
+    """Return a warning triangle, point up, around ``center``."""
     corners = ((0.0, -radius), (0.9 * radius, 0.72 * radius), (-0.9 * radius, 0.72 * radius))
     return QPolygonF([center + QPointF(x, y) for x, y in corners])

@@ -1,4 +1,4 @@
-"""Every key in one table."""
+"""All keyboard shortcuts in one table."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ KEYS = {
     "angle": "A", "hand_picture": "F",
     "tick": "Space", "compare_ticked": "C", "beside": "B", "mirror": "M",
 }  # fmt: skip
-"""While measuring only the space bar, a pedal's key and function keys: no keyboard layout or language matters."""
+"""While measuring only Space, the pedal's key and function keys are used: they work in every keyboard layout."""
 
 
 def bind_key(
@@ -40,7 +40,7 @@ def bind_key(
     action: Callable[[], object],
     context: Qt.ShortcutContext = Qt.ShortcutContext.WidgetWithChildrenShortcut,
 ) -> QShortcut:
-    """Make a key work while the host or a child of it has the keyboard."""
+    """Make a shortcut work while ``host`` or one of its children has the focus."""
     shortcut = QShortcut(QKeySequence(KEYS[name]), host)
     shortcut.setContext(context)
     shortcut.setAutoRepeat(name in ("frame_back", "frame_on", "edge_back", "edge_on", "plot_in", "plot_out"))
@@ -49,14 +49,17 @@ def bind_key(
 
 
 def bind_screen_keys(host: QWidget, actions: Mapping[str, Callable[[], object]]) -> dict[str, QShortcut]:
-    """Keys of a screen that has the keyboard itself while none of its parts does, without a ring around it."""
+    """Bind shortcuts of a screen that takes the focus itself, without a focus ring."""
     host.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     host.setProperty("shows_own_focus", True)
     return {name: bind_key(host, name, action) for name, action in actions.items()}
 
 
 def key_name(key: str) -> str:
-    """``Ctrl+P`` as the keys of the person's keyboard are named: ``Strg+P``. Words that are no key stay."""
+    """Return a key sequence in the names of the user's keyboard: ``Ctrl+P`` is ``Strg+P``.
+
+    Words that are no key are returned unchanged.
+    """
     names = {
         "Ctrl": tr("Ctrl"), "Alt": tr("Alt"), "Shift": tr("Shift"), "Space": tr("Space"), "Enter": tr("Enter"),
         "Return": tr("Enter"), "Backspace": tr("Backspace"), "Esc": tr("Esc"), "Tab": tr("Tab"),
@@ -65,13 +68,13 @@ def key_name(key: str) -> str:
 
 
 def mnemonic_key(text: str) -> str:
-    """``Alt+H`` of a button's text with a letter marked by &; empty without."""
+    """Return the mnemonic of a button text, such as ``Alt+H``; empty if it has none."""
     at = text.replace("&&", "  ").find("&")
     return f"Alt+{text[at + 1].upper()}" if 0 <= at < len(text) - 1 else ""
 
 
 def action_words(name: str) -> str:
-    """What a key does, for the help."""
+    """Return what a shortcut does, for the help."""
     words = {
         "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
         "new_patient": tr("New patient"), "report": tr("Report"), "home_sheet": tr("Sheet for home"),

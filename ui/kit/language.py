@@ -1,7 +1,7 @@
-"""Which language the program speaks: the window's, or for a moment another one's.
+"""Language of the window, and of single threads.
 
-One translator is installed once and asks for the language that is spoken in its thread; nothing is installed later,
-so a report may be painted in another language in a thread of its own while the window goes on in its own.
+One translator is installed once and looks up the language of the calling thread, so a report can be painted in
+another language in its own thread while the window keeps its own.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
 LANGUAGES = {"en": "English", "de": "Deutsch", "it": "Italiano"}
-"""Languages by their own names; a new one is a line here, one in ``_DEFAULT_LOCALES`` and its file in
+"""Languages by their own names. A new one needs a line here, one in ``_DEFAULT_LOCALES`` and its file in
 resources/translations."""
 
 _DEFAULT_LOCALES = {
@@ -25,17 +25,17 @@ _DEFAULT_LOCALES = {
 }
 
 TextLookup = Callable[[str, str], str | None]
-"""The translation of a text in a context, None where there is none."""
+"""Returns the translation of a text in a context, None if there is none."""
 
 
 class _ThreadLanguage(threading.local):
-    """The language of this thread while :func:`use_language`; empty for the window's."""
+    """Language code of this thread within :func:`use_language`; empty for the window's."""
 
     code = ""
 
 
 class _Translator(QTranslator):
-    """Asks for every text in the language that is spoken where it is asked for."""
+    """Translator that looks up each text in the language of the calling thread."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -56,12 +56,15 @@ _TRANSLATOR: list[_Translator] = []
 
 
 def load_texts(code: str) -> dict[tuple[str, str], str]:
-    """What the kept file of a language says, by context and English text; unfinished texts that are there count."""
+    """Load the texts of a language by (context, English text).
+
+    Unfinished translations that have a text count.
+    """
     return parse_texts((resources.files("carpus.resources") / "translations" / f"carpus_{code}.ts").read_bytes())
 
 
 def parse_texts(ts_file: bytes) -> dict[tuple[str, str], str]:
-    """What a file of Qt Linguist says, as above."""
+    """Parse a Qt Linguist file into texts by (context, English text)."""
     found = {}
     for context in ElementTree.fromstring(ts_file).iter("context"):
         name = context.findtext("name") or ""
@@ -75,8 +78,10 @@ def parse_texts(ts_file: bytes) -> dict[tuple[str, str], str]:
 
 
 def set_window_language(code: str) -> None:
-    """From now on the window's language; ``system`` for the computer's. To be called in the window's thread, once
-    there is an application."""
+    """Set the window's language; ``system`` for that of the computer.
+
+    Call it in the window's thread once there is an application.
+    """
     chosen = code if code in available_languages() else system_language()
     translator = _translator()
     _load_language(translator, chosen)
@@ -86,8 +91,10 @@ def set_window_language(code: str) -> None:
 
 @contextmanager
 def use_language(code: str) -> Iterator[None]:
-    """Meanwhile this thread speaks another language; empty for the window's. Work that is given to another thread
-    through ``Background`` takes it along."""
+    """Use another language in this thread; empty for the window's.
+
+    ``Background`` passes it on to its tasks.
+    """
     if code:
         _load_language(_translator(), code)
     before, _THREAD_LANGUAGE.code = _THREAD_LANGUAGE.code, code
@@ -98,22 +105,22 @@ def use_language(code: str) -> Iterator[None]:
 
 
 def current_language() -> str:
-    """The language spoken here and now."""
+    """Return the language code of the calling thread."""
     return _THREAD_LANGUAGE.code or (_TRANSLATOR[0].window_language if _TRANSLATOR else "") or "en"
 
 
 def thread_language() -> str:
-    """The language of :func:`use_language`, empty outside of it."""
+    """Return the code set by :func:`use_language`, empty outside of it."""
     return _THREAD_LANGUAGE.code
 
 
 def locale() -> QLocale:
-    """How numbers and dates are written here and now."""
+    """Return the locale for numbers and dates of the calling thread."""
     return _TRANSLATOR[0].locales[_THREAD_LANGUAGE.code] if _THREAD_LANGUAGE.code and _TRANSLATOR else QLocale()
 
 
 def system_language() -> str:
-    """The first of the person's languages that Carpus speaks; English where it speaks none."""
+    """Return the first of the user's languages that Carpus has, else English."""
     for name in QLocale.system().uiLanguages():
         code = name.replace("_", "-").split("-")[0].lower()
         if code in LANGUAGES:
@@ -122,18 +129,18 @@ def system_language() -> str:
 
 
 def available_languages() -> tuple[str, ...]:
-    """All languages that can be spoken."""
+    """Return the codes of all languages."""
     return tuple(_TRANSLATOR[0].locales) if _TRANSLATOR else tuple(LANGUAGES)
 
 
 def register_language(code: str, lookup: TextLookup, number_locale: QLocale) -> None:
-    """Another language, whose texts ``lookup`` gives; numbers and dates ``number_locale`` in it."""
+    """Add a language with its text ``lookup`` and its locale for numbers and dates."""
     translator = _translator()
     translator.lookups[code], translator.locales[code] = lookup, number_locale
 
 
 def _translator() -> _Translator:
-    """The one translator. What installs it must be the window's thread, which does so before any other paints."""
+    """Return the one translator. The window's thread must install it before any other thread paints."""
     if not _TRANSLATOR:
         _TRANSLATOR.append(_Translator())
         QCoreApplication.installTranslator(_TRANSLATOR[0])
@@ -141,7 +148,7 @@ def _translator() -> _Translator:
 
 
 def _load_language(translator: _Translator, code: str) -> None:
-    """Read a language when it is first spoken, and take the person's own country's locale where it is theirs."""
+    """Load a language at its first use, with the locale of the user's own country if it fits."""
     if code in translator.lookups and code != "en":
         return
     own = QLocale.system()
@@ -154,7 +161,7 @@ def _load_language(translator: _Translator, code: str) -> None:
 
 
 def _make_lookup(texts: dict[tuple[str, str], str], code: str) -> TextLookup:
-    """Carpus's own texts, then those of Qt's dialogs and buttons."""
+    """Return a lookup of Carpus's own texts, then of those of Qt's dialogs."""
     qt = QTranslator()
     qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath))
 

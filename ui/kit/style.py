@@ -1,4 +1,4 @@
-"""The style sheet for Qt's own controls (fields, lists, scroll bars), made from the tokens."""
+"""Style sheet of Qt's own controls, made from the design tokens."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A table that a person saves where they were asked, for a spreadsheet in the form of their region."""
+"""Tables saved for spreadsheets in the format of the user's region."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from carpus.core.formats.output_files import TableDialect, open_new_file, requir
 from carpus.ui.kit import language
 
 OFFERED_REGIONS = ("en_GB", "en_US", "de_DE", "de_AT", "de_CH", "it_IT", "it_CH")
-"""Regions that a sheet offers beside the person's own."""
+"""Regions offered in addition to the user's own."""
 
 
 def regional_table_form(region: str) -> TableDialect:
-    """The form in which spreadsheets of a region (``de_DE``) read a table. Raises ValueError where there is none of
-    that name."""
+    """Return the table format that spreadsheets of a region (``de_DE``) read.
+
+    Raises ValueError for an unknown region.
+    """
     locale = QLocale(region.replace("-", "_"))
     asked = region.replace("-", "_").split("_")
     if locale.language() == QLocale.Language.C or not set(asked) <= set(locale.name().split("_")):
@@ -30,34 +32,38 @@ def regional_table_form(region: str) -> TableDialect:
 
 
 def user_region() -> str:
-    """The person's, by the computer's formats; by the language where the computer has none."""
+    """Return the user's region: of the computer's formats, else of the language."""
     system = QLocale.system()
     return (language.locale() if system.language() == QLocale.Language.C else system).name()
 
 
 def encode_table(head: Sequence[str], rows: Iterable[Iterable[object]]) -> bytes:
-    """All of it in the form of the person's region; no cell is calculated by a spreadsheet that opens it."""
+    """Return a table in the format of the user's region, with no cell that a spreadsheet would evaluate."""
     text = io.StringIO()
     write_rows(text, head, (map(str, row) for row in rows), regional_table_form(user_region()))
     return text.getvalue().encode("utf-8-sig")
 
 
 def save_private(path: Path, content: bytes) -> None:
-    """Write a file that nobody else may read, in place of what is there. Raises :class:`DiskFull` or
-    :class:`OutputNotWritable`; then what was there stays."""
+    """Write a file that only the user can read, replacing an existing one.
+
+    Raises :class:`DiskFull` or :class:`OutputNotWritable`; then the old file stays.
+    """
     require_folder(path)
     with open_new_file(path, overwrite=True) as file:
         file.write(content)
 
 
 def save_table(path: Path, head: Sequence[str], rows: Iterable[Iterable[object]]) -> None:
-    """Write a table; as :func:`save_private`."""
+    """Write a table, like :func:`save_private`."""
     save_private(path, encode_table(head, rows))
 
 
 def companion_path(path: Path, ending: str, *, can_replace: bool) -> Path:
-    """The name of a second table beside the first, of which alone a person was asked: one that is there is replaced
-    only where the first is."""
+    """Return the path of a second table next to ``path``, whose name the user chose.
+
+    An existing file is replaced only if ``can_replace``.
+    """
     names = (f"{path.stem}{ending}{'' if number == 1 else f'-{number}'}{path.suffix}" for number in count(1))
     places = (path.with_name(name) for name in names)
     return next(place for place in places if can_replace or not place.exists())

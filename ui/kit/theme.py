@@ -1,4 +1,4 @@
-"""The design's tokens: one table with both themes, sizes and measures. Nothing else names a colour."""
+"""Design tokens: colours of both themes, sizes and spacing. No other module names a colour."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TEXT_SCALES = (1.0, 1.25, 1.5)
 
 @dataclass(frozen=True, slots=True)
 class Tokens:
-    """Colours of one theme as hex; contrast and colour-vision figures are held by a test."""
+    """Colours of one theme as hex; a test checks contrast and colour vision."""
 
     canvas: str
     surface: str
@@ -63,13 +63,13 @@ DARK = Tokens(
 )  # fmt: skip
 
 CURVE_TOKENS = ("curve_b", "curve_a", "curve_c")
-"""Colour of deviation, flexion, pro/supination."""
+"""Colours of deviation, flexion and pronation-supination."""
 ON_PICTURE_LINE = "#FFFFFF"
 ON_PICTURE_PARTLY = "#F0B65A"
 ON_PICTURE_WRONG = "#FF7A6E"
 ON_PICTURE_PROPOSED = "#7FE3E4"
 ON_PICTURE_LABEL = "#0B1214"
-"""Colours over the camera picture are the same in both themes, with a black halo behind every line."""
+"""Colours over a camera frame are the same in both themes, with a black halo behind every line."""
 
 MARGIN_PX = 24
 GAP_PX = 16
@@ -78,21 +78,21 @@ CARD_RADIUS_PX = 10
 CONTROL_RADIUS_PX = 8
 FOCUS_OUTSIDE_PX = 3
 DIM_ALPHA = {"light": 110, "dark": 170}
-"""Of 255, of the black that lies over a screen under a sheet."""
+"""Opacity, of 255, of the black over a screen under a dialog."""
 BAND_ALPHA = 95
 MIN_ROOMY_SIZE_PX = (1000, 620)
-"""A screen smaller than this in text-scaled pixels shows less, instead of everything cut."""
+"""A smaller screen, in text-scaled pixels, shows fewer things instead of cut ones."""
 
 
 class Theme(QObject):
     """The chosen tokens and text scale.
 
-    ``palette_changed`` comes first and is for the application's palette and style sheet, which would undo what a
-    widget sets for itself; ``changed`` then tells every widget to take its colours and sizes again.
+    Signals: ``palette_changed`` comes first and updates the application's palette and style sheet, ``changed`` then
+    tells each widget to take its colours and sizes.
     """
 
     line_px = 1
-    """How wide a separator is."""
+    """Width of a separator."""
     palette_changed = Signal()
     changed = Signal()
 
@@ -103,11 +103,11 @@ class Theme(QObject):
 
     @property
     def tokens(self) -> Tokens:
-        """The table of the chosen theme."""
+        """Tokens of the chosen theme."""
         return LIGHT if self.name == "light" else DARK
 
     def choose(self, name: ThemeName | None = None, text_scale: float | None = None) -> None:
-        """Switch theme, text scale or both; every widget is styled anew, so only where something changes."""
+        """Set theme, text scale or both; signal only if something changed."""
         before = self.name, self.text_scale
         self.name = name or self.name
         self.text_scale = text_scale or self.text_scale
@@ -117,29 +117,28 @@ class Theme(QObject):
         self.changed.emit()
 
     def on_change(self, widget: QObject, callback: Callable[[], None]) -> None:
-        """Do something for a widget now and after every change, until the widget is gone: a plain function that is
-        connected would be called for a widget that is no more."""
+        """Call ``callback`` now and after each change as long as ``widget`` exists."""
         callback()
         connection = self.changed.connect(callback)
         widget.destroyed.connect(lambda: QObject.disconnect(connection))
 
     def color(self, token: str, alpha: int = 255) -> QColor:
-        """The colour of a token by name, such as ``theme.color("text2")``."""
+        """Return the colour of a token, such as ``theme.color("text2")``."""
         value = QColor(getattr(self.tokens, token))
         value.setAlpha(alpha)
         return value
 
     def font(self, size_px: float, weight: int) -> QFont:
-        """The face of a design size, as large as the text scale has it."""
+        """Return the font for a design size, scaled."""
         return font(size_px * self.text_scale, weight)
 
     def px(self, size: float) -> int:
-        """A length that must grow with the text, in whole pixels."""
+        """Return a length that grows with the text, in whole pixels."""
         return round(size * self.text_scale)
 
 
 class HasPixelSize(Protocol):
-    """Anything with a size in pixels, such as a widget."""
+    """Anything with a width and height in pixels."""
 
     def width(self) -> int: ...
 
@@ -147,6 +146,6 @@ class HasPixelSize(Protocol):
 
 
 def is_tight(screen: HasPixelSize, theme: Theme) -> bool:
-    """Whether the text is too large for everything to fit."""
+    """Return whether the text is too large for everything to fit on the screen."""
     width, height = MIN_ROOMY_SIZE_PX
     return screen.width() < width * theme.text_scale or screen.height() < height * theme.text_scale

@@ -1,4 +1,4 @@
-"""Translation outside widgets: texts of functions share the empty context, as ``lupdate`` files them."""
+"""Translation outside widgets; ``lupdate`` files such texts in the empty context."""
 
 from __future__ import annotations
 
@@ -13,13 +13,15 @@ _DECIMAL = re.compile(r"[-+−]?\d+\.\d+")
 
 
 def tr(text: str) -> str:
-    """The text in the person's language. Widgets use ``self.tr``, whose context is their class."""
+    """Translate a text. Widgets use ``self.tr``, whose context is their class."""
     return QCoreApplication.translate("", text)
 
 
 def to_mid_sentence(words: str) -> str:
-    """The words as they stand inside a sentence: with a small first letter where the language has it so. English and
-    Italian have it for all words, German for a few that its translation lists; abbreviations keep theirs.
+    """Return words as they stand inside a sentence, with a small first letter where the language has one.
+
+    English and Italian have it for all words, German for those that its translation lists. Abbreviations keep their
+    capitals.
 
     >>> to_mid_sentence("Right hand"), to_mid_sentence("TAM"), to_mid_sentence("")
     ('right hand', 'TAM', '')
@@ -32,7 +34,7 @@ def to_mid_sentence(words: str) -> str:
 
 
 def translate_phrase(text: str) -> str:
-    """A phrase of core in the person's language, its facts in their places; any other text as it is."""
+    """Translate a phrase of core and fill in its facts; return any other text unchanged."""
     if not isinstance(text, Phrase):
         return text
     template = QCoreApplication.translate("", text.template)
@@ -42,7 +44,7 @@ def translate_phrase(text: str) -> str:
 
 
 def _format_fact(fact: object) -> object:
-    """A fact as it stands in the sentence: a phrase said, a number with the language's decimal sign."""
+    """Format a fact for its sentence, with the decimal sign of the language."""
     if isinstance(fact, Phrase):
         return translate_phrase(fact)
     if isinstance(fact, str) and _DECIMAL.fullmatch(fact):

@@ -1,4 +1,4 @@
-"""Camera arrays to Qt pictures."""
+"""Conversion of camera arrays to Qt images."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from carpus.core.model.types import ByteImage
 
 
 def to_qimage(color_rgb: ByteImage) -> QImage:
-    """A QImage that owns its pixels. A QImage over the array itself would outlive it: a use after free."""
+    """Return a QImage that owns its pixels; one over the array would outlive it."""
     picture = np.ascontiguousarray(color_rgb)
     height, width = picture.shape[:2]
     borrowed = QImage(picture.data, width, height, 3 * width, QImage.Format.Format_RGB888)

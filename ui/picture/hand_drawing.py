@@ -1,4 +1,4 @@
-"""A small hand from above with the places of the markers; the next one to click is lit."""
+"""Small drawing of a hand from above with the marker positions; the next one to click is highlighted."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from carpus.ui.kit.icons import octagon, paint_state
 from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
 
 SIZE = (200.0, 290.0)
-"""The drawing's own unit; a right hand from above, fingers to the top, thumb on the left."""
+"""Unit of the drawing: a right hand from above, fingers up, thumb on the left."""
 FINGERS = {
     1: ((72, 218), (50, 178), (36, 146), (22, 112)),
     2: ((87, 146), (80, 97), (75, 68), (70, 38)),
@@ -24,7 +24,7 @@ FINGERS = {
     4: ((136, 155), (144, 98), (148, 68), (151, 38)),
     5: ((157, 165), (168, 125), (176, 101), (184, 77)),
 }
-"""Per finger: knuckle, middle joint, end joint, tip (thumb: knuckle, end joint and tip from the third on)."""
+"""Per finger MCP, PIP, DIP, tip; the thumb's are base, MCP, IP and tip."""
 WIDTHS = {1: 25.0, 2: 20.0, 3: 21.0, 4: 20.0, 5: 17.0}
 PALM = (
     (84, 297), (84, 262), (80, 244), (66, 214), (58, 196), (72, 168), (84, 150), (112, 143), (140, 150), (156, 166),
@@ -41,7 +41,7 @@ MarkerState = Literal["done", "next", "later", "proposed", "doubtful", "wrong"]
 
 @lru_cache(maxsize=1)
 def hand_outline() -> QPainterPath:
-    """Outline of the right hand in the drawing's unit."""
+    """Return the outline of the right hand in the drawing's unit."""
     hand = QPainterPath(QPointF(*PALM[0]))
     for point in PALM[1:]:
         hand.lineTo(QPointF(*point))
@@ -65,7 +65,7 @@ def hand_outline() -> QPainterPath:
 
 
 def placement(box: QRectF, side: Side) -> QTransform:
-    """From the drawing's unit into a box, mirrored for a left hand."""
+    """Return the transform from the drawing's unit into a box, mirrored for a left hand."""
     scale = min(box.width() / SIZE[0], box.height() / SIZE[1])
     to = QTransform()
     to.translate(box.center().x(), box.bottom() - SIZE[1] * scale)
@@ -75,7 +75,7 @@ def placement(box: QRectF, side: Side) -> QTransform:
 
 
 class HandDrawing(QWidget):
-    """The card with the hand; ``show_markers`` says what each marker's dot looks like."""
+    """Card with the hand and the state of each marker."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()

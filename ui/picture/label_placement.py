@@ -1,4 +1,4 @@
-"""Where a name stands beside its disc, so that nobody takes it for the name of another disc."""
+"""Placement of a marker's label so that it cannot be taken for that of another marker."""
 
 from __future__ import annotations
 
@@ -17,11 +17,10 @@ def place_label(
     inside: QRectF,
     lines: Sequence[QLineF] = (),
 ) -> tuple[QRectF, QLineF | None] | None:
-    """A plate of ``size`` for the ring of ``radius_px`` px around ``center``, clear of all that is ``taken`` and of
-    ``lines``.
+    """Find a place for a label of ``size`` next to the ring of ``radius_px`` around ``center``.
 
-    Beside the ring where no other ring is nearer to it; else further off, with a line to it that crosses no other
-    ring, no plate and no other line. None where there is no room.
+    The label avoids all that is ``taken`` and all ``lines``. Next to the ring no other ring may be nearer; farther
+    away it gets a line that crosses no ring, label or line. Returns box and line, or None if there is no room.
     """
     for away in (
         radius_px + 5,
@@ -56,7 +55,7 @@ def place_label(
 
 
 def _candidate_boxes(center: QPointF, size: QSizeF, distance: float, slant: float) -> list[QRectF]:
-    """The eight places around a point, the best first; ``slant`` how far off those at the corners are."""
+    """Return the eight boxes around a point, the best first; ``slant`` is the offset of the corner ones."""
     width, height = size.width(), size.height()
     corners = (
         (distance, -height / 2),
@@ -76,7 +75,7 @@ def _are_crossing(one: QLineF, other: QLineF) -> bool:
 
 
 def _is_crossed(box: QRectF, line: QLineF) -> bool:
-    """Whether a line runs through a box, beyond touching its edge."""
+    """Return whether a line passes through a box, not only along its edge."""
     inner = box.adjusted(1, 1, -1, -1)
     corners = (inner.topLeft(), inner.topRight(), inner.bottomRight(), inner.bottomLeft())
     edges = [QLineF(a, b) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True)]
@@ -92,7 +91,7 @@ def _closest_point(plate: QRectF, point: QPointF) -> QPointF:
 
 
 def _project_point(begin: QPointF, end: QPointF, point: QPointF) -> QPointF:
-    """The place of a line that is nearest to a point."""
+    """Return the point of a line that is nearest to ``point``."""
     way = end - begin
     length = QPointF.dotProduct(way, way)
     part = min(max(QPointF.dotProduct(point - begin, way) / length, 0.0), 1.0) if length else 0.0

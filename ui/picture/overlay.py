@@ -1,4 +1,4 @@
-"""What is known about the hand, drawn over the camera picture: white lines with a dark halo, in picture pixels."""
+"""Overlay of the tracked hand on the camera frame: white lines with a dark halo, in frame pixels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ELLIPSE_SDS = 2.0
 MIN_RING_PX = 3.0
 
 ToScreen = Callable[[float, float], QPointF]
-"""Maps a pixel of the camera picture to the widget."""
+"""Maps a pixel of the camera frame to the widget."""
 
 
 def draw_with_halo(
@@ -40,7 +40,7 @@ def draw_with_halo(
 
 
 def covariance_ellipse(covariance_px2: FloatArray) -> tuple[float, float, float]:
-    """Half axes in pixels and turn in degrees of the 2 sd ellipse of a Gaussian (2, 2) in the picture.
+    """Return half axes (px) and rotation (deg) of the 2 SD ellipse of a covariance (2, 2) in px².
 
     >>> covariance_ellipse(np.diag([25.0, 4.0]))
     (10.0, 4.0, 0.0)
@@ -53,7 +53,7 @@ def covariance_ellipse(covariance_px2: FloatArray) -> tuple[float, float, float]
 
 
 def paint_markers(painter: QPainter, frame: TrackedFrame, to_screen: ToScreen, scale: float) -> None:
-    """Predicted places as 2 sd ellipses (dashed where no blob was taken), measured discs as dots."""
+    """Draw predicted positions as 2 SD ellipses (dashed if not measured) and measured markers as dots."""
     for k in range(len(frame.marker_predicted_px)):
         seen = bool(np.isfinite(frame.marker_measured_px[k]).all())
         covariance = frame.marker_predicted_cov_px2[k]
@@ -73,7 +73,7 @@ def paint_markers(painter: QPainter, frame: TrackedFrame, to_screen: ToScreen, s
 
 
 def paint_palm_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_screen: ToScreen) -> None:
-    """Thin lines from the wrist to the other palm discs, where the model has them."""
+    """Draw thin lines from the wrist to the other palm markers of the model."""
     places = frame.marker_position_cam_m
     if frame.status == TrackStatus.LOST or not np.isfinite(places).all():
         return
@@ -85,14 +85,14 @@ def paint_palm_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_
 
 
 def axis_pixels(frame: TrackedFrame, calibration: Calibration, camera: Camera) -> FloatArray:
-    """Pixels (4, 2) of the wrist's origin and of the ends of its X, Y and Z axes."""
+    """Return the pixels (4, 2) of the wrist origin and the ends of its X, Y and Z axes."""
     origin = calibration.rotation_w0_cam @ frame.kinematics.position_m + calibration.translation_w0_cam_m
     ends = origin + AXIS_LENGTH_M * (calibration.rotation_w0_cam @ frame.kinematics.rotation_w2_w0).T
     return camera.distort(camera.project(np.vstack((origin, ends))))
 
 
 def clamp_to_box(point: QPointF, box: QRectF) -> QPointF:
-    """The place itself, or the nearest one inside the box."""
+    """Return the point, or the nearest one inside the box."""
     return QPointF(
         min(max(point.x(), box.left()), max(box.left(), box.right())),
         min(max(point.y(), box.top()), max(box.top(), box.bottom())),
@@ -103,9 +103,9 @@ def paint_axes(
     painter: QPainter, theme: Theme, frame: TrackedFrame, calibration: Calibration, camera: Camera,
     to_screen: ToScreen, shown: QRectF,
 ) -> None:  # fmt: skip
-    """Axes of the wrist, each in the colour of the angle that turns about it, with its letter.
+    """Draw the wrist axes with their letters, each in the colour of its angle.
 
-    An axis may end outside the part of the picture that is ``shown``; its letter stays in it.
+    An axis may end outside the part that is ``shown``; its letter stays inside.
     """
     pixels = axis_pixels(frame, calibration, camera)
     if not np.isfinite(pixels).all():

@@ -1,4 +1,4 @@
-"""A still picture in a rounded frame, whole and in its own shape, with a label on it."""
+"""Still photo in a rounded frame, uncut, with a label."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LABEL_ALPHA = 180
 
 
 def fit_box(size: QSize, bounds: QRectF) -> QRectF:
-    """The largest box of a picture's shape in the middle of a room: nothing of it is cut or stretched."""
+    """Return the largest box with the image's aspect ratio, centred in ``bounds``."""
     scale = min(bounds.width() / max(size.width(), 1), bounds.height() / max(size.height(), 1))
     box = QRectF(0.0, 0.0, scale * size.width(), scale * size.height())
     box.moveCenter(bounds.center())
@@ -24,13 +24,13 @@ def fit_box(size: QSize, bounds: QRectF) -> QRectF:
 
 
 def label_size(theme: Theme, text: str) -> QSizeF:
-    """Room that :func:`paint_label` takes."""
+    """Return the size that :func:`paint_label` needs."""
     metrics = QFontMetricsF(font(12 * theme.text_scale, SEMIBOLD))
     return QSizeF(metrics.horizontalAdvance(text) + 12, metrics.height() + 5)
 
 
 def paint_label(painter: QPainter, theme: Theme, text: str, left: float, top: float) -> QRectF:
-    """White words on a dark plate over the picture; returns the plate."""
+    """Draw white text on a dark plate and return the plate."""
     painter.setFont(font(12 * theme.text_scale, SEMIBOLD))
     plate = QRectF(QPointF(left, top), label_size(theme, text))
     color = QColor(ON_PICTURE_LABEL)
@@ -44,7 +44,7 @@ def paint_label(painter: QPainter, theme: Theme, text: str, left: float, top: fl
 
 
 def paint_wrong_label(painter: QPainter, theme: Theme, text: str, plate: QRectF) -> None:
-    """Dark red words with an octagon on a light plate, for a mark that is at fault."""
+    """Draw dark red text with an octagon on a light plate, for a wrong mark."""
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(LIGHT.bad_soft))
     painter.drawRoundedRect(plate, 4, 4)
@@ -57,7 +57,7 @@ def paint_wrong_label(painter: QPainter, theme: Theme, text: str, plate: QRectF)
 
 
 class Photo(QWidget):
-    """Shows one picture that does not change."""
+    """View of one still photo."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -68,7 +68,7 @@ class Photo(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
 
     def show_picture(self, color_rgb: ByteImage | None, label: str) -> None:
-        """Show a picture; without one the widget takes no room."""
+        """Show a photo; without one the widget is hidden."""
         self._image = None if color_rgb is None else to_qimage(color_rgb)
         self._label = label
         self.setVisible(self._image is not None and self._has_room)
@@ -76,7 +76,7 @@ class Photo(QWidget):
         self.update()
 
     def set_has_room(self, has_room: bool) -> None:
-        """Without room nothing is shown."""
+        """Show the photo only if there is room for it."""
         self._has_room = has_room
         self.setVisible(self._image is not None and has_room)
 
@@ -84,7 +84,7 @@ class Photo(QWidget):
         return QSize(280, 185)
 
     def layout_boxes(self) -> tuple[QRectF, QPointF]:
-        """Room of the picture, and where its label is."""
+        """Return the box of the photo and the position of its label."""
         return QRectF(self.rect()), QPointF(10, 10)
 
     def paintEvent(self, event: QPaintEvent) -> None:

@@ -1,4 +1,4 @@
-"""The hand as the model has it, over the picture: bones joining the discs; and one finger from the side."""
+"""Overlay of the whole hand's model: bones between markers, and one finger from the side."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from carpus.ui.kit.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, ON_PICTURE_PA
 from carpus.ui.picture.overlay import HALO, MIN_RING_PX, ToScreen, covariance_ellipse, draw_with_halo
 
 MAX_RING_PX = 26.0
-"""Half of the longest ring drawn around the place of a hidden disc, on the screen."""
+"""Largest half axis drawn around the predicted position of an occluded marker."""
 SIDE_SPAN_M = 0.105
-"""A long finger, straight; bent, it comes back below its knuckle, for which there is room on the left."""
+"""Length of a straight long finger. A bent one comes back below its MCP joint, so there is room on the left."""
 SIDE_WIDTH_PX, SIDE_HEIGHT_PX = 138, 126
 
 
 def paint_skeleton(
     painter: QPainter, frame: TrackedFrame, protocol: MarkerProtocol, camera: Camera, to_screen: ToScreen, scale: float
 ) -> None:
-    """Bones between the discs' places in the model: solid between discs that are seen, dashed where predicted."""
+    """Draw the bones of the model: solid between visible markers, dashed where predicted."""
     places = frame.marker_position_cam_m
     if frame.status == TrackStatus.LOST or not np.isfinite(places).all():
         return
@@ -50,7 +50,7 @@ def paint_skeleton(
 
 
 def _paint_predicted(painter: QPainter, covariance_px2: FloatArray, center: QPointF, scale: float) -> None:
-    """A hollow dashed ring where the disc is expected, as wide as two standard deviations."""
+    """Draw a dashed 2 SD ring where an occluded marker is expected."""
     longer, shorter, turn_deg = MIN_RING_PX, MIN_RING_PX, 0.0
     if np.isfinite(covariance_px2).all():
         longer, shorter, turn_deg = covariance_ellipse(covariance_px2)
@@ -65,7 +65,10 @@ def _paint_predicted(painter: QPainter, covariance_px2: FloatArray, center: QPoi
 
 
 def side_points_m(frame: TrackedFrame, protocol: MarkerProtocol, finger: int) -> FloatArray:
-    """Joints (4, 2) of a finger from the side: along the hand and out of its back, from the knuckle, metres."""
+    """Return the joints (4, 2) of a finger from the side, in metres from its MCP joint.
+
+    The first axis runs along the hand, the second out of its back.
+    """
     joints = frame.kinematics.joint_position_m - frame.kinematics.position_m
     chain = (joints @ frame.kinematics.rotation_w2_w0)[list(protocol.chains[finger][1:])]
     along = np.array([1.0, 0.0]) if finger > 1 else chain[1, :2] - chain[0, :2]
@@ -83,7 +86,7 @@ def paint_finger_side(
     shown: QRectF,
     side: Side,
 ) -> None:
-    """One finger from the side, fingers to the right, in the lower corner on the little finger's side of the hand."""
+    """Draw one finger from the side in the lower corner on the ulnar side of the hand."""
     scale = theme.text_scale
     name_font = font(12 * scale, SEMIBOLD)
     metrics = QFontMetricsF(name_font)

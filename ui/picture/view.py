@@ -1,4 +1,4 @@
-"""The camera picture in a rounded frame, fixed on the hand's area or whole, with an overlay on top."""
+"""View of a camera frame, fixed on the hand area or whole, with an overlay."""
 
 from __future__ import annotations
 
@@ -17,12 +17,11 @@ from carpus.ui.picture.photo import paint_label
 
 Overlay = Callable[[QPainter, "FrameView"], None]
 PALM_AREA_FACTOR, HAND_AREA_FACTOR = 2.0, 1.3
-"""The area is this many times as wide and high as the box of the palm's markers, or of the whole hand's: room to move,
-and for the fingers beyond the palm."""
+"""Size of the hand area relative to the box of the palm's or the whole hand's markers, with room to move."""
 
 
 class FrameView(QWidget):
-    """Shows the newest picture; ``overlay`` paints over it through :meth:`to_screen`."""
+    """View of the newest frame; ``overlay`` paints on it through :meth:`to_screen`."""
 
     def __init__(self, theme: Theme, hint_px: tuple[int, int] = (520, 390)) -> None:
         super().__init__()
@@ -39,7 +38,7 @@ class FrameView(QWidget):
         theme.changed.connect(self.update)
 
     def show_frame(self, color_rgb: ByteImage) -> None:
-        """Take a copy of the picture and show it."""
+        """Copy and show a frame."""
         first = self._image is None or self._image.width() != color_rgb.shape[1]
         self._image = to_qimage(color_rgb)
         if first:
@@ -47,18 +46,18 @@ class FrameView(QWidget):
         self.update()
 
     def clear(self, words: str = "") -> None:
-        """No picture: black with a word of why, never the last picture as if it were now."""
+        """Show black with a reason, never an old frame as if it were current."""
         self._image = None
         self.empty_text = words
         self.update()
 
     @property
     def image(self) -> QImage | None:
-        """The picture shown."""
+        """The frame shown."""
         return self._image
 
     def set_hand_area(self, pixel: FloatArray | None, area_factor: float = PALM_AREA_FACTOR) -> None:
-        """Fix the view on the markers (M, 2) with room to move, or on the whole picture."""
+        """Fix the view on the markers (M, 2) in pixels, or on the whole frame."""
         self._shown_area = None
         if pixel is not None and np.isfinite(pixel).any():
             low, high = np.nanmin(pixel, axis=0), np.nanmax(pixel, axis=0)
@@ -70,43 +69,43 @@ class FrameView(QWidget):
         self._update_transform()
 
     def set_area(self, area: QRectF | None) -> None:
-        """Show a part of the picture, or as much of it as covers the widget."""
+        """Show a part of the frame, or as much as covers the widget."""
         self._shown_area = area
         self._update_transform()
 
     def reserve_margins(self, top_px: int, bottom_px: int) -> None:
-        """So much at the head and at the foot is covered: the hand's area lies between them."""
+        """Keep the hand area between what covers the top and the bottom."""
         if (top_px, bottom_px) != (self._top_margin_px, self._bottom_margin_px):
             self._top_margin_px, self._bottom_margin_px = top_px, bottom_px
             self._update_transform()
 
     def set_whole(self, is_whole: bool) -> None:
-        """Show everything the camera sees, or the hand's area."""
+        """Show the whole frame, or the hand area."""
         self._is_whole = is_whole
         self._update_transform()
 
     @property
     def is_whole(self) -> bool:
-        """Whether everything is shown."""
+        """Whether the whole frame is shown."""
         return self._is_whole
 
     @property
     def scale(self) -> float:
-        """Screen pixels per picture pixel."""
+        """Screen pixels per frame pixel."""
         return self._scale
 
     def to_screen(self, u: float, v: float) -> QPointF:
-        """Widget place of a picture pixel's centre."""
+        """Return the widget position of a frame pixel's centre."""
         return QPointF((u + 0.5) * self._scale + self._offset.x(), (v + 0.5) * self._scale + self._offset.y())
 
     def to_pixel(self, point: QPointF) -> FloatArray:
-        """Picture pixel (2,) under a place of the widget."""
+        """Return the frame pixel (2,) at a widget position."""
         u = (point.x() - self._offset.x()) / self._scale - 0.5
         v = (point.y() - self._offset.y()) / self._scale - 0.5
         return np.array([u, v])
 
     def _update_transform(self) -> None:
-        """Where the picture lies: the area fills the widget, never smaller than the picture needs to cover it."""
+        """Fit the area into the widget, never smaller than needed to cover it."""
         if self._image is None or not self.width():
             return
         width, height = float(self._image.width()), float(self._image.height())
@@ -173,6 +172,6 @@ class FrameView(QWidget):
             painter.restore()
 
     def paint_area_label(self, painter: QPainter) -> None:
-        """``Hand area ×2.2`` or ``Whole picture`` in the corner."""
+        """Draw the zoom of the hand area, or that the whole frame is shown."""
         words = self.tr("Hand area ×{scale}").format(scale=numbers.format_fixed(self._scale, 1))
         paint_label(painter, self._theme, self.tr("Whole picture") if self._is_whole else words, 12, 12)

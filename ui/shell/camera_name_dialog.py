@@ -1,4 +1,4 @@
-"""What a camera is called that does not tell its number: asked before it is calibrated or checked."""
+"""Dialog that asks for the name of a camera without a serial number."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ MAX_NAME_LENGTH = 40
 
 
 class CameraNameDialog(Dialog):
-    """``name_entered`` carries the name, ``cancelled`` that none was given."""
+    """Name of a camera that reports no serial number.
+
+    Signals: ``name_entered`` with the name, ``cancelled``.
+    """
 
     name_entered = Signal(str)
     cancelled = Signal()
@@ -33,7 +36,7 @@ class CameraNameDialog(Dialog):
         self.closed.connect(self._on_closed)
 
     def request_name(self, previous_name: str) -> None:
-        """Ask; ``previous_name`` is how such a camera was called last time, empty where it never was."""
+        """Open with the name of the last such camera, empty if there was none."""
         self.title.setText(
             self.tr("Is this still the camera called “{name}”?").format(name=previous_name)
             if previous_name
@@ -55,7 +58,7 @@ class CameraNameDialog(Dialog):
         self.open(self.name_field)
 
     def close_silently(self) -> None:
-        """Close without an answer: what it was asked for is over."""
+        """Close without ``cancelled``, when the name is no longer needed."""
         self._is_dismissed = True
         self.close_dialog()
         self._is_dismissed = False

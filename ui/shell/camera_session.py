@@ -1,5 +1,4 @@
-"""A camera open for calibrating or checking: its pictures, who looks at them beside the window's thread, and which
-camera it is."""
+"""An open camera for calibration and check: its frames, their processing in a thread, and its identity."""
 
 from __future__ import annotations
 
@@ -28,11 +27,10 @@ FrameProcessor = Callable[[Frame], None]
 
 
 class CameraSession(QObject):
-    """Opens a source, looks at its pictures in a thread of its own, and lets it go; one at a time.
+    """Opens a camera and processes its frames in a thread; one camera at a time.
 
-    ``on_opened`` carries the :class:`LiveSession`, ``on_failed`` a fault after which the camera is let go,
-    ``frame_ready`` the
-    newest frame for the screen, ``camera_lost`` what is said while the camera is away.
+    Signals: ``opened`` with the :class:`LiveSession`, ``failed`` with a fault after which the camera is closed,
+    ``frame_ready`` with the newest frame, ``camera_lost`` with a message while frames are missing.
     """
 
     opened = Signal(object)
@@ -59,8 +57,7 @@ class CameraSession(QObject):
     def open(
         self, open_session: Callable[[], LiveSession], make_processor: Callable[[LiveSession], FrameProcessor]
     ) -> None:
-        """Open what ``open_session`` gives, and have every newest picture looked at by what ``make_processor``
-        gives."""
+        """Open a session and pass each newest frame to what ``make_processor`` returns."""
         self.close()
         self._request_number = abs(self._request_number) + 1
         number = self._request_number
@@ -94,7 +91,7 @@ class CameraSession(QObject):
         self._background.run(start_session, on_opened, on_failed)
 
     def close(self) -> None:
-        """Let the camera go, or do not wait for it any more; may be called at any time."""
+        """Close the camera, or cancel opening it; may be called at any time."""
         self._request_number = -abs(self._request_number)
         session, thread = self._session, self._thread
         self._session = self._thread = None
@@ -104,7 +101,7 @@ class CameraSession(QObject):
             self._background.run(lambda: _end_session(session, thread), lambda _: None, lambda _: None)
 
     def shut_down(self) -> None:
-        """The window closes: wait until it is let go. What was still being opened is closed as well."""
+        """Wait until the camera is closed, also one that is still being opened."""
         self.close()
         self._background.join()
         while self._starting_sessions:
@@ -126,7 +123,7 @@ class CameraSession(QObject):
                 self._fault = fault
 
     def _poll(self) -> None:
-        """What happened since the last time, in the window's thread."""
+        """Handle events and the newest frame in the window's thread."""
         session = self._session
         if session is None:
             return
@@ -148,8 +145,11 @@ class CameraSession(QObject):
 
 
 class CameraFlowBase(Flow):
-    """A screen that opens a camera for itself. Where that does not tell its number it is asked over the screen which
-    one it is, and nobody looks at its pictures before ``_identified`` is set."""
+    """Flow of a screen that opens a camera.
+
+    A camera without a serial number is asked for its name first. Its frames are not processed before ``_identified``
+    is set.
+    """
 
     guide_page, runs_behind_overlay = "cameracheck", True
 
@@ -174,12 +174,12 @@ class CameraFlowBase(Flow):
         raise NotImplementedError
 
     def return_to_settings(self) -> None:
-        """Back to the camera's card, from which one came; behind it are the patients."""
+        """Go back to the camera card of the settings."""
         self.return_to_patients()
         self.context.navigator.open_screen("settings", "camera")
 
     def on_leave(self) -> None:
-        """Let the camera go; what was taken and not kept is forgotten."""
+        """Close the camera and drop what was not saved."""
         self._name_dialog.close_silently()
         self._identified = threading.Event()  # a name that is still being kept opens it no more
         self.camera_session.close()

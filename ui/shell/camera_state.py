@@ -1,4 +1,4 @@
-"""The camera as the window knows it: whether it is plugged in, and what its last check said."""
+"""State of the camera: connected or not, and the result of its last check."""
 
 from __future__ import annotations
 
@@ -17,40 +17,42 @@ CHECK_INTERVAL_MS = 2000
 
 
 class CameraAccess(Protocol):
-    """What opens cameras, which no window does, and where what is known of them is kept."""
+    """Access to cameras and their stored calibrations; implemented by ``app``."""
 
     def name(self) -> str | None:
-        """Of the camera that would be opened, empty where the system does not tell; None where none is there."""
+        """Return the name of the connected camera, empty if unknown, None if there is none."""
         ...
 
     def open_for_calibration(self) -> LiveSession:
-        """The camera that looks at the board, as it says itself, without what was calibrated before."""
+        """Open the camera without its stored calibration."""
         ...
 
     def open_for_check(self) -> LiveSession:
-        """The camera that looks at the card, as a session would have it."""
+        """Open the camera as a session would."""
         ...
 
     def folder(self) -> Path:
-        """Where what is known of it is kept."""
+        """Return the folder of calibrations and checks."""
         ...
 
     def set_serial(self, serial: str) -> None:
-        """The number of the camera that is there."""
+        """Note the serial number of the connected camera."""
         ...
 
     def save_name(self, kind: str, name: str) -> str:
-        """What cameras of a kind that tell no number are called from now on: the name as it is kept."""
+        """Save the name of cameras of a type without serial numbers; return it as saved."""
         ...
 
     def status(self, now: datetime) -> CheckStatus:
-        """What is known of the camera; reads the disk."""
+        """Read the calibration and check status from the disk."""
         ...
 
 
 class CameraState(QObject):
-    """``availability_checked`` when it was looked whether one is there; ``status_changed`` when it was read what is
-    known of it."""
+    """Connection and check status of the camera.
+
+    Signals: ``availability_checked``, ``status_changed``.
+    """
 
     availability_checked = Signal()
     status_changed = Signal()
@@ -59,7 +61,7 @@ class CameraState(QObject):
         self, cameras: CameraAccess, background: Background, now: Callable[[], datetime], parent: QObject, *,
         is_demo: bool = False,
     ) -> None:  # fmt: skip
-        """In a demo the simulated camera is the camera: nobody looks whether another is plugged in, or says so."""
+        """In a demo the simulated camera is the camera; connected ones are ignored."""
         super().__init__(parent)
         self._cameras, self._background, self._now, self._is_demo = cameras, background, now, is_demo
         self.is_connected, self.name = False, ""
@@ -85,12 +87,12 @@ class CameraState(QObject):
         self.availability_checked.emit()
 
     def refresh_status(self) -> None:
-        """Read anew what is kept of the camera; a disk that does not answer keeps nobody waiting."""
+        """Read the status in the background."""
         cameras, now = self._cameras, self._now()
         self._background.run(lambda: cameras.status(now), self._on_status, lambda _: None, self)
 
     def set_serial(self, serial: str) -> None:
-        """A camera was opened: from now on it is the one that is spoken of."""
+        """Note the camera that was opened and read its status."""
         self._cameras.set_serial(serial)
         self.refresh_status()
 

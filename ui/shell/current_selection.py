@@ -1,4 +1,4 @@
-"""Who and what is open: the one thing that all flows of the window share."""
+"""The patient, set-up, source and session that are open."""
 
 from __future__ import annotations
 
@@ -19,8 +19,10 @@ SourceKind = Literal["camera", "file", "practice"]
 
 @dataclass(frozen=True, slots=True)
 class SourceChoice:
-    """Where the pictures come from; of a stored recording only its ``path``, and whether its depth lies on its
-    colours where the recording does not say and the person was asked."""
+    """Where frames come from.
+
+    ``path`` is that of a recording. ``is_depth_registered`` is the user's answer where the recording does not say it.
+    """
 
     kind: SourceKind
     path: str = ""
@@ -29,10 +31,10 @@ class SourceChoice:
 
 @dataclass(frozen=True, slots=True)
 class OpenSource:
-    """A source with its calibrator; ``measuring`` owns it and closes it.
+    """An open source and its calibrator; ``measuring`` owns and closes it.
 
-    ``is_registration_unknown``: nothing says whether the depth of this recording lies on its colours.
-    ``is_hand_resting``: whether the simulated hand lies still because its movement is not drawn yet.
+    ``is_registration_unknown``: the recording does not say whether depth and colour are aligned. ``is_hand_resting``:
+    the simulated hand rests because its movement is not rendered yet.
     """
 
     calibrator: Calibrator
@@ -43,8 +45,10 @@ class OpenSource:
 
 @dataclass(slots=True, eq=False)
 class CurrentSelection:
-    """``source_choice`` is the source last asked for, ``source`` the one that runs, ``session_id`` the session looked
-    at."""
+    """What is open, shared by all flows.
+
+    ``source_choice`` was requested last, ``source`` is running, ``session_id`` was viewed last.
+    """
 
     patient: Patient | None = None
     set_up: SessionSetup | None = None
@@ -66,12 +70,12 @@ class CurrentSelection:
 
     @property
     def patient_name(self) -> str:
-        """What the patient is called: the practice patient in the person's language, however the folder has it."""
+        """Name of the open patient; the practice patient's in the user's language."""
         if self.is_practice:
             return practice_patient_name()
         return self.patient.pseudonym if self.patient is not None else ""
 
 
 def practice_patient_name() -> str:
-    """What the practice patient is called."""
+    """Return the practice patient's name in the user's language."""
     return tr("Practice patient")

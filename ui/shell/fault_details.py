@@ -1,4 +1,4 @@
-"""Subject area and code of a fault, and what IT support needs, shown and copied on request."""
+"""Subject and code of a fault with details for IT support, to be copied."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from carpus.ui.kit.text import REGULAR, Text
 from carpus.ui.kit.theme import Theme
 
 LINE_BREAK_HINT = "\u200b"
-"""Where a long name may go on in the next line; it takes no room."""
+"""Zero-width space that lets a long name break."""
 
 
 class FaultDetails(QWidget):
-    """A line with area and code; “Details” opens what a clinician need not read."""
+    """Row with subject and code of a fault; “Details” shows what only support needs."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -33,7 +33,7 @@ class FaultDetails(QWidget):
         self.copy_button.clicked.connect(lambda: QApplication.clipboard().setText(self.full_text()))
 
     def show_words(self, words: MessageText) -> None:
-        """Take the facts of a fault; the line is hidden for a message that has no code."""
+        """Show the facts of a fault; hide the row for a message without a code."""
         self._words = words
         self.setVisible(bool(words.code))
         self.code.setText(f"{words.title} · {words.code}")
@@ -47,7 +47,7 @@ class FaultDetails(QWidget):
         self._show_text(False)
 
     def full_text(self) -> str:
-        """All that IT support needs, as plain text."""
+        """Return everything that IT support needs, as plain text."""
         return "\n".join((f"{self._words.code} {self._words.summary}", *self._words.details))
 
     def _show_text(self, is_open: bool) -> None:

@@ -1,5 +1,4 @@
-"""What a screen declares and does (:class:`Flow`), what all share (:class:`ScreenContext`), and the one that moves
-between them (:class:`Navigator`)."""
+"""Base class of screen controllers (:class:`Flow`), their shared context, and the navigation between screens."""
 
 from __future__ import annotations
 
@@ -28,16 +27,16 @@ from carpus.ui.shell.source_opener import SourceOpener
 
 T = TypeVar("T")
 SETUP_STEPS = ("exercise", "camera", "markers", "live")
-"""The set-up, in order; the top bar counts them."""
+"""Steps of the set-up, in the order of the top bar."""
 PATIENT_TABS = ("sessions", "review", "progress", "report")
-"""The views of an open patient, in the order of the tabs."""
+"""Tabs of an open patient, in order."""
 OVERLAYS = ("help", "settings")
-"""Places beside the way: from them one comes back to where one was."""
+"""Screens from which the user returns to where he was."""
 
 
 @dataclass(slots=True, eq=False)
 class ScreenContext:
-    """What the screens share. A screen makes itself what it alone needs."""
+    """What all screens share."""
 
     window: MainWindow
     theme: Theme
@@ -53,27 +52,27 @@ class ScreenContext:
     report_settings: ReportSettings
     """As chosen now."""
     today: Callable[[], date]
-    """The day now: the program may stand open for days."""
+    """Returns the current day: the program may stay open for days."""
     """Of Carpus, for what is written."""
     is_demo: bool = False
     patient_sound: bool = False
-    """Whether the patient's view beeps where a goal is reached."""
+    """Whether the patient's view beeps at the goal."""
     keep_pictures: bool = False
-    """Where nobody chose yet; they take ``mb_per_minute``."""
+    """Whether video is saved by default, which takes ``mb_per_minute``."""
     mb_per_minute: float = math.nan
 
 
 class Flow(QObject):
-    """One screen: where it stands, and what is done on it. Made once, it enters itself into the table of places."""
+    """Controller of one screen; registers itself with the navigator."""
 
     screen_name: str
-    """Its name for the others: ``context.navigator.show("progress")``."""
+    """Name for navigation: ``context.navigator.open_screen("progress")``."""
     guide_page: str = "session"
-    """The page of the guide that F1 opens on it."""
+    """Page of the guide that F1 opens."""
     parent_tab: str = ""
-    """Where it lies under a tab of an open patient without being one: that tab's place."""
+    """Tab under which a screen lies that is none itself."""
     runs_behind_overlay: bool = False
-    """Whether it goes on behind help and settings."""
+    """Whether it keeps running behind help and settings."""
     screen: QWidget
 
     def __init__(self, context: ScreenContext, screen: QWidget) -> None:
@@ -82,68 +81,68 @@ class Flow(QObject):
         context.navigator.register(self)
 
     def open(self, *_: Any, **__: Any) -> None:
-        """Bring it up; a screen that shows something certain says here what it must be told."""
+        """Show the screen; subclasses take what to show on it."""
         self.context.navigator.switch_screen(self.screen_name)
 
     def title(self) -> str:
-        """What the top bar says; who is open, where a screen is of nobody else."""
+        """Return the title for the top bar, by default the patient's name."""
         return self.context.current.patient_name
 
     def initial_focus(self) -> QWidget:
-        """What gets the keyboard: what the screen itself names, or all of it."""
+        """Return the widget that gets the focus: the screen's choice, else the screen."""
         named: Callable[[], QWidget] | None = getattr(self.screen, "initial_focus", None)
         return named() if named is not None else self.screen
 
     def navigate_back(self) -> None:
-        """One step back from here."""
+        """Go one step back from this screen."""
         self.return_to_patients()
 
     def return_to_patients(self) -> None:
-        """Back to the list, with who is open."""
+        """Go back to the patient list with the open patient selected."""
         row = self.context.current.patient
         self.context.navigator.open_screen("patients", row.patient_id if row is not None else "")
 
     def return_to_session(self) -> None:
-        """Back to the session that was looked at."""
+        """Go back to the review of the session viewed last."""
         if self.context.current.session_id:
             self.context.navigator.open_screen("review", self.context.current.session_id)
         else:
             self.return_to_patients()
 
     def on_leave(self) -> None:
-        """Another screen is shown: what must not go on ends."""
+        """Stop what must not continue while another screen is shown."""
 
     def close(self) -> None:
-        """The window closes: what runs ends, and is waited for."""
+        """Stop and wait for what is running, as the window closes."""
 
     def prompt_before_close(self) -> bool:
-        """Ask the person where something would be lost or end with the window; False where nothing would."""
+        """Ask the user if closing would lose something; return whether he was asked."""
         return False
 
     def on_server_reconnected(self) -> None:
-        """The clinic's server answers again: what could not be read before is read now."""
+        """Read what could not be read while the clinic's server was away."""
 
     @property
     def is_busy(self) -> bool:
-        """Whether something is worked on here that would end with the window."""
+        """Whether work is running that closing the window would end."""
         return False
 
     def banner_lines(self) -> list[str]:
-        """What must not be forgotten of what is on the screen."""
+        """Return the warnings for the banner above the screen."""
         return []
 
     def show_research(self, *, on: bool) -> None:
-        """Show what only research needs, or fold it away; no value changes by it."""
+        """Show or hide what only research needs; values do not change."""
 
     def open_patient(self, patient_id: str) -> Patient:
-        """From now on this patient is open."""
+        """Make this patient the open one."""
         now = self.context.current
         if now.patient is None or now.patient.patient_id != patient_id:
             now.patient = self.context.library.patients.get(patient_id)
         return now.patient
 
     def close_patient(self) -> None:
-        """Whoever was open is not any more, and the camera is let go."""
+        """Close patient and camera."""
         self.context.opener.close_source()
         self.context.current.clear()
 
@@ -153,29 +152,29 @@ class Flow(QObject):
         on_done: Callable[[T], None] = lambda _: None,
         on_failed: Callable[[Exception], None] | None = None,
     ) -> None:
-        """Work beside the window; its fault is told, unless ``on_failed`` does something else."""
+        """Run ``work`` in the background; show its fault unless ``on_failed`` is given."""
         self.context.background.run(work, on_done, on_failed or self.context.messages.show_fault, self)
 
     def register_exports(self, paths: Sequence[Path | str], sessions: Sequence[str]) -> None:
-        """Files were made from sessions: they are named on the day these are erased."""
+        """Note files made from sessions, so that they are listed when these are deleted."""
         self.context.library.register_output_files([Path(path) for path in paths], "export", sessions)
 
     def announce_exports(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
-        """The same, and said on a card."""
+        """Register exported files and show a message."""
         self.register_exports(paths, sessions)
         show_files_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])
 
     def choose_save_path(self, kind: FolderKind, name: str, title: str, kinds: str) -> Path | None:
-        """A file to write, None when the person changed their mind."""
+        """Ask for a file to write; None if cancelled."""
         return self.context.recent_locations.choose_save_path(self.context.window, kind, name, title, kinds)
 
 
 class Navigator(QObject):
-    """The table of places, and the way between them: ``screen_changing`` with the new place before it is shown,
-    ``screen_changed``
-    after. ``banner_changed``: what is said over the screen that is shown is another. A screen is made when it is
-    first gone
-    to or asked for, which ``screen_created`` tells: a start would wait for all of them."""
+    """Navigation between screens, which are created at first use.
+
+    Signals: ``screen_changing`` with the next screen's name, ``screen_changed`` after it, ``banner_changed`` when the
+    banner must be updated, ``screen_created``.
+    """
 
     screen_changing = Signal(str)
     screen_changed = Signal(str)
@@ -186,9 +185,9 @@ class Navigator(QObject):
         super().__init__(shell)
         self._shell, self._is_question_open, self.is_recording = shell, is_asked, is_recording
         self.factories: dict[str, Callable[[], Flow]] = {}
-        """All screens that there are, by their places."""
+        """Factories of all flows, by screen name."""
         self.flows: dict[str, Flow] = {}
-        """Those that are made."""
+        """Flows that exist."""
         self._on_created: dict[str, list[Callable[[], object]]] = {}
         self._shows_research = True
         self._screen_name = "patients"
@@ -198,25 +197,25 @@ class Navigator(QObject):
 
     @property
     def screen_name(self) -> str:
-        """Where the person is."""
+        """Name of the screen that is shown."""
         return self._screen_name
 
     @property
     def underlying_screen(self) -> str:
-        """Where the person is, or was before help or settings."""
+        """Name of the screen that is shown, or lies behind help or settings."""
         return self._under_overlay if self._screen_name in OVERLAYS else self._screen_name
 
     @property
     def current_flow(self) -> Flow:
-        """The screen that is shown."""
+        """Flow of the screen that is shown."""
         return self.flows[self._screen_name]
 
     def register(self, flow: Flow) -> None:
-        """Enter a screen into the table."""
+        """Add a flow."""
         self.flows[flow.screen_name] = flow
 
     def flow(self, screen_name: str) -> Flow:
-        """A screen, which is made where it is not yet."""
+        """Return the flow of a screen, created if need be."""
         if screen_name not in self.flows:
             self.factories[screen_name]().show_research(on=self._shows_research)
             for then in self._on_created.pop(screen_name, []):
@@ -225,24 +224,24 @@ class Navigator(QObject):
         return self.flows[screen_name]
 
     def run_when_created(self, screen_name: str, callback: Callable[[], object]) -> None:
-        """What is to be done once a screen is there; now where it is."""
+        """Call ``callback`` once the screen exists, now if it does."""
         if screen_name in self.flows:
             callback()
         else:
             self._on_created.setdefault(screen_name, []).append(callback)
 
     def show_research(self, *, on: bool) -> None:
-        """Show what only research needs, or fold it away, on every screen; no value changes by it."""
+        """Show or hide what only research needs, on every screen."""
         self._shows_research = on
         for flow in self.flows.values():
             flow.show_research(on=on)
 
     def open_screen(self, screen_name: str, *given: object) -> None:
-        """Bring up a screen as it does it itself, with what it must be told."""
+        """Open a screen by its own flow, with what it is to show."""
         self.flow(screen_name).open(*given)
 
     def open_under_overlay(self, screen_name: str, *given: object) -> None:
-        """As :meth:`show`; help and settings stay where they are open, and are left for that screen."""
+        """Open a screen like :meth:`open_screen`, but leave help or settings in front of it."""
         self._keeps_overlay = self._screen_name in OVERLAYS
         try:
             self.open_screen(screen_name, *given)
@@ -250,7 +249,7 @@ class Navigator(QObject):
             self._keeps_overlay = False
 
     def switch_screen(self, screen_name: str) -> None:
-        """Change to a screen as it is; for its own flow."""
+        """Show a screen as it is; called by its own flow."""
         if self._keeps_overlay:
             self._under_overlay = screen_name
             return
@@ -269,23 +268,25 @@ class Navigator(QObject):
         self.screen_changed.emit(screen_name)
 
     def previous_screen(self, screen_name: str) -> str:
-        """From where a place was last gone to, help and settings aside."""
+        """Return the screen from which this one was opened last, other than help and settings."""
         return self._previous_screens.get(screen_name, "patients")
 
     def can_open_overlay(self) -> bool:
-        """Whether help and settings can be opened now: not from each other, a recording, or a question."""
+        """Return whether help and settings can open: not during a recording or a question."""
         return not (self._screen_name in OVERLAYS or self.is_recording() or self._is_question_open())
 
     def open_overlay(self, screen_name: str) -> None:
-        """Help or settings, from which one comes back; not over a running recording."""
+        """Open help or settings, unless a recording is running."""
         if not self.can_open_overlay():
             return
         self._under_overlay = self._screen_name
         self.switch_screen(screen_name)
 
     def navigate_back(self) -> None:
-        """One step back; what covers the screen goes first, and nothing leaves a message. Of a running recording the
-        screen asks whether it shall stop."""
+        """Close the topmost dialog, leave help or settings, or go back one screen.
+
+        During a recording the screen asks whether to stop. A question stays open.
+        """
         if self._is_question_open():
             return
         sheets = [sheet for sheet in self._shell.findChildren(Dialog) if sheet.isVisible()]

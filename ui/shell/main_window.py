@@ -1,4 +1,4 @@
-"""The window: top bar, one screen at a time, what may lie over it, and the ring about what has the keyboard."""
+"""Main window: top bar, banner, one screen at a time, and the focus ring."""
 
 from __future__ import annotations
 
@@ -31,7 +31,10 @@ MIN_SIZE_PX = (1024, 700)
 
 
 class MainWindow(QWidget):
-    """``key_pressed`` carries the name of a shell-wide key that was pressed; what it does is the journey's affair."""
+    """Main window.
+
+    Signals: ``key_pressed`` with the name of a global shortcut, ``closing``.
+    """
 
     key_pressed = Signal(str)
     closing = Signal()
@@ -49,12 +52,12 @@ class MainWindow(QWidget):
         self.setMinimumSize(*MIN_SIZE_PX)
         self._is_close_confirmed = False
         self.prompt_before_close: Callable[[], bool] = lambda: False
-        """Asks the person where something would end with the window; False where nothing does."""
+        """Asks the user if closing would lose something; returns whether he was asked."""
         theme.palette_changed.connect(self._apply_theme)
         self._apply_theme()
 
     def bind_keys(self, names: Sequence[str]) -> None:
-        """Let keys work wherever the keyboard is; ``key_pressed`` carries the name of one that is pressed."""
+        """Bind global shortcuts, which work wherever the focus is."""
         for name in names:
             QShortcut(QKeySequence(KEYS[name]), self).activated.connect(partial(self.key_pressed.emit, name))
 
@@ -70,7 +73,7 @@ class MainWindow(QWidget):
             apply_style(application, self._theme)
 
     def close_without_prompt(self) -> None:
-        """Close without asking: the person has answered, or the system ends."""
+        """Close without asking: the user has answered, or the system shuts down."""
         self._is_close_confirmed = True
         self.close()
 
@@ -83,11 +86,11 @@ class MainWindow(QWidget):
 
 
 OWN_FOCUS_BORDER = (QLineEdit, QPlainTextEdit, QAbstractSpinBox)
-"""Text fields show focus by their own border."""
+"""Text fields show the focus by their own border."""
 
 
 class FocusRing(QWidget):
-    """Lies over a window, lets the mouse through, follows the focused control."""
+    """Ring around the focused control, transparent to the mouse."""
 
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
@@ -119,7 +122,7 @@ class FocusRing(QWidget):
         self._update_geometry()
 
     def _target_and_ancestors(self) -> list[QWidget]:
-        """The target and all it lies in up to the window: any of them may move it, as scrolling does."""
+        """Return the target and its ancestors: any of them may move it, as scrolling does."""
         found, widget = [], self._target
         while widget is not None and widget is not self.parentWidget():
             found.append(widget)
@@ -158,7 +161,7 @@ class FocusRing(QWidget):
 
 
 class Banner(Surface):
-    """Amber, with a triangle; hidden while there is nothing to say."""
+    """Amber line with a warning triangle, hidden while empty."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, "warn_soft", bottom_edge="warn")
@@ -168,7 +171,7 @@ class Banner(Surface):
 
     @property
     def text(self) -> str:
-        """What it says, empty while it is hidden."""
+        """Text of the banner, empty while it is hidden."""
         return self._words.text()
 
     def show_lines(self, lines: Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""Where faults become messages over the window: cards that stop, one at a time; strips that stay; files written."""
+"""Messages over the window: dialogs one at a time, notices that stay, and saved files."""
 
 from __future__ import annotations
 
@@ -42,8 +42,10 @@ class _Message:
 
 
 class Messages(QObject):
-    """Shows one card at a time, oldest first; the same words are not queued twice. ``fault_shown`` carries each
-    fault."""
+    """Queue of message dialogs, oldest first, without duplicates.
+
+    Signals: ``fault_shown`` with each fault.
+    """
 
     fault_shown = Signal(object)
 
@@ -67,8 +69,7 @@ class Messages(QObject):
         return self._current is not None
 
     def set_host(self, host: QWidget) -> None:
-        """Lay cards over this part of the window from now on, also the one that is shown; what is beside it stays to be
-        seen."""
+        """Show dialogs over another part of the window from now on, also the current one."""
         if host is self._host:
             return
         self._host, old = host, self.dialog
@@ -82,7 +83,7 @@ class Messages(QObject):
     def show_fault(
         self, fault: Exception, answers: Sequence[Answer] = (), *, detail: str = "", safe_detail: str = ""
     ) -> None:
-        """A card for a fault; without answers one that only goes on."""
+        """Show a fault; without answers the dialog can only be closed."""
         words = fault_words(fault)
         log.warning("%s %s", words.code, type(fault).__name__, exc_info=fault)
         self.fault_shown.emit(fault)
@@ -99,7 +100,7 @@ class Messages(QObject):
     def show_question(
         self, question: MessageText, answers: Sequence[Answer], *, icon: str = "", detail: str = ""
     ) -> None:
-        """A card for something that only the person knows; the same question is not asked twice at once."""
+        """Ask the user a question, unless it is already open or queued."""
         if any(other is not None and other.words == question for other in (self._current, *self._queue)):
             return
         self._queue.append(_Message(question, tuple(answers), icon, detail, "", is_alarm=False))
@@ -107,13 +108,13 @@ class Messages(QObject):
             self._show_next()
 
     def withdraw_question(self, question: MessageText) -> None:
-        """Take a question back that has answered itself."""
+        """Close or dequeue a question that no longer applies."""
         self._queue = [message for message in self._queue if message.words != question]
         if self._current is not None and self._current.words == question:
             self.dialog.close_dialog()
 
     def show_camera_lost(self, fault: Exception, answers: Sequence[Answer], detail: str, safe_detail: str) -> None:
-        """The card that waits for the camera and goes by itself when it is back."""
+        """Show the dialog that waits for the camera; it closes when frames return."""
         self._lost_since_s = time.monotonic()
         self.show_fault(fault, answers, detail=detail, safe_detail=safe_detail)
         self._update_wait_time()
@@ -135,7 +136,10 @@ class Messages(QObject):
         icon: str = "history",
         later_text: str = "",
     ) -> NoticeStrip:
-        """A strip that stays until it is answered; ``later`` is what the other button says."""
+        """Show a notice that stays until it is answered.
+
+        ``later_text`` is the label of the second button.
+        """
         strip = NoticeStrip(self._theme, words, button, icon, later_text)
         layout.addWidget(strip)
 
@@ -181,8 +185,10 @@ class Messages(QObject):
 
 
 class NoticeStrip(Card):
-    """``action_requested`` by the button, ``later`` by the other one or Esc; without words on the button it only
-    tells."""
+    """Notice with an action and a way to postpone it.
+
+    Signals: ``action_requested`` by the button, ``postponed`` by the second one or Esc.
+    """
 
     action_requested = Signal()
     postponed = Signal()
@@ -216,7 +222,7 @@ class NoticeStrip(Card):
 
 
 def postpone_last_notice(screen: QWidget) -> bool:
-    """Answer the last strip that is shown on a screen by Later, as Esc does; whether there was one."""
+    """Postpone the last visible notice of a screen, as Esc does; return whether there was one."""
     strips = [strip for strip in screen.findChildren(NoticeStrip) if strip.isVisible()]
     if strips:
         strips[-1].postponed.emit()
@@ -224,11 +230,11 @@ def postpone_last_notice(screen: QWidget) -> bool:
 
 
 MAX_NAMES_SHOWN = 3
-"""On the card; a data set has dozens, and each name may need two lines."""
+"""A data set has dozens of files, and each name may need two lines."""
 
 
 def format_file_names(names: Sequence[str]) -> str:
-    """Names for a card.
+    """Format file names for a dialog.
 
     >>> format_file_names(["a", "b"]), format_file_names(list("abcdefgh"))
     ('a, b', 'a, b, c, …')
@@ -240,7 +246,7 @@ def format_file_names(names: Sequence[str]) -> str:
 
 
 def show_files_written(messages: Messages, folder: str, names: Sequence[str]) -> None:
-    """Say what went where, and offer to open the folder."""
+    """Show which files were saved, and offer to open the folder."""
     count = len(names)
     what = tr("1 file was written.") if count == 1 else tr("{count} files were written.")
     messages.show_question(
@@ -258,7 +264,7 @@ def show_files_written(messages: Messages, folder: str, names: Sequence[str]) ->
 
 
 def open_folder(folder: str) -> None:
-    """Show a folder in the system's own way."""
+    """Show a folder in the system's file manager."""
     QDesktopServices.openUrl(QUrl.fromLocalFile(folder))
 
 
@@ -267,9 +273,10 @@ DIALOG_WIDTH_PX = 720
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A button that says what it does; ``key`` a letter that presses it. ``is_risky`` where something would be lost,
-    or be
-    kept that may be wrong: never the default."""
+    """A button of a message dialog; ``key`` is its shortcut letter.
+
+    ``is_risky`` marks an answer that loses something or saves something wrong: it is never the default.
+    """
 
     text: str
     action: Callable[[], object]
@@ -278,8 +285,11 @@ class Answer:
 
 
 class MessageDialog(Dialog):
-    """Shows :class:`MessageText` with up to two answers; the last one is the primary, has the keyboard, and
-    loses nothing: where the other one is risky, or nothing went wrong, Esc gives it too."""
+    """Dialog with up to two answers.
+
+    The last answer is the default, has the focus and loses nothing. Esc gives it too if the other one is risky or
+    nothing went wrong.
+    """
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, DIALOG_WIDTH_PX, is_dismissible=False)
@@ -314,8 +324,11 @@ class MessageDialog(Dialog):
         self, words: MessageText, answers: Sequence[Answer], *, icon: str = "", detail: str = "", safe_detail: str = "",
         is_alarm: bool = True,
     ) -> None:  # fmt: skip
-        """Open with the three answers; details are what only the moment knows (times, counts). Without ``is_alarm``
-        nothing went wrong: a question, or good news, and no red."""
+        """Open with summary, data safety and action.
+
+        ``detail`` and ``safe_detail`` are facts of the moment. Without ``is_alarm`` it is a question or good news,
+        and not red.
+        """
         for head, text in (
             (self.happened, words.summary.rstrip(".")),
             (self.safe, words.data_safety),

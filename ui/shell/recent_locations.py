@@ -1,4 +1,4 @@
-"""Where a person last opened and saved things, and where the window was."""
+"""Folders used last, and the window's last geometry."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ FolderKind = Literal["recordings", "reports", "exports"]
 
 
 class RecentLocations:
-    """A folder for each kind of thing, kept for this computer; only a convenience, so nothing here is a fault."""
+    """Last folder for each kind of file, kept for this computer; failures are ignored."""
 
     def __init__(self, data_folder: Path) -> None:
         self._data_folder = data_folder
 
     def folder(self, kind: FolderKind) -> str:
-        """Where to begin looking: the last place if it is still there, else documents, else home."""
+        """Return the last folder if it exists, else the documents folder, else home."""
         for candidate in (self._load(kind), documents_folder()):
             if candidate and Path(candidate).is_dir():
                 return candidate
@@ -33,8 +33,10 @@ class RecentLocations:
         self._save(kind, folder)
 
     def choose_save_path(self, window: QWidget, kind: FolderKind, name: str, title: str, kinds: str) -> Path | None:
-        """Ask for a file to write, beginning at the last place, and remember that; None when the person changed their
-        mind. The system's own dialog asks whether an old file may go."""
+        """Ask for a file to write and remember its folder; None if cancelled.
+
+        The system's dialog asks before a file is replaced.
+        """
         path, _ = QFileDialog.getSaveFileName(window, title, str(Path(self.folder(kind)) / name), kinds)
         if not path:
             return None
@@ -42,7 +44,7 @@ class RecentLocations:
         return Path(path)
 
     def window_geometry(self) -> str:
-        """The window's place as it was kept, empty before the first time."""
+        """Return the saved geometry, empty before the first time."""
         return self._load("window")
 
     def save_window_geometry(self, geometry: str) -> None:
@@ -59,18 +61,16 @@ class RecentLocations:
 
 
 def documents_folder() -> str:
-    """Where a person keeps papers."""
+    """Return the user's documents folder."""
     return QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
 
 
 TITLE_BAR_PX = 40
-"""Room for a title bar, whose height nobody knows before it is there."""
+"""Room for a title bar, whose height is not known before it exists."""
 
 
 def restore_window(window: QWidget, geometry: str) -> None:
-    """Give a window its place of last time (as :func:`encode_geometry` told it), or its first size; larger than the
-    screen it
-    fills the screen."""
+    """Restore a geometry of :func:`encode_geometry`; maximise a window larger than the screen."""
     if geometry:
         window.restoreGeometry(QByteArray.fromBase64(geometry.encode("ascii", "ignore")))
     screen: QScreen | None = window.screen()  # none while a display comes or goes
@@ -86,7 +86,7 @@ def restore_window(window: QWidget, geometry: str) -> None:
 
 
 def fit_on_screen(place: QRect, screen_area: QRect) -> tuple[QRect, bool]:
-    """A place moved and shrunk into the room of a screen, below a title bar; whether it kept its size."""
+    """Move and shrink a rectangle into the screen, below a title bar; return it and whether its size was kept."""
     inside = screen_area.adjusted(0, TITLE_BAR_PX, 0, 0)
     width, height = min(place.width(), inside.width()), min(place.height(), inside.height())
     left = min(max(place.left(), inside.left()), inside.right() + 1 - width)
@@ -95,5 +95,5 @@ def fit_on_screen(place: QRect, screen_area: QRect) -> tuple[QRect, bool]:
 
 
 def encode_geometry(window: QWidget) -> str:
-    """The window's place as a text."""
+    """Encode the window's geometry as text."""
     return bytes(window.saveGeometry().toBase64().data()).decode("ascii")

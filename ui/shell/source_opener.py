@@ -1,4 +1,4 @@
-"""Opens a source beside the window's thread and lets it go; what nobody wants any more is closed again."""
+"""Opening and closing of sources in the background; a source no longer wanted is closed again."""
 
 from __future__ import annotations
 
@@ -12,18 +12,21 @@ from carpus.ui.kit.background import Background
 from carpus.ui.shell.current_selection import CurrentSelection, OpenSource, SourceChoice
 
 Progress = Callable[[int, int], None]
-"""Called with pictures done and pictures in all."""
+"""Called with the number of frames done and in all."""
 OpenSourceFunction = Callable[[SourceChoice, SessionSetup, Progress], OpenSource]
-"""Waits for camera, disk or renderer, so it is called in the background."""
+"""Opens a source. It waits for camera, disk or renderer, so it runs in the background."""
 
 
 class OpeningCancelledError(Exception):
-    """Ends a long opening or drawing from inside."""
+    """Raised inside a long opening or rendering to cancel it."""
 
 
 class SourceOpener(QObject):
-    """``opening`` carries the :class:`SourceChoice`; then come ``progress_changed``, with pictures done and in all, and
-    ``opened`` or ``failed``, with a fault. ``closing``: the source that runs is let go."""
+    """Opens one source at a time.
+
+    Signals: ``opening`` with the :class:`SourceChoice`, ``progress_changed`` with frames done and in all, then
+    ``opened`` or ``failed`` with a fault; ``closing`` when the running source is closed.
+    """
 
     opening = Signal(object)
     opened = Signal()
@@ -53,7 +56,7 @@ class SourceOpener(QObject):
         self._last_percent = -1
 
     def open(self, choice: SourceChoice) -> None:
-        """Begin for the set-up that is chosen; one of the two answers comes unless it is cancelled."""
+        """Open a source for the chosen set-up; ``opened`` or ``failed`` follows unless it is cancelled."""
         set_up = self._current.set_up
         assert set_up is not None
         self._current.source_choice = choice
@@ -68,7 +71,7 @@ class SourceOpener(QObject):
         )
 
     def close_source(self) -> None:
-        """Let camera or recording go, also one that is still being opened."""
+        """Close the source, also one that is still being opened."""
         self._request_number += 1
         source, self._current.source = self._current.source, None
         if source is not None:
@@ -76,7 +79,7 @@ class SourceOpener(QObject):
             self._shared_background.run(source.measuring.close, lambda _: None, self._on_close_error)
 
     def shut_down(self) -> None:
-        """The program ends: wait for what was being opened, and close it."""
+        """Wait for a source that is being opened, and close it."""
         self._request_number += 1
         self._stop_event.set()
         self._background.join()
@@ -84,7 +87,7 @@ class SourceOpener(QObject):
             self._opened_sources.pop().measuring.close()
 
     def _report_progress(self, done: int, total: int) -> None:
-        """Called from the background for every picture; the window hears of each percent."""
+        """Emit the progress at each percent; called from the background for every frame."""
         if self._stop_event.is_set():
             raise OpeningCancelledError
         percent = 100 * done // max(total, 1)

@@ -1,4 +1,4 @@
-"""The bar at the top: who is measured, where in the journey, what the camera does."""
+"""Top bar: patient, navigation, and the state of camera, disk and recording."""
 
 from __future__ import annotations
 
@@ -24,9 +24,11 @@ RECORDING_LINE_PX = 3
 
 
 class TopBar(Surface):
-    """``tab_selected`` and ``step_selected`` carry the number of a tab, or of a step already done, that was chosen;
-    ``reanalysis_button`` is for what
-    is tracked again or waits for a decision."""
+    """Top bar of the window.
+
+    Signals: ``tab_selected`` and ``step_selected`` with the number of a tab or of a finished step.
+    ``reanalysis_button`` shows a running re-analysis or one that waits for a decision.
+    """
 
     tab_selected = Signal(int)
     step_selected = Signal(int)
@@ -78,8 +80,7 @@ class TopBar(Surface):
         self._fit()
 
     def _fit(self) -> None:
-        """What there is no room for gives way to what must be seen: an ample disk, the exercise, the program's name, a
-        camera that works."""
+        """Hide what does not fit, in this order: ample disk, exercise, short button, program name, working camera."""
         named = bool(self.patient_name.text())
         shown = {
             "disk": bool(self.disk.text()),
@@ -119,7 +120,7 @@ class TopBar(Surface):
         return sum(left) + sum(middle) + sum(right) + gaps + 2 * MARGIN_PX - 14 + 3 * 8
 
     def show_session(self, pseudonym: str, label: str) -> None:
-        """Whose session this is, and hand and exercise; empty on the first screen."""
+        """Show patient, hand and exercise; empty on the first screen."""
         self.patient_name.setText(self._elide_name(pseudonym))
         self.patient_name.setToolTip(plain_tooltip(pseudonym))
         for widget in (self._separator, self.back_button, self.patient_name):
@@ -128,7 +129,7 @@ class TopBar(Surface):
         self._fit()
 
     def _elide_name(self, pseudonym: str) -> str:
-        """A long name must not push the way through the session aside."""
+        """Return a name short enough to leave room for the navigation."""
         face = font(14 * self._theme.text_scale, SEMIBOLD)
         return QFontMetricsF(face).elidedText(pseudonym, Qt.TextElideMode.ElideRight, self._theme.px(MAX_NAME_PX))
 
@@ -168,7 +169,7 @@ class TopBar(Surface):
         self._bottom_line.set_colors("band_bad" if is_recording else "surface")
 
     def lock_overlays(self, is_locked: bool) -> None:
-        """Nothing leads aside from a running recording, nor takes its keys; back asks whether it shall stop."""
+        """Disable help and settings during a recording."""
         for button, words in (
             (self.help_button, self.tr("Help (F1)")),
             (self.settings_button, self.tr("Settings (Ctrl+,)")),
@@ -178,7 +179,7 @@ class TopBar(Surface):
 
 
 class NavigationButton(Button):
-    """A step with its number or check, or a tab with a line under it."""
+    """Step with its number or check mark, or tab with an underline."""
 
     def __init__(self, theme: Theme, text: str, number: int, current: int, is_step: bool) -> None:
         super().__init__(theme, text, "quiet", height_px=40)
@@ -237,8 +238,10 @@ class NavigationButton(Button):
 
 
 class ReanalysisButton(Button):
-    """What is tracked again, or waits for a decision, in words or, where there is little room, in short. ``resized``
-    when it needs other room; hidden without words."""
+    """Button for a re-analysis, with a short text where there is little room; hidden without text.
+
+    Signals: ``resized`` when its width changes.
+    """
 
     resized = Signal()
 
@@ -250,7 +253,7 @@ class ReanalysisButton(Button):
         self.hide()
 
     def show_text(self, text: str, short_text: str, tip: str = "") -> None:
-        """Say something, or with empty words nothing; ``tip`` says what a click is for."""
+        """Show a text with its short form; an empty one hides the button."""
         if (text, short_text) == (self.text_shown, self._short_text):
             return
         self.text_shown, self._short_text = text, short_text
@@ -300,7 +303,10 @@ PillState = Literal["off", "recording", "paused"]
 
 
 class RecordingPill(Surface):
-    """Hidden while nothing is recorded; as wide whatever the time. ``resized`` when it needs other room."""
+    """Recording indicator of constant width, hidden while nothing is recorded.
+
+    Signals: ``resized`` when its width changes.
+    """
 
     resized = Signal()
 

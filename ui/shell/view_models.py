@@ -1,4 +1,4 @@
-"""Values that the windows share, and the port to what none of them may know: ``app`` implements it."""
+"""Values shared by screens, and the calibrator interface that ``app`` implements."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from carpus.core.session.values import AngleOrder
 
 # --- patients ---------------------------------------------------------------------------------------------
 MeasureWithChange = tuple[Measure, Comparison | None]
-"""What the last session measured, and how it changed since the first one that compares."""
+"""A measure of the last session and its change since the first comparable one."""
 
 
 @dataclass(frozen=True, slots=True)
 class PatientCard:
-    """What the therapist must recall before the next session."""
+    """Summary of a patient before the next session."""
 
     patient: Patient
     results: Sequence[MeasureWithChange] = ()
@@ -32,21 +32,21 @@ class PatientCard:
     note_date: datetime | None = None
     marker_photo_rgb: ByteImage | None = None
     warnings: Sequence[str] = ()
-    """What must be known of the last session: simulated, doubtful, recovered, not to count."""
+    """Warnings of the last session: simulated, uncertain, recovered, excluded."""
     has_sessions: bool = False
-    """Whether there are sessions at all, also such as are not counted."""
+    """Whether there are sessions, also excluded ones."""
     task_summary: str = ""
-    """What a reach or a touch of finger tips came to, in place of ``results``; empty for other exercises."""
+    """Result of a reach or a thumb opposition, in place of ``results``; empty for other exercises."""
 
 
 MAX_LISTED_PATIENTS = 500
-"""Of patients that are shown at once; of more, searching finds the others."""
+"""Patients shown at once; the others are found by searching."""
 
 
 # --- calibration ------------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class FoundMarker:
-    """A blob under the cursor: its centre (2,) and width in pixels of the picture."""
+    """A blob under the cursor: centre (2,) and width in frame pixels."""
 
     pixel: FloatArray
     width_px: float
@@ -54,7 +54,7 @@ class FoundMarker:
 
 @dataclass(frozen=True, slots=True)
 class LabelProposal:
-    """A blob that the program takes for a marker; not ``is_sure`` where another name would do nearly as well."""
+    """A blob proposed for a marker; not ``is_sure`` if another label fits nearly as well."""
 
     pixel: FloatArray
     width_px: float
@@ -63,7 +63,7 @@ class LabelProposal:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationLimits:
-    """What the calibration is judged by, shown beside each value."""
+    """Limits of the calibration's assessment, shown next to each value."""
 
     min_distance_m: float
     max_tilt_deg: float
@@ -73,14 +73,17 @@ class CalibrationLimits:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationAssessment:
-    """A verdict, and the calibration unless something blocks it."""
+    """Verdict on a calibration, and the calibration unless it is blocked."""
 
     verdict: Verdict
     calibration: Calibration | None
 
 
 class Calibrator(Protocol):
-    """Clicks to calibration. ``assess`` may take a while and is called in the background."""
+    """Interface of the hand calibration from clicked markers.
+
+    ``assess`` is slow and called in the background.
+    """
 
     @property
     def side(self) -> Side: ...
@@ -93,45 +96,44 @@ class Calibrator(Protocol):
 
     @property
     def previous_straight_fingers(self) -> tuple[bool, ...]:
-        """What was said of this hand last time, thumb to little: the same is proposed again."""
+        """Fingers, thumb to little, that could fully extend last time."""
         ...
 
     @property
     def is_live(self) -> bool:
-        """Whether pictures keep coming and another one can be taken; a recording has its first picture only."""
+        """Whether frames keep coming; a recording offers its first frame only."""
         ...
 
     def current_frame(self) -> Frame | None: ...
 
     def freeze_frame(self) -> Frame:
-        """Fix the picture on which will be clicked."""
+        """Hold the frame that will be clicked on."""
         ...
 
     def count_candidates(self) -> int:
-        """How many spots of the held picture look like discs of paper."""
+        """Return the number of marker candidates in the held frame."""
         ...
 
     def candidate_px(self) -> FloatArray:
-        """Places (D, 2) of all spots of the held picture that look like discs of paper."""
+        """Return the pixels (D, 2) of all marker candidates in the held frame."""
         ...
 
     def hand_area(self) -> FloatArray | None:
-        """Two corners (2, 2) of where the hand lies in the held picture, as far as that is easily known."""
+        """Return two corners (2, 2) of the hand in the held frame, None if unknown."""
         ...
 
     def find_marker(self, pixel: FloatArray) -> FoundMarker | None:
-        """The blob under or near a pixel (2,) of the held picture."""
+        """Return the blob at or near a pixel (2,) of the held frame."""
         ...
 
     def propose_labels(self, named: Mapping[str, FloatArray]) -> Mapping[str, LabelProposal]:
-        """Names for the blobs of the held picture beside those already ``named`` (pixels by marker); called in the
-        background."""
+        """Propose labels for blobs other than those already ``named``; called in the background."""
         ...
 
     def assess(self, clicks: Clicks, start_angles_rad: FloatArray) -> CalibrationAssessment: ...
 
     def start_tracking(self, calibration: Calibration) -> None:
-        """Start tracking from here."""
+        """Start tracking with this calibration."""
         ...
 
 
@@ -141,8 +143,11 @@ ThemeChoice = Literal["light", "dark", "system"]
 
 @dataclass(frozen=True, slots=True)
 class Preferences:
-    """Choices of the settings screen. ``therapist`` initials are printed on reports; ``angle_order`` of the wrist's
-    angles, zyx or isb; ``stream``: live values go out to other programs."""
+    """Choices of the settings screen.
+
+    ``therapist`` initials are printed on reports, ``angle_order`` is zyx or isb, ``stream`` sends live values to
+    other programs.
+    """
 
     theme: ThemeChoice = "system"
     text_scale: float = 1.0
@@ -151,9 +156,9 @@ class Preferences:
     angle_order: AngleOrder = "zyx"
     stream: bool = False
     patient_sound: bool = False
-    """Whether the patient's view beeps where a goal is reached."""
+    """Whether the patient's view beeps at the goal."""
     language: str = "system"
-    """Of the window: a code of :data:`carpus.ui.kit.language.LANGUAGES`, or the computer's."""
+    """Code of :data:`carpus.ui.kit.language.LANGUAGES`, or ``system``."""
     research: bool = False
-    """Whether what only research needs is shown."""
+    """Whether options for research are shown."""
     start: StartMode = "key"

@@ -1,1 +1,1 @@
-"""Two sessions side by side: pictures in step, and their differences beyond error."""
+"""Comparison of two sessions: synchronised playback and differences."""

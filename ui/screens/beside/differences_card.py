@@ -1,4 +1,4 @@
-"""The card of the differences between two sessions: what is compared, and a table of it."""
+"""Card with the differences between two sessions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ from carpus.ui.words.verdicts import error_limit_words
 
 
 class DifferencesCard(Card):
-    """``measure_choice`` chooses what of the whole hand is compared, ``mirror_button`` how a left hand is shown."""
+    """Table of differences.
+
+    ``measure_choice`` selects what is compared, ``mirror_button`` mirrors the left hand.
+    """
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 20)
@@ -39,7 +42,7 @@ class DifferencesCard(Card):
         )
 
     def show_choices(self, comparison: SessionPair) -> None:
-        """What can be looked at of two sessions, and whether one of them can be mirrored."""
+        """Offer what both sessions share, and mirroring if one is of a left hand."""
         found = comparison_choices(comparison.first, comparison.second)
         self.measure_choice.set_choices(found)
         self.measure_choice.setVisible(bool(found))

@@ -1,4 +1,4 @@
-"""The flow of two sessions side by side: which two, and from where."""
+"""Controller of the comparison of two sessions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from carpus.ui.shell.flow import Flow, ScreenContext
 
 
 class ComparisonFlow(Flow):
-    """``origin`` is where one came from."""
+    """Controller of the comparison; ``origin`` is the screen it was opened from."""
 
     screen_name, guide_page, parent_tab = "beside", "sessions", "review"
     screen: ComparisonScreen
@@ -20,7 +20,7 @@ class ComparisonFlow(Flow):
         self.screen.fault_raised.connect(context.messages.show_fault)
 
     def open(self, one: str, other: str) -> None:
-        """Show two sessions; Back leads to where one is now."""
+        """Compare two sessions; Back returns to the current screen."""
         if self.context.navigator.screen_name != "beside":
             self.origin = self.context.navigator.screen_name
         patient = self.context.current.patient

@@ -1,4 +1,4 @@
-"""The picture of one of two sessions, mirrored where that makes the hands alike, with discs and angle."""
+"""Frame of one of the compared sessions, mirrored if that makes the hands alike."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LABEL_MARGIN_PX = 10
 
 
 class ComparisonFrameView(SessionFrameView):
-    """A row of one of the two, with its words in the corners."""
+    """Frame of one session with its labels in the corners."""
 
     def __init__(self, theme: Theme, background: Background, read: Callable[[str, int], ByteImage | None]) -> None:
         super().__init__(theme, (324, 243), background, read)
@@ -68,7 +68,7 @@ class ComparisonFrameView(SessionFrameView):
         self.set_hand_area(self._mirror_pixels(self.session.calibration.clicks.pixel, self.session), room)
 
     def _mirror_pixels(self, pixel: FloatArray, session: Session) -> FloatArray:
-        """Pixels (..., 2) as they are shown."""
+        """Return pixels (..., 2) as shown."""
         if not self.is_mirrored:
             return pixel
         out = pixel.copy()
@@ -76,7 +76,7 @@ class ComparisonFrameView(SessionFrameView):
         return out
 
     def _elide_label(self, words: str) -> str:
-        """As much of a label as there is room for; the accessible description has all of it."""
+        """Shorten a label to the width; the accessible description has all of it."""
         metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
         return metrics.elidedText(words, Qt.TextElideMode.ElideRight, self.width() - 2 * LABEL_MARGIN_PX - 12)
 

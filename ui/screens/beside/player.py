@@ -1,4 +1,4 @@
-"""One player for two sessions: a track for each, and where each is at a moment of the player."""
+"""Playback of two sessions in step, with a track for each."""
 
 from __future__ import annotations
 
@@ -33,7 +33,10 @@ from carpus.ui.words.finger_angles import find_finger_angle, format_spread
 
 
 class ComparisonPlayer(Card):
-    """``time_requested`` carries which of the two was pointed at (0 or 1) and a time in it."""
+    """Tracks of both sessions.
+
+    Signals: ``time_requested`` with the session (0 or 1) and a time in it.
+    """
 
     time_requested = Signal(int, float)
 
@@ -77,13 +80,15 @@ class ComparisonPlayer(Card):
 
 
 RESTART_WINDOW_S = 0.3
-"""So soon after a start one goes to the repetition before."""
+"""This soon after a repetition's start, Back goes to the repetition before."""
 
 
 @dataclass(frozen=True, slots=True)
 class ComparedSession:
-    """One session that was opened: ``time_s`` (N,) after the first frame, and its trained angle ``value_deg`` (N,)
-    where that was seen."""
+    """An open session.
+
+    ``time_s`` (N,) counts from the first frame. ``value_deg`` (N,) is the trained angle, NaN where not visible.
+    """
 
     session: Session
     figures: SessionResults
@@ -97,7 +102,7 @@ class ComparedSession:
 
 
 def value_words(watched: ComparedSession, row: int) -> str:
-    """``Flexion 37° ± 2°`` where the trained angle was seen."""
+    """Return the trained angle, such as ``Flexion 37° ± 2°``."""
     of = watched.figures.main_angle or WRIST_ANGLES[FLEXION]
     value = float(watched.value_deg[row]) if 0 <= row < len(watched.value_deg) else math.nan
     if not math.isfinite(value):
@@ -114,7 +119,10 @@ def value_words(watched: ComparedSession, row: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class PlaybackAlignment:
-    """Times are the player's unless they are said to be of one of the two."""
+    """Common time of both sessions.
+
+    All times are playback times unless named otherwise; ``which`` is the session, 0 or 1.
+    """
 
     sessions: tuple[ComparedSession, ComparedSession]
     step: PlaybackTimeline
@@ -133,13 +141,13 @@ class PlaybackAlignment:
         return find_nearest_row(self.sessions[which].time_s, self.step.recording_times(time_s)[which])
 
     def current_repetition(self, which: int, time_s: float) -> int:
-        """The repetition that one of the two is in, from 0; -1 between them."""
+        """Return the current repetition of a session, from 0; -1 between repetitions."""
         own_s = self.step.recording_times(time_s)[which]
         found = enumerate(self.repetitions[which])
         return max((n for n, one in found if one.start_s - 1e-6 <= own_s <= one.end_s + 1e-6), default=-1)
 
     def next_start(self, time_s: float, direction: int) -> float:
-        """The start of the next repetition, or of this one or the one before; the same time where there is none."""
+        """Return the start of the next or previous repetition; the same time if there is none."""
         starts = self.step.starts_s or tuple(one.start_s for one in self.repetitions[0])
         if direction > 0:
             return next((start for start in starts if start > time_s + 1e-3), time_s)
@@ -153,6 +161,6 @@ class PlaybackAlignment:
 
 
 def durations_s(sessions: tuple[ComparedSession, ComparedSession]) -> tuple[float, float]:
-    """How long both are."""
+    """Return the durations of both sessions."""
     one, other = (float(of.time_s[-1]) if len(of.time_s) else 0.0 for of in sessions)
     return one, other

@@ -1,4 +1,4 @@
-"""Two sessions side by side: the answer first, then both in step, and the differences."""
+"""Comparison of two sessions: the result, synchronised frames, the differences."""
 
 from __future__ import annotations
 
@@ -30,7 +30,10 @@ if TYPE_CHECKING:
 
 
 class ComparisonScreen(FittedWidget):
-    """``fault_raised`` a fault; ``sessions_shown`` when both sessions are on the screen."""
+    """Comparison of two sessions.
+
+    Signals: ``fault_raised``, ``sessions_shown``.
+    """
 
     fault_raised = Signal(object)
     sessions_shown = Signal()
@@ -39,11 +42,11 @@ class ComparisonScreen(FittedWidget):
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self.session_ids: tuple[str, str] = ("", "")
-        """The sessions asked for; once they are shown in the order in which they stand."""
+        """The requested sessions; once shown, in the order on the screen."""
         self._affected_side, self._request_number = "", 0
         self.comparison: SessionPair | None = None
         self.alignment: PlaybackAlignment | None = None
-        """What is on the screen, and how it is played; None while it is read."""
+        """The sessions on the screen and their playback; None while they are read."""
         self.playing = PlaybackClock(self)
         self.answer = heading(theme, wrap=True)
         self._basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
@@ -69,7 +72,7 @@ class ComparisonScreen(FittedWidget):
         column_layout(scroll_page(self._column), margins=(0, 0, 0, 0), parent=self)
 
     def _fit(self) -> None:
-        """With large text smaller pictures."""
+        """Use smaller frames with large text."""
         tight = is_tight(self, self._theme)
         self.player.show_tight(tight)
         self._basis.setVisible(bool(self._basis.text()) and not tight)  # the table says it too
@@ -98,7 +101,7 @@ class ComparisonScreen(FittedWidget):
 
     # --- life ---------------------------------------------------------------------------------------------
     def load_sessions(self, session_ids: tuple[str, str], affected_side: str = "") -> None:
-        """Read two sessions in the background, then show them; ``affected_side`` is the patient's hand."""
+        """Read two sessions in the background and show them; ``affected_side`` is the patient's hand."""
         self.playing.open(-1.0)
         self.session_ids, self._affected_side = session_ids, affected_side
         self.comparison = self.alignment = None

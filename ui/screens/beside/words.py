@@ -1,4 +1,4 @@
-"""Sentences and cells of two sessions side by side. A difference is one only beyond measurement error."""
+"""Texts of the comparison. A difference counts only beyond the measurement error."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ COLUMNS = (
     TableColumn(token="text2", is_right_aligned=True),
     TableColumn(),
 )
-"""Movement, both sessions, the difference, its error, what is said of it."""
+"""Movement, both sessions, difference, MDC95, assessment."""
 
 
 def session_name(figures: SessionResults, other: SessionResults) -> str:
-    """What tells one of the two from the other: the hand, or the day; both where both differ."""
+    """Return what tells a session from the other: hand, day, or both."""
     day = numbers.format_distinct_day(figures.when, other.when)
     if figures.side == other.side:
         if figures.when == other.when and figures.exercise.id != other.exercise.id:
@@ -47,7 +47,7 @@ def session_name(figures: SessionResults, other: SessionResults) -> str:
 
 
 def picture_words(figures: SessionResults, other: SessionResults, affected: str, *, mirrored: bool) -> str:
-    """``Right, affected``, ``Left, healthy · mirrored``, ``20 Nov``: over a picture."""
+    """Return the label over a frame, such as ``Left, unaffected · mirrored`` or ``20 Nov``."""
     name = session_name(figures, other)
     if figures.side != other.side and affected in ("right", "left"):
         pattern = tr("{name}, affected") if figures.side == affected else tr("{name}, healthy")
@@ -56,7 +56,7 @@ def picture_words(figures: SessionResults, other: SessionResults, affected: str,
 
 
 def headline(comparison: SessionPair) -> tuple[str, str]:
-    """The answer in one sentence, and the figures behind it."""
+    """Return the result in one sentence, and the values behind it."""
     main = comparison.main_comparison
     if not comparison.is_comparable:
         return tr("Shown beside each other, not judged."), ""
@@ -100,12 +100,12 @@ def _format_end(row: Measure) -> str:
 
 
 def _is_bound(one: Comparison) -> bool:
-    """Whether a difference is a lower bound, since one of the two was hidden in part."""
+    """Return whether a difference is a lower bound, because one measure was partly occluded."""
     return one.is_beyond_error and one.lower_bounds[0] != one.lower_bounds[1]
 
 
 def unfair_words(comparison: SessionPair) -> str:
-    """Why nothing is judged; empty for a fair pair."""
+    """Return why the sessions are not comparable; empty if they are."""
     if comparison.is_comparable:
         return ""
     return tr("Not a fair pair: {why}. Figures are shown, nothing is judged.").format(
@@ -114,7 +114,7 @@ def unfair_words(comparison: SessionPair) -> str:
 
 
 def doubts(comparison: SessionPair) -> list[str]:
-    """What was doubtful about the sessions of a fair pair."""
+    """Return what was uncertain about comparable sessions."""
     if not comparison.is_comparable:
         return []
     course = _to_progress(comparison)
@@ -122,13 +122,13 @@ def doubts(comparison: SessionPair) -> list[str]:
 
 
 def _to_progress(both: SessionPair) -> Progress:
-    """The pair as the progress shows two sessions."""
+    """Return the pair as a progress of two sessions."""
     points = (ProgressPoint(both.second, ()), ProgressPoint(both.first, ()))
     return Progress(points, both.ranges, None)
 
 
 def facts_words(comparison: SessionPair) -> str:
-    """What was compared, and what is left out of it."""
+    """Return what was compared, and what is excluded."""
     first, second = comparison.first, comparison.second
     days = abs((first.when.date() - second.when.date()).days)
     if not comparison.is_comparable:
@@ -146,7 +146,7 @@ def facts_words(comparison: SessionPair) -> str:
 
 
 def difference_table(comparison: SessionPair) -> TableContent:
-    """The ranges that both have, then what only one has."""
+    """Return the measures that both share, then those of one session only."""
     pattern = tr("{name}, mean ± sd")
     first, second = session_name(comparison.first, comparison.second), session_name(comparison.second, comparison.first)
     heads = (
@@ -159,7 +159,7 @@ def difference_table(comparison: SessionPair) -> TableContent:
 
 
 def value_words(row: Measure) -> str:
-    """``57° ± 2°``; ``≥ 57°`` of a joint that was hidden; ``lacks 5°`` of an end that was never reached."""
+    """Return a measure: ``57° ± 2°``, ``≥ 57°`` if partly occluded, ``5° deficit`` if an end was not reached."""
     if not row.count:
         return tr("not seen")
     if row.is_lower_bound and row.wrist_angle < 0:
@@ -185,7 +185,6 @@ def _make_shared_row(one: Comparison, both: SessionPair) -> TableRow:
 
 
 def _make_single_row(row: Measure, both: SessionPair, *, is_first: bool) -> TableRow:
-    """What only one of the two has."""
     cells = [value_words(row), numbers.UNKNOWN]
     words = tr("not judged: only one of the two has it") if both.is_comparable else tr("not judged")
     return (
@@ -195,7 +194,7 @@ def _make_single_row(row: Measure, both: SessionPair, *, is_first: bool) -> Tabl
 
 
 def _name_cell(row: Measure, name: str) -> str | Cell:
-    """A movement with the colour of its curve."""
+    """Return the movement with the colour of its curve."""
     return (
         name
         if row.wrist_angle < 0 or row.quantity == "arc"
@@ -232,16 +231,16 @@ def _judgement(one: Comparison, both: SessionPair) -> str:
 
 
 def hand_comparison_note() -> str:
-    """What the other hand is to be taken for."""
+    """Return the note on comparing with the other hand."""
     return tr("The other hand is a comparison, not a norm: hands of one person differ by themselves.")
 
 
 MIDDLE_JOINTS = "middle"
-"""The middle joints of all fingers."""
+"""Choice of the PIP joints of all fingers."""
 
 
 def comparison_choices(first: SessionResults, second: SessionResults) -> list[tuple[str, str]]:
-    """What of the whole hand can be compared, as value and words; nothing unless both are of fingers."""
+    """Return the measures of the whole hand that can be compared, as (value, words)."""
     if not (first.joint_ranges and second.joint_ranges):
         return []
     found = progress_choices(first)
@@ -251,7 +250,7 @@ def comparison_choices(first: SessionResults, second: SessionResults) -> list[tu
 
 
 def measure_keys(choice: str) -> tuple[MeasureKey, ...]:
-    """What a choice of :func:`comparison_choices` compares; nothing for the wrist."""
+    """Return the measures of a choice; none for the wrist."""
     if choice == MIDDLE_JOINTS:
         return tuple((FingerAngle(finger, "middle").joint, "arc") for finger in FINGERS[1:])
     return progress_keys(choice)

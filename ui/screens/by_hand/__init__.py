@@ -1,1 +1,1 @@
-"""The form for values measured by hand, their names and their chart."""
+"""Values measured by hand: form and chart."""

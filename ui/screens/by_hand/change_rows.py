@@ -1,4 +1,4 @@
-"""Changes by hand as rows of a card."""
+"""Changes of values measured by hand, as rows of a card."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from carpus.ui.words.manual_values import change_words, full_name, verdict_words
 
 
 def add_change_rows(body: QVBoxLayout, theme: Theme, found: Iterable[tuple[MeasureKey, ManualChange]]) -> None:
-    """Each change with its verdict in words and its sign, then from where to where."""
+    """Add each change with its assessment, then both values."""
     for key, change in found:
         body.addWidget(Separator(theme))
         state, verdict = verdict_words(change)

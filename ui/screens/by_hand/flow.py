@@ -1,4 +1,4 @@
-"""The flow of values measured by hand: asked for from the progress, kept in the register."""
+"""Controller of values measured by hand."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from carpus.ui.shell.messages import Answer
 
 
 class ManualMeasurementsFlow(Flow):
-    """The form for today, and what of it is not kept yet."""
+    """Controller of the form; keeps unsaved values per patient."""
 
     screen_name, guide_page, parent_tab = "by_hand", "figures", "progress"
     screen: ManualMeasurementsScreen
@@ -29,7 +29,7 @@ class ManualMeasurementsFlow(Flow):
         self.screen.close_button.clicked.connect(self.navigate_back)
 
     def open(self) -> None:
-        """The form of the patient who is open, for today; with what was written and not kept, if it was left so."""
+        """Show the open patient's form for today, with unsaved values of before."""
         patient, screen = self.context.current.patient, self.screen
         if patient is not None and screen.record.patient_id == patient.patient_id and screen.has_unsaved:
             self.context.navigator.switch_screen("by_hand")
@@ -37,14 +37,14 @@ class ManualMeasurementsFlow(Flow):
         self._load(is_refresh=False)
 
     def navigate_back(self) -> None:
-        """Back to the progress; what is written and not saved is asked about first."""
+        """Go back to the progress; ask first if values are not saved."""
         if not self.screen.has_unsaved:
             self._return_to_progress()
             return
         self._confirm_leave(self._discard)
 
     def prompt_before_close(self) -> bool:
-        """The form is open, and what is written in it would be lost with the window."""
+        """Ask before unsaved values are lost with the window."""
         if self.context.navigator.underlying_screen != self.screen_name or not self.screen.has_unsaved:
             return False
         self._confirm_leave(self.context.window.close_without_prompt)
@@ -101,7 +101,7 @@ class ManualMeasurementsFlow(Flow):
         self.run(read, on_loaded)
 
     def _stash_unsaved(self, patient_id: str) -> None:
-        """What is written of another patient and not kept waits until that patient's form is opened again."""
+        """Keep another patient's unsaved values until that form is opened again."""
         before = self.screen.record.patient_id
         with suppress(ValueError):  # what cannot be kept was marked red all the time
             if before != patient_id and (values := self.screen.list_unsaved()):

@@ -1,4 +1,4 @@
-"""The rows of the form: one for each measure, in groups, with what was measured last and on the other hand."""
+"""Rows of the form: one per measure, grouped, with the previous value and that of the other hand."""
 
 from __future__ import annotations
 
@@ -45,11 +45,14 @@ from carpus.ui.words.manual_values import (
 
 FIELD_PX = {"angle": 84, "force": 84, "size": 104, "score": 104}
 CARPUS_COLUMN, OTHER_HAND_COLUMN, LAST_COLUMN = 4, 5, 6
-"""Columns behind the name and up to three fields."""
+"""Columns after the name and up to three fields."""
 
 
 class MeasureRow(QObject):
-    """The fields of one measure and what stands beside them. ``edited`` whenever a field changes."""
+    """Fields of one measure and the texts next to them.
+
+    Signals: ``edited``.
+    """
 
     edited = Signal()
 
@@ -126,7 +129,7 @@ class MeasureRow(QObject):
         self._update_side_text()
 
     def _show_history(self, values: Sequence[ManualValue], side: Side, day: date) -> None:
-        """What was entered before for the same day, and by whom."""
+        """Show earlier entries of the same day, and their authors."""
         lines = []
         for key in self.keys(side):
             for one in find_superseded_entries(values, key, day):
@@ -143,7 +146,10 @@ class MeasureRow(QObject):
         self.last_text.setAccessibleDescription(self.last_text.toolTip())
 
     def read_values(self, side: Side, day: date) -> list[ManualValue]:
-        """What is written, one for each way, without tries where nothing is. Raises ValueError for what cannot be."""
+        """Return one value per mode, without tries if empty.
+
+        Raises ValueError for an invalid entry.
+        """
         found = []
         for key in self.keys(side):
             tries = tuple(f.value() for way, f in self.fields if way == key[1] and not f.is_empty)
@@ -156,7 +162,10 @@ class MeasureRow(QObject):
         self.edited.emit()
 
     def _update_side_text(self) -> None:
-        """The mean of the tries; Carpus's own value, but only once the hand's is there: nobody shall be led."""
+        """Show the mean of the tries, or Carpus's value.
+
+        Carpus's value appears only after the manual one is entered, so that it does not bias it.
+        """
         values = [field.value() for _, field in self.fields if not (field.is_empty or field.error)]
         if self.measure.trial_count > 1:
             mean = sum(values) / len(values) if values else math.nan
@@ -172,8 +181,10 @@ class MeasureRow(QObject):
 
 
 class ManualForm(QWidget):
-    """All rows, group by group. ``edited`` whenever something changes, ``measure_edited`` carries the measure written
-    in."""
+    """All rows by group.
+
+    Signals: ``edited``, ``measure_edited`` with the measure's name.
+    """
 
     edited = Signal()
     measure_edited = Signal(str)
@@ -183,12 +194,12 @@ class ManualForm(QWidget):
         self._theme = theme
         self._grid = grid_layout(12, 6, stretches=(1,), margins=(0, 0, 0, 0), parent=self)
         self.rows: dict[str, MeasureRow] = {}
-        """Those that are shown, from top to bottom."""
+        """Visible rows from top to bottom."""
         self._rows_by_measure: dict[str, MeasureRow] = {}
         self._grid_rows: dict[str, int] = {}
-        """Of each measure, shown or not, the line of the grid."""
+        """Grid row of each measure, visible or not."""
         self._headings: dict[str, tuple[list[QWidget], int]] = {}
-        """Of each kind what stands above its rows, and the line below them."""
+        """Headings of each kind, and the grid row below its measures."""
         for kind, heading in group_names().items():
             line = self._grid.rowCount()
             measures = [one.id for one in MEASURES if one.kind == kind]
@@ -211,7 +222,7 @@ class ManualForm(QWidget):
         return shown
 
     def set_measures(self, wanted: set[str]) -> None:
-        """Show these; what is written in rows that stay is kept."""
+        """Show these measures; rows that stay keep their entries."""
         self.rows = {
             name: self._rows_by_measure.get(name) or self._make_row(name) for name in self._grid_rows if name in wanted
         }
@@ -236,7 +247,7 @@ class ManualForm(QWidget):
         return row
 
     def _input_fields(self) -> list[QWidget]:
-        """What is typed in, line by line."""
+        """Return all fields, row by row."""
         return [
             entry
             for row in self.rows.values()
@@ -247,7 +258,7 @@ class ManualForm(QWidget):
         ]
 
     def _focus_next(self, field: ValueField) -> None:
-        """Enter goes to the next field; after the last one it stays."""
+        """Move the focus to the next field; after the last one it stays."""
         fields = self._input_fields()
         following = fields[min(fields.index(field) + 1, len(fields) - 1)]
         following.setFocus(Qt.FocusReason.TabFocusReason)
@@ -265,11 +276,11 @@ class ManualForm(QWidget):
         return [(f, f.error) for row in self.rows.values() for _, f in row.fields if f.error]
 
     def list_warnings(self) -> list[str]:
-        """What should be looked at again: ``Flexion, passive: 180°? …``."""
+        """Return unusual values to check, such as ``Flexion, passive: 180°? …``."""
         return [f"{f.accessibleName()}: {f.warning}" for row in self.rows.values() for _, f in row.fields if f.warning]
 
     def find_changes(self, values: Sequence[ManualValue], side: Side, day: date) -> list[ManualValue]:
-        """What is written otherwise than it is stored, to be entered; nothing of what is the same."""
+        """Return entries that differ from the saved values."""
         found, kept = [], find_latest_entries(values)
         for row in self.rows.values():
             for one in row.read_values(side, day):
@@ -281,7 +292,7 @@ class ManualForm(QWidget):
 
 
 class ValueField(NumberField):
-    """A value of a measure, empty for not measured. Enter goes to the next field."""
+    """Field for one value, empty if not measured; Enter moves to the next field."""
 
     next_requested = Signal()
 
@@ -302,7 +313,7 @@ class ValueField(NumberField):
 
     @property
     def warning(self) -> str:
-        """``180°? Usual is up to 100°``."""
+        """Warning for an unusual value, such as ``180°? Typical range: …``."""
         of, value = self._measure, self.value()
         if self.error or not math.isfinite(value) or not is_unusual(of, value):
             return ""

@@ -1,4 +1,4 @@
-"""The form for what was measured by hand on a day, with its course beside it."""
+"""Form for values measured by hand on one day, with their chart."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ from carpus.ui.words.manual_values import find_changes, measure_name
 
 @dataclass(frozen=True, slots=True)
 class ManualRecord:
-    """All of a patient that the screen shows: ``values`` as entered, ``figures`` of the sessions in order of time."""
+    """Data of a patient for this screen: ``values`` as entered, ``figures`` of the sessions in order of time."""
 
     patient_id: str
     side: Side
@@ -56,7 +56,10 @@ class ManualRecord:
 
 
 class ManualMeasurementsScreen(FittedWidget):
-    """``save_requested`` carries what is to be entered and words of what is unusual in it."""
+    """Form and chart.
+
+    Signals: ``save_requested`` with the values to save and their warnings.
+    """
 
     save_requested = Signal(object, object)
 
@@ -67,7 +70,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self.record = ManualRecord("", "right", (), (), "")
         self._added_measures: set[str] = set()
         self._unsaved: dict[tuple[MeasureKey, date], ManualValue] = {}
-        """Of other days and the other hand, not kept yet: it stays written until it is saved or let go."""
+        """Unsaved values of other days and the other hand."""
         self._shown: tuple[Side, date] = ("right", day)
         self.title = heading(theme, wrap=True)
         self.basis_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
@@ -128,7 +131,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self._theme.changed.connect(self._fit)
 
     def _fit(self) -> None:
-        """With large text what stood at the right goes below."""
+        """Stack the columns with large text."""
         tight = is_tight(self, self._theme) or self.width() < 1180 * self._theme.text_scale
         directions = QBoxLayout.Direction
         self._columns.setDirection(directions.TopToBottom if tight else directions.LeftToRight)
@@ -150,19 +153,22 @@ class ManualMeasurementsScreen(FittedWidget):
             return True
 
     def list_unsaved(self) -> list[ManualValue]:
-        """All that is written and not kept, of every day and hand. Raises ValueError for what cannot be kept."""
+        """Return all unsaved values of every day and hand.
+
+        Raises ValueError for an invalid entry.
+        """
         side, day = self._shown
         here = self.form.find_changes(self.record.values, side, day)
         shown = {(key, day) for row in self.form.rows.values() for key in row.keys(side)}
         return [*(one for at, one in self._unsaved.items() if at not in shown), *here]
 
     def restore_unsaved(self, values: Sequence[ManualValue]) -> None:
-        """What was written of this patient before and not kept, as if it had just been written."""
+        """Show unsaved values of before as if just entered."""
         self._unsaved = {(one.key, one.day): one for one in values}
         self._fill()
 
     def _switch_day_or_hand(self) -> None:
-        """To another day or hand; what is written stays written. What cannot be kept is put right first."""
+        """Show another day or hand and keep unsaved values; invalid ones must be corrected first."""
         if self.form.list_errors():
             self._select(*self._shown)
             return
@@ -178,7 +184,7 @@ class ManualMeasurementsScreen(FittedWidget):
             widget.blockSignals(False)
 
     def show_record(self, record: ManualRecord, *, is_refresh: bool = False) -> None:
-        """Everything of one patient; ``is_refresh`` after saving, where day and hand stay."""
+        """Show a patient's data; ``is_refresh`` after saving keeps day and hand."""
         self.record = record
         self._unsaved = {}
         if not is_refresh:
@@ -214,7 +220,6 @@ class ManualMeasurementsScreen(FittedWidget):
         self.measure_choice.set_choices([("", self.tr("Other measures…")), *others])
 
     def _show_basis(self) -> None:
-        """Who enters it, what it means, and where the forearm is counted from."""
         by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
         words = self.tr("Empty means not measured. Nothing here changes a figure of Carpus.")
         simulated = any(one.is_simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
@@ -237,7 +242,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self.form.rows[name].fields[0][1].setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _carpus_measures(self) -> dict[str, Measure]:
-        """What Carpus measured of the same on that day: the last session that did."""
+        """Return Carpus's measures of that day, of the last session that has them."""
         found: dict[str, Measure] = {}
         for measure in MEASURES:
             for _, row in self._find_session_values(measure):

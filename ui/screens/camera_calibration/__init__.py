@@ -1,1 +1,1 @@
-"""The camera calibrated with a printed board: choosing and printing it, showing it, the result."""
+"""Camera calibration with a printed board: set-up, capture, result."""

@@ -1,4 +1,4 @@
-"""The board is shown: large picture, one instruction, what is there and what is missing."""
+"""Capture of board images: frame, instruction, and what is still missing."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ COLUMN_PX = 376
 
 
 class BoardCaptureView(FittedWidget):
-    """What its buttons do is the flow's affair."""
+    """Capture view; the flow connects its buttons."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -61,7 +61,7 @@ class BoardCaptureView(FittedWidget):
         self.reset()
 
     def _fit(self) -> None:
-        """Large text must leave the picture its half."""
+        """Leave the frame at least half of the width with large text."""
         self._side_column.setFixedWidth(min(self._theme.px(COLUMN_PX), round(0.44 * max(self.width(), 640))))
 
     def reset(self) -> None:
@@ -87,7 +87,7 @@ class BoardCaptureView(FittedWidget):
         self.frame_view.show_frame(color_rgb)
 
     def show_no_frames(self, words: str) -> None:
-        """The camera sends nothing: why, and what to do; what was taken stays."""
+        """Show why the camera sends no frames; captured images stay."""
         self.frame_view.clear(words)
         self.instruction.setText(self.tr("No pictures from the camera"))
         self.hint.setText(words)
@@ -118,7 +118,7 @@ class BoardCaptureView(FittedWidget):
         self.bar.show_busy()
 
     def show_shortfall(self, words: str) -> None:
-        """It was not enough: why, in words; the pictures so far stay."""
+        """Show why the images are not enough; they stay."""
         self.bar.hide()
         self._shortfall = words
         self.hint.setText(words)

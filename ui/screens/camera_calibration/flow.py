@@ -1,4 +1,4 @@
-"""The flow of calibrating a camera with a printed board: print it, show it, work it out, keep it."""
+"""Controller of the camera calibration: print, capture, calculate, save."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from carpus.ui.words.camera_check import camera_words
 
 
 class CameraCalibrationFlow(CameraFlowBase):
-    """Whatever was open is closed: the camera is needed."""
+    """Controller of the camera calibration; closes patient and source."""
 
     screen_name = "board"
     screen: CameraCalibrationScreen
@@ -58,7 +58,7 @@ class CameraCalibrationFlow(CameraFlowBase):
         self.context.navigator.switch_screen("board")
 
     def navigate_back(self) -> None:
-        """From showing and the result to the beginning, and from there to the settings."""
+        """Go from capture or result to the set-up, and from there to the settings."""
         if self.screen.is_setup_shown:
             self.return_to_settings()
         else:
@@ -69,7 +69,7 @@ class CameraCalibrationFlow(CameraFlowBase):
         self.screen.show_setup()
 
     def on_leave(self) -> None:
-        """Let the camera go; what was taken and not kept is forgotten."""
+        """Close the camera and drop images that were not used."""
         super().on_leave()
         self._gathering, self._is_calibrating = None, False
 

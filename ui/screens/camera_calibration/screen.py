@@ -1,4 +1,4 @@
-"""Calibrating the camera with a printed board: before it is shown, while it is shown, and the result."""
+"""Camera calibration screen: set-up, capture, result."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, headlin
 
 
 class CameraCalibrationScreen(QWidget):
-    """Three parts, one at a time; what their buttons do is the flow's affair."""
+    """Three views, one at a time; the flow connects their buttons."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -76,7 +76,7 @@ MAX_WIDTH_PX = 900
 
 
 class BoardSetupView(QWidget):
-    """What is chosen before the board is shown."""
+    """Choices before the capture."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -161,7 +161,7 @@ class BoardSetupView(QWidget):
         )
 
     def show_status(self, words: str) -> None:
-        """What is known of the camera so far."""
+        """Show the camera's current status."""
         self._status_text.show_text(words)
 
     def set_camera_connected(self, is_connected: bool) -> None:
@@ -174,7 +174,7 @@ class BoardSetupView(QWidget):
 
 
 class BoardResultView(QWidget):
-    """What was found, to be used or made again."""
+    """Result of the calibration, to be used or repeated."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()

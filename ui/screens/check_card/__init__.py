@@ -1,1 +1,1 @@
-"""The camera checked with a printed card: half a minute of looking, and the verdict."""
+"""Camera check with a printed card."""

@@ -1,4 +1,4 @@
-"""The flow of the check card: print it, look at it for 30 seconds, and keep the verdict."""
+"""Controller of the camera check: print, measure for 30 seconds, save the result."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from carpus.ui.words.camera_check import CardProgress
 
 
 class CheckCardFlow(CameraFlowBase):
-    """Whatever was open is closed: the camera is needed."""
+    """Controller of the camera check; closes patient and source."""
 
     screen_name = "card"
     screen: CheckCardScreen
@@ -44,14 +44,14 @@ class CheckCardFlow(CameraFlowBase):
         return self.tr("Check card")
 
     def open(self) -> None:
-        """What the last check said; read anew in the background, since a disk may keep anybody waiting."""
+        """Show the last check, read in the background."""
         self.close_patient()
         self.return_to_start()
         self.context.camera.refresh_status()
         self.context.navigator.switch_screen("card")
 
     def navigate_back(self) -> None:
-        """From a check to its beginning, and from there to the settings."""
+        """Go from a running check to its start, and from there to the settings."""
         if self.screen.is_measuring:
             self.return_to_start()
         else:
@@ -63,7 +63,7 @@ class CheckCardFlow(CameraFlowBase):
         self.screen.end_measuring()
 
     def on_leave(self) -> None:
-        """Let the camera go; a check that has not ended is forgotten."""
+        """Close the camera and drop an unfinished check."""
         super().on_leave()
         self._measured = None
 

@@ -1,4 +1,4 @@
-"""The check card: the camera’s picture, and beside it the verdict of the last check or what to do with the card."""
+"""Camera check screen: the frame, and the last result or an instruction."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ COLUMN_PX = 372
 
 
 class CheckCardScreen(FittedWidget):
-    """What its buttons do is the flow's affair."""
+    """Camera check; the flow connects its buttons."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -85,7 +85,7 @@ class CheckCardScreen(FittedWidget):
         self.check_button.set_label(face)
 
     def show_status(self, status: CheckStatus) -> None:
-        """What the last check said."""
+        """Show the result of the last check."""
         state, words = check_words(status)
         names = {"good": self.tr("Right"), "warn": self.tr("Check it again"), "bad": self.tr("Out")}
         self._verdict = state, names.get(state, self.tr("Not checked yet")), words
@@ -126,7 +126,7 @@ class CheckCardScreen(FittedWidget):
         self.instruction.setText(words)
 
     def show_progress(self, now: CardProgress | None) -> None:
-        """What the newest picture showed; None while nothing has been looked at."""
+        """Show the progress; None before the first frame."""
         self.progress = now
         seconds = 0.0 if now is None else now.seconds
         self.countdown.setText(self.tr("{seconds} s").format(seconds=max(round_half_away(CHECK_S - seconds), 0)))
@@ -140,7 +140,7 @@ class CheckCardScreen(FittedWidget):
         return self.check_button if self.check_button.isEnabled() else self.print_button
 
     def _paint_overlay(self, painter: QPainter, view: FrameView) -> None:
-        """A ring and a letter at each disc."""
+        """Draw a ring and a letter at each disc of the card."""
         if self.progress is None or self.progress.disc_px is None:
             return
         for letter, (u, v) in zip(DISCS, self.progress.disc_px.tolist(), strict=True):

@@ -1,1 +1,1 @@
-"""Markers of a stored session put right by a person."""
+"""Correction of marker labels in a stored session."""

@@ -1,4 +1,4 @@
-"""The flow of putting markers right: the screen, tracking again beside everything else, and the choice at the end."""
+"""Controller of marker corrections: the screen, the re-analysis, and the choice of its result."""
 
 from __future__ import annotations
 
@@ -31,10 +31,11 @@ from carpus.ui.words.marker_words import finger_number, marker_title
 
 
 class CorrectionFlow(Flow):
-    """``progress_changed`` carries percent, -1 when nothing runs, and how many new results wait for a decision.
+    """Controller of corrections.
 
-    One session is tracked again at a time, in a process of its own; window, other patients and a new measurement go on.
-    What comes of it waits in the top bar until a person opens it: nothing comes up over what somebody does.
+    One session is re-analysed at a time, in its own process, while other work continues. Its result waits in the top
+    bar until the user opens it. Signals: ``progress_changed`` with percent (-1 if nothing runs) and the number of
+    results that wait.
     """
 
     screen_name, guide_page = "correct", "correct"
@@ -67,7 +68,7 @@ class CorrectionFlow(Flow):
         return self._tracking.is_busy
 
     def refresh_pending(self) -> None:
-        """When the program starts, and after something was erased: what waits for a decision."""
+        """Find results that wait for a decision, at the start and after a deletion."""
         self._background.run(self._corrections.list_pending, self._on_pending, self.context.messages.show_fault, self)
 
     def _on_pending(self, found: Sequence[PendingResult]) -> None:
@@ -83,7 +84,7 @@ class CorrectionFlow(Flow):
         self.context.navigator.switch_screen("correct")
 
     def start(self, session_id: str, corrections: Sequence[Correction]) -> None:
-        """Track again in the background."""
+        """Start a re-analysis in the background."""
         if self.running_session_id:
             self.open_dialog()
             return
@@ -119,12 +120,12 @@ class CorrectionFlow(Flow):
         self.return_to_session()
 
     def stop(self) -> None:
-        """Keep the old result; what runs is given up."""
+        """Cancel the re-analysis and keep the old result."""
         self._stop_event.set()
         self.dialog.close_dialog()
 
     def open_dialog(self, session_id: str = "") -> None:
-        """What runs, or what waits for a decision: of this session first."""
+        """Show the running re-analysis, or a result that waits, of this session first."""
         if self.running_session_id:
             self.dialog.show_running(self._session_label, max(self._percent, 0))
             self.dialog.open()
@@ -134,13 +135,13 @@ class CorrectionFlow(Flow):
             self.dialog.open()
 
     def close(self) -> None:
-        """The program ends; what waits for a decision waits on."""
+        """Stop what is running; results that wait stay."""
         self._stop_event.set()
         self._tracking.join()
         self._background.join()
 
     def _report_progress(self, done: int, total: int) -> None:
-        """Called in the background."""
+        """Emit the progress; called in the background."""
         self._percent_reached.emit(100 * done // max(total, 1))
 
     def _on_progress(self, percent: int) -> None:
@@ -192,7 +193,7 @@ class CorrectionFlow(Flow):
         self._background.run(read, show_results, on_failed, self)
 
     def _close_decision(self) -> PendingResult | None:
-        """The new result that was decided about; it waits no more."""
+        """Return the result that was decided on and take it off the waiting ones."""
         one, self._shown_result = self._shown_result, None
         self.dialog.close_dialog()
         if one in self.pending:
@@ -228,7 +229,7 @@ class CorrectionFlow(Flow):
         self.refresh_pending()
 
     def _on_accepted(self, before: str, new: str) -> None:
-        """A new result counts from now on; where the old one was on the screen the new one is shown."""
+        """Show the accepted result where the old one was on the screen."""
         self.refresh_pending()
         if self.context.current.session_id == before and self.context.navigator.underlying_screen in (
             "review",
@@ -238,7 +239,7 @@ class CorrectionFlow(Flow):
 
 
 def describe_session(header: SessionHeader) -> str:
-    """Whose session, from when and of what."""
+    """Return patient, date, exercise and hand of a session."""
     when = numbers.format_date_time(datetime.fromisoformat(header.recorded or header.created))
     what = f"{terms.exercise_name(header.exercise)}, {to_mid_sentence(terms.hand_name(header.hand))}"
     name = practice_patient_name() if header.subject_id == PRACTICE_PATIENT else header.subject_id
@@ -246,7 +247,7 @@ def describe_session(header: SessionHeader) -> str:
 
 
 def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str:
-    """What a person needs to choose: how much differs, most of all where, and which names did not hold."""
+    """Return how much two results differ, where most, and which labels were lost."""
     said = []
     if lost_labels:
         names = ", ".join(marker_title(name) for name in lost_labels)

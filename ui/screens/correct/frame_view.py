@@ -1,4 +1,4 @@
-"""A stored picture, or its blue spots alone, on which names are dragged to their discs."""
+"""Stored frame, or its blue blobs alone, on which labels are dragged to markers."""
 
 from __future__ import annotations
 
@@ -21,13 +21,15 @@ from carpus.ui.words.marker_words import marker_title
 GRAB_RADIUS_PX, RING_RADIUS_PX = 18.0, 13.0
 LOUPE_PX, LOUPE_FACTOR = 190, 8.0
 MAX_ALWAYS_LABELLED = 6
-"""So many discs each carry their name; of more only the chosen and the changed ones."""
+"""Up to this many markers are all labelled; of more only selected and changed ones."""
 
 
 class CorrectionFrameView(FrameView):
-    """Emits ``marker_moved`` with a marker and its new place, ``marker_selected`` with the marker grabbed,
-    ``empty_clicked`` with a place
-    that was clicked where no name is."""
+    """Frame with draggable labels.
+
+    Signals: ``marker_moved`` with a marker and its pixel, ``marker_selected`` with a marker, ``empty_clicked`` with a
+    pixel away from all labels.
+    """
 
     marker_moved = Signal(str, object)
     marker_selected = Signal(str)
@@ -51,12 +53,12 @@ class CorrectionFrameView(FrameView):
         self.setAccessibleName(self.tr("Picture to put markers right on"))
 
     def show_edits(self, edits: MarkerEdits, row: int, blob_px: FloatArray, *, has_frame: bool) -> None:
-        """Whose places to show; the picture itself is shown before."""
+        """Show the labels of a row; its frame was shown before."""
         self.edits, self.row, self.blob_px, self.has_frame = edits, row, blob_px, has_frame
         self.update()
 
     def cancel_drag(self) -> bool:
-        """Let go of what is dragged, where it was; whether anything was."""
+        """Cancel a drag; return whether there was one."""
         was, self._dragged = self._dragged, ""
         self.update()
         return bool(was)
@@ -161,7 +163,7 @@ class CorrectionFrameView(FrameView):
             self._paint_drag(painter, now)
 
     def _find_blob(self, pixel: FloatArray) -> FloatArray | None:
-        """The blue spot within reach of the pointer."""
+        """Return the blob within reach of the pointer."""
         if not len(self.blob_px):
             return None
         distance = np.linalg.norm(self.blob_px - pixel, axis=1)
@@ -172,7 +174,7 @@ class CorrectionFrameView(FrameView):
         return bool(np.isfinite(distance).any()) and float(np.nanmin(distance)) < 3.0
 
     def _paint_blobs(self, painter: QPainter, now: FloatArray) -> None:
-        """Spots that no name is on; without a picture all of them, filled."""
+        """Draw blobs without a label; without a frame all of them, filled."""
         for spot in self.blob_px:
             point = self.to_screen(*map(float, spot))
             if not self.has_frame:
@@ -236,8 +238,7 @@ class CorrectionFrameView(FrameView):
         *,
         wrong: bool = False,
     ) -> QRectF | None:
-        """A name beside its ring, where it covers nothing and no other of the rings is nearer; where there is no such
-        place further off, with a line to it. The plate, None where there is no room."""
+        """Draw a label next to its ring, or farther away with a line; return its box, None without room."""
         painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
         metrics = QFontMetricsF(painter.font())
         size = QSizeF(metrics.horizontalAdvance(words) + (30 if wrong else 12), metrics.height() + 5)

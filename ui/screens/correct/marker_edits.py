@@ -1,4 +1,4 @@
-"""Where the markers of stored pictures are, as tracked and as a person puts them; every step can be taken back."""
+"""Marker positions of stored frames, as tracked and as corrected, with undo."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from carpus.core.session.label_checks import Correction, LabelDoubt, find_label_
 from carpus.core.session.values import Session
 
 SNAP_RADIUS_PX = 8.0
-"""A place this near to a blue spot is the spot's middle."""
+"""A position this near to a blob becomes its centre."""
 MarkerPosition = tuple[float, float] | None
 
 
 class MarkerEdits:
-    """The corrections of one session, picture by picture."""
+    """Corrections of one session, by row."""
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -28,7 +28,7 @@ class MarkerEdits:
 
     # --- what is there ------------------------------------------------------------------------------------
     def original_px(self, row: int) -> FloatArray:
-        """The blobs (M, 2) that were taken for the markers; NaN for none."""
+        """Return the tracked marker pixels (M, 2), NaN where not measured."""
         return np.asarray(self.session.markers.measured_px[row])
 
     def current_px(self, row: int) -> FloatArray:
@@ -41,7 +41,7 @@ class MarkerEdits:
         return self._edits.get(row, {})
 
     def model_px(self, row: int) -> FloatArray:
-        """Where the model has the markers (M, 2)."""
+        """Return the marker pixels (M, 2) of the hand model."""
         known = self.session.markers.position_cam_m[row]
         out = np.full((len(self.markers), 2), np.nan)
         finite = np.isfinite(known).all(axis=1)
@@ -51,7 +51,7 @@ class MarkerEdits:
         return out
 
     def residual_mm(self, row: int, name: str, *, is_original: bool = False) -> float:
-        """Distance of a marker from where the others expect it; NaN where one of the two is not known."""
+        """Return the distance of a marker from where the others expect it, in mm; NaN if unknown."""
         number = self.markers.index(name)
         places = self.current_px(row)
         expected = predict_marker_px(self.session, row, places, number)
@@ -63,7 +63,7 @@ class MarkerEdits:
         return 1000.0 * float(np.linalg.norm(at - expected)) * float(np.median(known)) / self.session.camera.fx_px
 
     def find_marker(self, row: int, pixel: FloatArray, reach_px: float) -> str:
-        """The marker at a place of the picture, also one that is hidden where the model has it; empty for none."""
+        """Return the marker near a pixel, also an occluded one of the model; empty if none."""
         places = self.current_px(row)
         places = np.where(np.isfinite(places), places, self.model_px(row))
         distance = np.linalg.norm(places - pixel, axis=1)
@@ -72,7 +72,7 @@ class MarkerEdits:
         return self.markers[int(np.nanargmin(distance))]
 
     def find_label_doubt(self) -> tuple[int, LabelDoubt] | None:
-        """The first picture whose names, as a person put them, are plainly wrong, and what is; None for none."""
+        """Return the first row with implausible labels and what is wrong, None if there is none."""
         for row, said in sorted(self._edits.items()):
             known = self._doubts.get(row)
             if known is None or known[0] != said:
@@ -86,8 +86,10 @@ class MarkerEdits:
 
     # --- what a person says -------------------------------------------------------------------------------
     def place_marker(self, row: int, name: str, pixel: FloatArray, blob_px: FloatArray) -> None:
-        """A marker is here: on the middle of the spot (S, 2) under it if there is one. A name that is there already
-        changes places with it."""
+        """Move a marker to a pixel, snapped to a blob of ``blob_px`` (S, 2).
+
+        A marker that is already there changes places with it.
+        """
         at = np.asarray(pixel, dtype=float)
         if len(blob_px):
             distance = np.linalg.norm(blob_px - at, axis=1)
@@ -121,7 +123,7 @@ class MarkerEdits:
         self._edits.setdefault(row, {})[name] = None
 
     def undo(self) -> int:
-        """Take the last step back; the picture it was made on, -1 for none."""
+        """Undo the last step; return its row, -1 if there is none."""
         if not self._undo_stack:
             return -1
         row, before = self._undo_stack.pop()

@@ -1,4 +1,4 @@
-"""Tracking again: how far it is and how to stop it, then old and new result over each other and the choice of one."""
+"""Dialog of a re-analysis: its progress, then the comparison of old and new result."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ from carpus.ui.words.finger_angles import FINGERS
 from carpus.ui.words.marker_words import finger_name
 
 WRIST = -1
-"""Instead of a finger's number."""
+"""Choice of the wrist in place of a finger."""
 
 
 @dataclass(frozen=True, slots=True)
 class ResultPair:
-    """What is drawn of the old and of the new result of one recording; ``finger`` is one that was corrected, or 0."""
+    """Old and new result of a recording; ``finger`` was corrected, 0 if none."""
 
     figures: SessionResults
     old: WristCurves
@@ -45,16 +45,15 @@ class ResultPair:
 
 
 class ResultsDialog(Dialog):
-    """``stop_button`` ends the tracking; ``keep_button`` and ``use_button`` decide about the new result that is shown.
+    """Progress and result of a re-analysis.
 
-    It is opened by hand only. The keyboard lies on the button that changes nothing, so that Enter, Space and Esc
-    decide nothing.
+    Only the user opens it. The focus is on the button that changes nothing, so Enter, Space and Esc decide nothing.
     """
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 980)
         self.results: ResultPair | None = None
-        """The two results that are shown; None while one is made or read."""
+        """The two results shown; None while one is computed or read."""
         self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.session_label = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.words = Text(theme, "", 14, REGULAR, wrap=True)
@@ -132,7 +131,6 @@ class ResultsDialog(Dialog):
 
 
 def _make_legend(theme: Theme) -> QWidget:
-    """How the old and the new result are drawn."""
     legend = QWidget()
     legend.setAccessibleName(", ".join(legend_words()))
     row = row_layout(gap=6, margins=(0, 0, 0, 0), parent=legend)

@@ -1,4 +1,4 @@
-"""A wrong or missing marker put right at any picture, and the session tracked again from there."""
+"""Correction of a wrong or missing marker in any frame, and re-analysis from there."""
 
 from __future__ import annotations
 
@@ -40,12 +40,14 @@ ARROWS = {
 }  # fmt: skip
 BIG_STEP_PX = 10.0
 LARGE_RESIDUAL_MM = 8.0
-"""Further than this from where the others expect it a marker is worth a look."""
+"""A marker farther than this from its expected position is flagged."""
 
 
 class CorrectionScreen(FittedWidget):
-    """``reanalysis_requested`` carries the session's identity and the corrections; ``back_requested`` asks to go
-    back; ``fault_raised`` a fault."""
+    """Correction of marker labels.
+
+    Signals: ``reanalysis_requested`` with session and corrections, ``back_requested``, ``fault_raised``.
+    """
 
     reanalysis_requested = Signal(str, object)
     back_requested = Signal()
@@ -60,7 +62,7 @@ class CorrectionScreen(FittedWidget):
         self._figures: SessionResults | None = None
         self._joints: JointCurves | None = None
         self._finger = 0
-        """Whose curves are shown; 0 for the wrist."""
+        """Finger whose curves are shown; 0 for the wrist."""
         self.edits: MarkerEdits | None = None
         self._time_s = np.empty(0)
         self.row = 0
@@ -115,7 +117,7 @@ class CorrectionScreen(FittedWidget):
         self._fit()
 
     def _show_keys(self) -> None:
-        """What a key does, of those that do something here."""
+        """Show the shortcuts that have an effect here."""
         said = [
             (self.tr("Drag"), self.tr("move a name")), (KEYS["correct_hide"], self.tr("not to be seen here")),
             (f"{KEYS['correct_back']} {KEYS['correct_on']}", self.tr("picture")),
@@ -221,7 +223,7 @@ class CorrectionScreen(FittedWidget):
             self.show_row(int(np.clip(np.searchsorted(self._time_s, time_s), 0, len(self._time_s) - 1)))
 
     def show_next_doubtful(self) -> None:
-        """The next picture that is doubtful and not next to this one."""
+        """Show the next uncertain frame after the current run of them."""
         rows = self._find_doubtful_rows()
         if not rows.size:
             return
@@ -250,12 +252,12 @@ class CorrectionScreen(FittedWidget):
             self.select_marker(name)
 
     def _place_current(self, pixel: FloatArray) -> None:
-        """With a name chosen in the list, a click is its place."""
+        """Move the selected marker to the clicked pixel."""
         if self.current_marker:
             self.place_marker(self.current_marker, pixel)
 
     def _nudge_marker(self, key: int, big: bool) -> None:
-        """An arrow moves the chosen marker, from where it is or where the model has it."""
+        """Move the selected marker by an arrow key, from its own or the model's position."""
         if self.edits is None or not self.current_marker:
             return
         number = self.edits.markers.index(self.current_marker)
@@ -280,12 +282,12 @@ class CorrectionScreen(FittedWidget):
                 self._refresh()
 
     def cancel_or_return(self) -> None:
-        """Esc: let go of what is dragged, else back to the review."""
+        """Cancel a drag, else go back to the review."""
         if not self.frame_view.cancel_drag():
             self.back_requested.emit()
 
     def _run_primary(self) -> None:
-        """What the primary says: mend what is plainly wrong with the names, else track again."""
+        """Correct implausible labels if there are any, else request the re-analysis."""
         if self.edits is None or not self.edits.corrections():
             return
         found = self.edits.find_label_doubt()
@@ -366,7 +368,7 @@ class CorrectionScreen(FittedWidget):
         self.setAccessibleName(self.title.text())
 
     def _show_doubt(self, row: int, doubt: LabelDoubt) -> None:
-        """In place of what was asked: what is wrong with the names, and what mends it."""
+        """Show what is implausible about the labels and offer a remedy."""
         at = numbers.format_clock_tenths(float(self._time_s[row]))
         self.state.show_state("warn", self.tr("Look at the names at {time}").format(time=at))
         if doubt.swapped is not None:
@@ -388,7 +390,10 @@ ARROW_KEYS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
 
 
 class MarkerRow(QPushButton):
-    """``nudged`` carries an arrow key, and whether Shift was held."""
+    """Row of a marker.
+
+    Signals: ``nudged`` with an arrow key and whether Shift was held.
+    """
 
     nudged = Signal(int, bool)
 
@@ -419,7 +424,7 @@ class MarkerRow(QPushButton):
         is_selected: bool,
         large_mm: float,
     ) -> None:
-        """``residual_mm`` from its place now, ``original_mm`` before a change; NaN where nobody knows."""
+        """Show the distance from the expected position, now and before the change; NaN if unknown."""
         now = (
             self.tr("{size} mm").format(size=numbers.format_fixed(residual_mm, 1))
             if math.isfinite(residual_mm)

@@ -1,1 +1,1 @@
-"""Asking for formats, and how far an export is."""
+"""Export of a session in open formats."""

@@ -1,4 +1,4 @@
-"""A session in open formats: which of them and where to, how far it is, until all of it is written."""
+"""Dialog of an export: formats and region, then its progress."""
 
 from __future__ import annotations
 
@@ -28,13 +28,15 @@ FORMAT_NAMES = {
     "bids": QT_TRANSLATE_NOOP("ExportDialog", "Data set for research (BIDS-Motion)"),
     "h5": QT_TRANSLATE_NOOP("ExportDialog", "The session itself, for another Carpus"),
 }
-"""A format without words here goes by its short name."""
+"""A format that is missing here is shown by its short name."""
 
 
 class ExportDialog(Dialog):
-    """``export_requested`` carries the formats, whether nobody shall be found by it and the form of tables;
-    ``stop_requested`` ends an
-    export on the way; ``more_formats_requested`` asks for the settings that offer all formats instead."""
+    """Formats of an export.
+
+    Signals: ``export_requested`` with formats, de-identification and table format; ``stop_requested``;
+    ``more_formats_requested`` for the settings that offer all formats.
+    """
 
     export_requested = Signal(object, bool, object)
     stop_requested = Signal()
@@ -82,7 +84,7 @@ class ExportDialog(Dialog):
         self._show_state()
 
     def show_research(self, *, on: bool) -> None:
-        """All formats, or tables alone, which any program of tables opens."""
+        """Offer all formats, or tables only."""
         for name, box in self.format_ticks.items():
             box.setVisible(on)
             if not on:
@@ -96,7 +98,7 @@ class ExportDialog(Dialog):
         return [name for name, box in self.format_ticks.items() if box.isChecked()]
 
     def request_formats(self) -> None:
-        """Ask; what was ticked last time is ticked still."""
+        """Open with the last choice."""
         self._is_running = False
         self._show_state()
         self.open(self.folder_button)
@@ -110,7 +112,7 @@ class ExportDialog(Dialog):
         self.bar.show_progress(done, total)
 
     def dismiss(self) -> None:
-        """Close; while files are being written stop that first."""
+        """Stop a running export, else close."""
         if self._is_running:
             self.close_button.setEnabled(False)
             self.stop_requested.emit()
@@ -123,7 +125,7 @@ class ExportDialog(Dialog):
         return tick
 
     def _make_region_choice(self) -> Combo:
-        """Offers the person's own region first, and programs last."""
+        """Return the choice of regions: the user's first, other programs last."""
         own = user_region()
         regions = [own, *(region for region in OFFERED_REGIONS if region != own)]
         choices = [(regional_table_form(region), self._region_words(region)) for region in regions]

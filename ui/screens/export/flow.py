@@ -1,4 +1,4 @@
-"""A session in open formats: asked which and where to, written beside the window, stopped by a press."""
+"""Export of a session in the background."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from carpus.ui.shell.messages import show_files_written
 
 
 class ExportController(QObject):
-    """The sheet of formats, and what is written of it."""
+    """Dialog of formats, and the export itself."""
 
     _progress_changed = Signal(int, int)
 
@@ -35,7 +35,7 @@ class ExportController(QObject):
         self.dialog.request_formats()
 
     def _export(self, formats: Sequence[str], deidentified: bool, form: TableDialect) -> None:
-        """Beside the window; the sheet shows how far it is and stops it."""
+        """Ask for a folder and export into it; the dialog shows the progress."""
         context, session_id = self._context, self._session_id
         start = context.recent_locations.folder("exports")
         folder = QFileDialog.getExistingDirectory(context.window, self.tr("Export into a folder"), start)

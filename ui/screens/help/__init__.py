@@ -1,1 +1,1 @@
-"""Help on one screen: the way through a session, the keys, what to do when something goes wrong."""
+"""Help: the guide, the shortcuts, cards to print."""

@@ -1,4 +1,4 @@
-"""Cards to print, one page each: where the discs go, and how camera, arm and light are set up."""
+"""Printable cards: marker positions, and set-up of camera, arm and light."""
 
 from __future__ import annotations
 
@@ -22,12 +22,15 @@ FILE_NAME = "carpus-cards.pdf"
 DPI = 300
 MM = DPI / 25.4
 PX = DPI / 96.0
-"""A pixel of the design on paper."""
+"""A design pixel on paper."""
 WIDTH_MM, HEIGHT_MM = 180.0, 267.0
 
 
 def write_cards(path: Path) -> None:
-    """Both cards, A4, two pages. Raises :class:`DiskFull` or :class:`OutputNotWritable`; then what was there stays."""
+    """Write both cards as a PDF of two A4 pages.
+
+    Raises :class:`DiskFull` or :class:`OutputNotWritable`; then an old file stays.
+    """
     store = QByteArray()
     buffer = QBuffer(store)
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
@@ -75,7 +78,7 @@ def _paint_marker_card(painter: QPainter) -> None:
 
 
 def _paint_rulers(painter: QPainter, at: QPointF) -> None:
-    """Discs in their true size, and a length to check the print by."""
+    """Draw markers in true size and a length to check the print."""
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(MARKER_COLOR))
     for place, size_mm in enumerate((MARKER_MM, 8.0)):
@@ -151,11 +154,11 @@ _LABELS = {
     "WRIST": (1, 0.35), "CMC1": (-1, 0.05), "MCP2": (-1, -0.28), "MCP3": (1, -0.52), "MCP4": (1, -0.52),
     "MCP5": (1, -0.28),
 }  # fmt: skip
-"""On which side a name stands, and how far from the middle of the hand, in halves of the drawing."""
+"""Side of a label, and its height from the middle of the hand in halves of the drawing."""
 
 
 def paint_marker_map(painter: QPainter, box: QRectF, side: Side, *, whole_hand: bool, unit: float) -> None:
-    """A hand from above with its discs and their names; ``unit`` is a pixel of the design in the painter's unit."""
+    """Draw a hand with its markers and their names; ``unit`` is a design pixel in the painter's unit."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     inner = box.adjusted(0.24 * box.width(), 0, -0.24 * box.width(), 0)
     to = placement(inner, side)
@@ -207,7 +210,7 @@ def _paint_names(
     text: QFont,
     unit: float,
 ) -> None:
-    """Names at one side, one under the other, each with a line to its disc."""
+    """Draw the names of one side below each other, each with a line to its marker."""
     painter.setFont(text)
     metrics = QFontMetricsF(text)
     least = metrics.height() * 1.25
@@ -224,7 +227,7 @@ def _paint_names(
 
 
 def paint_camera_setup(painter: QPainter, box: QRectF, unit: float) -> None:
-    """Table, arm and camera from the side, with the distances."""
+    """Draw table, arm and camera from the side with the distances."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     width, height = box.width(), box.height()
 
@@ -270,7 +273,7 @@ def paint_camera_setup(painter: QPainter, box: QRectF, unit: float) -> None:
 
 
 def _paint_caption(painter: QPainter, at: QPointF, words: str, side: int) -> None:
-    """Words right (1) or left (-1) of a place, or about it (0)."""
+    """Draw words right (1) or left (-1) of a point, or centred (0)."""
     width = QFontMetricsF(painter.font()).horizontalAdvance(words)
     left = at.x() if side > 0 else at.x() - width if side < 0 else at.x() - width / 2
     painter.drawText(QPointF(left, at.y()), words)

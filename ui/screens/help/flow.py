@@ -1,4 +1,4 @@
-"""The flow of the guide: the page of the screen that one is on, and back to it."""
+"""Controller of the help, which opens at the page of the current screen."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from carpus.ui.shell.flow import Flow, ScreenContext
 
 
 class HelpFlow(Flow):
-    """Beside the way."""
+    """Controller of the help, an overlay."""
 
     screen_name = "help"
     screen: HelpScreen

@@ -1,4 +1,4 @@
-"""The guide: pages in resources/guide, and a page as HTML in the theme's colours."""
+"""Pages of the guide in resources/guide, and their HTML in the theme's colours."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from carpus.ui.kit.fonts import TEXT_FAMILY
 from carpus.ui.kit.theme import Theme
 
 DEFAULT_LANGUAGE = "en"
-"""The guide is written in it; it stands in for a language that has none."""
+"""Language of the guide where it is not translated."""
 PAGES = (
     "session", "discs", "camera", "cameracheck", "calibration", "exercises", "measuring", "patient", "figures",
     "limits", "correct", "sessions", "checking", "trouble", "data",
 )  # fmt: skip
-"""In the order of the guide."""
+"""Pages in the order of the guide."""
 KEYS_PAGE = "keys"
 _MARK = re.compile(r"\*\*(.+?)\*\*")
 _LINK = re.compile(r"\[(.+?)\]\((\w+)\.md\)")
@@ -26,8 +26,10 @@ _NUMBERED = re.compile(r"\d+\. ")
 
 
 def load_page(page: str) -> str:
-    """A page in the language that is spoken, as it was written, in a small part of Markdown: headings, paragraphs,
-    lists, bold, links, pictures."""
+    """Load a page in the current language.
+
+    It is a subset of Markdown: headings, paragraphs, lists, bold, links, pictures.
+    """
     return _read_page(language.current_language(), page)
 
 
@@ -39,32 +41,32 @@ def _read_page(code: str, page: str) -> str:
 
 
 def picture_path(name: str) -> str:
-    """Where a picture of the guide lies."""
+    """Return the path of a picture of the guide."""
     return str(files("carpus.resources").joinpath("guide", "pictures", name))
 
 
 def page_title(page: str) -> str:
-    """The first line of a page."""
+    """Return the first line of a page."""
     return load_page(page).splitlines()[0].removeprefix("# ")
 
 
 def page_pictures(page: str) -> list[str]:
-    """Names of the pictures of a page."""
+    """Return the names of the pictures of a page."""
     return [name for _, name in _PICTURE.findall(load_page(page))]
 
 
 def page_links(page: str) -> list[str]:
-    """The pages that a page leads to."""
+    """Return the pages that a page links to."""
     return [name for _, name in _LINK.findall(load_page(page))]
 
 
 def page_html(page: str, theme: Theme, width_px: int) -> str:
-    """A page in the colours and sizes of a theme; pictures are at most ``width_px`` wide."""
+    """Return a page as HTML in the theme's style, with pictures at most ``width_px`` wide."""
     return _apply_style(_markdown_to_html(load_page(page), width_px), theme)
 
 
 def keys_html(heading: str, rows: list[tuple[str, str]], theme: Theme) -> str:
-    """A table of keys and what they do."""
+    """Return the table of shortcuts as HTML."""
     lines = "".join(
         f'<tr><td class="key">{html.escape(key)}</td><td>{html.escape(words).replace(chr(10), "<br>")}</td></tr>'
         for key, words in rows

@@ -1,4 +1,4 @@
-"""The guide in the program: its pages, the page of the screen one comes from, the keys in use, cards to print."""
+"""Help screen: pages of the guide, shortcuts, cards to print."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PICTURE_PX = 720
 
 
 def actions_by_key() -> dict[str, list[str]]:
-    """What each key does; one key may do different things on different screens."""
+    """Return the actions of each key; screens may use a key differently."""
     found: dict[str, list[str]] = {}
     for name, key in KEYS.items():
         found.setdefault(key, []).append(action_words(name))
@@ -30,7 +30,10 @@ def actions_by_key() -> dict[str, list[str]]:
 
 
 class HelpScreen(QWidget):
-    """``fault_raised`` carries a fault of saving the cards."""
+    """Help screen.
+
+    Signals: ``fault_raised`` if the cards could not be saved.
+    """
 
     fault_raised = Signal(object)
 
@@ -39,7 +42,7 @@ class HelpScreen(QWidget):
         self._theme = theme
         self.page = guide.PAGES[0]
         self.start_folder = ""
-        """Where saving begins."""
+        """Folder in which the save dialog starts."""
         self.back_button = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
         self.cards_button = Button(theme, self.tr("Cards to print…"), icon="download")
         self.cards_button.clicked.connect(self._choose_cards_file)
@@ -111,7 +114,10 @@ class HelpScreen(QWidget):
 
 
 class _PageView(QTextBrowser):
-    """Shows one page; ``page_requested`` carries the page of a link."""
+    """View of one page.
+
+    Signals: ``page_requested`` with the page of a link.
+    """
 
     page_requested = Signal(str)
 
@@ -125,7 +131,7 @@ class _PageView(QTextBrowser):
         self.anchorClicked.connect(lambda url: self.page_requested.emit(url.toString()))
 
     def show_html(self, text: str) -> None:
-        """Show from the beginning, on the colour of a card."""
+        """Show a page from its top."""
         palette = self.palette()
         palette.setColor(palette.ColorRole.Base, self._theme.color("surface"))
         palette.setColor(palette.ColorRole.Text, self._theme.color("text"))
@@ -134,7 +140,7 @@ class _PageView(QTextBrowser):
         self.verticalScrollBar().setValue(0)
 
     def loadResource(self, kind: int, name: QUrl | str) -> object:
-        """Pictures come from the guide, and from nowhere else."""
+        """Load pictures from the guide only."""
         return super().loadResource(kind, QUrl.fromLocalFile(guide.picture_path(Path(QUrl(name).toString()).name)))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

@@ -1,1 +1,1 @@
-"""Screen 1: from the door to the start of a session in two key presses."""
+"""Patient list: search, summary of a patient, start of a session."""

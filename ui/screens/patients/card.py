@@ -1,4 +1,4 @@
-"""The chosen patient: all the therapist must recall, then the one button that matters."""
+"""Summary of the selected patient, and the start of a session."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SUMMARY_BESIDE_TOUR_PX = 440
 
 
 class PatientCardView(Card):
-    """Right column of the first screen."""
+    """Right column of the patient list."""
 
     def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
         super().__init__(theme, 24)
@@ -101,12 +101,11 @@ class PatientCardView(Card):
         )  # fmt: skip
 
     def _fit_summary(self) -> None:
-        """With large text the guide's sentence goes before what is recalled, of which never less than why is seen."""
+        """Hide the summary behind the tour's text where large text leaves no room for both."""
         self._summary.setMinimumHeight(self._theme.px(MIN_SUMMARY_PX))
         self._summary.setVisible(self.bubble.isHidden() or self.height() >= self._theme.px(SUMMARY_BESIDE_TOUR_PX))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Where there is little room the picture gives way to the results."""
         self._fit_photo()
         self._fit_summary()
 

@@ -1,4 +1,4 @@
-"""The flow of the first screen: who is measured, and what of them is looked at."""
+"""Controller of the patient list."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from carpus.ui.shell.messages import postpone_last_notice
 
 
 class PatientsFlow(Flow):
-    """Whatever was open is closed."""
+    """Controller of the patient list; closes what was open."""
 
     screen_name = "patients"
     screen: PatientsScreen
@@ -35,7 +35,7 @@ class PatientsFlow(Flow):
         context.window.key_pressed.connect(self._on_key)
 
     def open(self, choose: str = "") -> None:
-        """The list; ``choose`` who is chosen in it."""
+        """Show the list with the patient ``choose`` selected."""
         self.close_patient()
         SessionIntake(
             self.context.library
@@ -51,7 +51,7 @@ class PatientsFlow(Flow):
             self.screen.refresh()
 
     def _measure_unlisted(self, row: Patient) -> None:
-        """Somebody whom the list cannot tell now: the file says who it is, by identity and pseudonym."""
+        """Measure a patient while the list is unavailable; the file stores id and pseudonym."""
         row = row if row.patient_id else replace(row, patient_id=new_id())
         self.context.current.patient = row
         self.context.navigator.open_screen("exercise", row.patient_id)

@@ -1,4 +1,4 @@
-"""The form for a new patient, or for changing one: a made-up name first, the real one only if wanted."""
+"""Form for a new or an existing patient: pseudonym first, real name optional."""
 
 from __future__ import annotations
 
@@ -31,17 +31,19 @@ if TYPE_CHECKING:  # it reads and writes files
 
 NOTE_HEIGHT_PX = 84
 COMPLETE_DATE = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")
-"""Day, month and year are there: where that is no day, there is none such."""
+"""Day, month and year are present, so an invalid date does not exist."""
 MONTH_FIRST = re.compile(r"(?:0?\d|1[0-2])\D+(?:1[3-9]|[2-9]\d)\D")
-"""A day stands where the month should, and the other way round: what is wrong is the order."""
+"""Day and month are swapped: the order is wrong."""
 
 GENERATED_PSEUDONYM = re.compile(r"\w+ \d+")
-"""A made-up name as Carpus proposes it; any other name that was searched for may be a person's real one."""
+"""A pseudonym as Carpus proposes it; any other searched name may be a real one."""
 
 
 class PatientForm(Dialog):
-    """Enter in any line keeps the patient, and ``saved`` carries the identity; Esc closes. The clinic's list of
-    diagnoses is changed at once."""
+    """Form of a patient.
+
+    Enter saves, Esc closes. The clinic's list of diagnoses changes at once. Signals: ``saved`` with the patient's id.
+    """
 
     saved = Signal(str)
 
@@ -71,7 +73,7 @@ class PatientForm(Dialog):
         theme.changed.connect(self._fit)
 
     def _make_fields(self, theme: Theme) -> list[Field]:
-        """What is asked, in order; each field an attribute of a patient."""
+        """Return the fields in order; each is an attribute of a patient."""
         another = Button(theme, self.tr("&Another"), "plain", height_px=40)
         another.clicked.connect(lambda: self.fields["pseudonym"].setText(self._register.suggest_pseudonym()))
         return [
@@ -160,9 +162,10 @@ class PatientForm(Dialog):
         self.set_default(self.save_button)
 
     def edit_patient(self, patient: Patient | None, taken_names: frozenset[str], name: str = "") -> None:
-        """Open for a new patient or with one to change.
+        """Open for a new patient (None) or an existing one.
 
-        A name that was searched for becomes the real name, which no file and no report holds, unless it is made up.
+        A searched ``name`` becomes the real name, which no session or report contains, unless it is a generated
+        pseudonym.
         """
         self._taken_names = taken_names
         self._title.setText(self.tr("New patient") if patient is None else self.tr("Change patient"))
@@ -193,7 +196,7 @@ class PatientForm(Dialog):
         self._fit()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Enter leads to what is still to be said."""
+        """Move the focus to the first missing field on Enter."""
         wrong, _ = self.fields.find_error()
         if is_enter_key(event) and wrong is not None:
             first = wrong.buttons()[0] if isinstance(wrong, ChoiceRow) else wrong
@@ -203,7 +206,7 @@ class PatientForm(Dialog):
             super().keyPressEvent(event)
 
     def _validate(self) -> None:
-        """What is still to be said stands on the button."""
+        """Show what is missing on the save button."""
         day = self._onset_day()
         self.weeks_text.setText(numbers.format_weeks_since(day, self._today()) if day is not None else "")
         if self._onset_day_error() and re.search(
@@ -221,7 +224,7 @@ class PatientForm(Dialog):
         return day if day is not None and day <= self._today() else None
 
     def _onset_day_error(self) -> str:
-        """What is asked where something is typed that is no day, or one to come."""
+        """Return the message for an invalid or future date."""
         typed = self.fields["onset_day"].text().strip()
         if not typed or self._onset_day() is not None:
             return ""

@@ -1,4 +1,4 @@
-"""The list of patients: rows of 56 px, newest first, the practice patient always last."""
+"""Patient list: rows with the newest session first, the practice patient last."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from carpus.ui.words import terms
 ROW_PX = 56
 COLUMNS = (0.024, 0.206, 0.3, 0.526, 0.645)
 LARGE_COLUMNS = (0.024, 0.235, 0.368, 0.65, 0.65)
-"""Left edge of name, hand, diagnosis, time since and last session as a share of the width; the count ends at the right.
-With large text the card alone says how long it is since."""
+"""Left edges of name, hand, diagnosis, time since onset and last session as shares of the width; the count ends at
+the right. With large text only the card shows the time since onset."""
 LARGE_TEXT_SCALE = 1.25
 RIGHT_PAD_PX = 28
 
 
 class PatientListModel(QAbstractListModel):
-    """The rows as Qt's views and screen readers see them."""
+    """Patients for Qt's views and screen readers."""
 
     def __init__(self, today: Callable[[], date]) -> None:
         super().__init__()
         self._rows: tuple[Patient, ...] = ()
         self.matched_names: Mapping[str, str] = {}
-        """Real names of those that a search found by it alone, by identity."""
+        """Real names of patients that a search found by these alone, by id."""
         self.today = today
 
     def show_rows(self, rows: Sequence[Patient], matched_names: Mapping[str, str] = MappingProxyType({})) -> None:
@@ -48,7 +48,7 @@ class PatientListModel(QAbstractListModel):
         return self._rows[number]
 
     def find_row(self, patient_id: str) -> int:
-        """Row of a patient, -1 when not shown."""
+        """Return the row of a patient, -1 if not shown."""
         return next((number for number, row in enumerate(self._rows) if row.patient_id == patient_id), -1)
 
     def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: B008
@@ -63,13 +63,16 @@ class PatientListModel(QAbstractListModel):
         return row if role == Qt.ItemDataRole.UserRole else None
 
     def row_cells(self, row: Patient) -> tuple[str, str, str, str, str, str, str]:
-        """As :func:`row_cells`, today."""
+        """Return the cells of a patient today."""
         return row_cells(row, self.today(), self.matched_names.get(row.patient_id, ""))
 
 
 def row_cells(row: Patient, today: date, matched_name: str = "") -> tuple[str, str, str, str, str, str, str]:
-    """Pseudonym, hand, diagnosis (after the name that it was found by), how long since, date of the last session, how
-    long ago, number of sessions."""
+    """Return the texts of a patient's row.
+
+    They are pseudonym, hand, diagnosis (after the matched name), time since onset, last session, its age and the number
+    of sessions.
+    """
     side = terms.side_name(row.side)
     if row.patient_id == PRACTICE_PATIENT:
         return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
@@ -85,12 +88,12 @@ def row_cells(row: Patient, today: date, matched_name: str = "") -> tuple[str, s
 
 
 def column_edges(text_scale: float) -> tuple[float, ...]:
-    """The left edges for a size of text."""
+    """Return the left edges for a text scale."""
     return LARGE_COLUMNS if text_scale > LARGE_TEXT_SCALE else COLUMNS
 
 
 class PatientRowPainter(QStyledItemDelegate):
-    """Paints one row from the tokens, and its part of the rounded surface."""
+    """Delegate that paints a row and its part of the rounded card."""
 
     def __init__(self, theme: Theme, model: PatientListModel) -> None:
         super().__init__()
@@ -164,7 +167,7 @@ class PatientRowPainter(QStyledItemDelegate):
 
 
 class ListHeader(QWidget):
-    """Column names over the columns of the rows, also when a scroll bar takes a part of the list's width."""
+    """Column headings aligned with the rows, also next to a scroll bar."""
 
     def __init__(self, theme: Theme, rows: QListView) -> None:
         super().__init__()
@@ -195,7 +198,7 @@ class ListHeader(QWidget):
 
 
 class PatientList(QListView):
-    """The rows on a rounded surface; the height follows the rows until the room ends, then it scrolls."""
+    """List on a rounded card that is as high as its rows, or scrolls."""
 
     def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
         super().__init__()

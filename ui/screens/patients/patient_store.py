@@ -1,4 +1,4 @@
-"""The patients as the first screen asks for them, and what the card of one recalls."""
+"""Patients and their summaries for the patient list."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from carpus.ui.words.task_measures import task_summary
 
 
 class PatientStore:
-    """The register of patients. Names beyond the pseudonym are known behind it alone."""
+    """Patients of the library; names other than pseudonyms stay behind it."""
 
     def __init__(self, library: Library) -> None:
         self._library, self.register = library, library.patients
@@ -31,7 +31,7 @@ class PatientStore:
         return [one.pseudonym for one in RecordRetention(self._library).list_archived() if one.recorded is None]
 
     def card(self, patient_id: str) -> PatientCard:
-        """What the therapist must recall, of the last session against the first that compares."""
+        """Return the summary of a patient: the last session compared with the first comparable one."""
         patient = self.register.get(patient_id)
         entries = self._library.sessions(patient_id)
         if not entries:
@@ -54,7 +54,7 @@ class PatientStore:
         return PatientCard(patient, results, repetition_words(last), note, last.when, picture, said, True, about)
 
     def _first_comparable(self, patient_id: str, last: SessionResults) -> SessionResults | None:
-        """The first session of the same hand and exercise that the progress compares with; no more are read."""
+        """Return the first session of the same hand and exercise that is comparable, None if there is none."""
         alike = [
             entry
             for entry in self._library.sessions(patient_id)
@@ -68,8 +68,10 @@ class PatientStore:
 
 
 def _compare_results(first: SessionResults | None, last: SessionResults) -> Sequence[MeasureWithChange]:
-    """Of the wrist both ends of what is trained, which the therapist trains; of the whole hand what the exercise is
-    about, finger by finger."""
+    """Return the measures to show with their changes.
+
+    For the wrist these are both ends of the trained movement, for the whole hand the trained measure of each finger.
+    """
     rows = [row for row in find_main_ranges(last) if row.count]
     if not last.joint_ranges:
         rows = [row for row in rows if row.quantity != "arc" and last.exercise.angle is not None]

@@ -1,4 +1,4 @@
-"""The first screen: search, list, the chosen patient."""
+"""Patient list screen: search, list, summary of the selected patient."""
 
 from __future__ import annotations
 
@@ -38,9 +38,11 @@ LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageD
 
 
 class PatientsScreen(QWidget):
-    """Signals carry the patient's identity, but for ``unlisted_start_requested``; ``start_requested`` keeps the last
-    set-up, ``setup_requested`` asks for
-    another; ``delete_requested`` a patient to be archived or erased."""
+    """Patient list.
+
+    Signals carry the patient's id: ``start_requested`` keeps the last set-up, ``setup_requested`` asks for another,
+    ``delete_requested`` asks to archive or delete.
+    """
 
     start_requested = Signal(str)
     setup_requested = Signal(str)
@@ -49,10 +51,10 @@ class PatientsScreen(QWidget):
     sessions_requested = Signal(str)
     delete_requested = Signal(str)
     unlisted_start_requested = Signal(object)
-    """A :class:`Patient` is to be measured while the list cannot be read, without identity for a typed name."""
+    """A :class:`Patient` to measure while the list is unavailable, without id for a typed name."""
 
     def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
-        """``today`` is asked each time: the program may stand open for days."""
+        """``today`` is called each time: the program may stay open for days."""
         super().__init__()
         self._theme, self._store, self._today = theme, store, today
         self._rows: tuple[Patient, ...] = ()
@@ -134,7 +136,7 @@ class PatientsScreen(QWidget):
         self.delete_requested.emit(self.form.patient.patient_id)
 
     def refresh_date(self) -> None:
-        """After midnight another day stands here, and everything is a day longer ago."""
+        """Update the date after midnight."""
         words = numbers.format_long_date(self._today())
         if words != self.date_text.text():
             self.date_text.setText(words)
@@ -158,7 +160,7 @@ class PatientsScreen(QWidget):
         self._apply_filter(selected_id or self._current_patient_id())
 
     def _show_offline(self, selected_id: str) -> None:
-        """Nothing that may be old; who was chosen last, or is typed, can be measured."""
+        """Hide the list, which may be outdated; the last or a typed patient can be measured."""
         rows = [row for row in self._rows if row.patient_id == selected_id]
         self._rows, self._archived_names = (), ()
         if self._offline_view.isHidden():
@@ -178,13 +180,13 @@ class PatientsScreen(QWidget):
         self.unlisted_start_requested.emit(last if is_last else Patient(name, "both"))
 
     def set_camera_ready(self, ready: bool) -> None:
-        """Whether a camera answers; without one the button says that only files can be used."""
+        """Set whether a camera is connected; without one sessions start from files only."""
         if ready != self._camera_ready:
             self._camera_ready = ready
             self._show_selected()
 
     def show_welcome(self, panel: WelcomePanel | None) -> None:
-        """What the first start says, below the list; None takes it away."""
+        """Show the panel of the first start below the list; None removes it."""
         old, self.welcome = self.welcome, panel
         if old is not None:
             self._left.removeWidget(old)
@@ -196,7 +198,7 @@ class PatientsScreen(QWidget):
         self.refresh()
 
     def new_patient(self, name: str | bool = "") -> None:
-        """Open the form. What a button sends with its click is no name."""
+        """Open the form; the flag that a button's click carries is no name."""
         taken = frozenset(name.casefold() for name in (*(row.pseudonym for row in self._rows), *self._archived_names))
         self.form.edit_patient(None, taken, name if isinstance(name, str) else "")
 
@@ -239,7 +241,7 @@ class PatientsScreen(QWidget):
         self._show_selected()
 
     def _show_archived(self, wanted: list[str]) -> None:
-        """Who was archived and would be found: said where the row was, and one press away."""
+        """Offer archived patients that match the search."""
         found = [name for name in self._archived_names if all(word in name.casefold() for word in wanted)]
         names = ", ".join(found[:MAX_ARCHIVED_SHOWN]) + (" …" if len(found) > MAX_ARCHIVED_SHOWN else "")
         self.archive_button.setVisible(bool(found))
@@ -267,7 +269,7 @@ class PatientsScreen(QWidget):
             self.start_requested.emit(chosen)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """The arrows move the choice and Enter starts although the search field has the keyboard."""
+        """Let arrows and Enter act on the list while the search field has the focus."""
         if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             if watched is self.search and event.key() in LIST_KEYS and self.list.isVisible():
                 self.list.keyPressEvent(event)
@@ -284,7 +286,7 @@ class PatientsScreen(QWidget):
 
 
 class _EmptyView(QWidget):
-    """What stands in place of an empty list."""
+    """Shown in place of an empty list."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -306,7 +308,7 @@ class _EmptyView(QWidget):
 
 
 class _OfflineView(QWidget):
-    """What stands in place of the list while the clinic's server does not answer."""
+    """Shown in place of the list while the clinic's server does not answer."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -337,8 +339,10 @@ def _matches(row: Patient, wanted: list[str]) -> bool:
 
 
 def _is_name_match(row: Patient, wanted: list[str]) -> bool:
-    """Whether a word was found in the real name alone, which is shown then. One or two letters are in many names, and
-    show none, unless they are one."""
+    """Return whether a word matches the real name only, which is then shown.
+
+    One or two letters match too many names and show none, unless they are a whole name.
+    """
     text, names = _searchable_text(row).casefold(), row.name.casefold().split()
     return any(len(one) > 2 or one in names for one in wanted if one not in text)
 

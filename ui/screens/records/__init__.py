@@ -1,1 +1,1 @@
-"""What is asked and shown of records: erasing, the archive, what is due, the log."""
+"""Care of records: backup, deletion, archive, retention, log, lock."""

@@ -1,4 +1,4 @@
-"""Back-ups by themselves and when told, the reminder, and the way back from one."""
+"""Automatic and manual backups, the reminder, and restoring."""
 
 from __future__ import annotations
 
@@ -40,7 +40,10 @@ T = TypeVar("T")
 
 
 class BackupController(QObject):
-    """``progress_changed`` carries the percent done, from another thread."""
+    """Controller of backups.
+
+    Signals: ``progress_changed`` with the percent done, from another thread; ``backup_finished``.
+    """
 
     progress_changed = Signal(int)
     backup_finished = Signal()
@@ -60,7 +63,7 @@ class BackupController(QObject):
         self._is_running = False
         self.last_backup: BackupRecord | None = None
         self.is_restored = False
-        """Whether a back-up lies beside the data folder, which takes its place when the window has closed."""
+        """Whether a restored folder lies next to the data folder and replaces it after closing."""
         self._available_backups: tuple[Path, dict[str, Backup]] = (Path(), {})
         self.choice_dialog = ChoiceDialog(context.window.screen_stack, context.theme)
         self.choice_dialog.chosen.connect(self._plan_restore)
@@ -80,7 +83,7 @@ class BackupController(QObject):
         return self._background.is_busy
 
     def shut_down(self) -> None:
-        """The window closes; a back-up that runs is waited for."""
+        """Wait for a running backup."""
         self._clock.stop()
         self._background.join(600_000)
 
@@ -104,8 +107,7 @@ class BackupController(QObject):
         )
 
     def is_overdue(self) -> bool:
-        """Whether a person should be reminded: back-ups are wanted, there is something to lose, and the last one is old
-        or not there yet."""
+        """Return whether to remind: backups are wanted, there are sessions, and the last backup is old or missing."""
         if self.last_backup is None and not self._settings.folder:
             return False  # nobody has asked for back-ups; the settings say that there is none
         sessions = sum(record.session_count for record in self._library.patients.search())
@@ -114,7 +116,7 @@ class BackupController(QObject):
         )
 
     def show_reminder(self, layout: QVBoxLayout) -> None:
-        """A strip above the patients, once at the start, where the last back-up is old."""
+        """Show a notice above the patients if the last backup is old."""
         self.last_backup = read_or_default(lambda: read_last_backup(self._library.store), None)
         if self._library.store.is_server_away or not self.is_overdue():
             return
@@ -139,14 +141,14 @@ class BackupController(QObject):
             self.start_backup()
 
     def start_backup(self) -> None:
-        """Now, beside whatever the window does. Without a folder it is asked for first, and then backed up to."""
+        """Back up in the background; ask for the folder first if there is none."""
         if self._is_running or not (self._settings.folder or self._choose_folder()):
             return
         place, settings = Path(self._settings.folder), self._settings
         self._start_task(lambda: self._create_backup(place, settings), self._on_backup_finished)
 
     def _start_task(self, work: Callable[[], T], on_done: Callable[[T], None]) -> None:
-        """One thing at a time; not niced: a thread shares the program's priority."""
+        """Run one task at a time. It is not niced, because a thread shares the program's priority."""
         self._is_running = True
         self.card.show_progress(0)
         self._background.run(work, on_done, self._on_failed, self)
@@ -183,7 +185,7 @@ class BackupController(QObject):
         self.card.show_progress(None)
 
     def _choose_folder(self) -> bool:
-        """Ask for the folder; whether one was chosen."""
+        """Ask for the folder; return whether one was chosen."""
         title = self.tr("Folder for back-ups, on another disk")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
@@ -197,7 +199,7 @@ class BackupController(QObject):
 
     # --- the way back -------------------------------------------------------------------------------------
     def choose_restore_folder(self) -> None:
-        """Choose a folder with back-ups and one of them; what it would change is shown first."""
+        """Ask for a folder with backups, then for one of them; its changes are shown first."""
         title = self.tr("Folder that holds the back-ups")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
@@ -223,7 +225,7 @@ class BackupController(QObject):
         )
 
     def _plan_restore(self, name: str) -> None:
-        """What a back-up would change; then it is asked about."""
+        """Find out what a backup would change, then ask."""
         (place, there), library = self._available_backups, self._library
         backup = there[name]
 
@@ -273,7 +275,7 @@ class BackupController(QObject):
         self._start_task(work, on_restored)
 
     def _close_when_idle(self) -> None:
-        """No recording is ended for it."""
+        """Close the window once no recording is running."""
         if self._context.navigator.is_recording():
             QTimer.singleShot(CHECK_INTERVAL_MS // 60, self, self._close_when_idle)
         else:
@@ -287,7 +289,7 @@ def _current_time() -> datetime:
 def backup_facts(
     last: BackupRecord | None, settings: BackupSettings, data_folder: Path, now: datetime, *, can_back_up: bool
 ) -> BackupFacts:
-    """How it stands, in words."""
+    """Return the state of backups in words."""
     place = settings.folder
     there = bool(place) and Path(place).is_dir()
     place_words, place_state = tr("not chosen yet"), "none"

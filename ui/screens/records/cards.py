@@ -1,4 +1,4 @@
-"""The cards about back-up, lock and records among the settings."""
+"""Cards of the settings about backup, lock and records."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ from carpus.ui.kit.theme import Theme
 
 @dataclass(frozen=True, slots=True)
 class BackupFacts:
-    """How it stands: ``state`` good or warn, what is said of it in up to three lines, and where back-ups go, empty for
-    nowhere."""
+    """State of backups: up to three lines of text, the folder (empty if none) and its state."""
 
     state: State
     headline: str
@@ -34,7 +33,7 @@ class BackupFacts:
 
 
 class BackupCard(Card):
-    """State first, then where and when."""
+    """Card with state, folder and schedule of backups."""
 
     def __init__(self, theme: Theme, hour: int) -> None:
         super().__init__(theme, 24)
@@ -90,7 +89,7 @@ class BackupCard(Card):
         self.now_button.setEnabled(facts.can_back_up)
 
     def show_progress(self, percent: int | None) -> None:
-        """While it runs; None when it does not."""
+        """Show the percent done; None if no backup is running."""
         running = percent is not None
         self.now_button.setEnabled(not running)
         self.restore_button.setEnabled(not running)
@@ -99,7 +98,7 @@ class BackupCard(Card):
 
 
 class LockCard(Card):
-    """When it locks by itself, and the PIN."""
+    """Card with the automatic lock and the PIN."""
 
     def __init__(self, theme: Theme, minutes: int) -> None:
         super().__init__(theme, 24)
@@ -139,7 +138,7 @@ class LockCard(Card):
         )
 
     def show_disk(self, state: State, words: str, remedy: str) -> None:
-        """Whether the disk is encrypted, which is what protects the files."""
+        """Show whether the disk is encrypted, which protects the files."""
         self.disk.show_state(state, words)
         self.disk_remedy.show_text(remedy)
 
@@ -150,7 +149,7 @@ class LockCard(Card):
 
 
 class RecordsCard(Card):
-    """How long records are kept, what is due, what is archived, and the log."""
+    """Card with retention period, archive and log."""
 
     def __init__(self, theme: Theme, years: int, choices: Sequence[int]) -> None:
         super().__init__(theme, 24)

@@ -1,4 +1,4 @@
-"""Archive or erase: what would go is worked out, shown, and done only when it was confirmed; what was done is said."""
+"""Archiving and deletion: what would be deleted is shown and done only after confirmation."""
 
 from __future__ import annotations
 
@@ -29,8 +29,7 @@ from carpus.ui.words import terms
 
 
 class DeletionController(QObject):
-    """One sheet for sessions and patients. ``retention_years`` of retention and the ``last_backup`` are asked for
-    each time."""
+    """Controller of deletion for sessions and patients."""
 
     def __init__(
         self,
@@ -93,7 +92,7 @@ class DeletionController(QObject):
         self._show_notice(self._sessions().notice_layout, words, "arrow-right")
 
     def _show_notice(self, layout: QVBoxLayout, words: MessageText, icon: str) -> None:
-        """What was done, until it is closed or left."""
+        """Show what was done until the notice is closed or the screen left."""
         strip = self._context.messages.show_notice(
             layout, words, "", lambda: None, icon=icon, later_text=self.tr("Close")
         )
@@ -114,7 +113,7 @@ class DeletionController(QObject):
             )
 
     def _offer_undo(self, plan: ErasurePlan, archived: str) -> None:
-        """What was archived is said where it was, and comes back by one press."""
+        """Show what was archived, with an undo button."""
         if plan.kind == "session":
             what = self.tr("The session of {day} is in the archive.").format(
                 day=numbers.format_date_time(plan.results[0].recorded)
@@ -140,8 +139,7 @@ class DeletionController(QObject):
         )
 
     def refresh_lists(self, selected_id: str = "") -> None:
-        """The list that is shown, with what is in it now; ``selected_id`` the patient or session that is to be
-        chosen."""
+        """Reload the visible list and select a patient or session."""
         now, way = self._context.current, self._context.navigator
         self._sessions().sessions_changed.emit()
         if way.screen_name == "sessions" and now.patient is not None:
@@ -155,7 +153,7 @@ class DeletionController(QObject):
         self._context.messages.show_fault(fault)
 
     def _refresh_after_removal(self, plan: ErasurePlan) -> None:
-        """The list without it; who measures by now, or has another patient open, is not taken away from there."""
+        """Reload the list, unless the user is measuring or has another patient open."""
         self._sessions().sessions_changed.emit()
         patient, way, single = self._context.current.patient, self._context.navigator, plan.kind == "session"
         measures = way.underlying_screen == "live" and (single or way.is_recording())
@@ -172,9 +170,11 @@ MAX_PATHS_SHOWN = 3
 
 
 class DeleteDialog(Dialog):
-    """``delete_confirmed`` only after the pseudonym was typed, and never by Enter; ``archive_confirmed`` is the
-    primary, which Enter takes,
-    also from the line to type in: what is typed presses nothing."""
+    """Confirmation of a deletion.
+
+    Signals: ``delete_confirmed`` only after the pseudonym was typed, never by Enter; ``archive_confirmed`` by the
+    default button.
+    """
 
     delete_confirmed = Signal()
     archive_confirmed = Signal()
@@ -237,8 +237,10 @@ class DeleteDialog(Dialog):
         body.addLayout(row_layout(self.delete_button, STRETCH, self.cancel_button, self.archive_button))
 
     def show_plan(self, plan: ErasurePlan, retention_years: int, last_backup: datetime | None, today: date) -> None:
-        """Say what a plan would do, with the ``retention_years`` of retention (0: none are set) and the
-        ``last_backup``."""
+        """Show what would be deleted.
+
+        ``retention_years`` is 0 if not set.
+        """
         self._pseudonym = plan.pseudonym
         single = plan.kind == "session"
         self.title.setText(
@@ -335,7 +337,7 @@ def _describe_target(plan: ErasurePlan) -> str:
 
 
 def _make_sign(theme: Theme, name: str, token: str = "accent") -> Icon:
-    """A state, or a line icon, in a column of its own."""
+    """Return an icon in a column of its own."""
     return Icon(theme, name, ICON_PX, (COLUMN_PX, ICON_PX + 4), token, alignment=0.33)
 
 

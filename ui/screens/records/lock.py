@@ -1,4 +1,4 @@
-"""When the window locks, what is seen meanwhile, what opens it, and how the PIN is changed."""
+"""Lock of the window: when it locks, the lock screen, and the PIN."""
 
 from __future__ import annotations
 
@@ -29,13 +29,14 @@ from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.words.fault_words import fault_words
 
 RETRY_INTERVAL_MS = 60_000
-"""How long a lock waits again that came while a recording ran."""
+"""Delay of an automatic lock while a recording is running."""
 
 
 class LockController(QObject):
-    """Locks by key, after idle minutes and at the start; never while a recording runs. ``privacy_changed`` carries
-    whether what
-    lies in other windows is to be hidden."""
+    """Locks by shortcut, after idle time and at the start; never during a recording.
+
+    Signals: ``privacy_changed`` with whether other windows must hide their content.
+    """
 
     privacy_changed = Signal(bool)
 
@@ -89,13 +90,13 @@ class LockController(QObject):
         )
 
     def lock_at_start(self) -> None:
-        """Where there is a PIN nothing is shown without it; called when the window is there."""
+        """Lock at the start if a PIN is set."""
         self.refresh()
         if self.pin.is_set:
             self._lock(0)
 
     def lock_or_set_pin(self) -> None:
-        """The key that locks; without a PIN it leads to where one is set."""
+        """Lock now, or open the settings if no PIN is set."""
         if self._context.navigator.is_recording():
             return  # a recording goes on, and its keys must reach it
         if self.pin.is_set:
@@ -192,7 +193,10 @@ ACTIVITY_EVENTS = (
 
 
 class IdleTimer(QObject):
-    """``timed_out`` once after so many milliseconds without a sign of life in the window."""
+    """Timer without input in the window.
+
+    Signals: ``timed_out`` once.
+    """
 
     timed_out = Signal()
 
@@ -205,11 +209,11 @@ class IdleTimer(QObject):
 
     @property
     def remaining_ms(self) -> int:
-        """Until it passes; -1 when nobody waits."""
+        """Time until it fires; -1 if it is stopped."""
         return self._timer.remainingTime()
 
     def restart(self, milliseconds: int) -> None:
-        """From now on; 0 for never."""
+        """Restart the timer; 0 stops it."""
         self._timer.stop()
         handle: QWindow | None = self._window.windowHandle()  # none before the window was made
         # What the system sends the window, and nothing else: the many events within it pass nobody's hand.
@@ -229,7 +233,10 @@ MIN_PIN_LENGTH = 4
 
 
 class PinDialog(Dialog):
-    """``pin_chosen`` carries the old PIN (empty for none) and the new one, empty to take it away."""
+    """Setting, changing and removing the PIN.
+
+    Signals: ``pin_chosen`` with the old PIN (empty if none) and the new one, empty to remove it.
+    """
 
     pin_chosen = Signal(str, str)
 
@@ -257,7 +264,7 @@ class PinDialog(Dialog):
         self.add_buttons(self.save_button, self.remove_button, gap=None)
 
     def request_pin(self, *, is_set: bool) -> None:
-        """Ask; the old one first where there is one."""
+        """Open; the old PIN is asked for if one is set."""
         self.title.setText(self.tr("Change the PIN") if is_set else self.tr("Set a PIN"))
         self._current_row.setVisible(is_set)
         self.remove_button.setVisible(is_set)
@@ -279,8 +286,10 @@ MAX_PIN_LENGTH = 64
 
 
 class LockScreen(Dialog):
-    """Covers the whole window. ``pin_entered`` carries what was typed; the answer comes by :meth:`show_wrong_pin` or
-    by closing."""
+    """Covers the whole window until the PIN is right.
+
+    Signals: ``pin_entered``, answered by :meth:`show_wrong_pin` or by closing.
+    """
 
     pin_entered = Signal(str)
 
@@ -335,7 +344,7 @@ class LockScreen(Dialog):
         self._clock.timeout.connect(self._count_seconds)
 
     def lock(self, reason: str, *, is_session_saved: bool) -> None:
-        """Cover the window; ``is_session_saved`` whether a session was open, which is."""
+        """Cover the window; ``is_session_saved`` if a session was open."""
         self.reason_text.setText(reason)
         words = (
             self.tr("Nothing is lost. The open session is stored.") if is_session_saved else self.tr("Nothing is lost.")
@@ -355,7 +364,7 @@ class LockScreen(Dialog):
         return self.tr("Locked at {time}.").format(time=f"{when:%H:%M}")
 
     def show_wrong_pin(self, attempts_left: int, pause_s: int) -> None:
-        """The PIN was not the one: how many tries are left, or how long to wait."""
+        """Show how many attempts are left, or how long to wait."""
         if pause_s:
             self.pin_field.clear()
             self._start_pause(pause_s)
@@ -372,7 +381,7 @@ class LockScreen(Dialog):
         self.pin_field.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def pause(self, pause_s: int) -> None:
-        """Nothing is tried for so long; what was said stays."""
+        """Disable input for a time; the message stays."""
         self._keeps_message = True
         self._start_pause(pause_s)
 

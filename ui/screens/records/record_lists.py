@@ -1,4 +1,4 @@
-"""What is due, the archive and the log, from the settings."""
+"""Records past retention, archive and log, opened from the settings."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def _is_any(_: ArchivedItem) -> bool:
 
 
 class RecordListsController(QObject):
-    """Each list is read when it is asked for."""
+    """Controller of these lists; each is read when it is opened."""
 
     def __init__(
         self,
@@ -83,7 +83,7 @@ class RecordListsController(QObject):
         self._context.background.run(work, on_done, self._context.messages.show_fault, self)
 
     def show_due(self) -> None:
-        """Patients of whom nothing need be kept any more."""
+        """Show patients past their retention period."""
         self._run(lambda: self._records.due_patients(self.retention_years, self._context.today()), self._show_due)
 
     def _show_due(self, found: list[DuePatient]) -> None:
@@ -112,7 +112,7 @@ class RecordListsController(QObject):
         self.records_dialog.show_records(self.tr("What is due"), words.format(n=self.retention_years), listed)
 
     def show_archive(self, is_shown: Callable[[ArchivedItem], bool] | None = None) -> None:
-        """What can be brought back; all of it, or what ``is_shown`` says."""
+        """Show archived items, all or those that ``is_shown`` accepts."""
         self._archive_filter = is_shown or _is_any
         self._run(self._records.list_archived, self._show_archive)
 
@@ -160,7 +160,7 @@ class RecordListsController(QObject):
         self.log_dialog.show_entries([self._format_log_entry(entry, names) for entry in entries])
 
     def _format_log_entry(self, entry: AuditEntry, names: dict[str, str]) -> tuple[str, ...]:
-        """When, who, what, of whom, details."""
+        """Return time, user, action, patient and details."""
         of_whom = names.get(entry.subject, entry.subject[:8])
         by = self.tr("by command") if entry.source == "command" else ""
         facts = ", ".join(filter(None, (self._format_fact(name, value) for name, value in entry.facts.items())))
@@ -169,7 +169,7 @@ class RecordListsController(QObject):
         return when, entry.initials or numbers.UNKNOWN, self._action_words(entry.action), of_whom, detail
 
     def _format_fact(self, name: str, value: object) -> str:
-        """What is known of a deed, in words; empty for what says nothing to a person."""
+        """Return a fact of a log entry in words; empty if it does not concern the user."""
         if name == "exercise":
             return terms.exercise_name(str(value).upper())
         one, many = {
@@ -204,7 +204,7 @@ class RecordListsController(QObject):
 
 @dataclass(frozen=True, slots=True)
 class ListedRecord:
-    """A line of what is due or archived: ``identity`` of what the buttons act on."""
+    """Row of a list; ``identity`` is what its buttons act on."""
 
     identity: str
     title: str
@@ -213,8 +213,10 @@ class ListedRecord:
 
 
 class RecordsDialog(Dialog):
-    """What is due or archived; ``restore_requested``, ``archive_requested`` and ``delete_requested`` carry the
-    identity."""
+    """Records past retention, or the archive.
+
+    Signals carry the id: ``restore_requested``, ``archive_requested``, ``delete_requested``.
+    """
 
     restore_requested = Signal(str)
     archive_requested = Signal(str)
@@ -273,7 +275,7 @@ class RecordsDialog(Dialog):
 
 
 class LogDialog(Dialog):
-    """The log, newest first."""
+    """Audit log, newest entry first."""
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 1080)

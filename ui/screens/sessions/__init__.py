@@ -1,1 +1,1 @@
-"""All sessions of a patient: open, set aside, move, rename, delete."""
+"""Sessions of a patient: open, exclude, move, change the exercise, delete."""

@@ -1,4 +1,4 @@
-"""What is asked before a session is set aside, moved, renamed or deleted."""
+"""Dialogs for excluding a session and for choosing from a list."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ from carpus.ui.kit.theme import Theme
 
 
 class ExcludeDialog(Dialog):
-    """Emits ``reason_given`` with the reason."""
+    """Reason for excluding a session.
+
+    Signals: ``reason_given``.
+    """
 
     reason_given = Signal(str)
 
@@ -48,7 +51,7 @@ class ExcludeDialog(Dialog):
         self.open()
 
     def _on_reason_edited(self, text: str) -> None:
-        """Who writes a reason means it; without one nothing is set aside by Enter."""
+        """Make Exclude the default once a reason is typed."""
         self.accept_button.setEnabled(bool(text.strip()))
         self.set_default(self.accept_button if text.strip() else self.close_button)
 
@@ -59,7 +62,10 @@ class ExcludeDialog(Dialog):
 
 
 class ChoiceDialog(Dialog):
-    """A list to choose one from; emits ``chosen`` with its key. Used for the right patient and the exercise."""
+    """Choice of one item of a list.
+
+    Signals: ``chosen`` with its key.
+    """
 
     chosen = Signal(str)
 
@@ -77,7 +83,7 @@ class ChoiceDialog(Dialog):
         self.card.body.addLayout(row_layout(STRETCH, self.accept_button, close))
 
     def request_choice(self, title: str, words: str, accept_text: str, choices: Sequence[tuple[str, str]]) -> None:
-        """Ask for one of the (key, text); ``take`` is what the button says."""
+        """Open with (key, text) pairs; ``accept_text`` is the button's label."""
         self.title.setText(title)
         self.words.setText(words)
         self.accept_button.set_label(accept_text)

@@ -1,4 +1,4 @@
-"""The flow of a patient's sessions: the list, and where one goes on from it."""
+"""Controller of a patient's session list."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from carpus.ui.shell.messages import postpone_last_notice
 
 
 class SessionsFlow(Flow):
-    """All sessions of a patient."""
+    """Controller of the session list."""
 
     screen_name, guide_page = "sessions", "sessions"
     screen: SessionsScreen
@@ -44,7 +44,7 @@ class SessionsFlow(Flow):
         self.context.navigator.open_screen("progress", now.patient.patient_id)
 
     def _clear_missing_session(self) -> None:
-        """A session was moved, renamed or deleted: the one that was open may be gone."""
+        """Close the open session if it was moved or deleted."""
         with suppress(SessionUnreadable):
             if self.context.current.session_id:
                 self.context.library.entry(self.context.current.session_id)

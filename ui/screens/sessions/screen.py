@@ -1,4 +1,4 @@
-"""All sessions of a patient, newest first, and what can be done with the chosen one."""
+"""Session list of a patient, newest first, with actions for the selected session."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ if TYPE_CHECKING:  # it reads and writes files
 
 
 class SessionsScreen(QWidget):
-    """``open_requested`` carries a session to be reviewed, ``progress_requested`` one to be compared with,
-    ``pair_requested`` two to be
-    shown side by side, ``delete_requested`` one to be archived or erased, ``archive_requested`` the patient whose
-    archived
-    ones are asked for; ``told`` a fault; ``sessions_changed`` that
-    something of the patient's sessions is different now."""
+    """Session list.
+
+    Signals carry session ids: ``open_requested`` for the review, ``progress_requested``, ``pair_requested`` for two
+    to compare, ``delete_requested``; ``archive_requested`` carries the patient, ``fault_raised`` a fault.
+    ``sessions_changed`` follows each change.
+    """
 
     open_requested = Signal(str)
     progress_requested = Signal(str)
@@ -41,7 +41,7 @@ class SessionsScreen(QWidget):
     archive_requested = Signal(str)
     fault_raised = Signal(object)
     session_moved = Signal(str)
-    """To whom, by name."""
+    """Carries the name of the patient it was moved to."""
     sessions_changed = Signal()
 
     def __init__(self, theme: Theme, background: Background, store: SessionStore) -> None:

@@ -1,4 +1,4 @@
-"""The rows of the list of sessions: date, exercise and hand, main figure, how much counted, remark."""
+"""Rows of the session list."""
 
 from __future__ import annotations
 
@@ -22,34 +22,36 @@ ROW_PX = 58
 TICK_PX, TICK_LEFT_PX = 20, 18
 MAX_TICKED = 2
 COLUMNS = (0.062, 0.242, 0.490, 0.680, 0.760, 0.985)
-"""Left edges as shares of the width: date, exercise and hand, main figure, counted, remark; the last is the end."""
+"""Left edges as shares of the width: date, exercise and hand, main value, repetitions, remark; the last is the end."""
 TWO_LINE_MAX_WIDTH_PX, TWO_LINE_EDGES = 720, (0.42, 0.84, 1.0)
-"""In a narrower list, text at 100 %, date, figure and what counted stand over exercise and remark: right edges as
+"""In a narrower list (text at 100 %) date, value and repetitions stand above exercise and remark: right edges as
 shares of what is right of the tick."""
 
 
 @dataclass(frozen=True, slots=True)
 class SessionLine:
-    """One row of the list of sessions. What must be read from the file is empty until it has been: ``figure`` the main
-    one in words, ``counted_repetitions`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
+    """Row of the session list; what must be read from the file is empty until then.
+
+    ``counted_repetitions`` is such as ``8 / 10``; ``counted_words`` and ``warning`` are for the card.
+    """
 
     entry: SessionEntry
     is_practice: bool = False
     exclusion_reason: str = ""
-    """Why it does not count; empty when it does."""
+    """Why it is excluded; empty if it is not."""
     is_damaged: bool = False
     is_missing: bool = False
-    """Its file is not where it was."""
+    """Whether its file is missing."""
     main_value: str = ""
     counted_repetitions: str = ""
     counted_words: str = ""
     warning: str = ""
     correction: str = ""
-    """That and since when markers were put right, in words; empty as measured."""
+    """When markers were corrected, in words; empty as measured."""
 
 
 def remark(line: SessionLine) -> str:
-    """What must be known of a session before its figures."""
+    """Return why a session is excluded or not readable; empty otherwise."""
     if line.entry.simulated and not line.is_practice:
         return tr("does not count: simulated")
     if line.exclusion_reason:
@@ -60,7 +62,7 @@ def remark(line: SessionLine) -> str:
 
 
 def row_cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, str, str, str, str]:
-    """The texts of a row, which is told from the other ``lines``; what is not known yet is empty."""
+    """Return the texts of a row; times are added where ``lines`` share a day."""
     entry, others = line.entry, (other.entry.recorded for other in lines)
     day = f"{numbers.format_short_date(entry.recorded)} {numbers.format_distinct_time(entry.recorded, *others)}"
     what = f"{terms.exercise_name(entry.exercise)}, {to_mid_sentence(terms.side_name(entry.hand))}"
@@ -68,7 +70,7 @@ def row_cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str
 
 
 def elide_value(value: str, metrics: QFontMetricsF, width_px: float) -> str:
-    """``Supin… −50° ± 1°``: only the name is cut, for a number that lost its sign is another one."""
+    """Shorten only the name of a value, such as ``Supin… −50° ± 1°``: a cut number would be wrong."""
     number = re.search(r"\N{MINUS SIGN}?\d.*", value)
     if number is None or metrics.horizontalAdvance(value) <= width_px:
         return metrics.elidedText(value, Qt.TextElideMode.ElideRight, width_px)
@@ -78,13 +80,13 @@ def elide_value(value: str, metrics: QFontMetricsF, width_px: float) -> str:
 
 
 class SessionListModel(QAbstractListModel):
-    """The sessions of one patient, newest first."""
+    """Sessions of one patient, newest first."""
 
     def __init__(self) -> None:
         super().__init__()
         self.lines: tuple[SessionLine, ...] = ()
         self.ticked: tuple[str, ...] = ()
-        """At most two, the one that was ticked first before the other."""
+        """At most two, in the order of ticking."""
 
     def show_lines(self, lines: Sequence[SessionLine]) -> None:
         self.beginResetModel()
@@ -94,7 +96,7 @@ class SessionListModel(QAbstractListModel):
         self.endResetModel()
 
     def toggle(self, row: int) -> None:
-        """Tick a session, or take its tick away; with a third one the first gives way."""
+        """Tick or untick a session; a third tick replaces the first."""
         session_id = self.lines[row].entry.session_id
         before = self.ticked
         rest = tuple(one for one in before if one != session_id)
@@ -110,7 +112,7 @@ class SessionListModel(QAbstractListModel):
                 self.dataChanged.emit(self.index(number), self.index(number))
 
     def find_row(self, session_id: str) -> int:
-        """Row of a session, -1 when not shown."""
+        """Return the row of a session, -1 if not shown."""
         return next((number for number, line in enumerate(self.lines) if line.entry.session_id == session_id), -1)
 
     def rowCount(self, parent: QModelIndex | QPersistentModelIndex = QModelIndex()) -> int:  # noqa: B008
@@ -127,7 +129,7 @@ class SessionListModel(QAbstractListModel):
 
 
 class SessionRowPainter(QStyledItemDelegate):
-    """Paints one row from the tokens; a session that does not count is grey and hatched, and says why."""
+    """Delegate that paints a row; an excluded session is grey and hatched."""
 
     def __init__(self, theme: Theme, model: SessionListModel) -> None:
         super().__init__()
@@ -172,7 +174,6 @@ class SessionRowPainter(QStyledItemDelegate):
         painter.restore()
 
     def _paint_tick(self, painter: QPainter, box: QRectF, *, ticked: bool) -> None:
-        """A box that is filled and has a check where the session is ticked."""
         theme, size = self._theme, self._theme.px(TICK_PX)
         square = QRectF(box.left() + TICK_LEFT_PX, box.center().y() - size / 2, size, size)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -186,7 +187,7 @@ class SessionRowPainter(QStyledItemDelegate):
 
 
 def _cell_boxes(box: QRectF, theme: Theme, *, has_remark: bool) -> list[QRectF]:
-    """Where the texts of a row stand: beside each other, or on two lines."""
+    """Return the boxes of a row's texts, on one line or two."""
     if box.width() >= TWO_LINE_MAX_WIDTH_PX * theme.text_scale:
         edges = [box.left() + share * box.width() for share in COLUMNS]
         return [QRectF(left, box.top(), right - left - 8, box.height()) for left, right in pairwise(edges)]
@@ -202,7 +203,10 @@ def _cell_boxes(box: QRectF, theme: Theme, *, has_remark: bool) -> list[QRectF]:
 
 
 class SessionList(QListView):
-    """The rows on a rounded surface; ``ticks_changed`` when another session is ticked."""
+    """List on a rounded card.
+
+    Signals: ``ticks_changed``.
+    """
 
     ticks_changed = Signal()
 
@@ -234,7 +238,7 @@ class SessionList(QListView):
             self.tick_current()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Two quick clicks on a tick are two clicks, and open nothing."""
+        """Treat a double click on a tick as two clicks."""
         if event.position().x() < TICK_LEFT_PX + self._theme.px(TICK_PX) + 6:
             self.mousePressEvent(event)
         else:

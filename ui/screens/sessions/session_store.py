@@ -1,4 +1,4 @@
-"""The sessions of a patient as their list asks for them, and what is done with one."""
+"""Sessions of a patient for the list, and changes to them."""
 
 from __future__ import annotations
 
@@ -18,15 +18,16 @@ from carpus.ui.words.session import warning_lines
 
 
 class SessionStore:
-    """All sessions of a patient and what can be done with them. All but ``list_sessions`` and ``target_patients``
-    may read or
-    write the disk: called in the background."""
+    """Sessions of a patient.
+
+    All methods but ``list_sessions`` and ``target_patients`` access the disk and run in the background.
+    """
 
     def __init__(self, library: Library) -> None:
         self._library = library
 
     def list_sessions(self, patient_id: str) -> Sequence[SessionLine]:
-        """Newest first, without what only the files know."""
+        """Return sessions, newest first, without what only their files contain."""
         return [
             SessionLine(one, patient_id == PRACTICE_PATIENT, self._exclusion_reason(one.session_id))
             for one in self._library.sessions(patient_id)

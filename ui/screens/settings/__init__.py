@@ -1,1 +1,1 @@
-"""What a person may choose: looks, text size, data folder, initials."""
+"""Settings screen."""

@@ -1,4 +1,4 @@
-"""The camera as a card of the settings: when it was calibrated and checked, and the way to both."""
+"""Card of the settings about the camera's calibration and check."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from carpus.ui.kit.theme import Theme
 
 
 class CameraCard(Card):
-    """What the last check said of the camera; its buttons lead to the check card and to the board."""
+    """Status of the camera, with buttons to check and calibrate it."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
@@ -42,7 +42,7 @@ class CameraCard(Card):
         self._state.setText(words)
 
     def show_demo(self) -> None:
-        """No camera is there to be calibrated or checked."""
+        """Show that a simulated camera needs no calibration."""
         for button in (self.check_button, self.calibrate_button):
             button.hide()
         self._sign.hide()  # an empty sign would set the words in

@@ -1,4 +1,4 @@
-"""The flow of the settings: shown beside the way, at the part that is asked for."""
+"""Controller of the settings."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from carpus.ui.shell.view_models import Preferences
 ReadFiguresFunction = Callable[
     [Sequence[Path], Callable[[CarpusFault], object]], tuple[list[SessionResults], dict[str, str]]
 ]
-"""Reads sessions of files and folders; hears of those that cannot be read."""
+"""Reads sessions of files and folders, and reports those that cannot be read."""
 
 
 class SettingsFlow(Flow):
-    """What a person chooses for the program. ``updates`` is the clinic's folder of packages, empty for none."""
+    """Controller of the settings; ``updates`` is the clinic's update folder, empty if none."""
 
     screen_name, guide_page = "settings", "data"
     screen: SettingsScreen
@@ -50,14 +50,14 @@ class SettingsFlow(Flow):
         )
 
     def open(self, part: SettingsPage | None = None) -> None:
-        """Where help and settings can be opened now; as it was left, or at a part."""
+        """Show the settings as left, or at a page."""
         if part is not None:
             self.screen.show_page(part)
         self.context.navigator.open_overlay("settings")
         self._check_for_update()
 
     def _check_for_update(self) -> None:
-        """Where the clinic named a folder of packages, and nowhere else."""
+        """Look for a newer version in the clinic's update folder only."""
         folder, screen = self._updates, self.screen
         if folder:
             self._background.run(
@@ -68,7 +68,7 @@ class SettingsFlow(Flow):
             )
 
     def _compute_limits(self) -> None:
-        """Compute error limits from the sessions of a folder, beside the window."""
+        """Compute MDC95 from the sessions of a folder, in the background."""
         places, shell = self.context.recent_locations, self.context.window
         title = self.tr("Folder of the test-retest sessions")
         folder = QFileDialog.getExistingDirectory(shell, title, places.folder("exports"))
@@ -101,7 +101,7 @@ class SettingsFlow(Flow):
 
 
 class LicencesWindow(QDialog):
-    """A window of its own with a long text; Esc closes it."""
+    """Window with a long text; Esc closes it."""
 
     def __init__(self, parent: QWidget, theme: Theme, text: str) -> None:
         super().__init__(parent)

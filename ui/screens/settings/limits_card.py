@@ -1,4 +1,4 @@
-"""The error limits as a card of the settings: each angle's, and whose they are."""
+"""Card of the settings with the MDC95 of each angle."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from carpus.ui.words.verdicts import error_limit_words
 
 
 def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
-    """Limits of single angles and of their arcs, in two columns; below what the clinic ``measured`` itself."""
+    """Return the card with default limits in two columns, and the clinic's own below."""
     card = Card(theme, 24)
     card.body.addWidget(Text(theme, tr("What counts as a change"), 20, SEMIBOLD))
     card.body.addWidget(Text(theme, error_limit_words(), 14, REGULAR, "text2", wrap=True))
@@ -49,7 +49,7 @@ def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
 
 
 def study_view(theme: Theme, study: RetestStudy, words: str) -> QWidget:
-    """A study with each of its limits, below what is said of it."""
+    """Return a study's title, summary and table of limits."""
     title = tr("Measured by this clinic: {exercise}").format(exercise=terms.exercise_name(study.exercise))
     table = grid_layout(24, 6)
     for place, cells in enumerate(study_rows(study)):
@@ -65,7 +65,7 @@ def study_view(theme: Theme, study: RetestStudy, words: str) -> QWidget:
 
 
 def study_words(study: RetestStudy) -> str:
-    """When and with how many, and whether it is in force."""
+    """Return when and with how many people a study was made, and whether it is used."""
     said = tr("On {date} with {count} people in {sessions} sessions; 95 % intervals in brackets.").format(
         date=numbers.format_date(date.fromisoformat(study.made)), count=study.people, sessions=study.sessions
     )
@@ -75,7 +75,7 @@ def study_words(study: RetestStudy) -> str:
 
 
 def study_rows(study: RetestStudy) -> list[tuple[str, str, str]]:
-    """Name, SEM, and smallest real change with its interval, of each figure."""
+    """Return name, SEM and MDC95 with its interval for each limit of a study."""
     out = []
     for limit in study.limits:
         arc = limit.movement == "arc"
@@ -101,7 +101,7 @@ def _format_tenths(size_deg: float) -> str:
 
 
 def limit_rows() -> list[tuple[str, str]]:
-    """Name of each kind of angle and its limit; of the wrist the whole arc beside one end."""
+    """Return the name and limit of each kind of angle; for the wrist one end and the total arc."""
     named = (
         (tr("Flexion, extension"), tr("Flexion and extension, whole arc"), "flexion"),
         (tr("Radial, ulnar deviation"), tr("Deviation, whole arc"), "deviation"),

@@ -1,4 +1,4 @@
-"""The clinic's letterhead and paper as a card of the settings."""
+"""Card of the settings with letterhead and paper size."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ ADDRESS_PX, LOGO_PX = 112, 56
 
 
 class ReportCard(Card):
-    """``changed`` carries the whole :class:`ReportForm`."""
+    """Letterhead and paper.
+
+    Signals: ``changed`` with the :class:`ReportForm`.
+    """
 
     changed = Signal(ReportForm)
 
@@ -110,15 +113,18 @@ MAX_LOGO_PX = 1200
 MIN_LOGO_PX = 32
 MAX_LOGO_PIXELS = 40_000_000
 LOGO_FORMATS = (b"png", b"jpeg")
-"""A drawing (SVG) is a program of its own: it may load other files and take any time."""
+"""SVG is excluded: it may load other files and take any time."""
 
 
 class LogoError(ValueError):
-    """The picture cannot be a logo; its words say why, for the person."""
+    """Error that a picture cannot be a logo, with a message for the user."""
 
 
 def logo_png(path: Path) -> bytes:
-    """The picture as a PNG, made smaller where it is very large. Raises :class:`LogoError` with one sentence."""
+    """Return a logo as PNG, scaled down if very large.
+
+    Raises :class:`LogoError`.
+    """
     try:
         size = path.stat().st_size
         data = path.read_bytes() if size <= MAX_LOGO_BYTES else b""

@@ -1,4 +1,4 @@
-"""What test-retest sessions give as error limits: shown, and taken if the person wants them."""
+"""Dialog with the MDC95 of test-retest sessions."""
 
 from __future__ import annotations
 
@@ -22,11 +22,14 @@ from carpus.ui.words.verdicts import reason_words
 
 HEIGHT_PX = 400
 MARGINS_PX = 320
-"""Title, words and buttons, with the room around the sheet."""
+"""Height of title, texts, buttons and margins."""
 
 
 class RetestDialog(Dialog):
-    """Emits ``accepted`` with the studies that are to be the clinic's own error limits."""
+    """Studies found in a folder.
+
+    Signals: ``accepted`` with those to use.
+    """
 
     accepted = Signal(object)
 
@@ -47,7 +50,7 @@ class RetestDialog(Dialog):
         self._usable: list[RetestStudy] = []
 
     def show_studies(self, found: Sequence[RetestAnalysis], unreadable: int, today: date) -> None:
-        """Show the study of each exercise, and how many sessions could not be read."""
+        """Show the study of each exercise and the number of unreadable sessions."""
         clear_layout(self._column)
         self._usable = [one.to_study(today.isoformat()) for one in found if one.is_usable]
         for one in found:
@@ -71,7 +74,7 @@ class RetestDialog(Dialog):
 
 
 def study_summary(found: RetestAnalysis) -> str:
-    """Who was measured, whether it may be used, and what was left out."""
+    """Return who was measured, whether the study is usable, and what was excluded."""
     said = [tr("People: {people}, sessions: {sessions}.").format(people=found.people, sessions=found.sessions)]
     if found.simulated:
         said.append(tr("Limits of a simulated hand are never used."))

@@ -1,4 +1,4 @@
-"""The settings: an index and one part at a time; every choice acts at once and is told to whoever stores it."""
+"""Settings screen: an index and one page at a time; each choice takes effect at once."""
 
 from __future__ import annotations
 
@@ -36,7 +36,10 @@ SettingsPage = Literal["camera", "measuring", "report", "safety", "looks", "rese
 
 
 class SettingsScreen(QWidget):
-    """``changed`` carries the whole :class:`Preferences`."""
+    """Settings screen.
+
+    Signals: ``changed`` with the whole :class:`Preferences`.
+    """
 
     changed = Signal(Preferences)
 
@@ -64,7 +67,7 @@ class SettingsScreen(QWidget):
         self.folder_button.clicked.connect(self.choose_folder)
 
     def _make_table(self, theme: Theme) -> list[tuple[SettingsPage, str, str, list[Field]]]:
-        """The cards: part, title, what is said of it, and the preferences that are chosen on it."""
+        """Return the cards: page, title, description and fields."""
         computer = ("system", self.tr("As the computer"))
         looks = ChoiceRow(theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), computer])
         sizes = ChoiceRow(theme, [(scale, f"{format_rounded(100 * scale)} %") for scale in TEXT_SCALES])
@@ -224,20 +227,20 @@ class SettingsScreen(QWidget):
         self._limits_host.body.addWidget(card)
 
     def show_computing(self, *, on: bool) -> None:
-        """The sessions of a study are being read, which takes a second each."""
+        """Show that sessions are being read, about one second each."""
         self.retest_button.setEnabled(not on)
         words = self.tr("Reading the sessions…") if on else self.tr("Compute from test-retest sessions…")
         self.retest_button.set_label(words)
 
     def revert_language(self, code: str, reason: str) -> None:
-        """The language cannot be changed now: the old one stays chosen, and why is said."""
+        """Select the old language again and show why it could not be changed."""
         self.preferences = replace(self.preferences, language=code)
         self.form["language"].choose(code)
         self._shown_values = self.form.values()
         self.language_note.show_text(reason)
 
     def add_cards(self, part: SettingsPage, *cards: Card) -> None:
-        """Cards of others, before what else the part has."""
+        """Add cards of other modules at the top of a page."""
         for number, card in enumerate(cards):
             self._pages[part].insertWidget(number, card)
         self._show_research_cards()
@@ -247,7 +250,7 @@ class SettingsScreen(QWidget):
         self._page_stack.setCurrentIndex(get_args(SettingsPage).index(part))
 
     def _show_research_cards(self) -> None:
-        """What only research needs is there for who switched it on; a part with nothing in it is not offered."""
+        """Show cards for research only if switched on, and hide empty pages."""
         for card in self._research_cards:
             card.setVisible(self.preferences.research)
         for part, page in self._pages.items():
@@ -262,8 +265,7 @@ class SettingsScreen(QWidget):
         return card
 
     def show_available_version(self, folder: str, newest: str | None) -> None:
-        """What lies in the folder of packages that the clinic named: a version, empty for none, None where it cannot be
-        read."""
+        """Show the newest version in the update folder; None if it cannot be read."""
         if newest is None:
             words = self.tr("The folder of the clinic’s packages cannot be read: {folder}.")
         elif is_newer(newest, __version__):
@@ -281,7 +283,7 @@ class SettingsScreen(QWidget):
             self.changed.emit(preferences)
 
     def _apply_choices(self) -> None:
-        """Take what a person chose; the rest stays, also where the settings have what is not offered here."""
+        """Apply changed choices; preferences that are not offered here stay."""
         before, self._shown_values = self._shown_values, self.form.values()
         self._apply_preferences(
             replace(self.preferences, **{name: new for name, new in self._shown_values.items() if new != before[name]})
