@@ -234,7 +234,7 @@ def project_discs(points: Any, view: Any, scale: float) -> tuple[Array, Array, A
     return out
 
 
-def propagate_palm_error(linearised: Any, seat: Any) -> Array:
+def propagate_palm_error(linearised: Any, base: Any) -> Array:
     """
     Propagate the error of the palm's place and turn to the discs' images.
 
@@ -242,7 +242,7 @@ def propagate_palm_error(linearised: Any, seat: Any) -> Array:
     ----------
     linearised : DigitsLinearisation
         The discs in camera axes, and the derivative of their images by that.
-    seat : Seat
+    base : DigitBase
         The palm, with its covariance.
 
     Returns
@@ -252,8 +252,8 @@ def propagate_palm_error(linearised: Any, seat: Any) -> Array:
     """
     centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
     by_place: cython.const[double][:, :, :, ::1] = as_array(linearised.by_place, "slopes by place", (5, 3, 3, 3))
-    origin: cython.const[double][::1] = as_array(seat.view.translation_m, "the seat's place", (3,))
-    wide: cython.const[double][:, ::1] = as_array(seat.pose_covariance, "the seat's covariance", (6, 6))
+    origin: cython.const[double][::1] = as_array(base.view.translation_m, "the base's place", (3,))
+    wide: cython.const[double][:, ::1] = as_array(base.pose_covariance, "the base's covariance", (6, 6))
     out = np.zeros((5, 9, 9))
     found: double[:, :, ::1] = out
     by_pose: double[:, ::1] = np.empty((9, 6))
@@ -443,7 +443,7 @@ def compute_disc_odds(
     return out, believed.view(np.bool_)
 
 
-def compute_inherited(covariance: Array, seat: Any, linearised: Any, normal: Array) -> Array:
+def compute_inherited(covariance: Array, base: Any, linearised: Any, normal: Array) -> Array:
     """
     Compute what the slots inherit from the turn of W and from depths that stay wrong.
 
@@ -455,7 +455,7 @@ def compute_inherited(covariance: Array, seat: Any, linearised: Any, normal: Arr
     ----------
     covariance : numpy.ndarray
         Of the states (5, 21, 21).
-    seat : Seat
+    base : DigitBase
         The palm, with the covariance of its turn.
     linearised : DigitsLinearisation
         How it shows the digits.
@@ -477,12 +477,12 @@ def compute_inherited(covariance: Array, seat: Any, linearised: Any, normal: Arr
     slope: cython.const[double][:, :, ::1] = as_array(linearised.slope, "slopes", (5, 9, 21))
     centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
     by_place: cython.const[double][:, :, :, ::1] = as_array(linearised.by_place, "slopes by place", (5, 3, 3, 3))
-    root: cython.const[double][:, ::1] = as_array(seat.palm.disc_m, "the palm's discs", (6, 3))
-    rotation: cython.const[double][:, ::1] = as_array(seat.view.rotation, "the seat's rotation", (3, 3))
-    translation: cython.const[double][::1] = as_array(seat.view.translation_m, "the seat's place", (3,))
-    turning: cython.const[double][:, ::1] = as_array(seat.turn_covariance, "covariance of the seat's turn", (3, 3))
-    fx: double = seat.view.camera.fx_px
-    fy: double = seat.view.camera.fy_px
+    root: cython.const[double][:, ::1] = as_array(base.palm.disc_m, "the palm's discs", (6, 3))
+    rotation: cython.const[double][:, ::1] = as_array(base.view.rotation, "the base's rotation", (3, 3))
+    translation: cython.const[double][::1] = as_array(base.view.translation_m, "the base's place", (3,))
+    turning: cython.const[double][:, ::1] = as_array(base.turn_covariance, "covariance of the base's turn", (3, 3))
+    fx: double = base.view.camera.fx_px
+    fy: double = base.view.camera.fy_px
     across_m: double = ACROSS_M
     stays_m: double = DEPTH_STAYS_M
     share: double = INHERITED

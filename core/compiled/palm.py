@@ -67,7 +67,7 @@ def compute_mode_transition(
     modes: Py_ssize_t = motion.modes
     resting: Py_ssize_t = tissue.resting
     scales: Py_ssize_t = motion.scales.shape[0]
-    follows: cython.bint = tissue.follows_joints
+    follows: cython.bint = tissue.is_joint_driven
     leaving: double = tissue.leaving_per_rad
     dt: double = dt_s
     turning: double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
@@ -191,7 +191,7 @@ def compute_palm_transition(
     palm: double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
     thumb: double = digits[0]
     fingers: double = digits[1]
-    per_rad: double = dt / tissue.lasts_rad if tissue.follows_joints else 0.0
+    per_rad: double = dt / tissue.lasts_rad if tissue.is_joint_driven else 0.0
     left, relaxing = np.ones((modes, SIZE)), np.empty((modes, SOFT, SOFT))
     kept: double[:, ::1] = left
     relaxed: double[:, :, ::1] = relaxing

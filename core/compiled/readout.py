@@ -163,8 +163,8 @@ def compute_finger_base(
     -------
     tuple of numpy.ndarray
         Axes (3, 3), origin (3,), discs (6, 3), flexion (5,) of the metacarpals and its standard deviation (5,) of a
-        ``PalmInBody``; from there into camera axes rotation (3, 3) and translation (3,); in camera axes the covariances
-        of the body's place and turn (6, 6) and of the turn of the axes (3, 3).
+        ``PalmGeometry``; from there into camera axes rotation (3, 3) and translation (3,); in camera axes the
+        covariances of the body's place and turn (6, 6) and of the turn of the axes (3, 3).
     """
     state: cython.const[double][::1] = as_array(estimate.value, "the palm's state", (SIZE,))
     rotation: cython.const[double][:, ::1] = as_array(estimate.rotation_w2_w0, "the palm's rotation", (3, 3))

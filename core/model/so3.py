@@ -15,7 +15,6 @@ from carpus.core.model.types import FloatArray
 _SMALL = 1e-8
 _TINY = 1e-300  # added to a squared angle, so that no turn at all needs no case of its own
 
-
 _GENERATORS = np.array(
     [
         [0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0],

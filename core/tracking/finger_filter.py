@@ -1,4 +1,4 @@
-"""Thumb and fingers of one hand, tracked on the palm that the tracker has just corrected."""
+"""State estimate of thumb and fingers of one hand, on the palm that was just updated."""
 
 from __future__ import annotations
 
@@ -24,13 +24,14 @@ from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerSte
 
 _RATE, _THUMB_BASE = np.arange(DIGIT_SIZE)[RATES], slice(0, 2)
 
-
-RESTART_VISIBLE_PROBABILITY = 0.5
-"""The chance that a disc of a digit begun anew is to be seen."""
+RESTART_VISIBLE_PROBABILITY = 0.5  # of a disc of a digit that is restarted
 
 
 class FingerFilter:
-    """Remembers the digits' estimates from frame to frame."""
+    """The digits' estimates from frame to frame.
+
+    ``estimates`` is another object whenever any of them has changed.
+    """
 
     def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
         self.model = FingerModel(calibration, camera, settings)
@@ -46,7 +47,7 @@ class FingerFilter:
         self._set_estimates(neutral, neutral.merge())
 
     def is_in_reach(self, point_m: FloatArray) -> NDArray[np.bool_]:
-        """Whether points (..., 3) in the tracked body may be discs of these fingers."""
+        """Return whether points (..., 3) in the tracked body may be discs of these fingers."""
         palm = self.history.palm
         on_palm = (point_m - palm.origin_m) @ palm.axes
         return is_in_reach(on_palm, palm.disc_m[1:], self._mean[:, OBSERVED])
@@ -60,21 +61,23 @@ class FingerFilter:
         self._set_estimates(anywhere, anywhere.merge())
 
     def restart_digit(self, chain: int) -> None:
-        """A person shows a disc of a digit where it was not believed: its joints may be anywhere."""
-        estimates = self.model.restart_digits(self._estimates, np.arange(N_DIGITS) == chain, self._estimates)
+        """Restart a digit anywhere, of which a person shows a disc where it was not predicted."""
+        estimates = self.model.restart_digits(self.estimates, np.arange(N_DIGITS) == chain, self.estimates)
         self.history.visible_probability[chain] = RESTART_VISIBLE_PROBABILITY
         self.history.missing_frames[chain] = MAX_MISSING_FRAMES
         self.history.unseen_s[chain] = DIFFUSION_S
         self._set_estimates(estimates, estimates.merge())
 
     def _set_estimates(self, estimates: ModeMixture, merged: tuple[FloatArray, FloatArray]) -> None:
-        self._estimates, (self._mean, self._covariance) = estimates, merged
+        self.estimates, (self._mean, self._covariance) = estimates, merged
         self._speeds: DigitSpeeds | None = None
 
     @property
     def joint_speeds(self) -> DigitSpeeds:
-        """How fast the thumb turns at its base and the fingers at their knuckles, root mean square; a joint that
-        nothing shows may turn as fast as its rate is unsure."""
+        """Root mean square rates of the thumb at its base and of the fingers at MCP.
+
+        A joint that nothing shows may turn as fast as its rate is unsure.
+        """
         if self._speeds is None:
             unsure = np.where(self.history.unseen_s > 0.0, self._covariance[:, _RATE, _RATE], 0.0)
             square = self._mean[:, _RATE] ** 2 + unsure
@@ -85,27 +88,22 @@ class FingerFilter:
             self._speeds = DigitSpeeds(min(math.sqrt(thumb), fastest), min(math.sqrt(fingers), fastest))
         return self._speeds
 
-    @property
-    def estimates(self) -> ModeMixture:
-        """What is believed of the digits; another object whenever anything of them has changed."""
-        return self._estimates
-
     def predict(self, dt_s: float) -> PredictedDigits:
-        """The digits ``dt_s`` later, and their discs on the palm as it was known last."""
+        """Predict the digits ``dt_s`` ahead, and their discs on the palm as it was known last."""
         estimates, points = self.model.predict_sigma_points(
-            self._estimates, self.history.unseen_s, dt_s, self.history.palm.disc_m[1:]
+            self.estimates, self.history.unseen_s, dt_s, self.history.palm.disc_m[1:]
         )
         return PredictedDigits(estimates, points, self.history.palm)
 
     def smoother_start(self, timestamp_s: float, is_lost: bool) -> FingerStart:
-        """What is believed now, for smoothing over the frames to come."""
-        return FingerStart(self._estimates, self.history.unseen_s, timestamp_s, is_lost)
+        """Return the estimate now, for smoothing over the frames to come."""
+        return FingerStart(self.estimates, self.history.unseen_s, timestamp_s, is_lost)
 
     def accept(self, posterior: DigitPosterior, timestamp_s: float, dt_s: float) -> FingerStep:
-        """Go on from a trial; what the smoother needs of it."""
+        """Accept an update; return what the smoother needs of it."""
         named = posterior.update
         self.history.update(posterior, dt_s, self._settings)
-        kept, merged, misread = self.model.apply_joint_limits(named.update.mixture, self._estimates)
+        kept, merged, misread = self.model.apply_joint_limits(named.update.mixture, self.estimates)
         self.history.missing_frames[misread] = MAX_MISSING_FRAMES
         self._set_estimates(kept, merged)
         begins, self._is_at_start = self._is_at_start, False
@@ -120,5 +118,5 @@ class FingerFilter:
         )
 
     def read_joints(self, posterior: DigitPosterior) -> JointState:
-        """The joints after that trial was accepted."""
-        return self.model.readout.read_joints(self._mean, self._covariance, posterior.seat, posterior.scene.linearised)
+        """Return the joints after an update was accepted."""
+        return self.model.readout.read_joints(self._mean, self._covariance, posterior.base, posterior.scene.linearised)

@@ -1,7 +1,7 @@
 """The filter's cycle on one hand: predict, associate, update.
 
 The palm is associated and updated by its discs, then by the surface of the back of the hand; thumb and fingers follow
-on the palm as updated, by the blobs that are left. An update is a trial: nothing is remembered until it is accepted.
+on the palm as updated, by the blobs that are left. An update is a trial: nothing is stored until it is accepted.
 """
 
 from __future__ import annotations
@@ -83,8 +83,7 @@ from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.smoother.palm_smoother import FilterStep
 
-_REREAD_NOISE_FACTOR = 2.0
-"""The picture is read once more right after: half of its weight now, half then."""
+_REREAD_NOISE_FACTOR = 2.0  # The frame is used once more right after: half of its weight now, half then.
 
 
 def reinitialise_disc(
@@ -95,7 +94,15 @@ def reinitialise_disc(
     blobs: Measurements,
     settings: TrackerSettings,
 ) -> tuple[PalmEstimate, ModeMixture, PalmView]:
-    """Estimate and mixture with the palm's ``disc`` (its row of 6) at a blob, and the view to go on with."""
+    """Place a disc of the palm (its row of 6) at a blob.
+
+    Returns
+    -------
+    estimate, mixture : PalmEstimate, ModeMixture
+        The state with the disc there.
+    view : PalmView
+        The view to go on with.
+    """
     u_px, v_px, depth_m = blobs.value[blob]
     depth_m = depth_m if np.isfinite(depth_m) else float(predicted.mean[disc, 2])
     estimate = predicted.nominal
@@ -127,16 +134,8 @@ def reinitialise_disc(
     return *reset_error(estimate, measured.mixture), view
 
 
-def with_placed_discs(view: PalmView, shape: FloatArray, is_placed: BoolArray) -> PalmView:
-    """The view in which to look for the hand anew: the discs that a person ``named`` (6,) where they are by now, by the
-    shape (18,)."""
-    if not is_placed.any():
-        return view
-    return replace(view, palm_m=view.palm_m + np.where(is_placed[:, None], shape.reshape(-1, 3), 0.0))
-
-
 def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArray) -> FloatArray:
-    """A covariance (..., n, n) in which those rows go with nothing else, and with each other as in ``block``."""
+    """Set a block of a covariance (..., n, n), its rows uncorrelated with all others."""
     out = covariance.copy()
     out[..., rows, :] = 0.0
     out[..., :, rows] = 0.0
@@ -144,20 +143,17 @@ def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArr
     return out
 
 
+# their places in the covariance, counted row by row
 _TURN_VARIANCES = tuple((SIZE + 1) * row for row in range(TURN.start, TURN.stop))
-"""Where they stand in the covariance, counted row by row."""
+# predicted less surely, the hand is turned by its markers before the surface is fitted
 JOINT_SD_RAD = 0.05
-"""Predicted less surely, the hand is turned by its markers before the surface is fitted."""
-PLACED_DISC_SD_M = 0.02
-"""So far from where the one picture shows it a disc shown elsewhere may be: more than any depth errs."""
-_MIN_DEPTH_M = 0.1
-"""No camera sees a hand nearer: keeps the size of a disc finite."""
+PLACED_DISC_SD_M = 0.02  # of a disc that a person placed, about where the one frame shows it: more than any depth errs
+_MIN_DEPTH_M = 0.1  # no camera sees a hand nearer: keeps the size of a disc finite
 
 
 @dataclass(frozen=True, slots=True)
 class Scan:
-    """What one frame brings: its time and the time since the last, the blobs where an ideal camera would see them, and
-    these as measurements."""
+    """The measurements of one frame: its time, undistorted blobs, and these as measurements."""
 
     timestamp_s: float
     dt_s: float
@@ -165,14 +161,14 @@ class Scan:
     blobs: Measurements
 
     def without_blobs(self) -> Scan:
-        """The scan as if no blob were in it."""
+        """Return the scan without blobs."""
         none = np.zeros(len(self.ideal), dtype=bool)
         blobs = Measurements(self.blobs.value[none], self.blobs.variance[none])
         return replace(self, ideal=self.ideal.subset(none), blobs=blobs)
 
 
 def undistort_detections(detections: Detections, camera: Camera) -> Detections:
-    """Blobs and readings where a camera without distortion would see them."""
+    """Return blobs and readings where a camera without distortion would see them."""
     if not camera.is_distorted:
         return detections
     surface, fingers = (
@@ -188,11 +184,10 @@ def _turn_sd_rad(predicted: PredictedMeasurement) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Posterior:
-    """The hand updated by one scan from what was ``predicted``: the ``palm`` as associated, its modes as errors from
-    ``estimate``, and the fingers on it.
+    """The hand updated by one scan from the ``predicted`` state.
 
-    ``seen_count`` discs of the palm; ``unassigned`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are
-    the fingers'.
+    The ``palm`` as associated, its modes as errors from ``estimate``, and the fingers on it. ``seen_count`` discs of
+    the palm; ``unassigned`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the fingers'.
     """
 
     predicted: PredictedMeasurement
@@ -206,7 +201,7 @@ class Posterior:
 
     @property
     def turn_sd_rad(self) -> float:
-        """How surely the hand's turn was predicted, all axes and modes together."""
+        """Standard deviation of the predicted turn, all axes and modes together."""
         return _turn_sd_rad(self.predicted)
 
 
@@ -233,8 +228,8 @@ class HandFilter:
         )
         self.readout = Readout(calibration, camera, settings.marker_radius_m)
         # Blobs alone do not tell tissue that rests from a hand that moves; joints that are seen tell when it moves.
-        seen = joint_driven_modes if self.fingers is not None else resting_and_moving_modes
-        tissue = (single_moving_mode if self._surface is None else seen)(settings.tissue)
+        modes = joint_driven_modes if self.fingers is not None else resting_and_moving_modes
+        tissue = (single_moving_mode if self._surface is None else modes)(settings.tissue)
         self.motion = PalmMotion(settings.motion_noise, tissue, np.array(settings.mode_scales))
         self._calibrated_covariance = self._calibration_covariance(calibration)
         self._stationary = stationary_covariance(settings.tissue)
@@ -245,10 +240,8 @@ class HandFilter:
         self.begin_at_neutral()
 
     def begin_at_neutral(self) -> None:
-        self._learnt_error, self._learnt_covariance = (
-            np.zeros(CALIBRATION_ERROR.stop - CALIBRATION_ERROR.start),
-            self._calibrated_covariance,
-        )
+        self._learnt_error = np.zeros(CALIBRATION_ERROR.stop - CALIBRATION_ERROR.start)
+        self._learnt_covariance = self._calibrated_covariance
         start = initial_estimate(self._settings.initial, self._learnt_covariance)
         self.start(start, self.motion.initial_probability)
         self._is_reinitialised[:] = False
@@ -256,7 +249,7 @@ class HandFilter:
             self.fingers.begin_at_neutral()
 
     def _calibration_covariance(self, calibration: Calibration) -> FloatArray:
-        """Covariance (21, 21) of what the calibration says of the discs' places and of the back of the hand."""
+        """Return the covariance (21, 21) of the calibrated discs and the back of the hand."""
         settings, shapes = self._settings, SHAPE.stop - SHAPE.start
         out = np.zeros((CALIBRATION_ERROR.stop - CALIBRATION_ERROR.start,) * 2)
         out[:shapes, :shapes] = shape_covariance(calibration, self.view.camera.sensor, settings.noise)
@@ -266,7 +259,7 @@ class HandFilter:
         return out
 
     def start(self, estimate: PalmEstimate, probability: FloatArray | None = None) -> None:
-        """Start from a state estimate of the palm, its modes of a ``probability`` (K,), or all alike."""
+        """Start from an estimate of the palm, its modes of a ``probability`` (K,), or all alike."""
         mixture = self._resting_mixture(estimate)
         mixture = mixture if probability is None else replace(mixture, probability=probability[None])
         self._palm: tuple[PalmEstimate, ModeMixture] | None = (estimate, mixture)
@@ -276,66 +269,61 @@ class HandFilter:
         return ModeMixture.from_gaussian(np.zeros((1, SIZE)), estimate.covariance[None], self.motion.modes)
 
     def drop_track(self) -> None:
-        """Nothing is known any more but the hand's anatomy."""
+        """Drop the track; the hand's anatomy stays known."""
         self._palm = None
         if self.fingers is not None:
             self.fingers.reset_joints()
 
     def predict(self, dt_s: float) -> PredictedMeasurement:
-        """The state ``dt_s`` after the last frame, and what the camera should see of it; worked out once."""
+        """Predict the state ``dt_s`` after the last frame and its measurement; computed once."""
         assert self._palm is not None
         fingers = None if self.fingers is None else self.fingers.estimates
         if self._prediction is None or not (
             self._prediction[0] is self._palm and self._prediction[1] is fingers and self._prediction[2] == dt_s
         ):
             digits = None if self.fingers is None else self.fingers.predict(dt_s)
-            ahead = predict_measurement_ahead(
-                *self._palm,
-                self.view,
-                self.motion,
-                dt_s,
-                self._unobserved_turns,
-                self._digit_speeds,
-                self._settings,
-                digits,
-                self.order,
-            )
-            self._prediction = self._palm, fingers, dt_s, ahead
+            predicted = predict_measurement_ahead(
+                *self._palm, self.view, self.motion, dt_s, self._unobserved_turns, self._digit_speeds, self._settings,
+                digits, self.order,
+            )  # fmt: skip
+            self._prediction = self._palm, fingers, dt_s, predicted
         return self._prediction[3]
 
     def build_scan(self, predicted: PredictedMeasurement, ideal: Detections, timestamp_s: float, dt_s: float) -> Scan:
-        """The blobs as measurements at the distance at which the hand was predicted."""
+        """Return the blobs as measurements at the distance at which the hand was predicted."""
         depth_m, camera = max(float(predicted.mean[0, 2]), _MIN_DEPTH_M), self.view.camera
         radius_px = camera.fx_px * self._settings.marker_radius_m / depth_m
         return Scan(timestamp_s, dt_s, ideal, measurements_from_blobs(ideal, radius_px, self._settings, camera.sensor))
 
     def update(self, predicted: PredictedMeasurement, scan: Scan) -> Posterior:
-        """Associate the blobs with the discs that were predicted and update by them."""
-        blobs, enough, is_sure = scan.blobs, MIN_PALM_MARKERS + 1, _turn_sd_rad(predicted) < JOINT_SD_RAD
+        """Associate the blobs with the predicted discs and update by them, and by the surface."""
+        blobs, is_sure = scan.blobs, _turn_sd_rad(predicted) < JOINT_SD_RAD
         if is_sure:
             blobs = replace(blobs, surface=self._fit_surface(predicted.nominal, scan))
-        palm = associate_and_update(predicted, blobs, enough, self._resolution_px2, self._noise_factor, self._settings)
+        palm = associate_and_update(
+            predicted, blobs, MIN_PALM_MARKERS + 1, self._resolution_px2, self._noise_factor, self._settings
+        )
         estimate, mixture = reset_error(predicted.nominal, palm.mixture)
         surface = None if is_sure else self._fit_surface(estimate, scan)
         if surface is not None:
-            there = replace(predicted, nominal=estimate, mixture=mixture)
-            alone = Measurements(np.empty((0, 3)), np.empty((0, 3)), surface)
+            after_discs = replace(predicted, nominal=estimate, mixture=mixture)
+            surface_alone = Measurements(np.empty((0, 3)), np.empty((0, 3)), surface)
             none: NDArray[np.int64] = np.full(palm.assigned.size, -1)
-            update = update_palm(there, alone, none, none >= 0, self._noise_factor)
+            update = update_palm(after_discs, surface_alone, none, none >= 0, self._noise_factor)
             if update.by_surface:
                 estimate, mixture = reset_error(estimate, update.mixture)
                 palm = replace(palm, by_surface=True)
         unassigned, is_finger = np.ones(len(blobs), dtype=bool), np.zeros(len(blobs), dtype=bool)
-        is_named = palm.assigned >= 0
-        unassigned[palm.assigned[is_named]] = False
+        is_assigned = palm.assigned >= 0
+        unassigned[palm.assigned[is_assigned]] = False
         fingers = None
         if self.fingers is not None and predicted.digits is not None:
-            seat = base_from_estimate(estimate, self.view, self.readout)
-            picture = DigitFrame(scan.dt_s, seat, blobs, scan.ideal.area_px, unassigned)
-            fingers = self.fingers.updater.update(predicted.digits, picture, scan.ideal.fingers)
+            base = base_from_estimate(estimate, self.view, self.readout)
+            frame = DigitFrame(scan.dt_s, base, blobs, scan.ideal.area_px, unassigned)
+            fingers = self.fingers.updater.update(predicted.digits, frame, scan.ideal.fingers)
             is_finger[fingers.blob[fingers.blob >= 0]] = True
-        seen = int(np.count_nonzero(is_named))
-        return Posterior(predicted, palm, estimate, mixture, seen, fingers, unassigned & ~is_finger, is_finger)
+        seen_count = int(np.count_nonzero(is_assigned))
+        return Posterior(predicted, palm, estimate, mixture, seen_count, fingers, unassigned & ~is_finger, is_finger)
 
     def _fit_surface(self, estimate: PalmEstimate, scan: Scan) -> SurfaceMeasurement | None:
         samples = scan.ideal.surface
@@ -344,23 +332,23 @@ class HandFilter:
         return fit_surface(estimate, samples, self._surface, self.view, self._settings.surface)
 
     def is_consistent(self, posterior: Posterior) -> bool:
-        """Whether the discs lie where the updated pose puts them."""
+        """Return whether the discs lie where the updated pose puts them."""
         return bool((np.abs(posterior.palm.raw_residual) <= self._settings.noise.outlier_sd).all())
 
     @property
     def is_rotation_observed(self) -> bool:
-        """Whether the last picture showed every turn of the hand."""
+        """Whether the last frame showed every turn of the hand."""
         return self._unobserved_turns is None
 
     def is_rotation_measured(self, posterior: Posterior) -> bool:
-        """Whether what was measured shows every turn of the hand."""
+        """Return whether the measurements show every turn of the hand."""
         return posterior.palm.by_surface or self._find_unobserved_turns(posterior) is None
 
     def _find_unobserved_turns(self, posterior: Posterior) -> NDArray[np.float64] | None:
         return find_unobserved_turns(self.view.palm_m[posterior.palm.assigned >= 0], COLLINEAR_RMS_M)
 
     def learn(self, posterior: Posterior, dt_s: float) -> None:
-        """Take what outlives a lost track: each disc's noise, and the palm's shape."""
+        """Store what outlives a lost track: each disc's noise, and the palm's shape."""
         palm, noise = posterior.palm, self._settings.noise
         self._noise_factor = adapt_noise_factor(self._noise_factor, palm.raw_residual, palm.is_measured, dt_s, noise)
         self._learnt_error = posterior.estimate.value[CALIBRATION_ERROR]
@@ -369,9 +357,11 @@ class HandFilter:
     def accept(
         self, posterior: Posterior, scan: Scan, *, is_seen: bool, is_linked: bool
     ) -> tuple[FilterStep, FingerStep | None]:
-        """Go on from an update; what the smoother needs of it. ``is_seen``: enough discs tell the palm's pose;
-        ``is_linked``: the step follows from the one before."""
-        unseen, self._unobserved_turns = self._unobserved_turns, None
+        """Accept an update; return what the smoother needs of it.
+
+        ``is_seen``: enough discs determine the palm's pose; ``is_linked``: the step follows from the one before.
+        """
+        turns_before, self._unobserved_turns = self._unobserved_turns, None
         kept = float(np.exp(-scan.dt_s / RATE_MEMORY_S))
         estimate, mixture = posterior.estimate, posterior.mixture
         if not posterior.palm.by_surface:
@@ -386,33 +376,36 @@ class HandFilter:
         if self.fingers is not None and posterior.fingers is not None:
             fingers = self.fingers.accept(posterior.fingers, scan.timestamp_s, scan.dt_s)
         probability, speeds = posterior.mixture.probability[0], self._digit_speeds
-        return FilterStep(scan.timestamp_s, estimate, probability, is_linked, unseen, speeds), fingers
+        return FilterStep(scan.timestamp_s, estimate, probability, is_linked, turns_before, speeds), fingers
 
     @property
     def _digit_speeds(self) -> DigitSpeeds:
-        """How fast the digits move now, where the tissue goes by it."""
-        return (
-            ZERO_SPEEDS if self.fingers is None or not self.motion.tissue.follows_joints else self.fingers.joint_speeds
-        )
+        """Rates of the digits, where the tissue goes by them."""
+        if self.fingers is None or not self.motion.tissue.is_joint_driven:
+            return ZERO_SPEEDS
+        return self.fingers.joint_speeds
 
     def finger_start(self, timestamp_s: float) -> FingerStart | None:
-        """What is believed of the fingers now, for smoothing over the frames to come."""
+        """Return the estimate of the fingers now, for smoothing over the frames to come."""
         return None if self.fingers is None else self.fingers.smoother_start(timestamp_s, self._palm is None)
 
-    def find_palm(self, ideal: Detections, facing: TurnLimits) -> FoundPalm | None:
-        """The palm as the blobs show it without any prediction."""
+    def find_palm(self, ideal: Detections, turn_limits: TurnLimits) -> FoundPalm | None:
+        """Find the palm among the blobs without a prediction."""
         shapes = SHAPE.stop - SHAPE.start
-        strays = self._stationary[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
-        reach = None if self.fingers is None else self.fingers.is_in_reach
-        return find_palm(ideal, self._current_view, strays, facing, reach)
+        disc_covariance = self._stationary[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
+        is_in_reach = None if self.fingers is None else self.fingers.is_in_reach
+        return find_palm(ideal, self._current_view, disc_covariance, turn_limits, is_in_reach)
 
     @property
     def _current_view(self) -> PalmView:
-        """The palm as calibrated, but for discs that a person showed elsewhere."""
-        return with_placed_discs(self.view, self._learnt_error[: SHAPE.stop - SHAPE.start], self._is_reinitialised)
+        """The palm as calibrated, but for discs that a person placed elsewhere."""
+        if not self._is_reinitialised.any():
+            return self.view
+        shape_m = self._learnt_error[: SHAPE.stop - SHAPE.start].reshape(-1, 3)
+        return replace(self.view, palm_m=self.view.palm_m + np.where(self._is_reinitialised[:, None], shape_m, 0.0))
 
     def estimate_from_found(self, found: FoundPalm) -> PalmEstimate:
-        """The state estimate of a palm found without any prediction."""
+        """Return the state estimate of a palm found without a prediction."""
         initial = InitialSd(velocity_m_s=VELOCITY_SD_M_S, rate_rad_s=RATE_SD_RAD_S)
         estimate = initial_estimate(initial, self._learnt_covariance)
         estimate.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m)
@@ -422,30 +415,33 @@ class HandFilter:
         return replace(estimate, rotation_w2_w0=found.rotation_w2_w0)
 
     def is_contradicted(self, found: FoundPalm, posterior: Posterior) -> bool:
-        """Whether a palm was found turned further than a prediction leaves open that enough discs bear out."""
-        palm, own, nominal = posterior.palm, self._settings, posterior.predicted.nominal
-        if posterior.seen_count < MIN_PALM_MARKERS or not is_jointly_compatible(palm.nis, palm.dof, own.association):
+        """Return whether a palm found is turned further than a well measured prediction allows."""
+        palm, settings, nominal = posterior.palm, self._settings.association, posterior.predicted.nominal
+        if posterior.seen_count < MIN_PALM_MARKERS or not is_jointly_compatible(palm.nis, palm.dof, settings):
             return False
-        off = so3.log(nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
-        either = nominal.covariance[TURN, TURN] + found.pose_covariance(self.view.palm_m)[3:, 3:]
-        return bool(off @ np.linalg.solve(either, off) > own.association.gate_sd**2)
+        turn = so3.log(nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
+        covariance = nominal.covariance[TURN, TURN] + found.pose_covariance(self.view.palm_m)[3:, 3:]
+        return bool(turn @ np.linalg.solve(covariance, turn) > settings.gate_sd**2)
 
     def is_other_hand(self, posterior: Posterior, scan: Scan) -> bool:
-        """Whether discs of the other hand were taken for some of this palm."""
+        """Return whether discs of the other hand were associated with this palm."""
         assigned, rest = posterior.palm.assigned, ~posterior.is_finger
-        is_named = np.zeros(rest.size, dtype=bool)
-        is_named[assigned[assigned >= 0]] = True
-        return is_other_hand(scan.ideal.subset(rest), is_named[rest], self._current_view)
+        is_assigned = np.zeros(rest.size, dtype=bool)
+        is_assigned[assigned[assigned >= 0]] = True
+        return is_other_hand(scan.ideal.subset(rest), is_assigned[rest], self._current_view)
 
     def predict_from_found(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
-        """What was predicted, should the palm be where it was found."""
+        """Return the predicted measurement of a palm where it was found."""
         estimate = self.estimate_from_found(found)
         return predicted.with_estimate(estimate, self._resting_mixture(estimate))
 
     def place_marker(
         self, label: LabelledBlob, predicted: PredictedMeasurement, scan: Scan
     ) -> PredictedMeasurement | None:
-        """The prediction with a disc of the palm begun anew where a person says that it is; None for another disc."""
+        """Return the prediction with a disc of the palm where a person labelled it.
+
+        None for a disc of a finger.
+        """
         if label.marker not in self.order.palm:
             return None
         disc = int(np.flatnonzero(self.order.palm == label.marker)[0])
@@ -458,13 +454,13 @@ class HandFilter:
         return predicted.with_estimate(estimate, mixture, self.view)
 
     def restart_labelled_digit(self, label: LabelledBlob) -> None:
-        """Look for the digit anew of which a person has said which spot a disc is."""
+        """Restart the digit of which a person has labelled a disc."""
         digits = np.flatnonzero(self.order.has_discs)[(self.order.digits == label.marker).any(axis=1)]
         if self.fingers is not None and digits.size:
             self.fingers.restart_digit(int(digits[0]))
 
     def read_joints(self, posterior: Posterior) -> JointState | None:
-        """Thumb and fingers after that update was accepted."""
+        """Return thumb and fingers after an update was accepted."""
         if self.fingers is None or posterior.fingers is None:
             return None
         return self.fingers.read_joints(posterior.fingers)
@@ -473,6 +469,6 @@ class HandFilter:
 def _fade_velocity(
     estimate: PalmEstimate, mixture: ModeMixture, kept: NDArray[np.float64]
 ) -> tuple[PalmEstimate, ModeMixture]:
-    """Velocities faded: the estimate times ``kept`` (n, n)."""
+    """Fade the velocities: the estimate times ``kept`` (n, n)."""
     estimate = PalmEstimate(estimate.rotation_w2_w0, kept @ estimate.value, kept @ estimate.covariance @ kept.T)
     return estimate, ModeMixture(mixture.mean @ kept.T, kept @ mixture.covariance @ kept.T, mixture.probability)

@@ -53,19 +53,19 @@ class Hand:
     """A calibrated hand whose palm sits somewhere, its digits bent at random."""
 
     fingers: FingerFilter
-    seat: DigitBase
+    base: DigitBase
     mean: FloatArray
     covariance: FloatArray
 
     @property
     def root_m(self) -> FloatArray:
-        return self.seat.palm.disc_m[1:]
+        return self.base.palm.disc_m[1:]
 
     def points(self) -> DigitSigmaPoints:
         return draw_sigma_points(self.mean, self.covariance, self.root_m, UnscentedParameters())
 
     def linearised(self) -> DigitLinearisation:
-        return linearise_digits(self.points(), self.seat.view, UnscentedParameters())
+        return linearise_digits(self.points(), self.base.view, UnscentedParameters())
 
     def limited(self, mixture: ModeMixture) -> tuple[Any, ...]:
         """What the limits are asked with."""
@@ -89,14 +89,14 @@ def hand(side: str = "right", seed: int = 1, is_lost: bool = False) -> Hand:
     fingers = FingerFilter(known(side), CAMERA, SETTINGS)
     view = HandFilter(known(side), CAMERA, SETTINGS).view
     estimate = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
-    seat = base_from_estimate(estimate, view, Readout(palm_calibration(known(side)), view.camera, 6e-3))
+    base = base_from_estimate(estimate, view, Readout(palm_calibration(known(side)), view.camera, 6e-3))
     mean, covariance = fingers.model.neutral_mixture().merge()
     if is_lost:
-        return Hand(fingers, seat, *fingers.model.diffuse_mixture(mean, covariance).merge())
+        return Hand(fingers, base, *fingers.model.diffuse_mixture(mean, covariance).merge())
     scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
     mean = mean + scale * rng.normal(size=mean.shape)
     mean[:, :5] += rng.uniform(0.0, 1.2, size=(5, 5))
-    return Hand(fingers, seat, mean, covariances(rng, 5, 21) * scale[:, :, None] * scale[:, None])
+    return Hand(fingers, base, mean, covariances(rng, 5, 21) * scale[:, :, None] * scale[:, None])
 
 
 HANDS = [("right", 0, False), ("right", 1, False), ("left", 1, False), ("right", 1, True)]
@@ -108,14 +108,14 @@ def test_points_and_their_images_are_the_oracles(which: tuple[str, int, bool]) -
     points = it.points()
     assert_same(points, oracle.spread_points(it.mean, it.covariance, it.root_m, UnscentedParameters()))
     linearised = it.linearised()
-    assert_same(linearised, seen_oracle.linearise_images(points, it.seat.view, UnscentedParameters()))
-    tilted = digit_images.compute_tilts(points.normal, it.covariance, linearised, it.seat.view)
+    assert_same(linearised, seen_oracle.linearise_images(points, it.base.view, UnscentedParameters()))
+    tilted = digit_images.compute_tilts(points.normal, it.covariance, linearised, it.base.view)
     for name, of in {
-        "project_discs": (points, it.seat.view, 1.5),
-        "propagate_palm_error": (linearised, it.seat),
-        "compute_tilts": (points.normal, it.covariance, linearised, it.seat.view),
-        "compute_visibility": (np.linspace(0.0, 1.0, 15).reshape(5, 3), *tilted, linearised, it.seat.view, 0.033),
-        "compute_inherited": (it.covariance, it.seat, linearised, points.normal),
+        "project_discs": (points, it.base.view, 1.5),
+        "propagate_palm_error": (linearised, it.base),
+        "compute_tilts": (points.normal, it.covariance, linearised, it.base.view),
+        "compute_visibility": (np.linspace(0.0, 1.0, 15).reshape(5, 3), *tilted, linearised, it.base.view, 0.033),
+        "compute_inherited": (it.covariance, it.base, linearised, points.normal),
     }.items():
         assert_same(getattr(digit_images, name)(*of), getattr(seen_oracle, name)(*of))
 
@@ -136,7 +136,7 @@ def test_what_named_blobs_measure_is_the_oracles(blobs: int) -> None:
             it.covariance, seen, seen.spread, seen.spread, rng.uniform(0.3, 0.98, size=(5, 3)),
             Measurements(value, rng.uniform(0.01, 0.1, size=(blobs, 3))), np.ones(blobs, dtype=bool),
             rng.uniform(10.0, 90.0, size=blobs), whole_px, whole_px * 1e-6, rng.uniform(0.6, 3.0, size=(5, 9)), 3e5,
-            it.seat.view, 0.2, np.arange(5) < 4,
+            it.base.view, 0.2, np.arange(5) < 4,
         )  # fmt: skip
         expected = seen_oracle.measured_as_named(scene, names, SETTINGS)
         assert_same(measurements_from_assignment(scene, names, SETTINGS), expected)
@@ -207,16 +207,16 @@ def test_limits_far_from_all_angles_change_nothing() -> None:
 def test_arrays_stored_otherwise_give_the_same(layout: Laid) -> None:
     it, weights = hand(), digit_sigma_weights(UnscentedParameters())
     points, linearised, pose = it.points(), it.linearised(), it.mean[:, OBSERVED]
-    mixture = it.fingers.model.mixture_from_gaussian(it.mean, it.covariance)
+    mixture = ModeMixture.from_gaussian(it.mean, it.covariance, it.fingers.model.scales.size)
     steps: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
         (compiled.place_digits, (pose, it.root_m)),
         (compiled.place_discs, (pose[1:3, None], it.root_m[1:3], [1, 2])),
         (compiled.spread_points, (it.mean, it.covariance, it.root_m, weights.scale)),
-        (digit_images.linearise_images, (points, it.seat.view, weights)),
-        (digit_images.project_discs, (points, it.seat.view, weights.scale)),
-        (digit_images.propagate_palm_error, (linearised, it.seat)),
-        (digit_images.compute_tilts, (points.normal, it.covariance, linearised, it.seat.view)),
-        (digit_images.compute_inherited, (it.covariance, it.seat, linearised, points.normal)),
+        (digit_images.linearise_images, (points, it.base.view, weights)),
+        (digit_images.project_discs, (points, it.base.view, weights.scale)),
+        (digit_images.propagate_palm_error, (linearised, it.base)),
+        (digit_images.compute_tilts, (points.normal, it.covariance, linearised, it.base.view)),
+        (digit_images.compute_inherited, (it.covariance, it.base, linearised, points.normal)),
         (compiled.apply_limits, it.limited(mixture)),
     ]
     for step, of in steps:
@@ -228,16 +228,16 @@ def test_an_unknown_digit_leaves_the_others_known() -> None:
     mean = it.mean.copy()
     mean[2, 1] = np.nan
     points = draw_sigma_points(mean, it.covariance, it.root_m, UnscentedParameters())
-    linearised = linearise_digits(points, it.seat.view, UnscentedParameters())
+    linearised = linearise_digits(points, it.base.view, UnscentedParameters())
     for found, whole in ((points, it.points()), (linearised, it.linearised())):
         assert_same(laid_out(found, lambda one: one[others]), laid_out(whole, lambda one: one[others]), 0.0)
     expected = oracle.spread_points(mean, it.covariance, it.root_m, UnscentedParameters())
     assert_same((points.disc_m, points.normal), (expected.disc_m, expected.normal))
-    assert_same(linearised.value, seen_oracle.linearise_images(expected, it.seat.view, UnscentedParameters()).value)
-    of = points.normal, it.covariance, linearised, it.seat.view
+    assert_same(linearised.value, seen_oracle.linearise_images(expected, it.base.view, UnscentedParameters()).value)
+    of = points.normal, it.covariance, linearised, it.base.view
     assert np.isnan(digit_images.compute_tilts(*of)[0][2]).any()
     assert_same(digit_images.compute_tilts(*of), seen_oracle.compute_tilts(*of))
-    asked = it.limited(it.fingers.model.mixture_from_gaussian(mean, it.covariance))
+    asked = it.limited(ModeMixture.from_gaussian(mean, it.covariance, it.fingers.model.scales.size))
     assert_same(compiled.apply_limits(*asked), oracle.apply_limits(*asked))
 
 
@@ -246,13 +246,13 @@ def test_what_is_no_covariance_is_refused() -> None:
     with pytest.raises(np.linalg.LinAlgError):
         draw_sigma_points(it.mean, -it.covariance, it.root_m, UnscentedParameters())
     with pytest.raises(np.linalg.LinAlgError):
-        digit_images.compute_inherited(-it.covariance, it.seat, it.linearised(), it.points().normal)
+        digit_images.compute_inherited(-it.covariance, it.base, it.linearised(), it.points().normal)
 
 
 def test_sizes_that_do_not_fit_are_refused() -> None:
     it, weights = hand(), digit_sigma_weights(UnscentedParameters())
-    points, linearised, pose, view = it.points(), it.linearised(), it.mean[:, OBSERVED], it.seat.view
-    mixture = it.fingers.model.mixture_from_gaussian(it.mean, it.covariance)
+    points, linearised, pose, view = it.points(), it.linearised(), it.mean[:, OBSERVED], it.base.view
+    mixture = ModeMixture.from_gaussian(it.mean, it.covariance, it.fingers.model.scales.size)
     _, limits, *rest = it.limited(mixture)
     wrong: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
         (compiled.place_digits, (it.mean, it.root_m)),
@@ -264,12 +264,12 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
         (digit_images.linearise_images, (replace(points, along=points.along[..., :9]), view, weights)),
         (digit_images.linearise_images, (points, replace(view, rotation=view.rotation[:2]), weights)),
         (digit_images.project_discs, (replace(points, disc_m=points.disc_m[:, :12]), view, 1.0)),
-        (digit_images.propagate_palm_error, (linearised, replace(it.seat, pose_covariance=np.eye(3)))),
+        (digit_images.propagate_palm_error, (linearised, replace(it.base, pose_covariance=np.eye(3)))),
         (digit_images.compute_tilts, (points.normal[:, :2], it.covariance, linearised, view)),
-        (digit_images.compute_inherited, (it.covariance[:4], it.seat, linearised, points.normal)),
+        (digit_images.compute_inherited, (it.covariance[:4], it.base, linearised, points.normal)),
         (
             digit_images.compute_inherited,
-            (it.covariance, replace(it.seat, turn_covariance=np.eye(6)), linearised, points.normal),
+            (it.covariance, replace(it.base, turn_covariance=np.eye(6)), linearised, points.normal),
         ),
         (compiled.apply_limits, (mixture, limits[:, :4], *rest)),
         (compiled.apply_limits, (replace(mixture, covariance=mixture.covariance[..., :20]), limits, *rest)),

@@ -16,7 +16,6 @@ from carpus.core.tracking.association.association import (
     LOG_IMPOSSIBLE,
     assign_blobs,
     associate_jointly,
-    association_posterior,
     chi2_quantiles,
     is_jointly_compatible,
     log_odds,
@@ -26,6 +25,13 @@ from carpus.core.tracking.filter.settings import AssociationSettings
 RES_PX2 = 640.0 * 480.0
 OUTLIER = 1e-3
 SETTINGS = AssociationSettings(prior_marker=0.85, prior_clutter=0.15, gate_sd=5.0, depth_range_m=0.5)
+
+
+def association_posterior(odds: FloatArray) -> FloatArray:
+    """p(a_i = j | y_i) of every blob, (D, M + 1), column 0 clutter: eq. (12)."""
+    stacked = np.concatenate((np.zeros((1, odds.shape[1])), odds), axis=0).T
+    weight = np.exp(stacked - stacked.max(axis=1, keepdims=True))
+    return np.asarray(weight / weight.sum(axis=1, keepdims=True))
 
 
 def assignments(markers: int, blobs: int) -> list[tuple[int, ...]]:

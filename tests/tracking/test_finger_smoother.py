@@ -15,7 +15,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.digit_filter import ANATOMY, RATES
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.smoother.finger_smoother import FingerTrajectory, _FilteredFrame
-from carpus.core.tracking.smoother.palm_smoother import Smoother
+from carpus.core.tracking.smoother.palm_smoother import smooth_backwards
 from tests.accuracy.carpus import learnt_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.suites import few
@@ -120,7 +120,7 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
         mean[chain, :N_SLOTS] += moved_rad
         mean[chain, ANATOMY.start] += longer_m
         walk = FingerTrajectory(fingers.model, found.steps, [first, second, replace(last, mean=mean)])
-        estimate = dict(Smoother(walk).iterate_backwards())[0]
+        estimate = dict(smooth_backwards(walk))[0]
         assert estimate is not None
         return estimate.mean[chain], estimate.covariance[chain]
 
@@ -133,7 +133,7 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
     assert (np.diagonal(through[1])[ANATOMY] <= np.diagonal(alone[1])[ANATOMY] * (1.0 + 1e-9)).all()
     flexed = replace(middle, mean=middle.mean.copy(), is_restarted=anew.is_restarted)
     flexed.mean[chain, joints] += 0.2
-    held = [dict(Smoother(FingerTrajectory(fingers.model, found.steps, [first, two, None])).iterate_backwards())[0]
+    held = [dict(smooth_backwards(FingerTrajectory(fingers.model, found.steps, [first, two, None])))[0]
             for two in (anew, flexed)]  # fmt: skip
     assert held[0] is not None
     assert held[1] is not None

@@ -86,11 +86,11 @@ def weighed(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior
     fingers = FingerFilter(known, seen.truth.camera, settings)
     view = HandFilter(known, seen.truth.camera, settings).view
     estimate = initial_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
-    seat = base_from_estimate(estimate, view, Readout(palm_calibration(known), view.camera, 6e-3))
+    base = base_from_estimate(estimate, view, Readout(palm_calibration(known), view.camera, 6e-3))
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurements_from_blobs(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
-    picture = DigitFrame(0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
+    picture = DigitFrame(0.0, base, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
     trial = fingers.updater.update(fingers.predict(0.0), picture)
     return trial, trial.update.update.mixture.merge()[0] - fingers.model.neutral_mixture().merge()[0]
 

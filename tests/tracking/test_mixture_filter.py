@@ -16,7 +16,7 @@ from carpus.core.tracking.filter.mixture_filter import (
     propagate_mixture,
     update_mixture,
 )
-from carpus.core.tracking.smoother.palm_smoother import Smoother, SmootherTransition
+from carpus.core.tracking.smoother.palm_smoother import SmootherTransition, smooth_backwards
 
 CHAINS, MODES, STATES, SEEN = 3, 2, 5, 4
 
@@ -217,7 +217,7 @@ class LinearTrajectory:
 
 
 def estimates_of(trajectory: LinearTrajectory) -> dict[int, tuple[FloatArray, FloatArray]]:
-    found = {frame: estimate for frame, estimate in Smoother(trajectory).iterate_backwards() if estimate is not None}
+    found = {frame: estimate for frame, estimate in smooth_backwards(trajectory) if estimate is not None}
     assert len(found) == len(trajectory)
     return found
 

@@ -85,7 +85,6 @@ class DorsalSurface:
 _FAR_PLANE = np.array([0.0, 0.0, 0.0, 1e3])  # a plane that no place is near
 TABLE_ROWS = 1024  # of a surface as a table: twice what the largest hand has
 
-
 STEP_M = 0.002  # between the nodes of the surface
 OUTLINE_SCALE = 1.12  # the area is so many times the outline of the discs that span it
 KERNEL_RADIUS_M = 0.004  # how far from a node a reading has weight

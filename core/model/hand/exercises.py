@@ -48,7 +48,6 @@ STILL_NAMES = (phrase("Side movement"), phrase("Up and down"), phrase("Rotation 
 AXIS_TICK_DEG = (40.0, 80.0, 80.0)
 AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)  # Outermost tick and end of the fixed axis of each angle on every screen and page.
 
-
 _RETURN_CUE, _TASK_TITLE = phrase("Come back to the middle"), phrase("Further figures")
 
 # Measures besides ranges: paths of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the

@@ -1,1 +1,1 @@
-"""The method of the two papers as they are written, wrist and whole hand: what everything else is held against."""
+"""The method of the two papers as written, wrist and whole hand, as the reference for everything else."""

@@ -1,10 +1,10 @@
-"""The hand as the papers model it, with the figures of their filter (they give none, so each says where it is from),
-and where its frame W0 lies before the camera ((13) to (20) of the wrist paper): a palm of rigid links in one plane,
-fingers as chains through the discs' middles.
+"""The hand as the papers model it, with the constants of their filter and its frame W0.
 
-The lengths are measured on the clicked hand "by means of the depth information" (hand paper, section 2). The palm's
-arch "is not considered" (wrist paper, II-B); the hand starts with fingers extended, thumb adducted and wrist neutral
-(section 4), so that all angles are zero there.
+A palm of rigid links in one plane, fingers as chains through the discs' centres. The papers give no figures for their
+filter, so each says where it is from. The lengths are measured on the clicked hand "by means of the depth information"
+(hand paper, section 2). The palm's arch "is not considered" (wrist paper, II-B); the hand starts with fingers extended,
+thumb adducted and wrist neutral (section 4), so that all angles are zero there. W0 before the camera by (13) to (20) of
+the wrist paper.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from carpus.core.model.hand.protocols import SITE_CHAINS, joint_angle_names
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.unscented import UnscentedParameters
 
+# eta_v, eta_omega and eta_theta of a slow, a usual and a lively hand (reference 4.5; of joints its figures for
+# abduction: with its larger ones for flexion the image alone holds no finger).
 _MOTION = {"slow": (0.7, 0.75, 0.4), "standard": (2.0, 1.5, 1.0), "brisk": (6.0, 4.0, 2.0)}
-"""eta_v, eta_omega and eta_theta of a slow, a usual and a lively hand (reference 4.5; of joints its figures for
-abduction: with its larger ones for flexion the picture alone holds no finger)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +40,12 @@ class PaperSettings:
     """Noise, start and priors of the papers' filter; all of it is stored with a session.
 
     ``palm``: its discs laid into one plane, since the palm's arch "is not considered" (wrist paper, II-B), or taken as
-    measured, to see what the rest of the method is worth.
-    ``acceleration_m_s2``, ``turn_rate_rad_s`` and ``joint_rate_rad_s``: standard deviations of eta_v, eta_omega and
-    eta_theta of (1) per sample at 30 pictures a second. ``pixel_sd_px`` of nu_i in (2), the same for all markers (the
-    reference says 0.8 for the palm, 1.2 for fingers). ``*_start_*``: what is not known of the neutral pose.
-    ``clutter_prior`` p(a = 0) of (12); what is left is shared alike by the markers. ``alpha``, ``beta``, ``kappa`` of
-    the sigma points. ``lost_after_s``: without three markers of the palm for so long, the hand is lost.
+    measured, to see what the rest of the method is worth. ``acceleration_m_s2``, ``turn_rate_rad_s`` and
+    ``joint_rate_rad_s``: standard deviations of eta_v, eta_omega and eta_theta of (1) per sample at 30 frames a second.
+    ``pixel_sd_px`` of nu_i in (2), the same for all markers (the reference says 0.8 for the palm, 1.2 for fingers).
+    ``*_start_*``: standard deviations of the neutral pose. ``clutter_prior`` p(a = 0) of (12); what is left is shared
+    alike by the markers. ``alpha``, ``beta``, ``kappa`` of the sigma points. ``lost_after_s``: without three markers of
+    the palm for so long, the hand is lost.
     """
 
     acceleration_m_s2: float = 2.0
@@ -65,7 +65,7 @@ class PaperSettings:
 
     @classmethod
     def from_profile(cls, name: str) -> Self:
-        """The settings for a ``slow``, ``standard`` or ``brisk`` hand."""
+        """Return the settings for a ``slow``, ``standard`` or ``brisk`` hand."""
         return cls(*_MOTION[name])
 
     @property
@@ -75,13 +75,12 @@ class PaperSettings:
 
 PalmModel = Literal["flat", "measured"]
 _MCP3 = 3
-_HAND_OVER_PALM = 1.0 / 0.446
-"""Hand length over the distance from WRIST to MCP3 (reference 3.3)."""
+_HAND_OVER_PALM = 1.0 / 0.446  # hand length over the distance from WRIST to MCP3 (reference 3.3)
 
 
 @dataclass(frozen=True, slots=True)
 class PaperHand:
-    """T_mi,w of (2): ``palm_m`` (6, 3) in W of the hand's own side; ``anatomy`` None where only the palm has discs."""
+    """T_mi,w of (2): ``palm_m`` (6, 3) in W of the hand's own side; ``anatomy`` None for the palm alone."""
 
     palm_m: FloatArray
     anatomy: HandAnatomy | None
@@ -91,18 +90,18 @@ class PaperHand:
         return 0 if self.anatomy is None else len(joint_angle_names())
 
     def discs_m(self, joints_rad: FloatArray) -> FloatArray:
-        """Markers (..., M, 3) in W2 for joint angles (..., J)."""
+        """Return markers (..., M, 3) in W2 for joint angles (..., J)."""
         if self.anatomy is None:
             return np.broadcast_to(self.palm_m, (*joints_rad.shape[:-1], *self.palm_m.shape))
         return joint_centres(self.anatomy, joints_rad)
 
 
 def measure_hand(calibration: Calibration, camera: Camera, palm: PalmModel) -> PaperHand:
-    """The hand whose discs were measured at the neutral pose.
+    """Return the hand whose discs were measured at the neutral pose.
 
-    The fingers keep the lengths between their discs, and point in the palm's plane where they point from root to tip.
-    A disc of a finger whose depth is unknown is taken to be as far away as the one before it: "the camera focal axis
-    is perpendicular to the plane where the hand lies".
+    The fingers keep the lengths between their discs, and point in the palm's plane where they point from root to tip. A
+    disc of a finger whose depth is unknown is taken to be as far away as the one before it: "the camera focal axis is
+    perpendicular to the plane where the hand lies".
     """
     protocol = calibration.clicks.protocol
     disc_cam_m, clicked_px = marker_positions_cam_m(calibration), camera.undistort(calibration.clicks.pixel)
@@ -138,8 +137,10 @@ def measure_hand(calibration: Calibration, camera: Camera, palm: PalmModel) -> P
 
 
 def model_palm(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
-    """Palm discs (6, 3), WRIST at the origin, as they are, or laid into the plane Z = 0 with the lengths L_i and the
-    angles theta_i of figure 1b of the wrist paper."""
+    """Return palm discs (6, 3), WRIST at the origin, as they are or laid into the plane Z = 0.
+
+    Laid with the lengths L_i and the angles theta_i of figure 1b of the wrist paper.
+    """
     if palm == "measured":
         return palm_m
     length_m = np.linalg.norm(palm_m, axis=1)
@@ -150,7 +151,7 @@ def model_palm(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
 
 
 def calibrate_as_written(calibration: Calibration, camera: Camera, palm: PalmModel) -> Calibration:
-    """The calibration with g_w0c of the palm as modelled; the measured discs stay where they are in space."""
+    """Return the calibration with g_w0c of the palm as modelled; the measured discs stay in space."""
     disc_cam_m = marker_positions_cam_m(calibration)
     palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
     axes = wrist_axes(palm_cam_m, TOWARDS_CAMERA)

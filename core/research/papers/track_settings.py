@@ -1,4 +1,4 @@
-"""Tracking by the papers' filter in the pipeline: its settings, and how a session tells them."""
+"""Settings of tracking by the papers' filter, and how a session stores them."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from carpus.core.session.values import Session
 
 @dataclass(frozen=True, slots=True)
 class PaperTrackSettings(TrackSettings):
-    """Both papers' filter in ZYX, which knows nothing of ``tracker`` and does not look back."""
+    """Settings of both papers' filter in ZYX, which uses nothing of ``tracker`` and does not smooth."""
 
     paper: PaperSettings = field(default_factory=PaperSettings)
 
     @classmethod
     def from_base(cls, base: TrackSettings, paper: PaperSettings) -> Self:
-        """Settings with this filter in place of Carpus' own."""
+        """Return settings with this filter in place of Carpus' own."""
         return cls(base.detection, base.calibration, base.tracker, base.smooth, paper)
 
     @property
@@ -54,7 +54,7 @@ class PaperTrackSettings(TrackSettings):
 
 
 def settings_from_json(parameters: str) -> StoredSettings | None:
-    """The settings that a session's parameters tell, of whichever filter; None where they do not."""
+    """Return the settings in a session's parameters, of whichever filter; None where there are none."""
     return stored_settings.settings_from_json(
         parameters, PaperTrackSettings if is_of_other_filter(parameters) else TrackSettings
     )

@@ -1,11 +1,11 @@
 """The papers' filter over the frames of one hand, in the form of the tracker that it stands in for.
 
 The filter is the augmented unscented one of Kandepu et al. (2008): the noise of the motion is part of the state from
-which the sigma points are drawn, so that it may enter as it will; that of the measurement is added, as in (11).
+which the sigma points are drawn, so that it may enter nonlinearly; that of the measurement is added, as in (11).
 
 What the papers leave open is done in the plainest way. They say when a hand is found, neutral and all in sight, not
-when it is lost nor how it is found again: here it is lost when too little of the palm was seen for too long, or when
-the covariance is none any more, and it is found again as at the start, at the neutral pose.
+when it is lost nor how it is found again: here it is lost when too little of the palm was measured for too long, or
+when the covariance is none any more, and it is found again as at the start, at the neutral pose.
 
 Rotations are the papers' Euler angles, R = Rz(psi) Ry(theta) Rx(phi), the order ZYX of the hand paper (section 2). The
 wrist paper's own order, ZYZ, has no value at the neutral pose, where its filter starts: of alpha and gamma only the sum
@@ -32,13 +32,13 @@ from carpus.core.research.papers.hand_model import PaperSettings, measure_hand
 from carpus.core.tracking.filter.readout import build_lost_frame, nan_kinematics
 from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights, sigma_offsets
 
+# States (P, n) after a step from states (P, n) and noises (P, k).
 StateTransition = Callable[[FloatArray, FloatArray], FloatArray]
-"""States (P, n) after a step from states (P, n) and noises (P, k)."""
 
 
 @dataclass(frozen=True, slots=True)
 class AugmentedGaussian:
-    """``mean`` (n,) and ``covariance`` (n, n)."""
+    """A Gaussian: ``mean`` (n,) and ``covariance`` (n, n)."""
 
     mean: FloatArray
     covariance: FloatArray
@@ -46,8 +46,7 @@ class AugmentedGaussian:
 
 @dataclass(frozen=True, slots=True)
 class PredictedState:
-    """The state ahead: ``points`` (P, n) X_n,t|t-1 with ``mean_weight`` and ``covariance_weight`` (P,), and what they
-    say of it."""
+    """The predicted state: sigma points (P, n) X_n,t|t-1 with weights (P,), and their Gaussian."""
 
     points: FloatArray
     mean_weight: FloatArray
@@ -57,8 +56,10 @@ class PredictedState:
 
 @dataclass(frozen=True, slots=True)
 class PredictedOutputs:
-    """What the predicted points show of m outputs: their mean (10) and covariance (11) without the noise of the
-    measurement, and their covariance (n, m) with the state."""
+    """Mean (10) and covariance (11) of m outputs of the predicted points, without measurement noise.
+
+    ``cross_covariance`` (n, m) with the state.
+    """
 
     mean: FloatArray
     covariance: FloatArray
@@ -67,7 +68,7 @@ class PredictedOutputs:
 
 @dataclass(frozen=True, slots=True)
 class UpdatedState:
-    """The state after a measurement, and the normalised innovation squared."""
+    """The state after an update, and the normalised innovation squared."""
 
     state: AugmentedGaussian
     nis: float
@@ -78,32 +79,35 @@ def predict_state(
 ) -> PredictedState:
     """Draw points over state and noise (k, k) together and move them.
 
-    Raises ``numpy.linalg.LinAlgError`` when the covariance of the state is none.
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        When the covariance of the state is none.
     """
     n, k = state.mean.size, noise_covariance.shape[0]
     weights = compute_weights(n + k, spread)
     both = np.zeros((n + k, n + k))
     both[:n, :n], both[n:, n:] = state.covariance, noise_covariance
-    away = sigma_offsets(both, weights.scale)
-    points = motion(state.mean + away[:, :n], away[:, n:])
+    offsets = sigma_offsets(both, weights.scale)
+    points = motion(state.mean + offsets[:, :n], offsets[:, n:])
     mean = weights.mean @ points
-    apart = points - mean
-    covariance = (apart * weights.covariance[:, None]).T @ apart
+    deviation = points - mean
+    covariance = (deviation * weights.covariance[:, None]).T @ deviation
     return PredictedState(points, weights.mean, weights.covariance, AugmentedGaussian(mean, covariance))
 
 
 def predict_outputs(predicted: PredictedState, outputs: FloatArray) -> PredictedOutputs:
-    """Mean and covariances of outputs (P, m) of the predicted points."""
+    """Return mean and covariances of outputs (P, m) of the predicted points."""
     mean = predicted.mean_weight @ outputs
-    apart = outputs - mean
-    weighted = apart * predicted.covariance_weight[:, None]
-    return PredictedOutputs(mean, weighted.T @ apart, (predicted.points - predicted.state.mean).T @ weighted)
+    deviation = outputs - mean
+    weighted = deviation * predicted.covariance_weight[:, None]
+    return PredictedOutputs(mean, weighted.T @ deviation, (predicted.points - predicted.state.mean).T @ weighted)
 
 
 def update_state(
     predicted: PredictedState, outputs: PredictedOutputs, measured: FloatArray, noise_variance: FloatArray
 ) -> UpdatedState:
-    """The classical update by measurements (m,) with noise variances (m,)."""
+    """Update the state by measurements (m,) with noise variances (m,)."""
     if not measured.size:
         return UpdatedState(predicted.state, float("nan"))
     innovation = measured - outputs.mean
@@ -115,18 +119,18 @@ def update_state(
 
 
 def rotation_from_euler(euler_rad: FloatArray) -> FloatArray:
-    """R (..., 3, 3) of psi, theta, phi (..., 3)."""
+    """Return R (..., 3, 3) of psi, theta, phi (..., 3)."""
     return clinical_angles.rotation_from_angles(euler_rad, "right")
 
 
 def euler_from_rotation(rotation: FloatArray, near_rad: FloatArray) -> FloatArray:
-    """psi, theta, phi (..., 3) of rotations (..., 3, 3), whole turns chosen to lie nearest to ``near_rad`` (..., 3)."""
+    """Return psi, theta, phi (..., 3), whole turns chosen to lie nearest to ``near_rad`` (..., 3)."""
     raw = clinical_angles.angles_from_rotation(rotation, "right")
     return np.asarray(raw + 2.0 * np.pi * np.round((near_rad - raw) / (2.0 * np.pi)))
 
 
 def body_rate_matrix(euler_rad: FloatArray) -> FloatArray:
-    """(3, 3): the turn d of R Exp(d), in W2, that a small change of psi, theta, phi (3,) makes."""
+    """Return (3, 3): the turn d of R Exp(d), in W2, of a small change of psi, theta, phi (3,)."""
     _, theta, phi = euler_rad
     s, c = np.sin((theta, phi)), np.cos((theta, phi))
     return np.array([[-s[0], 0.0, 1.0], [c[0] * s[1], c[1], 0.0], [c[0] * c[1], -s[1], 0.0]])
@@ -135,31 +139,31 @@ def body_rate_matrix(euler_rad: FloatArray) -> FloatArray:
 # The papers' state and how it moves: x = (T, v, psi, theta, phi, theta_1..J) and (1) of both papers.
 POSITION, VELOCITY, EULER, JOINTS = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, None)
 PALM_STATES, PALM_NOISES = 9, 6
+# The papers' dt. Other steps keep the density of the noise, so that a missing frame counts as the time it is.
 _SAMPLE_S = 1.0 / 30.0
-"""The papers' dt. Other steps keep the density of the noise, so that a missing picture counts as the time it is."""
 
 
 @dataclass(frozen=True, slots=True)
 class PaperMotion:
-    """(1) for a hand with ``joint_count`` joint angles; noises are drawn with unit variance and scaled here."""
+    """(1) for a hand with ``joint_count`` joint angles; noises have unit variance and are scaled here."""
 
     settings: PaperSettings
     joint_count: int
 
     @property
     def noise_covariance(self) -> FloatArray:
-        """(6 + J, 6 + J): eta_v, eta_omega and eta_theta in units of their standard deviations."""
+        """Covariance (6 + J, 6 + J) of eta_v, eta_omega and eta_theta in their standard deviations."""
         return np.eye(PALM_NOISES + self.joint_count)
 
     def neutral_state(self) -> AugmentedGaussian:
-        """At rest at the pose that was clicked."""
+        """Return the state at rest at the pose that was clicked."""
         s, joints = self.settings, self.joint_count
         sd = [s.position_start_m] * 3 + [s.velocity_start_m_s] * 3 + [s.angle_start_rad] * 3
         sd += [s.joint_start_rad] * joints
         return AugmentedGaussian(np.zeros(PALM_STATES + joints), np.diag(np.square(sd)))
 
     def build_transition(self, dt_s: float) -> StateTransition:
-        """(1) over ``dt_s``, for many states (P, n) and noises (P, k) at once."""
+        """Return (1) over ``dt_s``, for many states (P, n) and noises (P, k) at once."""
         s = self.settings
         by_noise = math.sqrt(_SAMPLE_S * dt_s)  # eta dt, eta of variance sd^2 dt_0 / dt
 
@@ -176,16 +180,26 @@ class PaperMotion:
         return transition
 
 
-# Which blob is which marker, as the papers decide it: eq. (6) to (12) of the wrist paper, (3) to (10) of the other's.
-#
-# Every blob goes to the marker, or to clutter, of largest posterior (12), whatever the other blobs do. Where several go
-# to one marker, the one of them that (12) gives most keeps it; the papers leave that to a thesis.
+# Association as in the papers: eq. (6) to (12) of the wrist paper, (3) to (10) of the hand paper. Every blob goes to
+# the marker, or to clutter, of largest posterior (12), whatever the other blobs do. Where several go to one marker, the
+# one of them that (12) gives most stays with it; the papers leave that to a thesis.
 def log_posteriors(
     pixel: FloatArray, predicted_px: FloatArray, covariance_px2: FloatArray, clutter_prior: float, resolution_px2: float
 ) -> FloatArray:
-    """Logarithm of (12), not normalised, for blobs ``pixel`` (D, 2): (D, 1 + M), column 0 clutter.
+    """Return the logarithm of (12), not normalised, (D, 1 + M), column 0 clutter.
 
-    ``predicted_px`` (M, 2) and ``covariance_px2`` (M, 2, 2): (10) and (11) of every marker, noise included.
+    Parameters
+    ----------
+    pixel : (D, 2)
+        Blobs.
+    predicted_px : (M, 2)
+        (10) of every marker.
+    covariance_px2 : (M, 2, 2)
+        (11) of every marker, noise included.
+    clutter_prior : float
+        p(a = 0).
+    resolution_px2 : float
+        Area of the image.
     """
     count = len(predicted_px)
     apart = pixel[:, None] - predicted_px
@@ -200,25 +214,23 @@ def log_posteriors(
 
 
 def assign_blobs(posterior: FloatArray) -> NDArray[np.int64]:
-    """Blob of every marker (M,), -1 for none, from the logarithms (D, 1 + M) of (12)."""
-    taken = np.full(posterior.shape[1] - 1, -1, dtype=np.int64)
-    best = np.full(taken.size, -np.inf)
+    """Return the blob of every marker (M,), -1 for none, from the logarithms (D, 1 + M) of (12)."""
+    assigned = np.full(posterior.shape[1] - 1, -1, dtype=np.int64)
+    best = np.full(assigned.size, -np.inf)
     for blob, choice in enumerate(posterior.argmax(axis=1).tolist()):
         if choice and posterior[blob, choice] > best[choice - 1]:
-            best[choice - 1], taken[choice - 1] = posterior[blob, choice], blob
-    return taken
+            best[choice - 1], assigned[choice - 1] = posterior[blob, choice], blob
+    return assigned
 
 
 MIN_PALM_MARKERS = 3
 _SHARE_WINDOW_S = 1.0
-_MIN_DEPTH_M = 0.05
-"""A sigma point may lie behind the camera; it is projected from here."""
-_MAX_ANGLE_RAD = 4.0 * np.pi
-"""Angles that wound up further than two whole turns are of no hand."""
+_MIN_DEPTH_M = 0.05  # a sigma point may lie behind the camera; it is projected from here
+_MAX_ANGLE_RAD = 4.0 * np.pi  # angles that wound up further than two whole turns are of no hand
 
 
 class PaperTracker:
-    """Follows one calibrated hand by colour alone, as both papers do."""
+    """Tracks one calibrated hand by colour alone, as both papers do."""
 
     def __init__(self, calibration: Calibration, camera: Camera, settings: PaperSettings) -> None:
         self.settings = settings
@@ -244,173 +256,140 @@ class PaperTracker:
         return self._is_waiting
 
     def predict_measurement(self, timestamp_s: float) -> None:
-        """Nothing: the papers look for blobs in every picture as if it were the first."""
+        """Return None: the papers search every frame as if it were the first."""
 
     def is_search_incomplete(self, blobs: Detections) -> bool:
-        """Never: no search is narrowed."""
+        """Return False: no search is narrowed."""
         return False
 
     def add_operator_label(self, label: MarkerLabel) -> None:
-        """Nothing: this filter is as written, and hears nobody."""
+        """Ignore the label: this filter is as written."""
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
-        """Predict, name the blobs, correct; the frame's result."""
+        """Predict, associate, update; return the frame's result."""
         row = self._track(index, timestamp_s, detections, dropped_before)
         if row is not None:
             return row
         self.begin_at_neutral()
         self._is_waiting = True
         self._record_assignment(timestamp_s, np.full(self._markers, -1))
-        return self._build_lost_row(index, timestamp_s, detections, dropped_before)
+        unknown = nan_kinematics(self._hand.joint_count, self._markers)
+        return build_lost_frame(
+            index, timestamp_s, unknown, self._markers, detections, dropped_before, self._direct_share()
+        )
 
     def _track(
         self, index: int, timestamp_s: float, detections: Detections, dropped_before: int
     ) -> TrackedFrame | None:
-        """The row of a frame; None where the hand is lost."""
+        """Return the row of a frame; None where the hand is lost."""
+        settings, camera = self.settings, self._camera
         dt_s = 0.0 if self._time_s is None or self._is_waiting else timestamp_s - self._time_s
-        if dt_s > self.settings.lost_after_s:
+        if dt_s > settings.lost_after_s:
             return None
-        pixel = self._camera.undistort(detections.pixel)
+        pixel, resolution_px2 = camera.undistort(detections.pixel), float(camera.width_px * camera.height_px)
         try:
-            ahead = predict_state(
-                self._state, self._motion.noise_covariance, self._motion.build_transition(dt_s), self.settings.spread
+            predicted = predict_state(
+                self._state, self._motion.noise_covariance, self._motion.build_transition(dt_s), settings.spread
             )
-            seen = predict_outputs(ahead, self._project_markers(ahead.points))
-            taken, shown = self._associate(pixel, seen), self._predict_markers(seen)
-            corrected = self._update(ahead, seen, pixel, taken)
+            # (2): pixels (P, 2 M) of all markers for the sigma points
+            projected = camera.project(self._discs_cam_m(predicted.points)).reshape(len(predicted.points), -1)
+            outputs = predict_outputs(predicted, projected)
+            predicted_px, predicted_cov_px2 = self._predict_markers(outputs)
+            assigned = assign_blobs(
+                log_posteriors(pixel, predicted_px, predicted_cov_px2, settings.clutter_prior, resolution_px2)
+            )
+            # The visible markers V(t) and the blobs associated with them.
+            used = np.flatnonzero(assigned >= 0)
+            rows = (2 * used[:, None] + np.arange(2)).ravel()
+            visible = PredictedOutputs(
+                outputs.mean[rows], outputs.covariance[np.ix_(rows, rows)], outputs.cross_covariance[:, rows]
+            )
+            noise = np.full(rows.size, settings.pixel_sd_px**2)
+            updated = update_state(predicted, visible, pixel[assigned[used]].ravel(), noise)
         except np.linalg.LinAlgError:
             return None
-        if not _is_sane(corrected):
+        mean, variance = updated.state.mean, updated.state.covariance.diagonal()
+        is_sane = np.isfinite(mean).all() and np.isfinite(variance).all() and (variance > 0.0).all()
+        if not is_sane or np.abs(mean[EULER.start :]).max() >= _MAX_ANGLE_RAD:
             return None
-        palm_seen = int(np.count_nonzero(taken[self._palm] >= 0))
-        if self._is_waiting and palm_seen < self._palm.size:
+        palm_count = int(np.count_nonzero(assigned[self._palm] >= 0))
+        if self._is_waiting and palm_count < self._palm.size:
             return None
-        if palm_seen >= MIN_PALM_MARKERS or self._time_s is None:
+        if palm_count >= MIN_PALM_MARKERS or self._time_s is None:
             self._last_seen_s = timestamp_s
-        if timestamp_s - self._last_seen_s > self.settings.lost_after_s:
+        if timestamp_s - self._last_seen_s > settings.lost_after_s:
             return None
-        self._is_waiting, self._time_s, self._state = False, timestamp_s, corrected.state
-        self._record_assignment(timestamp_s, taken)
-        status = TrackStatus.TRACKED if palm_seen >= MIN_PALM_MARKERS else TrackStatus.PREDICTED
-        return self._build_row(index, timestamp_s, status, corrected, *shown, taken, detections, dropped_before)
-
-    def _project_markers(self, points: FloatArray) -> FloatArray:
-        """(2): pixels (P, 2 M) of all markers for states (P, n)."""
-        return self._camera.project(self._discs_cam_m(points)).reshape(len(points), -1)
-
-    def _discs_cam_m(self, points: FloatArray) -> FloatArray:
-        """Markers (P, M, 3) in camera axes for states (P, n): g_w0c g(t) T_mi,w(Theta)."""
-        discs_w0 = self._hand.discs_m(points[:, JOINTS]) @ np.swapaxes(rotation_from_euler(points[:, EULER]), -1, -2)
-        out = (discs_w0 + points[:, None, POSITION]) @ self._rotation.T + self._translation
-        out[..., 2] = np.maximum(out[..., 2], _MIN_DEPTH_M)
-        return out
-
-    def _predict_markers(self, seen: PredictedOutputs) -> tuple[FloatArray, FloatArray]:
-        """(10) and (11) of every marker: (M, 2) and (M, 2, 2)."""
-        marker = np.arange(self._markers)
-        own = seen.covariance.reshape(self._markers, 2, self._markers, 2)[marker, :, marker, :]
-        return seen.mean.reshape(-1, 2), own + self.settings.pixel_sd_px**2 * np.eye(2)
-
-    def _associate(self, pixel: FloatArray, seen: PredictedOutputs) -> NDArray[np.int64]:
-        resolution_px2 = float(self._camera.width_px * self._camera.height_px)
-        return assign_blobs(
-            log_posteriors(pixel, *self._predict_markers(seen), self.settings.clutter_prior, resolution_px2)
-        )
-
-    def _update(
-        self, ahead: PredictedState, seen: PredictedOutputs, pixel: FloatArray, taken: NDArray[np.int64]
-    ) -> UpdatedState:
-        """The correction by the visible markers V(t) and the blobs associated with them."""
-        used = np.flatnonzero(taken >= 0)
-        rows = (2 * used[:, None] + np.arange(2)).ravel()
-        part = PredictedOutputs(seen.mean[rows], seen.covariance[np.ix_(rows, rows)], seen.cross_covariance[:, rows])
-        return update_state(ahead, part, pixel[taken[used]].ravel(), np.full(rows.size, self.settings.pixel_sd_px**2))
-
-    def _build_row(
-        self,
-        index: int,
-        timestamp_s: float,
-        status: TrackStatus,
-        corrected: UpdatedState,
-        predicted_px: FloatArray,
-        predicted_cov_px2: FloatArray,
-        taken: NDArray[np.int64],
-        detections: Detections,
-        dropped_before: int,
-    ) -> TrackedFrame:
-        mean, covariance = corrected.state.mean, corrected.state.covariance
-        rotation = rotation_from_euler(mean[EULER])
-        shown = self._start @ rotation
-        angles, by_turn, zyz = clinical_angles.compute_wrist_angles(shown, self._side)
-        by_euler = by_turn @ body_rate_matrix(mean[EULER])
-        variance = np.vecdot(by_euler @ covariance[EULER, EULER], by_euler)
-        joints_rad = mean[JOINTS]
-        unknown = np.full(joints_rad.size, np.nan)
-        places = self._hand.discs_m(mean[None, JOINTS])[0] @ rotation.T + mean[POSITION]
-        used = np.flatnonzero(taken >= 0)
+        self._is_waiting, self._time_s, self._state = False, timestamp_s, updated.state
+        self._record_assignment(timestamp_s, assigned)
         measured_px, measured_depth_m = np.full((self._markers, 2), np.nan), np.full(self._markers, np.nan)
-        measured_px[used], measured_depth_m[used] = detections.pixel[taken[used]], detections.depth_m[taken[used]]
+        measured_px[used], measured_depth_m[used] = detections.pixel[assigned[used]], detections.depth_m[assigned[used]]
         return TrackedFrame(
             index=index,
             timestamp_s=timestamp_s,
-            status=status,
-            kinematics=KinematicState(
-                position_m=mean[POSITION],
-                velocity_m_s=mean[VELOCITY],
-                w0_turn_rad=so3.log(self._start.T),
-                rotation_w2_w0=shown,
-                angular_velocity_rad_s=np.full(3, np.nan),  # white in (1): there is none to report
-                angles_rad=angles,
-                angles_sd_rad=np.sqrt(variance),
-                angles_zyz_rad=zyz,
-                joint_angles_rad=joints_rad,
-                joint_angles_sd_rad=np.sqrt(covariance.diagonal()[JOINTS]),
-                joint_velocity_rad_s=unknown,
-                joint_position_m=places if joints_rad.size else np.empty((0, 3)),
-            ),
+            status=TrackStatus.TRACKED if palm_count >= MIN_PALM_MARKERS else TrackStatus.PREDICTED,
+            kinematics=self._read_kinematics(updated.state),
             marker_position_cam_m=self._discs_cam_m(mean[None])[0],
-            marker_predicted_px=self._camera.distort(predicted_px),
+            marker_predicted_px=camera.distort(predicted_px),
             marker_predicted_cov_px2=predicted_cov_px2,
             marker_measured_px=measured_px,
             marker_measured_depth_m=measured_depth_m,
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._direct_share(),
-            nis=corrected.nis,
+            nis=updated.nis,
             nis_dof=2 * used.size,
         )
 
-    def _build_lost_row(
-        self, index: int, timestamp_s: float, detections: Detections, dropped_before: int
-    ) -> TrackedFrame:
-        """A row of which nothing is known but the blobs."""
-        unknown = nan_kinematics(self._hand.joint_count, self._markers)
-        return build_lost_frame(
-            index, timestamp_s, unknown, self._markers, detections, dropped_before, self._direct_share()
+    def _discs_cam_m(self, points: FloatArray) -> FloatArray:
+        """Return markers (P, M, 3) in camera axes for states (P, n): g_w0c g(t) T_mi,w(Theta)."""
+        discs_w0 = self._hand.discs_m(points[:, JOINTS]) @ np.swapaxes(rotation_from_euler(points[:, EULER]), -1, -2)
+        out = (discs_w0 + points[:, None, POSITION]) @ self._rotation.T + self._translation
+        out[..., 2] = np.maximum(out[..., 2], _MIN_DEPTH_M)
+        return out
+
+    def _predict_markers(self, seen: PredictedOutputs) -> tuple[FloatArray, FloatArray]:
+        """Return (10) and (11) of every marker: (M, 2) and (M, 2, 2)."""
+        marker = np.arange(self._markers)
+        own = seen.covariance.reshape(self._markers, 2, self._markers, 2)[marker, :, marker, :]
+        return seen.mean.reshape(-1, 2), own + self.settings.pixel_sd_px**2 * np.eye(2)
+
+    def _read_kinematics(self, state: AugmentedGaussian) -> KinematicState:
+        mean, covariance = state.mean, state.covariance
+        rotation = rotation_from_euler(mean[EULER])
+        wrist_rotation = self._start @ rotation
+        angles, by_turn, zyz = clinical_angles.compute_wrist_angles(wrist_rotation, self._side)
+        by_euler = by_turn @ body_rate_matrix(mean[EULER])
+        joints_rad = mean[JOINTS]
+        positions_m = self._hand.discs_m(mean[None, JOINTS])[0] @ rotation.T + mean[POSITION]
+        return KinematicState(
+            position_m=mean[POSITION],
+            velocity_m_s=mean[VELOCITY],
+            w0_turn_rad=so3.log(self._start.T),
+            rotation_w2_w0=wrist_rotation,
+            angular_velocity_rad_s=np.full(3, np.nan),  # white in (1): there is none to report
+            angles_rad=angles,
+            angles_sd_rad=np.sqrt(np.vecdot(by_euler @ covariance[EULER, EULER], by_euler)),
+            angles_zyz_rad=zyz,
+            joint_angles_rad=joints_rad,
+            joint_angles_sd_rad=np.sqrt(covariance.diagonal()[JOINTS]),
+            joint_velocity_rad_s=np.full(joints_rad.size, np.nan),
+            joint_position_m=positions_m if joints_rad.size else np.empty((0, 3)),
         )
 
-    def _record_assignment(self, timestamp_s: float, taken: NDArray[np.int64]) -> None:
-        self._recent.append((timestamp_s, taken))
+    def _record_assignment(self, timestamp_s: float, assigned: NDArray[np.int64]) -> None:
+        self._recent.append((timestamp_s, assigned))
         while self._recent[0][0] < timestamp_s - _SHARE_WINDOW_S:
             self._recent.popleft()
 
     def _direct_share(self) -> FloatArray:
-        """Share (3,) of the palm's markers, or (J,) of the frames with both discs at a joint, over the last second."""
-        seen = np.array([taken for _, taken in self._recent]) >= 0
+        """Return the share (3,) of the palm's markers measured over the last second.
+
+        Of a whole hand, the share (J,) of the frames with both discs at a joint.
+        """
+        is_measured = np.array([assigned for _, assigned in self._recent]) >= 0
         if self._hand.anatomy is None:
-            return np.full(3, seen[:, self._palm].mean())
-        return np.asarray(seen[:, _SHOWING].all(axis=2).mean(axis=0))
+            return np.full(3, is_measured[:, self._palm].mean())
+        return np.asarray(is_measured[:, _JOINT_MARKERS].all(axis=2).mean(axis=0))
 
 
-_SHOWING = np.array([[SITES.index(disc) for disc in markers_at_joint(name)] for name in joint_angle_names()])
-
-
-def _is_sane(corrected: UpdatedState) -> bool:
-    state = corrected.state
-    variance = state.covariance.diagonal()
-    return bool(
-        np.isfinite(state.mean).all()
-        and np.isfinite(variance).all()
-        and (variance > 0.0).all()
-        and np.abs(state.mean[EULER.start :]).max() < _MAX_ANGLE_RAD
-    )
+_JOINT_MARKERS = np.array([[SITES.index(disc) for disc in markers_at_joint(name)] for name in joint_angle_names()])

@@ -26,7 +26,6 @@ from carpus.core.tracking.filter.settings import AssociationSettings
 
 LOG_IMPOSSIBLE = -1e9  # log odds of an association outside the gate
 
-
 DEPTH_OUTLIER_PROBABILITY = 1e-4  # that a blob's depth is of something else
 
 
@@ -89,14 +88,6 @@ def log_odds(
             predicted, covariance, measured, noise_variance, densities, settings.gate_sd**2, LOG_IMPOSSIBLE
         )
     )
-
-
-def association_posterior(odds: FloatArray) -> FloatArray:
-    """Return p(a_i = j | y_i) of every blob, (D, M + 1), column 0 clutter: eq. (12)."""
-    stacked = np.concatenate((np.zeros((1, odds.shape[1])), odds), axis=0).T
-    stacked = stacked - stacked.max(axis=1, keepdims=True)
-    weight = np.exp(stacked)
-    return np.asarray(weight / weight.sum(axis=1, keepdims=True))
 
 
 def assign_blobs(odds: FloatArray) -> NDArray[np.int64]:

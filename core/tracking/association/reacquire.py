@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import permutations
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,6 @@ VELOCITY_SD_M_S = 0.5  # of a hand just found,
 RATE_SD_RAD_S = 2.0  # and of its turning
 MAX_FITTED_POSES = 24  # that are fitted to all blobs
 
-
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
 # WRIST MCP2, CMC1 MCP4, MCP3 MCP5: a pair with one of the next pair. Any four discs hold one of these six triples.
@@ -56,16 +56,6 @@ class TurnLimits:
 
     rotation_w2_w0: FloatArray
     max_rad: float
-    max_tilt_rad: float
-
-
-@dataclass(frozen=True, slots=True)
-class _CameraTurnLimits:
-    """:class:`TurnLimits` with the ``expected`` and the ``neutral`` rotation (3, 3) in camera axes."""
-
-    expected: FloatArray
-    max_rad: float
-    neutral: FloatArray
     max_tilt_rad: float
 
 
@@ -102,49 +92,29 @@ class FoundPalm:
         return out
 
 
-@dataclass(frozen=True, slots=True)
-class _BlobPoints:
-    """Blobs that may be discs: places (B, 3) in camera axes, and the sd (B,) of their depths."""
-
-    point_m: FloatArray
-    depth_sd_m: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class _PoseFits:
+class _PoseFits(NamedTuple):
     """N poses of a palm.
 
     Rotations (N, 3, 3), translations (N, 3), the blob ``assigned`` (N, 6) to each disc or -1, the discs' root mean
-    square gap (N,), and blobs explained (N,) by palm and fingers.
+    square gap (N,), and the ``explained_count`` (N,) of blobs by palm and fingers.
     """
 
     rotation: FloatArray
     translation: FloatArray
     assigned: NDArray[np.int64]
     gap_m: FloatArray
-    explained: NDArray[np.int64]
+    explained_count: NDArray[np.int64]
 
     @property
-    def count(self) -> NDArray[np.int64]:
+    def disc_count(self) -> NDArray[np.int64]:
         return np.asarray((self.assigned >= 0).sum(axis=1))
 
     def likeness(self) -> FloatArray:
         """Return the number of matched discs (N,), less by how far they lie from their places."""
-        return np.asarray(self.count - self.gap_m / MAX_DISC_GAP_M)
+        return np.asarray(self.disc_count - self.gap_m / MAX_DISC_GAP_M)
 
     def subset(self, rows: NDArray[np.int64]) -> _PoseFits:
-        return _PoseFits(
-            self.rotation[rows], self.translation[rows], self.assigned[rows], self.gap_m[rows], self.explained[rows]
-        )
-
-    def concatenate(self, other: _PoseFits) -> _PoseFits:
-        return _PoseFits(
-            np.concatenate((self.rotation, other.rotation)),
-            np.concatenate((self.translation, other.translation)),
-            np.concatenate((self.assigned, other.assigned)),
-            np.concatenate((self.gap_m, other.gap_m)),
-            np.concatenate((self.explained, other.explained)),
-        )
+        return _PoseFits._make(values[rows] for values in self)
 
 
 def find_palm(
@@ -181,21 +151,41 @@ def find_palm(
         known = known[np.argsort(-detections.similarity[known])[:MAX_SEARCHED_BLOBS]]
     points = view.camera.backproject(detections.pixel[known], detections.depth_m[known])
     search = _PalmSearch(view.palm_m, points, is_in_reach)
-    seen = _BlobPoints(points, np.hypot(detections.depth_sd_m[known], view.camera.sensor.bias_sd_m(points[:, 2])))
-    neutral = view.rotation_w0_cam
-    about = _CameraTurnLimits(
-        neutral @ turn_limits.rotation_w2_w0, turn_limits.max_rad, neutral, turn_limits.max_tilt_rad
-    )
-    best = _select_pose(search, seen, disc_covariance, about)
-    if best is None:
+    depth_sd_m = np.hypot(detections.depth_sd_m[known], view.camera.sensor.bias_sd_m(points[:, 2]))
+
+    def rank(fits: _PoseFits) -> tuple[_PoseFits, FloatArray, NDArray[np.bool_]]:
+        """Sort by worth, then those a hand can have, then by misfit (N,); with these, and which it cannot have."""
+        misfit = _compute_misfit(fits, search, depth_sd_m, disc_covariance)
+        is_beyond = _exceeds_turn_limits(fits, turn_limits, view.rotation_w0_cam)
+        order = np.lexsort((misfit, is_beyond, -(fits.explained_count + fits.disc_count)))
+        return fits.subset(order), misfit[order], is_beyond[order]
+
+    fits = search.select_plausible(search.fit_poses())
+    if not fits.disc_count.size:
         return None
-    matched = best.assigned[0] >= 0
-    is_named = np.zeros(len(detections), dtype=bool)
-    is_named[known[best.assigned[0, matched]]] = True
-    if is_other_hand(detections, is_named, view):
+    fits, misfit, is_beyond = rank(fits)
+    if fits.disc_count[0] == MIN_FOUND_MARKERS:
+        others = search.select_plausible(search.fit_all_assignments(fits.assigned[0, fits.assigned[0] >= 0]))
+        best = fits.subset(np.arange(1))
+        fits, misfit, is_beyond = rank(_PoseFits._make(map(np.concatenate, zip(best, others, strict=True))))
+    max_misfit = chi2_quantiles(MISFIT_PROBABILITY)[3 * int(fits.disc_count[0]) - POSE.size]
+    if fits.gap_m[0] > MAX_RMS_GAP_M or misfit[0] > max_misfit or is_beyond[0]:
         return None
-    rotation = view.rotation_w0_cam.T @ best.rotation[0]
-    position = view.rotation_w0_cam.T @ (best.translation[0] - view.translation_w0_cam_m)
+    # A disc of the palm counts for more than one that a finger could reach.
+    worth = fits.explained_count + fits.disc_count
+    placed = view.palm_m @ np.swapaxes(fits.rotation, -1, -2) + fits.translation[:, None]
+    distance_m = np.linalg.norm(placed - placed[0], axis=-1).max(axis=1)
+    is_rival = (worth >= worth[0]) & (distance_m > MAX_DISC_GAP_M) & ~is_beyond
+    is_rival &= misfit < RIVAL_RATIO * misfit[0] + RIVAL_MARGIN
+    if is_rival.any():
+        return None
+    matched = fits.assigned[0] >= 0
+    is_assigned = np.zeros(len(detections), dtype=bool)
+    is_assigned[known[fits.assigned[0, matched]]] = True
+    if is_other_hand(detections, is_assigned, view):
+        return None
+    rotation = view.rotation_w0_cam.T @ fits.rotation[0]
+    position = view.rotation_w0_cam.T @ (fits.translation[0] - view.translation_w0_cam_m)
     return FoundPalm(position, rotation, matched)
 
 
@@ -207,17 +197,15 @@ def is_other_hand(detections: Detections, is_assigned: NDArray[np.bool_], view: 
     """
     palm, least = view.palm_m, max(MIN_FOUND_MARKERS + 1, int(np.count_nonzero(is_assigned)))
     known = np.isfinite(detections.depth_m)
-    points, is_assigned = (
-        view.camera.backproject(detections.pixel[known], detections.depth_m[known]),
-        is_assigned[known],
-    )
+    points = view.camera.backproject(detections.pixel[known], detections.depth_m[known])
+    is_assigned = is_assigned[known]
     if len(points) < least or not is_assigned.any():
         return False
     across_m = np.linalg.norm(palm[:, None] - palm, axis=-1).max() + DISTANCE_TOLERANCE_M
     about = (np.linalg.norm(points[:, None] - points[is_assigned], axis=-1) < across_m).any(axis=1)
     points, is_assigned = points[about], is_assigned[about]
     mirrored = _PalmSearch(palm * _MIRROR, points).find_likeliest_pose()
-    if not (mirrored.count >= least).any():
+    if not (mirrored.disc_count >= least).any():
         return False
     others = mirrored.assigned[0, mirrored.assigned[0] >= 0]
     own = _PalmSearch(palm, points[others]).find_likeliest_pose()
@@ -266,9 +254,9 @@ class _PalmSearch:
 
         Where fingers are there to explain the rest, with their share of the points explained.
         """
-        share = np.array(MIN_EXPLAINED_SHARE)[fits.count] * (0 if self.is_in_reach is None else len(self.points))
-        good = (fits.count >= MIN_FOUND_MARKERS) & (fits.rotation[:, 2, 2] < 0.0)
-        return fits.subset(np.flatnonzero(good & (fits.explained >= share)))
+        least = np.array(MIN_EXPLAINED_SHARE)[fits.disc_count] * (0 if self.is_in_reach is None else len(self.points))
+        is_palm = (fits.disc_count >= MIN_FOUND_MARKERS) & (fits.rotation[:, 2, 2] < 0.0)
+        return fits.subset(np.flatnonzero(is_palm & (fits.explained_count >= least)))
 
     def fit_all_assignments(self, four: NDArray[np.int64]) -> _PoseFits:
         """Return the poses of four points by all their associations, where these fit at all."""
@@ -298,13 +286,13 @@ class _PalmSearch:
         nearest, gap_m = self._find_nearest(rotation, translation)
         matched = gap_m < MAX_DISC_GAP_M
         count = matched.sum(axis=1)
-        mean_m = np.sqrt(np.where(matched, gap_m**2, 0.0).sum(axis=1) / np.maximum(count, 1))
+        rms_m = np.sqrt(np.where(matched, gap_m**2, 0.0).sum(axis=1) / np.maximum(count, 1))
         explained = count
         if self.is_in_reach is not None and count.size:
             is_finger = self.is_in_reach((self.points - translation[:, None]) @ rotation)
             np.put_along_axis(is_finger, np.where(matched, nearest, nearest[:, :1]), False, axis=1)
             explained = count + is_finger.sum(axis=1)
-        return _PoseFits(rotation, translation, np.where(matched, nearest, -1), mean_m, explained)
+        return _PoseFits(rotation, translation, np.where(matched, nearest, -1), rms_m, explained)
 
     def _find_nearest(self, rotation: FloatArray, translation: FloatArray) -> tuple[NDArray[np.int64], FloatArray]:
         """Return the nearest point (N, 6) to each disc of the placed models, and its gap (N, 6)."""
@@ -340,79 +328,40 @@ def _fit_rigid_poses(model: FloatArray, points: FloatArray, used: NDArray[np.boo
     return rotation, point_mean - (rotation @ model_mean[..., None])[..., 0]
 
 
-def _select_pose(
-    search: _PalmSearch, seen: _BlobPoints, strays: FloatArray, about: _CameraTurnLimits
-) -> _PoseFits | None:
-    """Return the one pose to believe.
-
-    None when none is good enough, or when another association is about as good.
-    """
-    model = search.model
-    fits = search.select_plausible(search.fit_poses())
-    if not fits.count.size:
-        return None
-    best, misfit = _rank_poses(fits, search, seen, strays, about)
-    if best.count[0] == MIN_FOUND_MARKERS:
-        every = search.fit_all_assignments(best.assigned[0, best.assigned[0] >= 0])
-        both = best.subset(np.arange(1)).concatenate(search.select_plausible(every))
-        best, misfit = _rank_poses(both, search, seen, strays, about)
-    beyond = _exceeds_turn_limits(best, about)
-    most_misfit = chi2_quantiles(MISFIT_PROBABILITY)[3 * int(best.count[0]) - POSE.size]
-    if best.gap_m[0] > MAX_RMS_GAP_M or misfit[0] > most_misfit or beyond[0]:
-        return None
-    # A disc of the palm counts for more than one that a finger could reach.
-    worth = best.explained + best.count
-    placed = model @ np.swapaxes(best.rotation, -1, -2) + best.translation[:, None]
-    apart_m = np.linalg.norm(placed - placed[0], axis=-1).max(axis=1)
-    rival = (worth >= worth[0]) & (apart_m > MAX_DISC_GAP_M) & ~beyond
-    rival &= misfit < RIVAL_RATIO * misfit[0] + RIVAL_MARGIN
-    return None if rival.any() else best.subset(np.arange(1))
-
-
-def _rank_poses(
-    fits: _PoseFits, search: _PalmSearch, seen: _BlobPoints, strays: FloatArray, about: _CameraTurnLimits
-) -> tuple[_PoseFits, FloatArray]:
-    """Sort the poses by worth, then those a hand can have, then by their misfits (N,)."""
-    misfit = _compute_misfit(fits, search.model, seen, strays)
-    order = np.lexsort((misfit, _exceeds_turn_limits(fits, about), -(fits.explained + fits.count)))
-    return fits.subset(order), misfit[order]
-
-
-def _exceeds_turn_limits(fits: _PoseFits, about: _CameraTurnLimits) -> NDArray[np.bool_]:
+def _exceeds_turn_limits(fits: _PoseFits, limits: TurnLimits, rotation_w0_cam: FloatArray) -> NDArray[np.bool_]:
     """Return which poses (N,) are turned further than a hand can be."""
-    beyond = _turn_angles_rad(fits, about.expected) > about.max_rad
+    about = np.stack((rotation_w0_cam @ limits.rotation_w2_w0, rotation_w0_cam))
+    cosine = 0.5 * (np.einsum("kij,nij->kn", about, fits.rotation) - 1.0)
+    turn_rad, tilt_rad = np.arccos(np.clip(cosine, -1.0, 1.0))
     is_whole = (fits.assigned >= 0).all(axis=1)
-    return np.asarray(np.where(is_whole, _turn_angles_rad(fits, about.neutral) > about.max_tilt_rad, beyond))
+    return np.asarray(np.where(is_whole, tilt_rad > limits.max_tilt_rad, turn_rad > limits.max_rad))
 
 
-def _turn_angles_rad(fits: _PoseFits, about: FloatArray) -> FloatArray:
-    """Return how far (N,) the poses are turned from ``about`` (3, 3)."""
-    cosine = 0.5 * (np.einsum("ij,nij->n", about, fits.rotation) - 1.0)
-    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
-
-
-def _compute_misfit(fits: _PoseFits, model: FloatArray, seen: _BlobPoints, strays: FloatArray) -> FloatArray:
+def _compute_misfit(
+    fits: _PoseFits, search: _PalmSearch, depth_sd_m: FloatArray, disc_covariance: FloatArray
+) -> FloatArray:
     """Return chi squared (N,) of the discs' places, each pose moved to where it is least.
 
     Across the ray of the camera and of the finger a disc is known to a fraction of a millimetre, along them to some:
     associations are told apart by that, much better than by plain distances.
     """
-    discs = len(model)
-    named = fits.assigned >= 0
-    at = np.where(named, fits.assigned, 0)
-    point_m = seen.point_m[at]
-    off_m = (point_m - fits.translation[:, None]) @ fits.rotation - model
-    off = np.where(named[..., None], off_m, 0.0).reshape(-1, 3 * discs)
-    ray = (point_m / point_m[..., 2:]) @ fits.rotation * seen.depth_sd_m[at][..., None]
+    discs = len(search.model)
+    is_assigned = fits.assigned >= 0
+    blob = np.where(is_assigned, fits.assigned, 0)
+    point_m = search.points[blob]
+    residual_m = (point_m - fits.translation[:, None]) @ fits.rotation - search.model
+    residual = np.where(is_assigned[..., None], residual_m, 0.0).reshape(-1, 3 * discs)
+    ray = (point_m / point_m[..., 2:]) @ fits.rotation * depth_sd_m[blob][..., None]
     own = ray[..., :, None] * ray[..., None, :] + LATERAL_SD_M**2 * np.eye(3)
-    own += np.where(named, 0.0, _LOOSE_M2)[..., None, None] * np.eye(3)
+    own += np.where(is_assigned, 0.0, _LOOSE_M2)[..., None, None] * np.eye(3)
     disc = np.arange(discs)
-    covariance = np.repeat(strays[None], len(off), axis=0)
+    covariance = np.repeat(disc_covariance[None], len(residual), axis=0)
     covariance.reshape(-1, discs, 3, discs, 3)[:, disc, :, disc] += np.swapaxes(own, 0, 1)
     by_pose = np.empty((discs, 3, 6))
-    by_pose[..., :3], by_pose[..., 3:] = np.eye(3), so3.skew(-model)
-    lines = by_pose.reshape(-1, 6)
-    told = np.linalg.solve(covariance, np.concatenate((off[..., None], np.broadcast_to(lines, (*off.shape, 6))), -1))
-    across = lines.T @ told[..., 0:1]
-    moved = np.linalg.solve(lines.T @ told[..., 1:], across)
-    return np.asarray((off * told[..., 0]).sum(axis=-1) - (across * moved)[..., 0].sum(axis=-1))
+    by_pose[..., :3], by_pose[..., 3:] = np.eye(3), so3.skew(-search.model)
+    slope = by_pose.reshape(-1, 6)
+    right = np.concatenate((residual[..., None], np.broadcast_to(slope, (*residual.shape, 6))), -1)
+    solved = np.linalg.solve(covariance, right)
+    gradient = slope.T @ solved[..., 0:1]
+    step = np.linalg.solve(slope.T @ solved[..., 1:], gradient)
+    return np.asarray((residual * solved[..., 0]).sum(axis=-1) - (gradient * step)[..., 0].sum(axis=-1))

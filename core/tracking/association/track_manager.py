@@ -111,10 +111,10 @@ class TrackManager:
         if self.stage is TrackStage.TENTATIVE:
             return self.widest_turn_limits()
         gone_s = timestamp_s - max(self._last_seen_s, self._started_s)
-        most_rad = TURN_SLACK_RAD + MAX_RATE_RAD_S * gone_s
-        return (
-            TurnLimits(rotation_w2_w0, most_rad, MAX_TURN_RAD) if most_rad < MAX_TURN_RAD else self.widest_turn_limits()
-        )
+        max_rad = TURN_SLACK_RAD + MAX_RATE_RAD_S * gone_s
+        if max_rad >= MAX_TURN_RAD:
+            return self.widest_turn_limits()
+        return TurnLimits(rotation_w2_w0, max_rad, MAX_TURN_RAD)
 
     def widest_turn_limits(self) -> TurnLimits:
         """Return how far a hand can be turned of which nothing is known."""

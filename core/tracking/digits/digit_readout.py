@@ -1,4 +1,4 @@
-"""The joints of thumb and fingers as read from their state on the palm that they sit on."""
+"""Readout of thumb and fingers: joints from their state on the palm that they sit on."""
 
 from __future__ import annotations
 
@@ -26,19 +26,17 @@ from carpus.core.tracking.filter.palm_state import PalmEstimate, PalmView
 from carpus.core.tracking.filter.readout import Readout
 from carpus.core.tracking.filter.settings import TrackerSettings
 
-_DIP_OFFSET = 3
-"""The slot of a finger's DIP flexion beyond what PIP flexion brings with it."""
+_DIP_OFFSET = 3  # the slot of a finger's DIP flexion beyond what PIP flexion brings with it
 
-SKIN_SD_RAD = 0.022
-"""So far discs that ride on gliding skin mislead about a joint, however long it is seen."""
+SKIN_SD_RAD = 0.022  # of a joint, by discs that ride on gliding skin, however long it is measured
 
 
 @dataclass(frozen=True, slots=True)
 class DigitBase:
-    """The palm as just corrected, on which the fingers sit.
+    """The palm as just updated, on which the fingers sit.
 
     ``view`` from W2 of a right hand to the camera. In camera axes: ``pose_covariance`` (6, 6) of the tracked body's
-    place and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included.
+    position and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included.
     """
 
     palm: PalmGeometry
@@ -48,13 +46,13 @@ class DigitBase:
 
 
 def base_from_estimate(estimate: PalmEstimate, view: PalmView, readout: Readout) -> DigitBase:
-    """The seat that an estimate about the palm gives to the fingers."""
+    """Return the base that an estimate of the palm gives to the fingers."""
     palm, rotation, translation_m, pose, turn = readout.compute_base(estimate, view)
     return DigitBase(palm, DigitView(rotation, translation_m, view.camera), pose, turn)
 
 
 class DigitReadout:
-    """Reads the digits of one hand; ``wrist_depth_m`` how far the wrist's centre lies under its disc."""
+    """Reads the digits of one hand; ``wrist_depth_m`` of the wrist's centre under its disc."""
 
     def __init__(self, clicks: Clicks, camera: Camera, settings: TrackerSettings, wrist_depth_m: float) -> None:
         protocol, self._side = clicks.protocol, clicks.side
@@ -66,10 +64,13 @@ class DigitReadout:
         self._wrist_depth_m = wrist_depth_m
 
     def read_joints(
-        self, mean: FloatArray, covariance: FloatArray, seat: DigitBase, linearised: DigitLinearisation
+        self, mean: FloatArray, covariance: FloatArray, base: DigitBase, linearised: DigitLinearisation
     ) -> JointState:
-        """Joints of digits (5, n) with covariance (5, n, n) on that palm; ``linearised`` as the camera saw them."""
-        palm, state = seat.palm, mean[:, OBSERVED]
+        """Return the joints of digits (5, n) with covariance (5, n, n) on a palm.
+
+        ``linearised`` as the camera saw them.
+        """
+        palm, state = base.palm, mean[:, OBSERVED]
         _, normal, joint_m, disc_m = place_digits(state, palm.disc_m[1:])
         if not self._dip_free:
             # As the angles have the end joints, at two thirds of the middle ones: by how much one strays is for the
@@ -78,7 +79,7 @@ class DigitReadout:
             _, _, joint_m, _ = place_digits(state, palm.disc_m[1:])
         # A knuckle's flexion is against its own metacarpal.
         slots = mean[:, :N_SLOTS].copy()
-        unsure = covariance[:, :N_SLOTS, :N_SLOTS] + compute_inherited(covariance, seat, linearised, normal)
+        unsure = covariance[:, :N_SLOTS, :N_SLOTS] + compute_inherited(covariance, base, linearised, normal)
         slots[:, FLEXION_SLOT] -= palm.cup_rad
         unsure[:, FLEXION_SLOT, FLEXION_SLOT] += palm.cup_sd_rad**2
         unsure += self._skin_rad2
@@ -92,5 +93,5 @@ class DigitReadout:
             np.sqrt(np.maximum(self.angle_map.compute_variances(unsure), 0.0)),
             self.angle_map.compute_angles(mean[:, RATES]),
             centre[self._sites],
-            disc_m @ seat.view.rotation.T + seat.view.translation_m,
+            disc_m @ base.view.rotation.T + base.view.translation_m,
         )

@@ -1,4 +1,4 @@
-"""Finding a finger again without any prediction: which posture of it explains the blobs that nothing else does."""
+"""Search of a finger without a prediction: the posture that explains the blobs left over."""
 
 from __future__ import annotations
 
@@ -12,20 +12,14 @@ from carpus.core.compiled.digits import place_discs
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_DISCS, N_SLOTS
 
-MAX_GAP_M = 0.012
-"""So far from a posture of the grid a disc may lie: half a step of it and the noise of a depth."""
-MIN_DIGIT_MARKERS = 2
-"""Of a digit, that tell its posture."""
-MAX_BEYOND_M = 0.015
-"""Beyond the length of a digit a disc may still be seen,"""
-MAX_BEHIND_M = 0.02
-"""behind its root,"""
-MAX_ACROSS_M = 0.03
-"""for the thumb across the palm,"""
-MAX_ABOVE_M = 0.05
-"""and above the palm."""
-NEARNESS_WEIGHT = 0.3
-"""Of postures that explain as many discs the nearer counts, by so much of a disc at most for each."""
+MAX_GAP_M = 0.012  # of a disc from a posture of the grid: half a step of it and the noise of a depth
+MIN_DIGIT_MARKERS = 2  # that determine a digit's posture
+MAX_BEYOND_M = 0.015  # a disc may still be seen beyond the length of a digit,
+MAX_BEHIND_M = 0.02  # behind its root,
+MAX_ACROSS_M = 0.03  # for the thumb across the palm,
+MAX_ABOVE_M = 0.05  # and above the palm
+NEARNESS_WEIGHT = 0.3  # of postures that explain as many discs the nearer wins, by so much of a disc at most for each
+# By slot: all that a thumb can do in steps of some 20 degrees.
 THUMB_GRID_DEG: tuple[tuple[float, ...], ...] = (
     (-25.0, -5.0, 15.0, 35.0),
     (-5.0, 15.0, 35.0, 55.0),
@@ -33,17 +27,19 @@ THUMB_GRID_DEG: tuple[tuple[float, ...], ...] = (
     (0.0,),
     (-10.0, 20.0, 50.0, 80.0),
 )
-"""By slot: all that a thumb can do in steps of some 20 degrees."""
+# By its first three slots: all that a finger can do in steps of about 15 degrees.
 FINGER_GRID_DEG: tuple[tuple[float, ...], ...] = (
     (-18.0, -6.0, 6.0, 18.0),
     (-30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0),
     (0.0, 20.0, 40.0, 60.0, 80.0, 100.0),
 )
-"""By its first three slots: all that a finger can do in steps of about 15 degrees."""
 
 
 def is_in_reach(point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray) -> NDArray[np.bool_]:
-    """Whether points (..., 3) in W2 may be discs of the digits with slots and constants ``state`` (5, 16)."""
+    """Return whether points (..., 3) in W2 may be discs of the digits.
+
+    ``state`` (5, 16) slots and constants; ``root_disc_m`` (5, 3) discs under which they begin.
+    """
     length = state[:, N_SLOTS : N_SLOTS + N_DISCS].sum(axis=1) + MAX_BEYOND_M
     off = point_m[..., None, :] - root_disc_m
     ahead = off[..., 0] > -MAX_BEHIND_M
@@ -53,7 +49,7 @@ def is_in_reach(point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray)
 
 @lru_cache(maxsize=2)
 def _build_posture_grid() -> FloatArray:
-    """Postures (5, S, 5) in slots, radians."""
+    """Return postures (5, S, 5) in slots, radians."""
     thumb, finger = list(product(*THUMB_GRID_DEG)), list(product(*FINGER_GRID_DEG))
     postures = np.zeros((N_DIGITS, max(len(thumb), len(finger)), N_SLOTS))
     postures[0, : len(thumb)] = thumb
@@ -67,10 +63,20 @@ def search_digits(
     root_disc_m: FloatArray,
     point_m: FloatArray,
 ) -> dict[int, FloatArray]:
-    """Slots (5,) of each of the ``chains`` that explain at least two of the blobs at ``point_m`` (B, 3) in W2.
+    """Return slots (5,) of each digit of ``chains`` that explains at least two of the blobs.
 
-    ``state`` (5, 16) slots and constants of all digits; ``root_disc_m`` (5, 3) discs under which they begin. No blob is
-    used by two digits: the digit that explains most comes first.
+    No blob is used by two digits: the digit that explains most comes first.
+
+    Parameters
+    ----------
+    chains : (C,)
+        Digits to search.
+    state : (5, 16)
+        Slots and constants of all digits.
+    root_disc_m : (5, 3)
+        Discs under which they begin.
+    point_m : (B, 3)
+        Blobs in W2.
     """
     length = state[:, N_SLOTS : N_SLOTS + N_DISCS].sum(axis=1) + MAX_BEYOND_M
     near = np.linalg.norm(point_m - root_disc_m[:, None], axis=-1) < length[:, None]
@@ -102,7 +108,7 @@ def search_digits(
 
 
 def _find_posture(disc_m: FloatArray, point_m: FloatArray) -> tuple[float, int, NDArray[np.int64]]:
-    """Score, index of the posture and blobs used, for discs (S, 3, 3) of postures and blobs (B, 3)."""
+    """Return score, index of the posture and blobs used, for discs (S, 3, 3) and blobs (B, 3)."""
     gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)
     nearest = gap2.argmin(axis=-1)
     worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / MAX_GAP_M**2, 0.0)

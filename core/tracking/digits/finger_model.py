@@ -1,5 +1,4 @@
-"""What is fixed about one subject's thumb and fingers: the anatomy from the neutral pose and how well it is known, and
-how they start, move and are seen."""
+"""Model of one subject's thumb and fingers: the anatomy and its covariance, start, motion, view."""
 
 from __future__ import annotations
 
@@ -47,45 +46,32 @@ from carpus.core.tracking.filter.mixture_filter import ModeMixture, mode_transit
 from carpus.core.tracking.filter.motion import MODE_DWELL_S, RATE_MEMORY_S, REFERENCE_DT_S
 from carpus.core.tracking.filter.settings import TrackerSettings
 
-_FIXED_SD_RAD = 1e-6
-"""Of a slot that does not move: the fifth of a finger, the third while the end joint is coupled."""
+_FIXED_SD_RAD = 1e-6  # of a slot that does not move: the fifth of a finger, the third with a coupled DIP joint
 
 
 @dataclass(frozen=True, slots=True)
 class DigitStart:
-    """Slots and constants (5, 16) at the neutral pose, their covariance (5, 16, 16), and the fit they come from."""
+    """Slots and constants (5, 16) at the neutral pose, their covariance (5, 16, 16), and their fit."""
 
     mean: FloatArray
     covariance: FloatArray
     fit: AnatomyFit
 
 
-ABDUCTION_SHARE = 0.5
-"""Of the process noise of flexion, for abductions and the thumb's CMC (reference 4.5)."""
-DIFFUSION_S = 0.5
-"""Within this a joint that no disc shows is spread over its anatomical range."""
-LEARNING_SHARE = 0.02
-"""Share of what a picture says of the anatomy that is believed: neighbouring ones show skin that strays alike."""
-SURE_TURN_SD_RAD = math.radians(1.0)
-"""Of the palm, all axes, at which half as much is learnt of the fingers."""
-DRIFT_PER_S = 2e-3
-"""Share of what was not known of the anatomy that comes back each second: skin over bone."""
-DIP_COUPLING_SD_RAD = math.radians(6.0)
-"""So far end joints that follow the middle ones stray from two thirds of them,"""
-THUMB_ABDUCTION_SD_RAD = math.radians(6.0)
-"""and the thumb's MCP joint, which hardly moves sideways, from straight;"""
-RETURN_TIME_S = 1.0
-"""both return within this."""
+ABDUCTION_SHARE = 0.5  # of the process noise of flexion, for abductions and the thumb's CMC (reference 4.5)
+DIFFUSION_S = 0.5  # within this a joint that no disc shows is spread over its anatomical range
+LEARNING_SHARE = 0.02  # of a frame's information on the anatomy: neighbouring ones show skin that strays alike
+SURE_TURN_SD_RAD = math.radians(1.0)  # of the palm, all axes, at which half as much is learnt of the fingers
+DRIFT_PER_S = 2e-3  # share of the anatomy's variance at the start that comes back each second: skin over bone
+DIP_COUPLING_SD_RAD = math.radians(6.0)  # of a coupled DIP joint about two thirds of PIP,
+THUMB_ABDUCTION_SD_RAD = math.radians(6.0)  # and of the thumb's MCP joint, which hardly moves sideways, about straight;
+RETURN_TIME_S = 1.0  # both return within this
+# Of a posture of the grid on which a digit is searched, and of its rates.
 POSTURE_SD_RAD, POSTURE_RATE_SD_RAD_S = math.radians(12.0), 3.0
-"""Of a posture of the grid on which a digit is searched, and of its rates."""
-REACQUIRED_RATE_SD_RAD_S = 1.0
-"""Of the rates of a hand found again."""
-CLICK_SD_PX = 2.0
-"""Of a disc with no depth."""
-MIN_GAP_S = 0.12
-"""Between pictures from which on limits count before a picture too."""
-MAX_BEYOND_RAD = math.radians(30.0)
-"""A finger further past its limits was misread."""
+REACQUIRED_RATE_SD_RAD_S = 1.0  # of the rates of a hand found again
+CLICK_SD_PX = 2.0  # of a disc with no depth
+MIN_GAP_S = 0.12  # between frames, from which on limits are applied before a frame too
+MAX_BEYOND_RAD = math.radians(30.0)  # a finger further past its limits was misread
 
 
 def digit_start(
@@ -97,7 +83,7 @@ def digit_start(
     marker_radius_m: float,
     prior: AnatomyPrior,
 ) -> DigitStart:
-    """The anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
+    """Return the anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
     seen = _discs_from_calibration(calibration, camera, marker_radius_m)
     fit = fit_anatomy(
         seen,
@@ -127,7 +113,7 @@ def digit_start(
 
 
 def _discs_from_calibration(calibration: Calibration, camera: Camera, marker_radius_m: float) -> MeasuredDiscs:
-    """The calibrated discs; where one has no depth, the line of sight through its click."""
+    """Return the calibrated discs; without a depth, the line of sight through the click."""
     protocol, disc = calibration.clicks.protocol, calibration.marker_position_w0_m.copy()
     rotation, translation = calibration.rotation_w0_cam, calibration.translation_w0_cam_m
     clicked = camera.backproject(camera.undistort(calibration.clicks.pixel), np.full(len(disc), translation[2]))
@@ -154,7 +140,7 @@ def _discs_from_calibration(calibration: Calibration, camera: Camera, marker_rad
 
 
 def _to_sites(protocol: MarkerProtocol, values: FloatArray, nothing: float) -> FloatArray:
-    """Values (1, 21, ...) of the sites from those of the markers (M, ...); ``nothing`` where there is no disc."""
+    """Return values (1, 21, ...) of the sites from those of the markers (M, ...)."""
     out = np.full((1, len(SITES), *values.shape[1:]), nothing)
     out[0, list(protocol.sites)] = values
     return out
@@ -164,7 +150,11 @@ _SLOT = np.arange(N_SLOTS)
 
 
 class FingerModel:
-    """Thumb and fingers of one calibrated hand, without anything that changes from frame to frame."""
+    """Thumb and fingers of one calibrated hand, without anything that changes from frame to frame.
+
+    ``has_discs`` (5,) digits that carry discs (the others may be anywhere and are not reported); ``markers`` (R, 3)
+    rows of their moving discs.
+    """
 
     def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
         own, dip_free = settings.fingers, settings.dip == "free"
@@ -207,17 +197,17 @@ class FingerModel:
         self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, RETURN_TIME_S)
 
     def neutral_mixture(self) -> ModeMixture:
-        """At the neutral pose, at rest."""
+        """Return the digits at the neutral pose, at rest."""
         seen = OBSERVED
         mean, covariance = np.zeros((N_DIGITS, DIGIT_SIZE)), np.zeros((N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
         mean[:, seen] = self._start.mean
         covariance[:, seen[:, None], seen] = self._start.covariance
         rate = np.arange(RATES.start, RATES.stop)
         covariance[:, rate, rate] = np.where(self._is_moving, self.settings.initial.joint_rates_rad_s**2, 1e-12)
-        return self.mixture_from_gaussian(mean, covariance)
+        return ModeMixture.from_gaussian(mean, covariance, self.scales.size)
 
     def diffuse_mixture(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
-        """The anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
+        """Return the anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
         moving = np.arange(RATES.stop)
         mean, covariance = mean.copy(), covariance.copy()
         mean[:, moving] = 0.0
@@ -227,10 +217,10 @@ class FingerModel:
         covariance[:, _SLOT, _SLOT] = self._range2
         rate = np.arange(RATES.start, RATES.stop)
         covariance[:, rate, rate] = np.where(self._is_moving, REACQUIRED_RATE_SD_RAD_S**2, 1e-12)
-        return self.mixture_from_gaussian(mean, covariance)
+        return ModeMixture.from_gaussian(mean, covariance, self.scales.size)
 
     def restart_at_postures(self, estimates: ModeMixture, postures: dict[int, FloatArray]) -> ModeMixture:
-        """Some digits begun anew about postures, slots (5,) by digit, the anatomy as known by now."""
+        """Restart some digits about postures, slots (5,) by digit, with the anatomy as known by now."""
         chains, slots = np.array(list(postures)), np.array(list(postures.values()))
         kept = self.restart_digits(estimates, np.isin(np.arange(N_DIGITS), chains), estimates)
         mean, covariance = kept.mean, kept.covariance
@@ -243,7 +233,7 @@ class FingerModel:
         return kept
 
     def restart_digits(self, estimates: ModeMixture, chains: NDArray[np.bool_], anatomy: ModeMixture) -> ModeMixture:
-        """Estimates of which ``chains`` (5,) may be anywhere, on the anatomy as ``anatomy``."""
+        """Restart ``chains`` (5,) anywhere, with the anatomy of another estimate."""
         fresh, chosen = self.diffuse_mixture(*anatomy.merge()), chains[:, None]
         return ModeMixture(
             np.where(chosen[..., None], fresh.mean, estimates.mean),
@@ -254,30 +244,22 @@ class FingerModel:
     def apply_joint_limits(
         self, estimates: ModeMixture, before: ModeMixture
     ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
-        """Estimates with the limits taken into account, and digits (5,) that a picture has bent as no finger bends: it
-        was misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the
-        estimates merged."""
+        """Apply the limits; return estimates, merged mean and covariance, and misread digits (5,).
+
+        A digit that a frame has bent as no finger bends was misread: its joints may be anywhere, with the anatomy as it
+        was ``before``.
+        """
         kept, merged, misread = apply_and_check_limits(estimates, MAX_BEYOND_RAD)
         if misread.any():
             kept = self.restart_digits(kept, misread, before)
             merged = kept.merge()
         return kept, merged, misread
 
-    def mixture_from_gaussian(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
-        """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""
-        count = self.scales.size
-        return ModeMixture(
-            np.repeat(mean[:, None], count, axis=1),
-            np.repeat(covariance[:, None], count, axis=1),
-            np.full((N_DIGITS, count), 1.0 / count),
-        )
-
     def predict(self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float) -> ModeMixture:
-        """The digits ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot.
+        """Predict the digits ``dt_s`` ahead; ``unseen_s`` (5, 5) for how long nothing has shown each slot.
 
-        After a gap between pictures a rate has led anywhere, full turns of a joint among it, between which nothing
-        linear tells: there the limits are heard before the picture as well, and a long gap leaves nothing of the
-        joints.
+        After a gap between frames a rate has led anywhere, full turns of a joint among it, between which nothing linear
+        tells: there the limits are applied before the frame as well, and a long gap leaves nothing of the joints.
         """
         if dt_s <= 0.0:
             return estimates
@@ -293,15 +275,15 @@ class FingerModel:
     def predict_sigma_points(
         self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float, root_disc_m: FloatArray
     ) -> tuple[ModeMixture, DigitSigmaPoints]:
-        """The digits ``dt_s`` later, and sigma points of them under ``root_disc_m`` (5, 3)."""
+        """Predict the digits ``dt_s`` ahead, and draw sigma points of them under ``root_disc_m`` (5, 3)."""
         ahead = self.predict(estimates, unseen_s, dt_s)
         return ahead, draw_sigma_points(*ahead.merge(), root_disc_m, self.settings.spread)
 
     def compute_forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
-        """What becomes of the slots of digits at ``mean`` (5, n) that nothing shows; None where all are shown.
+        """Return the prediction of slots that nothing shows, of digits at ``mean`` (5, n); None for none.
 
-        The angle is spread over the joint's range in :data:`DIFFUSION_S`, slowly at first. The rate fades, and as
-        much of it as is given up becomes possible in either direction.
+        The angle is spread over the joint's range in ``DIFFUSION_S``, slowly at first. The rate fades, and as much of
+        it as is given up becomes possible in either direction.
         """
         is_unseen = (unseen_s > 0.0) & self._is_moving
         if not is_unseen.any():
@@ -317,8 +299,10 @@ class FingerModel:
         rate2 = np.where(is_unseen, (1.0 - keep**2) * mean[:, RATES] ** 2, 0.0)
         return Forgetting(np.where(is_unseen, keep, 1.0), angle2, rate2)
 
-    def compute_learning_share(self, seat: DigitBase) -> float:
-        """Share of what this picture says of the anatomy that is believed: little while the palm is unsure, as its
-        error stays for as long as its discs are hidden."""
-        variance = float(sum(seat.pose_covariance.diagonal()[3:].tolist()))
+    def compute_learning_share(self, base: DigitBase) -> float:
+        """Return the share of a frame's information on the anatomy that is used.
+
+        Little while the palm is unsure, as its error stays for as long as its discs are hidden.
+        """
+        variance = float(sum(base.pose_covariance.diagonal()[3:].tolist()))
         return LEARNING_SHARE / (1.0 + (variance / SURE_TURN_SD_RAD**2) ** 2)

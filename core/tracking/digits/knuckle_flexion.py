@@ -1,8 +1,8 @@
-"""How far a finger is bent at its knuckle, by depth, where the disc that would show it is hidden.
+"""Flexion of a finger at MCP, by depth, where the disc that would show it is hidden.
 
 A fist seen from above hides the discs past the knuckles, and what is left is a surface: where the finger is not, the
 camera sees past it (free space). Each angle of a grid is weighed by how the readings lie to the back of the proximal
-phalanx it would have. Neighbouring frames err alike, so that what one says is taken for little.
+phalanx it would have. Neighbouring frames err alike, so that one is given little weight.
 """
 
 from __future__ import annotations
@@ -16,38 +16,32 @@ from carpus.core.tracking.filter.digit_filter import OBSERVED, DigitView
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, update_mixture
 
-FLEXION_SLOT = 1
-"""The slot of a finger's flexion at the knuckle."""
+FLEXION_SLOT = 1  # of a finger's MCP flexion
 _LENGTH, _FAN, _START, _HEIGHT = N_SLOTS, N_SLOTS + 3, slice(N_SLOTS + 5, N_SLOTS + 8), N_SLOTS + 8
 _DOWN = np.array([1.0, 1.0, -1.0])
 
-
-SURFACE_SD_M, STEEP_SURFACE_SD_M = 0.005, 0.010
-"""So far a reading strays from the surface it lies on, and where that is steep:"""
-MIN_FACING_SHARE = 0.5
-"""where less of it faces the camera."""
+SURFACE_SD_M, STEEP_SURFACE_SD_M = 0.005, 0.010  # Of a reading about the surface it lies on, and where that is steep:
+MIN_FACING_SHARE = 0.5  # where less of it faces the camera
+# A reading past the finger costs most, one before it may be another finger, and none says least.
 MAX_COST_BEHIND, MAX_COST_IN_FRONT, NO_READING_COST = 6.0, 2.5, 1.2
-"""A reading past the finger costs most, one before it may be another finger, and none says least."""
-MIN_SD_RAD, MAX_SD_RAD = 0.14, 0.45
-"""Of what one picture says; beyond the second it is not asked."""
-CORRELATED_FRAMES = 8.0
-"""So many frames err as one."""
+MIN_SD_RAD, MAX_SD_RAD = 0.14, 0.45  # Of one frame; beyond the second it is not used.
+CORRELATED_FRAMES = 8.0  # so many frames err as one
+# shares of the proximal phalanx's length, at which its back is searched
 SAMPLE_POSITIONS = np.array([0.35, 0.6, 0.85, 1.05])
-"""Shares of the proximal phalanx's length, at which its back is looked for."""
+# The angles (Q,) that are weighed: all that MCP can do, in steps far below what one frame tells.
 FLEXION_GRID_RAD = np.radians(np.arange(-20.0, 112.5, 5.0))
-"""The bends (Q,) that are weighed: all that a knuckle can do, in steps far below what one picture tells."""
 
 
 @dataclass(frozen=True, slots=True)
 class KnuckleFlexion:
-    """Flexion ``value_rad`` (5,) at the knuckles with ``variance_rad2`` (5,), NaN where depth says nothing."""
+    """Flexion ``value_rad`` (5,) at MCP with ``variance_rad2`` (5,), NaN where depth says nothing."""
 
     value_rad: FloatArray
     variance_rad2: FloatArray
 
     @staticmethod
     def none() -> KnuckleFlexion:
-        """Depth says nothing of any."""
+        """Return no measurement."""
         return KnuckleFlexion(np.full(N_DIGITS, np.nan), np.ones(N_DIGITS))
 
     @property
@@ -62,7 +56,21 @@ def estimate_knuckle_flexion(
     view: DigitView,
     samples: SurfaceSamples,
 ) -> KnuckleFlexion:
-    """What the readings say of the digits ``chains`` (fingers), means (5, n), that begin under ``root_m`` (5, 3)."""
+    """Estimate the flexion at MCP of the fingers ``chains`` from depth readings.
+
+    Parameters
+    ----------
+    chains : list of int
+        Fingers.
+    mean : (5, n)
+        States of the digits.
+    root_m : (5, 3)
+        Discs under which they begin.
+    view : DigitView
+        From W2 to the camera.
+    samples : SurfaceSamples
+        Depth readings about the fingers.
+    """
     state = mean[chains][:, OBSERVED]
     azimuth = (state[:, _FAN] + state[:, 0])[:, None]
     sin, cos = np.sin(FLEXION_GRID_RAD), np.cos(FLEXION_GRID_RAD)
@@ -91,7 +99,7 @@ def estimate_knuckle_flexion(
 
 
 def update_by_knuckle_flexion(mixture: ModeMixture, flexion: KnuckleFlexion) -> ModeMixture:
-    """Digits corrected by what depth says of their knuckles."""
+    """Update the digits by the flexion that depth shows."""
     chains, _, size = mixture.mean.shape
     slope = np.zeros((chains, 1, size))
     slope[:, 0, FLEXION_SLOT] = 1.0

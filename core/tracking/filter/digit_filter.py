@@ -1,10 +1,10 @@
 """The unscented filter of thumb and fingers: five small filters side by side, given the palm.
 
-A finger tells next to nothing about the palm, so each digit is filtered for itself in the frame of the palm as
-corrected a moment before (what the palm's own error adds to a joint's is added when it is read). Each digit's state
-holds its joints, their rates and the constants of its anatomy, so the sharpening of the anatomy and what its
-error does to the angles are part of the filter. Motion modes run per digit: one finger may move while others rest.
-Arrays lead with the digit (5) and, in an estimate, the mode (K).
+A finger tells next to nothing about the palm, so each digit is filtered by itself in the frame of the palm as updated a
+moment before (what the palm's own error adds to a joint's is added when it is read). Each digit's state holds its
+joints, their rates and the constants of its anatomy, so the sharpening of the anatomy and what its error does to the
+angles are part of the filter. Motion modes run per digit: one finger may move while others rest. Arrays lead with the
+digit (5) and, in an estimate, the mode (K).
 """
 
 from __future__ import annotations
@@ -21,17 +21,18 @@ from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixtur
 from carpus.core.tracking.filter.unscented import SigmaWeights, UnscentedParameters, compute_weights
 
 JOINTS, RATES = slice(0, N_SLOTS), slice(N_SLOTS, 2 * N_SLOTS)
+# Rows of joints, their rates and the constants of the anatomy in a digit's state.
 ANATOMY = slice(RATES.stop, RATES.stop + N_CONSTANTS)
-"""Where joints, their rates and the constants of the anatomy stand in a digit's state."""
 DIGIT_SIZE = ANATOMY.stop
-OBSERVED = np.r_[JOINTS, ANATOMY]
-"""States on which the discs depend."""
+OBSERVED = np.r_[JOINTS, ANATOMY]  # rows on which the discs depend
 
 
 @dataclass(frozen=True, slots=True)
 class Forgetting:
-    """What becomes of slots that nothing shows: share ``keep_rate`` (5, 5) kept of the rate, variance ``angle2`` (5, 5)
-    and ``rate2`` (5, 5) gained."""
+    """Prediction of slots that nothing shows.
+
+    Share ``keep_rate`` (5, 5) kept of the rate, variance ``angle2`` (5, 5) and ``rate2`` (5, 5) gained.
+    """
 
     keep_rate: FloatArray
     angle2: FloatArray
@@ -39,7 +40,7 @@ class Forgetting:
 
 
 class DigitMotion:
-    """How the digits may move between two frames: constant rates, pushed by white accelerations.
+    """Motion model of the digits: constant rates, driven by white accelerations.
 
     ``density`` (5, 5) by digit and slot: variance per second of the rate; ``scales`` (K,) of its root by mode;
     ``drift`` (5, 11) variance per second of the constants, skin over bone. Slots with a ``stationary2`` (5, 5), their
@@ -56,7 +57,7 @@ class DigitMotion:
     def predict(
         self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
     ) -> ModeMixture:
-        """The estimates ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
+        """Predict the estimates ``dt_s`` ahead, their modes mixed before by ``switch`` (K, K)."""
         return predict_mixture(
             estimates, *digits.compute_digit_transition(self, dt_s, self._scales2, forgetting), switch
         )
@@ -64,7 +65,7 @@ class DigitMotion:
     def compute_transition(
         self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None
     ) -> tuple[FloatArray, FloatArray]:
-        """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
+        """Return F and Q (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
         forward, noise = digits.compute_digit_transition(self, dt_s, (scale**2)[:, None], forgetting)
         return forward, noise[:, 0]
 
@@ -73,8 +74,8 @@ class DigitMotion:
 class DigitSigmaPoints:
     """Sigma points of a Gaussian over joints and constants, their discs in W.
 
-    The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: what bends the
-    discs' places. In the other constants these are all but linear. ``unroot`` (5, 6, 6) inverse of the factor,
+    The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: in these the discs'
+    places are nonlinear. In the other constants they are all but linear. ``unroot`` (5, 6, 6) inverse of the factor,
     ``along`` (5, 6, 10) by how much the other constants go with each column; ``disc_m`` (5, 13, 3, 3), the centre
     first; ``by_constants`` (5, 3, 3, 10) derivative there; ``normal`` (5, 3, 3) of the discs; ``mean`` (5, n) and
     ``covariance`` (5, n, n) of the state.
@@ -90,28 +91,28 @@ class DigitSigmaPoints:
 
 
 def digit_sigma_weights(spread: UnscentedParameters) -> SigmaWeights:
-    """Weights of the points."""
+    """Return the weights of a digit's sigma points."""
     return compute_weights(digits.BENT.size, spread)
 
 
 def draw_sigma_points(
     mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
 ) -> DigitSigmaPoints:
-    """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
+    """Draw sigma points of states (5, n), on the discs ``root_disc_m`` (5, 3) under which they begin."""
     found = digits.spread_points(mean, covariance, root_disc_m, digit_sigma_weights(spread).scale)
     return DigitSigmaPoints(*found, mean, covariance)
 
 
 @dataclass(frozen=True, slots=True)
 class DigitView:
-    """From W2 of a right hand to the pictures: ``rotation`` (3, 3) and ``translation_m`` (3,) into camera axes."""
+    """View of the digits: ``rotation`` (3, 3) and ``translation_m`` (3,) from W2 into camera axes."""
 
     rotation: FloatArray
     translation_m: FloatArray
     camera: Camera
 
     def observe(self, point_m: FloatArray) -> FloatArray:
-        """Pixel u, v and depth z of points (..., 3) of W2."""
+        """Return pixel u, v and depth z of points (..., 3) of W2."""
         out: FloatArray = point_m @ self.rotation.T
         out += self.translation_m
         camera, z = self.camera, out[..., 2]
@@ -124,7 +125,7 @@ class DigitView:
 
 @dataclass(frozen=True, slots=True)
 class DigitLinearisation(Linearisation):
-    """What the camera should see: u, v, z of the three discs in turn, (5, 9), linearised.
+    """Predicted u, v, z of the three discs in turn, (5, 9), linearised.
 
     ``spread`` (5, 9, 9) covariance of the images, slope and error together. ``centre_m`` (5, 3, 3) the discs in camera
     axes; ``by_place`` (5, 3, 3, 3) derivative of the images by that.
@@ -136,7 +137,7 @@ class DigitLinearisation(Linearisation):
 
 
 def linearise_digits(points: DigitSigmaPoints, view: DigitView, spread: UnscentedParameters) -> DigitLinearisation:
-    """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
+    """Linearise the discs' images: regression on the joints, derivative by the constants."""
     value, slope, error, whole, centre_m, by_place = digit_images.linearise_images(
         points, view, digit_sigma_weights(spread)
     )

@@ -1,4 +1,4 @@
-"""What can be chosen about thumb and fingers."""
+"""Settings of thumb and fingers."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ from carpus.core.model.hand.anatomy_prior import AnatomyPrior
 
 @dataclass(frozen=True, slots=True)
 class FingerSettings:
-    """``skin_offsets``: discs lie on the skin over the joints; without them the chain of the hand paper, discs in the
-    joints. ``anatomy``: how far a hand may differ from the average one."""
+    """Settings of thumb and fingers.
+
+    ``skin_offsets``: discs lie on the skin over the joints; without them the chain of the hand paper, discs in the
+    joints. ``anatomy``: how far a hand may differ from the average one.
+    """
 
     skin_offsets: bool = True
     anatomy: AnatomyPrior = field(default_factory=AnatomyPrior)

@@ -1,10 +1,9 @@
-"""The five digits of an articulated hand as the filter sees them: thumb first, then fingers 2 to 5.
+"""Geometry of an articulated hand: the palm, and five digits, thumb first, then fingers 2 to 5.
 
-Every digit has five joint slots and eleven constants, so that all five are computed together. Slots of the thumb:
-its five angles; of a finger: MCP abduction, MCP flexion, PIP flexion, and by how much DIP flexion exceeds two
-thirds of PIP flexion (zero where the end joint is coupled, hand paper section 2); the fifth is not used.
-Constants as in :mod:`core.model.hand.anatomy_prior`. Lengths in metres, axes of a right hand in W unless said
-otherwise.
+Every digit has five joint slots and eleven constants, so that all five are computed together. Slots of the thumb: its
+five angles; of a finger: MCP abduction, MCP flexion, PIP flexion, and by how much DIP flexion exceeds two thirds of PIP
+flexion (zero where the DIP joint is coupled, hand paper section 2); the fifth is not used. Constants as in
+:mod:`core.model.hand.anatomy_prior`. Lengths in metres, axes of a right hand in W unless said otherwise.
 """
 
 from __future__ import annotations
@@ -21,23 +20,23 @@ from carpus.core.model.hand.protocols import DIGITS, PALM_MARKERS, MarkerProtoco
 from carpus.core.model.types import FloatArray, Side
 
 N_DIGITS, N_SLOTS, N_CONSTANTS = 5, 5, 11
-N_DISCS = 3
-"""Discs of a digit that move against the palm."""
+N_DISCS = 3  # of a digit that move against the palm
 
 # The first disc that moves with a slot: 0 the first of the digit's three; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
-SLOT_MOVES_DISC = np.arange(N_DISCS) >= _FIRST_DISC[..., None]
-"""(5, 5, 3) whether a disc moves with a slot."""
+SLOT_MOVES_DISC = np.arange(N_DISCS) >= _FIRST_DISC[..., None]  # (5, 5, 3)
 
-ZERO_CUP = np.zeros(N_DIGITS)
-"""No metacarpal has flexed."""
+ZERO_CUP = np.zeros(N_DIGITS)  # no metacarpal has flexed
+# Centres of discs nearer than so many radii stray by so much: their edges run together.
 CROWDED_RADII, CROWDED_PX = 2.4, 0.5
-"""Centres of discs nearer than so many radii stray by so much: their edges run together."""
 
 
 def is_crowded(pixel: FloatArray, radius_px: FloatArray, radii: float) -> NDArray[np.bool_]:
-    """Which discs of each digit (5, 3) nearly touch the one before or after, from their middles (5, 3, 2) and the
-    radius (5, 3) of a large disc there: nearer than so many ``radii``, their edges blur into one."""
+    """Return which discs of each digit (5, 3) nearly touch the one before or after.
+
+    ``pixel`` (5, 3, 2) of their centres; nearer than so many ``radii`` of a large disc there (5, 3) their edges blur
+    into one.
+    """
     near = ((pixel[:, 1:] - pixel[:, :-1]) ** 2).sum(axis=-1) < (radii * radius_px[:, 1:]) ** 2
     out = np.zeros(radius_px.shape, dtype=bool)
     out[:, 1:], out[:, :-1] = near, near
@@ -68,7 +67,7 @@ class PalmGeometry:
         cup_rad: FloatArray = ZERO_CUP,
         cup_sd_rad: FloatArray = ZERO_CUP,
     ) -> PalmGeometry:
-        """From the palm's discs (6, 3) and the axes (3, 3) of W as columns, both in the body."""
+        """Return the geometry of palm discs (6, 3) and the axes (3, 3) of W as columns, both in the body."""
         if side == "left":
             axes = axes * np.array([1.0, -1.0, 1.0])
         return PalmGeometry(axes, palm_body_m[0], (palm_body_m - palm_body_m[0]) @ axes, cup_rad, cup_sd_rad)
@@ -76,8 +75,10 @@ class PalmGeometry:
 
 @dataclass(frozen=True, slots=True)
 class JointState:
-    """Joint angles (J,), standard deviations and rates (NaN in the papers' model); joint centres and tips (M, 3) in
-    W2 of the hand's own side; the digits' discs (5, 3, 3) in camera axes."""
+    """Joint angles (J,), standard deviations and rates (NaN in the papers' model).
+
+    Joint centres and tips (M, 3) in W2 of the hand's own side; the digits' discs (5, 3, 3) in camera axes.
+    """
 
     angles_rad: FloatArray
     sd_rad: FloatArray
@@ -88,7 +89,7 @@ class JointState:
 
 @dataclass(frozen=True, slots=True)
 class JointAngleMap:
-    """From the digits' slots to the joint angles of some digits: angle j is ``weight[j] @ slots[chain[j]]``."""
+    """Map from slots to the joint angles of some digits: ``weight[j] @ slots[chain[j]]``."""
 
     chain: np.ndarray
     weight: FloatArray
@@ -103,16 +104,16 @@ class JointAngleMap:
         return JointAngleMap(np.array([chain for chain, _ in rows]), np.array([weight for _, weight in rows]))
 
     def compute_angles(self, slots: FloatArray) -> FloatArray:
-        """Joint angles (..., J) of slots (..., 5, 5)."""
+        """Return joint angles (..., J) of slots (..., 5, 5)."""
         return np.asarray(np.sum(slots[..., self.chain, :] * self.weight, axis=-1))
 
     def compute_variances(self, covariance: FloatArray) -> FloatArray:
-        """Variances (J,) from covariances (5, 5, 5) of the slots."""
+        """Return variances (J,) from covariances (5, 5, 5) of the slots."""
         return np.asarray(np.einsum("ji,jik,jk->j", self.weight, covariance[self.chain], self.weight))
 
 
 def direct_marker_rows(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
-    """Rows (J, 2) of the discs at each joint and next past it, which measure it directly."""
+    """Return rows (J, 2) of the discs at each joint and next past it, which measure it directly."""
     return np.array([protocol.rows(markers_at_joint(name)) for name in protocol.joint_names(dip_free)])
 
 
@@ -120,7 +121,7 @@ _PALM = MarkerProtocol("palm", PALM_MARKERS)
 
 
 def palm_calibration(calibration: Calibration) -> Calibration:
-    """The calibration of the discs that move with the palm, whatever else is on the hand."""
+    """Return the calibration of the discs that move with the palm, whatever else is on the hand."""
     clicks = calibration.clicks
     if not clicks.protocol.has_fingers:
         return calibration

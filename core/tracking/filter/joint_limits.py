@@ -1,9 +1,9 @@
-"""Joint limits as soft constraints: pseudo-measurements that pull, not walls that clip (clinical reference 4.1).
+"""Joint limits as soft constraints: pseudo-measurements that pull, not walls that clip.
 
-An angle's Gaussian is multiplied by the chance that the joint can be there, a step of 3 degrees' standard
-deviation at either limit, and replaced by the Gaussian of the same mean and variance. Far inside nothing happens;
-beyond a limit it acts as a measurement of the limit with that standard deviation; an angle of which nothing is
-known ends up spread over its range.
+Clinical reference 4.1. An angle's Gaussian is multiplied by the probability that the joint can be there, a step of 3
+degrees' standard deviation at either limit, and replaced by the Gaussian of the same mean and variance. Far inside
+nothing happens; beyond a limit it acts as a measurement of the limit with that standard deviation; an angle of which
+nothing is known ends up spread over its range.
 """
 
 from __future__ import annotations
@@ -29,23 +29,19 @@ _LIMITS = np.array([[HARD_LIMITS_RAD.get(name, _WIDE) for name in chain] for cha
 _DIRECTION = np.broadcast_to(np.eye(N_SLOTS), (N_DIGITS, N_SLOTS, N_SLOTS)).copy()
 _DIRECTION[1:, 3, 2] = DIP_PER_PIP
 
+# Standard deviation (5, 5) of an angle of which only its limits are known.
 RANGE_SD_RAD = np.where(_LIMITS[..., 1] < 1e2, (_LIMITS[..., 1] - _LIMITS[..., 0]) / math.sqrt(12.0), 0.0)
-"""Standard deviation (5, 5) of an angle of which only its limits are known."""
-
 
 MID_RANGE_RAD = np.where(_LIMITS[..., 1] < 1e2, _LIMITS.mean(axis=-1), 0.0)
 MID_RANGE_RAD[1:, 3] = 0.0
 """Slots (5, 5) in the middle of their range; the end joint as the coupling has it."""
 
-
-LIMIT_SD_RAD = math.radians(3.0)
-"""Standard deviation of the step that a limit is."""
-LIMIT_GATE_SD = 3.0
-"""Standard deviations from a limit, of angle and step together, from which on it pulls."""
+LIMIT_SD_RAD = math.radians(3.0)  # standard deviation of the step at a limit
+LIMIT_GATE_SD = 3.0  # from a limit, in standard deviations of angle and step together, from which on it pulls
 
 
 def slot_limits_rad(slots: FloatArray) -> FloatArray:
-    """Lowest and highest (5, 5, 2) of the angles at slots (5, 5); abduction shrinks as the finger bends."""
+    """Return limits (5, 5, 2) of the angles at slots (5, 5); abduction shrinks as the finger bends."""
     limits = _LIMITS.copy()
     reach = ABDUCTION_LIMIT_RAD * np.maximum(np.cos(slots[1:, 1]), 0.0)
     limits[1:, 0, 0], limits[1:, 0, 1] = -reach, reach
@@ -53,14 +49,14 @@ def slot_limits_rad(slots: FloatArray) -> FloatArray:
 
 
 def compute_limit_excess(slots: FloatArray) -> FloatArray:
-    """By how much (5, 5) the angles lie beyond their limits; radians, 0 inside, negative below."""
+    """Return by how much (5, 5) the angles lie beyond their limits; 0 inside, negative below."""
     angles = np.einsum("rjs,rs->rj", _DIRECTION, slots)
     limits = slot_limits_rad(slots)
     return np.asarray(np.maximum(angles - limits[..., 1], 0.0) + np.minimum(angles - limits[..., 0], 0.0))
 
 
 def apply_soft_limits(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
-    """Estimates with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
+    """Apply the limits to the estimates; ``slots`` (5, 5) are the merged joints.
 
     Each angle's pull is found by itself, then all pulls of a digit act together, as measurements with independent
     errors.
@@ -72,9 +68,7 @@ def apply_soft_limits(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
 def apply_and_check_limits(
     estimates: ModeMixture, max_excess_rad: float
 ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
-    """Estimates :func:`apply_soft_limits` and those merged, and digits (5,) that are ``max_excess_rad`` beyond a
-    limit even
-    so."""
+    """Apply the limits; return the estimates, merged too, and digits (5,) still beyond ``max_excess_rad``."""
     merged = estimates.merge()
     kept = apply_soft_limits(estimates, merged[0][:, :N_SLOTS])
     if kept is not estimates:

@@ -1,10 +1,9 @@
-"""The filter, written once: Gaussians of several chains in several motion modes, predicted, mixed, corrected, merged.
+"""The filter of all chains: Gaussians in several motion modes, predicted, mixed, updated, merged.
 
-Arrays lead with the chain (C: the palm is one, thumb and fingers are five) and the mode (K). What a chain's numbers
-mean, how they move and what the camera sees of them are arguments: a transition and its noise, and h as the model
-linearised it by sigma points. The modes form an interacting multiple model (Blom and
-Bar-Shalom 1988): the same filter with other process noise, weighed by how well each foresaw the measurements.
-Where a chain lives on a manifold its numbers are small errors from a nominal estimate that the model keeps.
+Arrays lead with the chain (C: the palm is one, thumb and fingers are five) and the mode (K). A chain's model gives the
+transition, its noise, and h as linearised by sigma points. The modes form an interacting multiple model (Blom and
+Bar-Shalom 1988): the same filter with other process noise, weighed by how well each predicted the measurements. Where a
+chain lives on a manifold its numbers are small errors from a nominal estimate that the model stores.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ class ModeMixture:
 
     @staticmethod
     def from_gaussian(mean: FloatArray, covariance: FloatArray, modes: int) -> ModeMixture:
-        """All modes alike and as probable, of means (C, n) and covariances (C, n, n)."""
+        """Return equally probable, equal modes of means (C, n) and covariances (C, n, n)."""
         return ModeMixture(
             np.repeat(mean[:, None], modes, axis=1),
             np.repeat(covariance[:, None], modes, axis=1),
@@ -37,14 +36,17 @@ class ModeMixture:
         )
 
     def merge(self) -> tuple[FloatArray, FloatArray]:
-        """Mean (C, n) and covariance (C, n, n) over the modes."""
+        """Return mean (C, n) and covariance (C, n, n) over the modes."""
         if self.probability.shape[1] == 1:
             return self.mean[:, 0], self.covariance[:, 0]
         return compiled.merge_modes(self)
 
 
 def mode_transition_matrix(modes: int, dwell_s: float, dt_s: float) -> FloatArray:
-    """Probability (K, K) to go from row to column mode in ``dt_s``, staying ``dwell_s`` on average."""
+    """Return the probability (K, K) to go from row to column mode in ``dt_s``.
+
+    ``dwell_s`` is the mean time in a mode.
+    """
     if modes == 1:
         return np.ones((1, 1))
     leave = 1.0 - math.exp(-dt_s / dwell_s)
@@ -56,18 +58,29 @@ def mode_transition_matrix(modes: int, dwell_s: float, dt_s: float) -> FloatArra
 def predict_mixture(
     mixture: ModeMixture, forward: FloatArray, noise: FloatArray, switch: FloatArray | None = None
 ) -> ModeMixture:
-    """Predict F m and F P F' + Q, ``forward`` F (C, n, n) and ``noise`` Q (C, K, n, n).
+    """Predict the mixture: P <- F P F' + Q.
 
-    Each mode is mixed before of all that may have gone over to it by the ``switch`` (K, K) from row to column.
+    Parameters
+    ----------
+    mixture : ModeMixture
+        The estimates.
+    forward : (C, n, n)
+        Transition F.
+    noise : (C, K, n, n)
+        Process noise Q by mode.
+    switch : (K, K), optional
+        Mode transition probabilities, by which the modes are mixed before.
     """
     return ModeMixture(*compiled.predict_modes(mixture, forward, noise, switch))
 
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """A step of a chain of which only the first m numbers mix: ``moving`` (m, m) of these with the ``driven`` noise
-    (K, m, m); of every number the share ``kept`` (K, n) is left, one for the moving; the last r numbers are pushed by
-    ``relaxing`` (K, r, r)."""
+    """A step of a chain of which only the first m numbers mix.
+
+    ``moving`` (m, m) is F of these with the noise ``driven`` (K, m, m); of every number the share ``kept`` (K, n) is
+    left, one for the moving; the last r numbers are driven by ``relaxing`` (K, r, r).
+    """
 
     moving: FloatArray
     driven: FloatArray
@@ -78,8 +91,11 @@ class Transition:
 def propagate_mixture(
     mixture: ModeMixture, step: Transition, nominal: FloatArray, switch: FloatArray | None = None
 ) -> ModeMixture:
-    """The mixture after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
-    what of that a mode does not keep is an error of the mode. Its modes are mixed before by the ``switch``."""
+    """Predict a mixture of errors from a ``nominal`` (n,) that moves with its first m numbers only.
+
+    What a mode does not keep of the rest of the nominal is an error of the mode. The modes are mixed before where there
+    is a ``switch`` (K, K).
+    """
     return ModeMixture(*compiled.predict_palm_modes(mixture, step, nominal, switch))
 
 
@@ -98,11 +114,11 @@ class Linearisation:
 
 @dataclass(frozen=True, slots=True)
 class Update:
-    """Corrected ``mixture``, and how well what was measured had been foreseen.
+    """The updated ``mixture``, and its consistency with the measurements.
 
-    Of the tested numbers ``nis`` (C,), innovation' S^-1 innovation over all modes, with its degrees of freedom ``dof``
-    (C,) and the ``residual`` (C, m) of each number in its own standard deviations, N(0, 1) when all is right, 0 where
-    nothing was measured. ``rest_nis`` (C,) that of the other numbers, given those.
+    Of the tested components ``nis`` (C,), innovation' S^-1 innovation over all modes, with its degrees of freedom
+    ``dof`` (C,) and the ``residual`` (C, m) of each component in its own standard deviations, N(0, 1) when all is
+    right, 0 where nothing was measured. ``rest_nis`` (C,) that of the other components, given those.
     """
 
     mixture: ModeMixture
@@ -113,9 +129,9 @@ class Update:
 
 
 def partial_update_shares(size: int, rows: slice, share: float) -> FloatArray:
-    """Shares (n,) of a correction that the mean takes: the numbers of ``rows`` only ``share``.
+    """Return the shares (n,) of an update that the mean takes: ``rows`` only ``share``.
 
-    Partial-update Schmidt-Kalman filter (Brink 2017): errors that stay with a disc come again in every picture, and
+    Partial-update Schmidt-Kalman filter (Brink 2017): errors that stay with a disc come again in every frame, and
     believed in full they would bend the hand's geometry until it explains them.
     """
     mean = np.ones(size)
@@ -132,11 +148,26 @@ def update_mixture(
     partial: FloatArray | None = None,
     tested: int | None = None,
 ) -> Update:
-    """Correct every chain and mode by ``measured`` (C, m), NaN where there is nothing (Kalman).
+    """Update every chain and mode by measurements (Kalman).
 
-    ``variance`` (C, m) of the measurements' own errors, ``shared`` (C, m, m) a covariance common to several of them;
-    ``partial`` of :func:`partial_update_shares`; the first ``tested`` numbers, or all, are tested by themselves.
-    Everything is taken in units of the noise, since pixels and metres differ by orders of magnitude.
+    Computed in units of the noise, since pixels and metres differ by orders of magnitude.
+
+    Parameters
+    ----------
+    mixture : ModeMixture
+        The prediction.
+    linearised : Linearisation
+        h, linearised about the prediction.
+    measured : (C, m)
+        NaN where there is nothing.
+    variance : (C, m)
+        Variance of the measurements' own errors.
+    shared : (C, m, m), optional
+        Covariance common to several measurements.
+    partial : (n,), optional
+        Shares of :func:`partial_update_shares`.
+    tested : int, optional
+        The first so many components, or all, are tested by themselves.
     """
     tested = measured.shape[1] if tested is None else tested
     found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial, tested)
@@ -150,9 +181,26 @@ def rts_step(
     difference: FloatArray,
     later_covariance: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """One step of Rauch, Tung and Striebel's recursion: the correction (C, n) of a filtered mean and the smoothed
-    covariance (C, n, n), from the filtered ``covariance``, the step's ``forward`` and ``noise`` (C, n, n), how far the
-    later smoothed mean lies from the predicted one (C, n), and the later smoothed covariance."""
+    """Take one step back of the smoother of Rauch, Tung and Striebel.
+
+    Parameters
+    ----------
+    covariance : (C, n, n)
+        Filtered covariance.
+    forward, noise : (C, n, n)
+        Transition F and process noise Q of the step.
+    difference : (C, n)
+        Later smoothed mean less the predicted one.
+    later_covariance : (C, n, n)
+        Later smoothed covariance.
+
+    Returns
+    -------
+    correction : (C, n)
+        Of the filtered mean.
+    smoothed : (C, n, n)
+        Smoothed covariance.
+    """
     across = forward @ covariance
     ahead = across @ np.swapaxes(forward, -1, -2) + noise
     gain = np.swapaxes(np.linalg.solve(ahead, across), -1, -2)

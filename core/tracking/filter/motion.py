@@ -1,8 +1,8 @@
-"""How the palm may move between two frames: constant velocities, pushed by white accelerations.
+"""Motion model of the palm: constant velocities, driven by white accelerations.
 
-Noise is given as the papers' standard deviation per sample at 30 pictures a second and used as a continuous density
-q = sd^2 / 30, so that other or missing frame times keep their meaning (clinical reference 4.5). The acceleration acts
-all along the step: Q holds q dt^3 / 3, q dt^2 / 2 and q dt.
+Noise is given as the papers' standard deviation per sample at 30 frames a second and used as a continuous density q =
+sd^2 / 30, so that other or missing frame times keep their meaning (clinical reference 4.5). The acceleration acts all
+along the step: Q holds q dt^3 / 3, q dt^2 / 2 and q dt.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from carpus.core.tracking.filter.soft_tissue import HOME, STILL, ZERO_SPEEDS, Di
 
 REFERENCE_DT_S = 1.0 / 30.0
 
-
-MODE_DWELL_S = 0.5
-"""So long a motion mode is kept."""
-RATE_MEMORY_S = 0.2
-"""So long an unseen hand is taken to go on as it moved."""
+MODE_DWELL_S = 0.5  # mean time in a motion mode
+RATE_MEMORY_S = 0.2  # over which the velocity of an unseen hand fades
 
 
 @dataclass(frozen=True, slots=True)
 class MotionNoise:
-    """Standard deviations per sample at 30 Hz: ``acceleration_m_s2`` of the wrist (eta_v of the papers),
-    ``turn_acceleration_rad_s2`` of its turning, ``joint_acceleration_rad_s2`` of the fingers."""
+    """Standard deviations per sample at 30 Hz.
+
+    ``acceleration_m_s2`` of the wrist (eta_v of the papers), ``turn_acceleration_rad_s2`` of its turning,
+    ``joint_acceleration_rad_s2`` of the fingers.
+    """
 
     acceleration_m_s2: float = 2.0
     turn_acceleration_rad_s2: float = 8.0
@@ -50,12 +50,12 @@ class MotionNoise:
 
 @dataclass(frozen=True, slots=True)
 class PalmTransition(Transition):
-    """A step of the palm, and the turn (3, 3) that the rate makes of it."""
+    """A step of the palm, and the rotation (3, 3) that its angular velocity makes."""
 
     rotation_increment: FloatArray
 
     def propagate(self, estimate: PalmEstimate, dt_s: float, covariance: FloatArray | None = None) -> PalmEstimate:
-        """The nominal estimate after the step, its covariance left as it is, or the one given."""
+        """Return the nominal estimate after the step, its covariance as before or as given."""
         value = estimate.value.copy()
         value[POSITION] += estimate.velocity_m_s * dt_s
         value[TURN] = 0.0
@@ -65,11 +65,15 @@ class PalmTransition(Transition):
 
 @dataclass(frozen=True, slots=True)
 class PalmMotion:
-    """What pushes one palm: ``noise`` of its motion, whose root the modes multiply by ``scales`` (M,), and what its
-    soft ``tissue`` does. Motions last ``dwell_s``. Resting tissue is combined with every motion; while it moves the
-    hand is taken to move calmly, ``moving_scale``: else a moving hand explains what tissue does, and the other way.
-    ``unseen_scale`` is the factor for turns that nothing in the picture shows: how briskly a hand
-    moves is told by what is seen of it, and says nothing of these."""
+    """Process model of one palm.
+
+    ``noise`` of its motion, whose root the modes multiply by ``scales`` (M,), and its soft ``tissue``. Motions last
+    ``dwell_s``. Resting tissue is combined with every motion; while it moves the hand is taken to move calmly,
+    ``moving_scale``: else a moving hand explains what tissue does, and the other way. ``unseen_scale`` is the factor
+    for turns that nothing in the frame shows: how briskly a hand moves is told by what is seen of it, and says nothing
+    of these. ``scale_of`` and ``tissue_of`` give, of each of the K modes (K,), those at rest first, the factor on the
+    motion's noise and the tissue's mode.
+    """
 
     noise: MotionNoise
     tissue: TissueModes
@@ -80,7 +84,6 @@ class PalmMotion:
 
     scale_of: FloatArray = field(init=False, repr=False, compare=False)
     tissue_of: NDArray[np.int64] = field(init=False, repr=False, compare=False)
-    """Of each of the K modes (K,), those at rest first: the factor on the motion's noise, and the tissue's mode."""
 
     def __post_init__(self) -> None:
         resting, count = self.tissue.resting, self.tissue.count
@@ -96,7 +99,10 @@ class PalmMotion:
     def mode_transition_matrix(
         self, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = ZERO_SPEEDS
     ) -> FloatArray:
-        """Probability (K, K) to go from row to column mode in ``dt_s``, of a hand that turns at ``rate_rad_s`` (3,)."""
+        """Return the probability (K, K) to go from row to column mode in ``dt_s``.
+
+        ``rate_rad_s`` (3,) is the angular velocity of the hand.
+        """
         return compute_mode_transition(self, rate_rad_s, dt_s, digits)
 
     @property
@@ -107,8 +113,10 @@ class PalmMotion:
         return out
 
     def tissue_noise(self, mode_transitions: FloatArray, step: PalmTransition) -> FloatArray:
-        """What pushes the tissue (r, r) in a step that went from row to column mode with these probabilities (K, K),
-        seen as one that keeps all it has: coming home is a push as well."""
+        """Return the noise (r, r) of the tissue in a step with these mode transitions (K, K).
+
+        For smoothing, where tissue keeps all it has: coming home is driven as well.
+        """
         tissue = self.tissue
         joint = np.zeros((tissue.count, tissue.count))
         np.add.at(joint, (self.tissue_of[:, None], self.tissue_of), mode_transitions)
@@ -130,8 +138,10 @@ def palm_transition(
     unseen: FloatArray | None = None,
     digits: DigitSpeeds = ZERO_SPEEDS,
 ) -> PalmTransition:
-    """The step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,) while its ``digits`` move; ``unseen`` (3, 3)
-    projects on the turns in W2 that nothing showed."""
+    """Return the step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,).
+
+    ``unseen`` (3, 3) projects on the turns in W2 that nothing showed.
+    """
     return PalmTransition(*compute_palm_transition(motion, rate_rad_s, dt_s, unseen, digits))
 
 
@@ -143,7 +153,7 @@ def predict_palm(
     unseen: FloatArray | None = None,
     digits: DigitSpeeds = ZERO_SPEEDS,
 ) -> tuple[PalmEstimate, ModeMixture]:
-    """The palm ``dt_s`` later, its modes as errors from the nominal estimate, whose covariance is that of them all."""
+    """Predict the palm ``dt_s`` ahead, its modes as errors from the nominal estimate."""
     step = palm_transition(estimate.rate_rad_s, motion, dt_s, unseen, digits)
     later = propagate_mixture(
         mixture, step, estimate.value, motion.mode_transition_matrix(estimate.rate_rad_s, dt_s, digits)
@@ -152,23 +162,24 @@ def predict_palm(
 
 
 def fading_factors(keep: float) -> FloatArray:
-    """Factors (n,) that leave the share ``keep`` of the velocities and all else as it is."""
+    """Return factors (n,) that leave the share ``keep`` of the velocities."""
     out = np.ones(SIZE)
     out[VELOCITY] = out[RATE] = keep
     return out
 
 
 def fading_matrix(keep: float, unseen: FloatArray) -> FloatArray:
-    """A matrix (n, n) that leaves the share ``keep`` of the turning along ``unseen`` (3, 3) and all else as it is."""
+    """Return a matrix (n, n) that leaves the share ``keep`` of turning along ``unseen`` (3, 3)."""
     out = np.eye(SIZE)
     out[RATE, RATE] -= (1.0 - keep) * unseen
     return out
 
 
 def find_unobserved_turns(disc_m: FloatArray, collinear_rms_m: float) -> FloatArray | None:
-    """Which turns (3, 3, a projection) discs at ``disc_m`` (D, 3) on the palm do not show; None where they show all.
+    """Return the projection (3, 3) on turns that the discs do not show; None where they show all.
 
     Discs near one line say nothing of turning about it: what moves then is their heights over it, a few millimetres.
+    ``disc_m`` (D, 3) are their places on the palm.
     """
     if len(disc_m) < 2:
         return np.eye(3)

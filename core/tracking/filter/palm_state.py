@@ -1,19 +1,17 @@
-"""What the palm's filter knows (pose and velocities of the fixed unit, the discs' places, how skin and relief moved),
-and what the camera should see of the palm's discs by it.
+"""State of the palm: pose and velocities of the fixed unit, the discs' places, skin and surface.
 
 The fixed unit of the hand is capitate, second and third metacarpal (clinical reference 10): the wrist's angles mean it.
-Each disc has a calibrated place on it that goes on being measured (``shape``) and may leave that place as the skin
-glides, the arch closes or a metacarpal flexes (``skin``), for a while. So has the back of the hand as a surface:
-``back`` is what its calibration was wrong by, as a turn about X and Y and a height, ``relief`` by how much it has come
-to differ since. ``CALIBRATION_ERROR``, shape and back, is the calibration's error: constant, and less with every
-motion.
+Each disc has a calibrated place on it that goes on being measured (``SHAPE``) and may leave that place as the skin
+glides, the arch closes or a metacarpal flexes (``SKIN``), for a while. So has the back of the hand as a surface:
+``SURFACE`` is what its calibration was wrong by, as a turn about X and Y and a height, ``RELIEF`` by how much it has
+come to differ since. ``CALIBRATION_ERROR``, shape and surface, is constant, and less with every motion.
 
 Symbols of the papers: T position, v velocity, R rotation, omega angular velocity, P covariance. Orientation stays a
-matrix; its error is a turn d in the moving frame, R_true = R Exp(d).
+matrix; its error is a rotation vector d in the moving frame, R_true = R Exp(d).
 
 Measured for a marker are its pixel u, v (eq. (2), (3) of the wrist paper) and the depth z of its disc along the
-camera's axis, as in the initialisation (13). The pose bends the pictures, so h is linearised through sigma points of
-the pose (10), (11); in the discs' places it is all but straight, and its slope is the derivative.
+camera's axis, as in the initialisation (13). h is nonlinear in the pose, so it is linearised through sigma points of
+the pose (10), (11); in the discs' places it is all but linear, and its slope is the derivative.
 """
 
 from __future__ import annotations
@@ -44,8 +42,11 @@ POSE = np.r_[POSITION, TURN]
 
 @dataclass(frozen=True, slots=True)
 class PalmEstimate:
-    """Gaussian over the palm's state: ``rotation_w2_w0`` (3, 3), all other numbers as ``value`` (n,), zero where the
-    turn would stand, and the ``covariance`` (n, n) of the error vector."""
+    """Gaussian over the palm's state.
+
+    ``rotation_w2_w0`` (3, 3), all other numbers as ``value`` (n,), zero where the turn would stand, and the
+    ``covariance`` (n, n) of the error vector.
+    """
 
     rotation_w2_w0: FloatArray
     value: FloatArray
@@ -53,17 +54,17 @@ class PalmEstimate:
 
     @property
     def position_m(self) -> FloatArray:
-        """Place (3,) in W0 of the point of the fixed unit that lay under WRIST at the neutral pose."""
+        """Position T (3,) in W0 of the point of the fixed unit that lay under WRIST at the neutral pose."""
         return self.value[POSITION]
 
     @property
     def velocity_m_s(self) -> FloatArray:
-        """Its velocity (3,) in W0."""
+        """Velocity v (3,) in W0."""
         return self.value[VELOCITY]
 
     @property
     def rate_rad_s(self) -> FloatArray:
-        """Angular velocity (3,) in W2."""
+        """Angular velocity omega (3,) in W2."""
         return self.value[RATE]
 
     @property
@@ -73,24 +74,23 @@ class PalmEstimate:
 
     @property
     def skin_m(self) -> FloatArray:
-        """How far (6, 3) the discs have left those places for now."""
+        """Displacements (6, 3) of the discs from those places for now."""
         return self.value[SKIN].reshape(N_PALM_DISCS, 3)
 
     def add_error(self, error: FloatArray, covariance: FloatArray) -> Self:
-        """The estimate with its mean moved by an error vector (n,) and another covariance."""
+        """Return the estimate with an error vector (n,) added to its mean, and another covariance."""
         value = self.value + error
         value[TURN] = 0.0
         return type(self)(self.rotation_w2_w0 @ so3.exp(error[TURN]), value, covariance)
 
     def compute_error(self, other: PalmEstimate) -> FloatArray:
-        """Error vector (n,) that moves this mean to the other's; inverse of :meth:`add_error`."""
+        """Return the error vector (n,) from this mean to another's; inverse of :meth:`add_error`."""
         error = other.value - self.value
         error[TURN] = so3.log(self.rotation_w2_w0.T @ other.rotation_w2_w0)
         return error
 
 
-_MIN_SD_M = 1e-5
-"""Keeps the covariance positive definite where nothing has moved yet."""
+_MIN_SD_M = 1e-5  # keeps the covariance positive definite where nothing has moved yet
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +105,7 @@ class InitialSd:
 
 
 def initial_estimate(sd: InitialSd, calibration_covariance: FloatArray) -> PalmEstimate:
-    """A hand at rest at the neutral pose, its discs where they were calibrated: by definition none has moved yet.
+    """Return a hand at rest at the neutral pose, its discs where they were calibrated.
 
     ``calibration_covariance`` (21, 21) of the calibration's error.
     """
@@ -141,7 +141,7 @@ class PalmView:
     hidden: FloatArray
 
     def discs_cam_m(self, estimate: PalmEstimate) -> FloatArray:
-        """Disc centres (6, 3) in camera axes, where the skin has carried them."""
+        """Return the disc centres (6, 3) in camera axes."""
         place = self.palm_m + estimate.shape_m + estimate.skin_m
         in_w0 = place @ estimate.rotation_w2_w0.T + estimate.position_m
         return np.asarray(in_w0 @ self.rotation_w0_cam.T + self.translation_w0_cam_m)
@@ -149,14 +149,14 @@ class PalmView:
     def to_camera(
         self, estimate: PalmEstimate, axes: FloatArray, origin_m: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """From a palm's ``axes`` (3, 3) at ``origin_m`` (3,), both in the tracked body, into camera axes."""
+        """Transform a palm's ``axes`` (3, 3) at ``origin_m`` (3,) from the tracked body to camera axes."""
         body_cam = self.rotation_w0_cam @ estimate.rotation_w2_w0
         origin = body_cam @ origin_m + self.rotation_w0_cam @ estimate.position_m + self.translation_w0_cam_m
         return body_cam @ axes, origin
 
 
 def reset_error(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[PalmEstimate, ModeMixture]:
-    """The nominal estimate moved to the mixture's mean and given its covariance; the mixture as errors from there."""
+    """Move the nominal estimate to the mixture's mean; return it and the mixture as errors from there."""
     rotation, value, covariance, apart = reset_errors(nominal, mixture)
     reset = ModeMixture(apart, mixture.covariance, mixture.probability)
     return PalmEstimate(rotation, value, covariance), reset

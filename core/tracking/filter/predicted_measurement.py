@@ -1,4 +1,4 @@
-"""What the camera should see of the hand at one moment: the state estimate predicted for it, and h linearised there."""
+"""Predicted measurement of the hand: the state predicted for a moment, and h linearised there."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.calibration.neutral_pose import marker_positions_cam_m
 from carpus.core.calibration.result import Calibration
 from carpus.core.compiled.digit_images import project_discs
 from carpus.core.compiled.palm import predict_palm_measurement
@@ -25,32 +26,28 @@ from carpus.core.tracking.filter.settings import MeasurementNoise, TrackerSettin
 from carpus.core.tracking.filter.soft_tissue import DigitSpeeds
 from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights
 
-_MIN_SD_M = 1e-5
-"""Keeps the covariance of a perfectly measured disc positive definite."""
+_MIN_SD_M = 1e-5  # keeps the covariance of a perfectly measured disc positive definite
 
+LOCKED_DEPTH_SHARE = 0.6  # of a reading's error that stays while the hand is still, where depths are rounded to steps
+NOISE_ADAPTATION_S = 0.5  # over which each marker's own noise is judged by its residuals
 
-LOCKED_DEPTH_SHARE = 0.6
-"""Share of a reading's error that stays as long as the hand is still, where depths are rounded to steps."""
-NOISE_ADAPTATION_S = 0.5
-"""Over which each marker's own noise is judged by its residuals."""
-
-
+# Share of a frame's information on the shape taken for new, of a hand that moves; and what is left of that while it is
+# still.
 SHAPE_LEARNING_SHARE, SHAPE_STILL_SHARE = 0.2, 0.02
-"""Share of what a frame says of the shape taken for new, of a hand that moves; what is left of it while it is still."""
 
 
 def ray_covariances(calibration: Calibration, sd_m: FloatArray) -> FloatArray:
-    """Covariances (M, 3, 3) in W0 of errors along the rays from the camera, ``sd_m`` (M,) in depth."""
-    place = _discs_in_camera(calibration)
+    """Return covariances (M, 3, 3) in W0 of errors along the camera's rays, ``sd_m`` (M,) in depth."""
+    place = marker_positions_cam_m(calibration)
     ray = (place / place[:, 2:]) @ calibration.rotation_w0_cam
     return np.asarray(np.broadcast_to(sd_m, len(ray))[:, None, None] ** 2 * ray[:, :, None] * ray[:, None, :])
 
 
 def depth_bias_matrix(calibration: Calibration, share: float) -> FloatArray:
-    """What a shape (3M,) takes from the depths (M,) of every pose: matrix (M, 3M).
+    """Return the matrix (M, 3M) by which a shape (3M,) is missing in the depths (M,) of every pose.
 
     Its effect on the calibration's depths times the ``share`` of it that is their error: by that much the discs lie
-    elsewhere without ever being seen there.
+    elsewhere without ever being measured there.
     """
     count = len(calibration.marker_position_w0_m)
     disc = np.arange(count)
@@ -59,13 +56,12 @@ def depth_bias_matrix(calibration: Calibration, share: float) -> FloatArray:
     return out.reshape(count, -1)
 
 
-def _discs_in_camera(calibration: Calibration) -> FloatArray:
-    return calibration.marker_position_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
-
-
 def compute_fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camera) -> float:
-    """How far the depths' errors are other ones than in the picture before, 0 to 1, by how the discs (M, 3), in camera
-    axes, have moved meanwhile: across by so much of a matching window, along by so much of a reading's error."""
+    """Return how far the depths' errors differ from those of the last frame, 0 to 1.
+
+    By how much the discs (M, 3), in camera axes, have moved meanwhile: across by so much of a matching window, along by
+    so much of a reading's error.
+    """
     across_m, down_m, along_m = (np.add.reduce(np.abs(after_m - before_m)) / len(after_m)).tolist()
     depth_m = float(np.add.reduce(after_m[:, 2])) / len(after_m)
     windows = math.hypot(across_m, down_m) * camera.fx_px / depth_m / camera.sensor.patch_px
@@ -73,16 +69,18 @@ def compute_fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camer
 
 
 def shape_partial_update(news: float) -> FloatArray:
-    """Shares (n,) of a correction that the mean takes, what is learnt only ``news`` (0 to 1) of what is told."""
+    """Return shares (n,) of an update that the mean takes: the calibration error only ``news`` (0 to 1)."""
     return partial_update_shares(SIZE, CALIBRATION_ERROR, 1.0 - math.sqrt(1.0 - news))
 
 
 def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: MeasurementNoise) -> FloatArray:
-    """Covariance (18, 18) of the discs' places as calibrated, with what the scatter of a still hand's depths does not
-    show of their error: its ``depth_stays_m``, and the step to which a depth stays rounded while the hand is still."""
-    rounded_m = (
-        0.0 if sensor.averages else LOCKED_DEPTH_SHARE * sensor.reading_sd_m(_discs_in_camera(calibration)[:, 2])
-    )
+    """Return the covariance (18, 18) of the discs' places as calibrated.
+
+    With what the scatter of a still hand's depths does not show of their error: its ``depth_stays_m``, and the step to
+    which a depth stays rounded while the hand is still.
+    """
+    depth_m = marker_positions_cam_m(calibration)[:, 2]
+    rounded_m = 0.0 if sensor.averages else LOCKED_DEPTH_SHARE * sensor.reading_sd_m(depth_m)
     own = calibration.marker_covariance_w0_m2 + ray_covariances(calibration, np.hypot(noise.depth_stays_m, rounded_m))
     own = own + _MIN_SD_M**2 * np.eye(3)
     count = len(own)
@@ -91,21 +89,23 @@ def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: Measu
     return covariance.reshape(3 * count, -1)
 
 
+# WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit; the knuckles.
 DORSAL_DISCS, KNUCKLES = np.arange(4), slice(2, 6)
-"""WRIST, CMC1, MCP2, MCP3, which span the surface of the fixed unit."""
 
 
 @dataclass(frozen=True, slots=True)
 class MarkerOrder:
-    """Rows of the protocol: ``palm`` (6,) of the palm's discs, ``digits`` (R, 3) of those that move against it, of the
-    digits that carry discs, ``has_discs`` (5,)."""
+    """Rows of the protocol: ``palm`` (6,) of the palm's discs, ``digits`` (R, 3) of those that move.
+
+    ``has_discs`` (5,) digits that carry discs. ``source``: row of each marker among the palm's and, after them, those
+    of all digits.
+    """
 
     palm: NDArray[np.int64]
     digits: NDArray[np.int64]
     has_discs: NDArray[np.bool_]
 
     source: NDArray[np.int64] = field(init=False, repr=False, compare=False)
-    """Where each marker's row stands among the palm's and, after them, those of all digits."""
 
     def __post_init__(self) -> None:
         source = np.empty(self.palm.size + self.digits.size, dtype=np.int64)
@@ -114,7 +114,7 @@ class MarkerOrder:
         object.__setattr__(self, "source", source)
 
     def to_protocol_order(self, palm: NDArray[Any], digits: NDArray[Any] | None) -> NDArray[Any]:
-        """Rows (M, ...) of the protocol from those of the palm (6, ...) and of the digits' discs (5, 3, ...)."""
+        """Return rows (M, ...) of the protocol from those of the palm (6, ...) and the digits (5, 3, ...)."""
         if digits is None:
             return palm
         every = digits.reshape(N_DIGITS * N_DISCS, *palm.shape[1:])
@@ -132,18 +132,18 @@ class PredictedDigits:
     def project(
         self, estimate: PalmEstimate, view: PalmView, spread: UnscentedParameters
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
+        """Return pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
         own_view = DigitView(*view.to_camera(estimate, self.palm.axes, self.palm.origin_m), view.camera)
         return project_discs(self.points, own_view, digit_sigma_weights(spread).scale)
 
 
 @dataclass(frozen=True)
 class PredictedMeasurement:
-    """The palm's state predicted, all modes as errors from ``nominal``, and what the camera should see of the hand.
+    """The predicted state of the palm, all modes as errors from ``nominal``, and its measurement.
 
-    ``mixture`` (1, K, n), ``linearised`` h; of each of the palm's discs ``mean`` (6, 3) and ``covariance``
-    (6, 3, 3) of its own u, v and z over all modes. the ``partial`` update that the numbers take; ``digits`` where
-    there are any. As properties, for the search of the picture, all markers in the protocol's ``order``.
+    ``mixture`` (1, K, n), ``linearised`` h; ``mean`` (6, 3) and ``covariance`` (6, 3, 3) of u, v and z of each of the
+    palm's discs over all modes; the ``partial`` update that the numbers take; ``digits`` where there are any. As
+    properties, for the detection, all markers in the protocol's ``order``.
     """
 
     nominal: PalmEstimate
@@ -160,13 +160,15 @@ class PredictedMeasurement:
     def with_estimate(
         self, nominal: PalmEstimate, mixture: ModeMixture, view: PalmView | None = None
     ) -> PredictedMeasurement:
-        """The same moment, should the palm be there."""
+        """Return the predicted measurement at the same moment for another state."""
         view = self.view if view is None else view
         return predict_measurement(nominal, mixture, view, self.spread, self.partial, self.digits, self.order)
 
     def mode_predictions(self) -> tuple[FloatArray, FloatArray]:
-        """Of all the palm's discs together, without the measurement noise, in every mode: mean (K, 18) as in (10) and
-        covariance (K, 18, 18) as in (11)."""
+        """Return mean (K, 18), eq. (10), and covariance (K, 18, 18), eq. (11), in every mode.
+
+        Of all the palm's discs together, without the measurement noise.
+        """
         slope = self.linearised.slope[0]
         return self.linearised.value + self.mixture.mean[0] @ slope.T, slope @ self.mixture.covariance[
             0
@@ -181,19 +183,19 @@ class PredictedMeasurement:
 
     @property
     def pixel(self) -> FloatArray:
-        """Where the discs should be (M, 2)."""
+        """Predicted pixels (M, 2)."""
         image = self._digit_image
         return self._to_protocol_order(self.mean[:, :2], None if image is None else image[0])
 
     @property
     def covariance_px2(self) -> FloatArray:
-        """Covariance (M, 2, 2) of that; a digit's goes with the palm wherever that is."""
+        """Covariance (M, 2, 2) of the pixels; a digit's includes the palm's."""
         own, image = self.covariance[:, :2, :2], self._digit_image
         return self._to_protocol_order(own, None if image is None else image[1] + own.max(axis=0))
 
     @property
     def depth_m(self) -> FloatArray:
-        """Their depths (M,)."""
+        """Predicted depths (M,)."""
         image = self._digit_image
         return self._to_protocol_order(self.mean[:, 2], None if image is None else image[2])
 
@@ -220,7 +222,7 @@ def predict_measurement(
     digits: PredictedDigits | None = None,
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
-    """What to expect of a mixture of errors about ``nominal``, whose covariance is that of the whole mixture."""
+    """Return the predicted measurement of a mixture of errors about ``nominal``."""
     value, slope, error, mean, own = predict_palm_measurement(
         nominal, mixture, view, compute_weights(POSE.size, spread)
     )
@@ -240,7 +242,7 @@ def predict_measurement_ahead(
     digits: PredictedDigits | None = None,
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
-    """What to expect of the palm ``dt_s`` later, and how much of its shape that picture may tell."""
+    """Predict the palm ``dt_s`` ahead and its measurement, and how much of its shape that may tell."""
     fresh = 0.0
     if dt_s > 0.0:
         before = estimate
@@ -253,10 +255,10 @@ def predict_measurement_ahead(
 def adapt_noise_factor(
     factor: FloatArray, residual: FloatArray, is_measured: BoolArray, dt_s: float, noise: MeasurementNoise
 ) -> FloatArray:
-    """Variance factors (..., 3) of u, v and depth after one more frame with these residuals, in standard deviations;
-    pixels u, v of a marker share theirs.
+    """Return the variance factors (..., 3) of u, v and depth after one more frame.
 
     Squared residuals should average one; the factor moves towards what makes them so over ``NOISE_ADAPTATION_S``.
+    Pixels u, v of a marker share theirs. ``residual`` (..., 3) in standard deviations.
     """
     if dt_s <= 0.0:
         return factor

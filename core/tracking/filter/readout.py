@@ -1,9 +1,9 @@
-"""From the filter's estimate to what people read: wrist frame, clinical angles, standard deviations.
+"""Readout of the estimate: wrist frame, clinical angles, standard deviations.
 
-The filter tracks the discs as a body whose axes are those of W0 as calibrated. While the palm's shape is
-refined, the true axes of W follow from the better known discs; the readout turns the result into them.
-The covariance of an angle holds both the pose's and the calibration's part, and of a sensor whose errors stay
-with the place the part that no number of pictures takes away: the filter counts each picture as news.
+The filter tracks the discs as a body whose axes are those of W0 as calibrated. While the palm's shape is refined, the
+true axes of W follow from the better known discs; the readout turns the result into them. The covariance of an angle
+holds both the pose's and the calibration's part, and of a sensor whose errors stay with the place the part that no
+number of frames takes away: the filter counts each frame as new.
 """
 
 from __future__ import annotations
@@ -25,20 +25,15 @@ from carpus.core.tracking.filter.palm_state import SHAPE, PalmEstimate, PalmView
 _NONE = np.empty(0)
 _NOWHERE = np.empty((0, 3))
 _DORSAL = np.array([0.0, 0.0, 1.0])
-_TILT_RANK_TOLERANCE = 1e-3
-"""Share of the best known direction below which depths tell nothing of a turn: about the line of sight."""
+_TILT_RANK_TOLERANCE = 1e-3  # share of the best known direction below which depths say nothing of a turn
 
-
-MAX_SHAPE_CHANGE_M = 3e-4
-"""The axes are computed anew when a disc's refined place has moved by this much; before, to first order."""
-METACARPAL_M = 0.055
-"""Of ring and little finger, from the joint at its base to its head (clinical reference 3.3)."""
+MAX_SHAPE_CHANGE_M = 3e-4  # of a disc; beyond, the axes are computed again, below, to first order
+METACARPAL_M = 0.055  # of ring and little finger, from the joint at its base to its head (clinical reference 3.3)
 
 
 @dataclass(frozen=True, slots=True)
 class WristAxes:
-    """Axes of W (3, 3) as columns in the tracked body, by how much they turn (3, 18) with each number of the shape, and
-    the shape (18,) of which they are."""
+    """Axes of W (3, 3) as columns in the tracked body, for a shape (18,), and their sensitivity (3, 18)."""
 
     axes: FloatArray
     sensitivity: FloatArray
@@ -46,7 +41,7 @@ class WristAxes:
 
 
 class Readout:
-    """Reads estimates of one calibrated palm; remembers only the axes of the last shape."""
+    """Reads estimates of one calibrated palm; stores only the axes of the last shape."""
 
     def __init__(self, calibration: Calibration, camera: Camera, disc_radius_m: float) -> None:
         self._sensor = sensor = camera.sensor
@@ -61,7 +56,7 @@ class Readout:
         self._axes: WristAxes | None = None
 
     def _axes_near(self, estimate: PalmEstimate) -> WristAxes:
-        """The axes of a shape so near to the estimate's that they follow it to first order."""
+        """Return axes of a shape so near to the estimate's that they follow it to first order."""
         shape = estimate.value[SHAPE]
         if self._axes is None or np.abs(shape - self._axes.shape_m).max() > MAX_SHAPE_CHANGE_M:
             axes, sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
@@ -71,8 +66,19 @@ class Readout:
     def compute_base(
         self, estimate: PalmEstimate, view: PalmView
     ) -> tuple[PalmGeometry, FloatArray, FloatArray, FloatArray, FloatArray]:
-        """The palm as refined, for the fingers; how the camera sees W of it, rotation (3, 3) and translation (3,); in
-        camera axes the covariances of the body's place and turn (6, 6) and of the turn of the palm's axes (3, 3)."""
+        """Return the palm as refined, for the fingers, and its view.
+
+        Returns
+        -------
+        palm : PalmGeometry
+            The palm in the tracked body.
+        rotation, translation_m : (3, 3), (3,)
+            From W into camera axes.
+        pose_covariance : (6, 6)
+            Of the body's position and turn, in camera axes.
+        turn_covariance : (3, 3)
+            Of the turn of the palm's axes, in camera axes.
+        """
         sign = side_sign(self._side)
         axes, origin_m, disc_m, cup, cup_sd, rotation, translation_m, pose, turn = compute_finger_base(
             self._axes_near(estimate), self._disc_m, estimate, view, sign, METACARPAL_M
@@ -80,7 +86,7 @@ class Readout:
         return PalmGeometry(axes, origin_m, disc_m, cup, cup_sd), rotation, translation_m, pose, turn
 
     def read_kinematics(self, estimate: PalmEstimate) -> KinematicState:
-        """Wrist pose, rates, angles and their standard deviations of a single estimate.
+        """Return wrist pose, rates, angles and their standard deviations of one estimate.
 
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
@@ -101,8 +107,10 @@ class Readout:
         )  # fmt: skip
 
     def _tilt_covariance(self, estimate: PalmEstimate) -> FloatArray:
-        """Covariance (3, 3) of the palm's turn, in the body, by the error of its discs' depths that stays: they tell
-        how it is tilted to the camera, by their distances from the middle; pixels tell the rest."""
+        """Return the covariance (3, 3) of the palm's turn, in the body, by constant errors of depth.
+
+        Depths tell how the palm is tilted to the camera, by the discs' distances from the centre; pixels tell the rest.
+        """
         calibration = self._calibration
         disc_w0_m = estimate.position_m + (self._disc_m + estimate.shape_m) @ estimate.rotation_w2_w0.T
         turned = calibration.rotation_w0_cam @ estimate.rotation_w2_w0
@@ -115,8 +123,7 @@ class Readout:
         return np.asarray((solved * sd_m**2) @ solved.T)
 
     def with_joints(self, kinematics: KinematicState, joints: JointState, estimate: PalmEstimate) -> KinematicState:
-        """The moment of an estimate with what is known of the fingers, whose bones stand on the fixed unit, not on the
-        skin."""
+        """Add the joints to the kinematics; their bones stand on the fixed unit, not on the skin."""
         rotation = so3.exp(kinematics.w0_turn_rad) @ kinematics.rotation_w2_w0
         origin_m = kinematics.position_m - estimate.rotation_w2_w0 @ estimate.skin_m[0]
         return KinematicState(
@@ -136,7 +143,7 @@ class Readout:
 
 
 def nan_kinematics(joint_count: int, marker_count: int) -> KinematicState:
-    """Nothing is known of ``joint_count`` joint angles, nor of the ``marker_count`` joint centres that go with them."""
+    """Return kinematics of which nothing is known."""
     three, joints = np.full(3, np.nan), np.full(joint_count, np.nan)
     places = np.full((marker_count if joint_count else 0, 3), np.nan)
     return KinematicState(three, three, three, np.full((3, 3), np.nan), *(three,) * 4, *(joints,) * 3, places)
@@ -151,7 +158,7 @@ def build_lost_frame(
     dropped_before: int,
     measured_share: FloatArray,
 ) -> TrackedFrame:
-    """The row of a frame in which the hand is lost: nothing is known but the blobs."""
+    """Return the result of a frame in which the hand is lost: nothing is known but the blobs."""
     per_marker = np.full((marker_count, 2), np.nan)
     return TrackedFrame(
         index=index,

@@ -1,4 +1,4 @@
-"""Settings and constants of the tracker, with where they come from."""
+"""Settings and constants of the tracker, with their sources."""
 
 from __future__ import annotations
 
@@ -53,11 +53,12 @@ class Profiles:
 
 @dataclass(frozen=True, slots=True)
 class MeasurementNoise:
-    """``pixel_sd_px`` of a whole, well lit disc's centre, measured anew on every still hand; ``depth_ratio`` of the
-    depths' scatter to that of a reading by the book, likewise measured.
-    ``depth_stays_m``: error of a disc's depth that stays over a recording (the matching window flattens knuckles).
-    A residual beyond ``outlier_sd`` is given the noise it shows; each marker's variance rises to at most
-    ``most_adapted`` times and falls to ``least_adapted``.
+    """Noise of the measurements.
+
+    ``pixel_sd_px`` of a whole, well lit disc's centre, measured again on every still hand; ``depth_ratio`` of the
+    depths' scatter to that of a reading by the book, likewise measured. ``depth_stays_m``: constant error of a disc's
+    depth over a recording (the matching window flattens knuckles). A residual beyond ``outlier_sd`` is given the noise
+    it shows; each marker's variance rises to at most ``most_adapted`` times and falls to ``least_adapted``.
     """
 
     pixel_sd_px: float = 0.15
@@ -73,13 +74,13 @@ _LIMITS: Limits = {"lost_after_s": (0.0, 3600.0)}
 
 @dataclass(frozen=True, slots=True)
 class TrackerSettings:
-    """What a person may set of the tracker, and the constants it is made of; all of it is stored with every session.
+    """What a person may set of the tracker, and its constants; all of it is stored with every session.
 
     ``profile`` which of the ``profiles`` moves the hand; ``use_depth`` False: colour alone, as in the papers; ``dip``:
-    end joints bound to the middle joints or free; ``lost_after_s`` without three palm markers the hand is lost.
+    DIP joints coupled to PIP joints or free; ``lost_after_s`` without three palm markers the hand is lost.
 
     The constants, whose reasons stand in their classes: ``mode_scales`` of motion modes run side by side, as factors on
-    the process noise; ``shape_hidden`` share of a correction of the palm's shape taken for a depth that stays wrong;
+    the process noise; ``shape_hidden`` share of a correction of the palm's shape taken for a constant error of depth;
     ``tissue`` how skin and relief move; ``use_surface`` measure the back of the hand by its depth, as ``surface`` says;
     ``marker_radius_m`` of the paper discs, as measured at each calibration.
     """

@@ -1,16 +1,15 @@
-"""How skin and relief of the back of the hand leave their calibrated places, stay there, and come back.
+"""Soft tissue of the back of the hand: how skin and relief leave their calibrated places.
 
 Tissue rests most of the time, and moves as fingers, thumb or wrist do: what it does is a mode of the filter. *Home* it
-lies as calibrated; *still* what was displaced stays where it is; as it moves, a part of it is pushed at random (an
+lies as calibrated; *still* what was displaced stays where it is; as it moves, a part of it is driven at random (an
 Ornstein-Uhlenbeck process): knuckles *glide*, the arch *cups*, the skin of *thumb* or *wrist* is drawn along. What no
-picture tells of it stays uncertain, and widens the angles' standard deviation instead of turning the hand. Where the
-fingers are seen nobody needs to guess when tissue moves: home or not, it is pushed as far as the joints beneath it
-turn, all of it at once, as in a grasp. Where only blobs are seen tissue cannot be told from bone, and all of it is
-pushed all the time.
+frame tells of it stays uncertain, and widens the angles' standard deviation instead of turning the hand. Where the
+fingers are seen it is known when tissue moves: home or not, it is driven as far as the joints beneath it turn, all of
+it at once, as in a grasp. Where only blobs are seen tissue cannot be told from bone, and all of it is driven all the
+time.
 
-Sizes from clinical reference 2 and 10: skin over knuckles glides 2 to 6 mm, mostly
-along the digit; metacarpals 4 and 5 flex by 20 and 27 degrees at most, tied to each other; the wrist's and thumb's
-skin 2 to 5.
+Sizes from clinical reference 2 and 10: skin over knuckles glides 2 to 6 mm, mostly along the digit; metacarpals 4 and 5
+flex by 20 and 27 degrees at most, tied to each other; the wrist's and thumb's skin 2 to 5.
 """
 
 from __future__ import annotations
@@ -24,10 +23,9 @@ import numpy as np
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.palm_state import N_PALM_DISCS, RELIEF, SIZE, SKIN, SOFT_TISSUE
 
-CUPPING_DISCS = np.array([4, 5])
-"""MCP4 and MCP5, whose metacarpals flex."""
+CUPPING_DISCS = np.array([4, 5])  # MCP4 and MCP5, whose metacarpals flex
+# Modes of the tissue: the first two are rest. Where joints say when it moves there is one beside home.
 HOME, STILL, GLIDE, CUP, THUMB, WRIST = range(6)
-"""Modes of the tissue: the first two are rest. Where joints say when it moves there is one beside home."""
 _MOVING = np.array([GLIDE, CUP, THUMB, WRIST])
 _WRIST_DISC, _CMC1 = 0, 1
 _KNUCKLES = range(2, 6)
@@ -39,26 +37,26 @@ _AT_ONCE_S = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class SoftTissue:
-    """Scatter of the discs' places on the fixed unit, metres, along X (distal), across (Y) and along the normal (Z).
+    """Scatter of the discs' places on the fixed unit, and how long it lasts.
 
-    ``knuckle_*`` of MCP2 and MCP3, common to neighbours by the share ``glides_together``; ``wrist_*`` and ``thumb_*``
-    of WRIST and CMC1; ``cupping_m`` how far MCP4 and MCP5 sink as the arch closes, both together by the share
-    ``cups_together``; besides, these glide by ``loose_along_m`` and ``loose_across_m``. ``lasts_s``: how long a
-    displacement lasts while tissue moves, ``rests_s`` while it rests, looking back
-    ``creeps_s``, since what the filter took for rest may have been a slow motion; home it is within ``home_m``.
-    ``looked_back``: factor on the variance that is stated of it, at most the live one, since what displaced tissue and
-    depth have wrong comes again in picture after picture, and is not averaged away.
+    Metres, along X (distal), across (Y) and along the normal (Z). ``knuckle_*`` of MCP2 and MCP3, common to neighbours
+    by the share ``glides_together``; ``wrist_*`` and ``thumb_*`` of WRIST and CMC1; ``cupping_m`` how far MCP4 and MCP5
+    sink as the arch closes, both together by the share ``cups_together``; besides, these glide by ``loose_along_m`` and
+    ``loose_across_m``. ``lasts_s``: how long a displacement lasts while tissue moves, ``rests_s`` while it rests, when
+    smoothing ``creeps_s``, since what the filter took for rest may have been a slow motion; home it is within
+    ``home_m``. ``looked_back``: factor on the variance of the smoothed estimate, at most the live one, since what
+    displaced tissue and depth have wrong comes again in frame after frame, and is not averaged away.
 
     Per second: resting tissue begins to move at ``leaving_per_s``, the wrist's the more the faster the hand turns, by
-    ``turning_rad_s``; a motion ends after ``dwell_s``, with the chance ``homing_share`` at home; what is displaced goes
-    home at ``homing_per_s``, and home ends without a motion at ``home_ends_per_s``. Just calibrated, each other
-    mode has the chance ``elsewhere_at_start``.
+    ``turning_rad_s``; a motion ends after ``dwell_s``, with the probability ``homing_share`` at home; what is displaced
+    goes home at ``homing_per_s``, and home ends without a motion at ``home_ends_per_s``. Just calibrated, each other
+    mode has the probability ``elsewhere_at_start``.
 
     Where the fingers are seen a displacement lasts as long as the joints beneath it turn by ``lasts_rad``, or creeps
-    away as looking back, and home ends at ``leaving_per_rad``; no joint is taken to turn faster than ``fastest_rad_s``.
+    away as in smoothing, and home ends at ``leaving_per_rad``; no joint is taken to turn faster than ``fastest_rad_s``.
 
     ``relief_*`` scatter of the surface's turn about X and Y and height, and how long that lasts: home it is what the
-    depth's errors make of it as they change with the place in the picture.
+    depth's errors make of it as they change with the place in the image.
     """
 
     knuckle_along_m: float = 0.0020
@@ -96,8 +94,7 @@ class SoftTissue:
 
 
 class DigitSpeeds(NamedTuple):
-    """How fast, in rad/s, the thumb turns at its base and the fingers at their knuckles; zero where nobody sees
-    them."""
+    """Rates, in rad/s, of the thumb at its base and of the fingers at MCP; zero where not measured."""
 
     thumb: float = 0.0
     fingers: float = 0.0
@@ -108,13 +105,14 @@ ZERO_SPEEDS = DigitSpeeds()
 
 @dataclass(frozen=True, slots=True)
 class TissueModes:
-    """What skin and relief (r numbers) may be doing, J modes, the first ``resting`` of them at rest: they settle at
-    ``stationary`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going over from row to
-    column, that to the wrist's by how fast the hand turns, in ``turning_rad_s``; looking back, resting skin is pushed
-    ``creep`` times as much, and all is ``variance_factor`` times as unsure; ``displaced_probability`` is the chance
-    of each mode but home of
-    tissue just calibrated. Where joints are told, each number lasts besides for ``lasts_rad`` of them, and home ends at
-    ``leaving_per_rad``."""
+    """J modes of skin and relief (r numbers), the first ``resting`` of them at rest.
+
+    They settle at ``stationary`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going
+    over from row to column, that to the wrist's by how fast the hand turns, in ``turning_rad_s``. For smoothing,
+    resting skin is driven ``creep`` times as much, and the variance is ``variance_factor`` times as large;
+    ``displaced_probability`` of each mode but home of tissue just calibrated. Where joints are measured, each number
+    lasts besides for ``lasts_rad`` of them, and home ends at ``leaving_per_rad``.
+    """
 
     stationary: FloatArray
     lasts_s: FloatArray
@@ -132,7 +130,7 @@ class TissueModes:
         return len(self.stationary)
 
     @property
-    def follows_joints(self) -> bool:
+    def is_joint_driven(self) -> bool:
         return bool(np.isfinite(self.lasts_rad))
 
     @property
@@ -145,7 +143,7 @@ class TissueModes:
 
 @lru_cache(maxsize=8)
 def single_moving_mode(tissue: SoftTissue) -> TissueModes:
-    """One mode, in which all of it moves."""
+    """Return one mode, in which all of it moves."""
     return TissueModes(
         _scatter_covariance(tissue)[None],
         np.full((1, _SOFT), tissue.lasts_s),
@@ -157,7 +155,7 @@ def single_moving_mode(tissue: SoftTissue) -> TissueModes:
 
 @lru_cache(maxsize=8)
 def joint_driven_modes(tissue: SoftTissue) -> TissueModes:
-    """Two modes, home or not; elsewhere it moves as the joints beneath it do."""
+    """Return two modes, home or not; elsewhere it moves as the joints beneath it do."""
     stationary = np.repeat(_scatter_covariance(tissue)[None], 2, axis=0)
     lasts_s = np.full((2, _SOFT), tissue.creeps_s)
     lasts_s[1, _RELIEF] = tissue.relief_still_s
@@ -177,7 +175,7 @@ def joint_driven_modes(tissue: SoftTissue) -> TissueModes:
 
 @lru_cache(maxsize=8)
 def resting_and_moving_modes(tissue: SoftTissue) -> TissueModes:
-    """The six modes."""
+    """Return the six modes."""
     stationary = np.repeat(_scatter_covariance(tissue)[None], 6, axis=0)
     lasts_s = np.full((6, _SOFT), tissue.rests_s)
     stationary[GLIDE, : _RELIEF.start, : _RELIEF.start] -= _cupping_covariance(tissue)
@@ -201,7 +199,7 @@ def resting_and_moving_modes(tissue: SoftTissue) -> TissueModes:
 
 
 def _home_mode(tissue: SoftTissue) -> tuple[FloatArray, FloatArray]:
-    """Covariance (r, r) of what lies as calibrated, and how long it lasts (r,)."""
+    """Return the covariance (r, r) of what lies as calibrated, and how long it lasts (r,)."""
     stationary, lasts_s = tissue.home_m**2 * np.eye(_SOFT), np.full(_SOFT, _AT_ONCE_S)
     stationary[_RELIEF, _RELIEF], lasts_s[_RELIEF] = np.diag(tissue.relief_home) ** 2, tissue.relief_home_s
     return stationary, lasts_s
@@ -209,14 +207,14 @@ def _home_mode(tissue: SoftTissue) -> tuple[FloatArray, FloatArray]:
 
 @lru_cache(maxsize=8)
 def stationary_covariance(tissue: SoftTissue) -> FloatArray:
-    """Covariance (n, n) that skin and relief have when nothing was seen for long; zero elsewhere."""
+    """Return the covariance (n, n) of skin and relief not measured for long; zero elsewhere."""
     out = np.zeros((SIZE, SIZE))
     out[SOFT_TISSUE, SOFT_TISSUE] = _scatter_covariance(tissue)
     return out
 
 
 def _scatter_covariance(tissue: SoftTissue) -> FloatArray:
-    """Covariance (r, r) of skin and relief that may have moved in any way."""
+    """Return the covariance (r, r) of skin and relief that may have moved in any way."""
     sd = np.zeros((N_PALM_DISCS, 3))
     sd[_WRIST_DISC] = tissue.wrist_along_m, tissue.wrist_across_m, tissue.wrist_up_m
     sd[_CMC1] = tissue.thumb_m
@@ -236,7 +234,7 @@ def _scatter_covariance(tissue: SoftTissue) -> FloatArray:
 
 
 def _cupping_covariance(tissue: SoftTissue) -> FloatArray:
-    """Covariance (18, 18) of the discs' places by the closing arch alone."""
+    """Return the covariance (18, 18) of the discs' places by the closing arch alone."""
     out = np.zeros((N_PALM_DISCS, 3, N_PALM_DISCS, 3))
     together = tissue.cups_together + (1.0 - tissue.cups_together) * np.eye(2)
     out[CUPPING_DISCS[:, None], 2, CUPPING_DISCS, 2] = np.outer(tissue.cupping_m, tissue.cupping_m) * together

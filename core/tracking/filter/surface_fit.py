@@ -1,4 +1,4 @@
-"""The pose of the fixed unit from the surface of the back of the hand: point to plane, a few Gauss-Newton steps.
+"""The pose of the fixed unit from the surface of the back of the hand: point to plane, Gauss-Newton.
 
 Thousands of depth readings lie on the back of the hand, and six discs. The surface over capitate, second and third
 metacarpal turns with the bones while skin glides over them; so it tells how the hand is tilted where the discs, which
@@ -17,20 +17,21 @@ from carpus.core.model.types import FloatArray, SurfaceSamples
 from carpus.core.tracking.filter.mixture_filter import Linearisation
 from carpus.core.tracking.filter.palm_state import SIZE, PalmEstimate, PalmView
 
-NO_NOISE = np.full((1, 3), 1e-12)
-"""Variances of a measurement whose covariance is all there is."""
+NO_NOISE = np.full((1, 3), 1e-12)  # variances of a measurement whose covariance is all there is
 
 
 @dataclass(frozen=True, slots=True)
 class SurfaceSettings:
-    """``steps`` of Gauss-Newton; residuals beyond ``huber_m`` count less, beyond ``most_m`` not at all; with less than
-    ``least`` readings the surface is not asked. Readings nearer to each other than the sensor's patch share the
-    part ``shared`` of their variance, which is not of rounding to steps of disparity (clinical reference 7.2: a step is
-    two standard deviations), or all of it where the sensor has no such steps; ``reading_per_m`` is a reading's at
-    least, over the depth squared.
-    ``turn_sd_rad`` and ``up_sd_m`` that no number of readings takes away from one picture. Beyond ``most_nis`` it is
-    not this surface. ``goes_on``: by how much more the error of one picture counts since the next has a part of it
-    again; ``stays``: share of it that comes again as long as the hand is still."""
+    """Settings of the surface fit.
+
+    ``steps`` of Gauss-Newton; residuals beyond ``huber_m`` have less weight, beyond ``most_m`` none; with less than
+    ``least`` readings the surface is not fitted. Readings nearer to each other than the sensor's patch share the part
+    ``shared`` of their variance, which is not of rounding to steps of disparity (clinical reference 7.2: a step is two
+    standard deviations), or all of it where the sensor has no such steps; ``reading_per_m`` is a reading's at least,
+    over the depth squared. ``turn_sd_rad`` and ``up_sd_m`` that no number of readings takes away from one frame. Beyond
+    ``most_nis`` it is not this surface. ``goes_on``: by how much more the error of one frame counts since the next has
+    a part of it again; ``stays``: share of it that comes again as long as the hand is still.
+    """
 
     steps: int = 3
     huber_m: float = 0.003
@@ -60,13 +61,13 @@ class SurfaceMeasurement:
     max_nis: float
 
     def to_linearisation(self) -> Linearisation:
-        """Linear about the estimate's mean."""
+        """Return the measurement, linear about the estimate's mean."""
         return Linearisation(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
 
     def append_to(
         self, discs: Linearisation, measured: FloatArray, variance: FloatArray
     ) -> tuple[Linearisation, FloatArray, FloatArray]:
-        """Append the three numbers to a measurement (1, m) about the same mean, for one correction by both."""
+        """Append the three components to a measurement (1, m) about the same mean, for one update by both."""
         own, count = self.to_linearisation(), measured.shape[1]
         error = np.zeros((1, count + 3, count + 3))
         error[:, :count, :count], error[:, count:, count:] = discs.error, own.error
@@ -94,8 +95,11 @@ def fit_surface(
 
 
 def surface_calibration_covariance(surface: DorsalSurface, view: PalmView, settings: SurfaceSettings) -> FloatArray:
-    """Covariance (3, 3) of the calibrated surface's own turn about X and Y and height: the share ``stays`` of one
-    picture's errors, since these come again in every picture of a still hand and no averaging removes them."""
+    """Return the covariance (3, 3) of the calibrated surface's own turn about X and Y and height.
+
+    The share ``stays`` of one frame's errors, since these come again in every frame of a still hand and no averaging
+    removes them.
+    """
     node = surface.node_positions_m()
     in_camera = node @ view.rotation_w0_cam.T + view.translation_w0_cam_m
     samples = SurfaceSamples(view.camera.project(in_camera), in_camera[:, 2])

@@ -12,7 +12,7 @@ from carpus.core.model.types import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class UnscentedParameters:
-    """How far the points stand from the mean. With kappa 0 and alpha 1 they stand at sqrt(n) sigma."""
+    """Scaling of the sigma points; with kappa 0 and alpha 1 they stand at sqrt(n) sigma."""
 
     alpha: float = 0.25
     beta: float = 2.0
@@ -21,8 +21,10 @@ class UnscentedParameters:
 
 @dataclass(frozen=True, slots=True)
 class SigmaWeights:
-    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda). ``numbers`` (5,): of ``mean``
-    the centre's and the others', of ``covariance`` likewise, and ``scale``."""
+    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda).
+
+    ``numbers`` (5,): of ``mean`` the centre's and the others', of ``covariance`` likewise, and ``scale``.
+    """
 
     mean: FloatArray
     covariance: FloatArray
@@ -32,7 +34,7 @@ class SigmaWeights:
 
 @lru_cache(maxsize=64)
 def compute_weights(dimension: int, spread: UnscentedParameters) -> SigmaWeights:
-    """Weights of the 2n+1 points of an n-dimensional Gaussian."""
+    """Return the weights of the 2n+1 points of an n-dimensional Gaussian."""
     lam = spread.alpha**2 * (dimension + spread.kappa) - dimension
     total = dimension + lam
     mean = np.full(2 * dimension + 1, 0.5 / total)
@@ -46,9 +48,12 @@ def compute_weights(dimension: int, spread: UnscentedParameters) -> SigmaWeights
 
 
 def sigma_offsets(covariance: FloatArray, scale: float) -> FloatArray:
-    """Offsets (..., 2n+1, n) of the sigma points from the mean for covariances (..., n, n).
+    """Return the offsets (..., 2n+1, n) of the sigma points for covariances (..., n, n).
 
-    Raises ``numpy.linalg.LinAlgError`` when a covariance is not positive definite.
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        When a covariance is not positive definite.
     """
     root = np.linalg.cholesky(covariance)
     columns = np.swapaxes(root, -1, -2) * scale

@@ -1,4 +1,4 @@
-"""The smoother's record: what the filter leaves behind of every frame, so that it can be smoothed later."""
+"""Record of the filter's steps, so that they can be smoothed later."""
 
 from __future__ import annotations
 
@@ -17,8 +17,10 @@ from carpus.core.tracking.smoother.palm_smoother import FilterStep, smooth_palm
 
 @dataclass(frozen=True, slots=True)
 class FilterSteps:
-    """Some frames in a row: the palm's and the fingers' steps, and what was believed of the fingers before the first
-    (None at the neutral pose)."""
+    """Some frames in a row: steps of palm and fingers, and the fingers before the first.
+
+    ``finger_start`` is None at the neutral pose.
+    """
 
     steps: Sequence[FilterStep]
     fingers: Sequence[FingerStep | None]
@@ -27,8 +29,10 @@ class FilterSteps:
 
 @dataclass(frozen=True, slots=True)
 class SmootherModel:
-    """The hand whose steps are recorded: how its palm moves and is seen, how its fingers do where they are tracked, a
-    fresh ``make_readout``, and the ``lost_state`` moment, of which nothing is known."""
+    """The hand whose steps are recorded: motion and view of its palm, model of its fingers.
+
+    ``make_readout`` returns a fresh readout; ``lost_state`` is the state of which nothing is known.
+    """
 
     motion: PalmMotion
     view: PalmView
@@ -38,7 +42,7 @@ class SmootherModel:
 
 
 class SmootherRecord:
-    """Grows by a step a frame; smooths what it holds, forgets, and hands over."""
+    """Grows by a step a frame; smooths what it holds, discards it, and hands it over."""
 
     def __init__(self, hand: SmootherModel) -> None:
         self._hand = hand
@@ -48,22 +52,22 @@ class SmootherRecord:
         self._finger_start: FingerStart | None = None
 
     def append(self, step: FilterStep, fingers: FingerStep | None) -> None:
-        """One more frame."""
+        """Add one frame."""
         self.history.append(step)
         self.finger_history.append(fingers)
 
     def smooth(self) -> list[KinematicState]:
-        """Every frame so far in the light of all the others. Tracking may go on meanwhile."""
+        """Return every frame so far smoothed by all the others. Tracking may go on meanwhile."""
         hand, readout = self._hand, self._hand.make_readout()
         estimates = smooth_palm(list(self.history), hand.motion)
         moments = [hand.lost_state if estimate is None else readout.read_kinematics(estimate) for estimate in estimates]
         if hand.fingers is None:
             return moments
-        seats = [
+        bases = [
             None if estimate is None else base_from_estimate(estimate, hand.view, readout) for estimate in estimates
         ]
         self.smoothed_digits = smooth_fingers(
-            hand.fingers, self.finger_history[: len(estimates)], seats, self._finger_start
+            hand.fingers, self.finger_history[: len(estimates)], bases, self._finger_start
         )
         return [
             hand.lost_state if joints is None or estimate is None else readout.with_joints(moment, joints, estimate)
@@ -71,15 +75,17 @@ class SmootherRecord:
         ]
 
     def discard_before(self, time_s: float) -> None:
-        """Give up the frames before that time, which were just smoothed."""
+        """Discard the frames before that time, which were just smoothed."""
         count = sum(step.timestamp_s < time_s for step in self.history)
         if self.smoothed_digits is not None and self._hand.fingers is not None and count:
             self._finger_start = self.smoothed_digits.start_for_next(count, self._hand.fingers)
         self._drop(count)
 
     def pop_steps(self, finger_start: FingerStart | None) -> FilterSteps:
-        """Give up all frames, to the record of another tracker of the same hand; ``finger_start`` what is believed of
-        the fingers now, for the frames to come."""
+        """Remove and return all frames, for the record of another tracker of the same hand.
+
+        ``finger_start`` is the estimate of the fingers now, for the frames to come.
+        """
         kept = FilterSteps(list(self.history), list(self.finger_history), self._finger_start)
         if self.history:
             self._finger_start = finger_start
@@ -87,7 +93,7 @@ class SmootherRecord:
         return kept
 
     def append_steps(self, steps: FilterSteps) -> None:
-        """Take what another record handed over; it goes on from what was taken before."""
+        """Add the steps of another record; it goes on from those added before."""
         if not self.history:
             self._finger_start = steps.finger_start
         self.finger_history += steps.fingers

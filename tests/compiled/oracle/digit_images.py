@@ -89,13 +89,13 @@ def project_discs(points: DigitSigmaPoints, view: DigitView, scale: float) -> tu
     return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
 
 
-def propagate_palm_error(linearised: DigitLinearisation, seat: DigitBase) -> FloatArray:
+def propagate_palm_error(linearised: DigitLinearisation, base: DigitBase) -> FloatArray:
     """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
     by_pose = np.empty((N_DIGITS, N_DISCS, 3, 6))
     by_pose[..., :3] = linearised.by_place
-    by_pose[..., 3:] = linearised.by_place @ so3.skew(seat.view.translation_m - linearised.centre_m)
+    by_pose[..., 3:] = linearised.by_place @ so3.skew(base.view.translation_m - linearised.centre_m)
     flat = by_pose.reshape(N_DIGITS, 9, 6)
-    return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))
+    return np.asarray(flat @ base.pose_covariance @ np.swapaxes(flat, 1, 2))
 
 
 def compute_tilts(
@@ -110,10 +110,10 @@ def compute_tilts(
 
 
 def compute_inherited(
-    covariance: FloatArray, seat: DigitBase, linearised: DigitLinearisation, normal: FloatArray
+    covariance: FloatArray, base: DigitBase, linearised: DigitLinearisation, normal: FloatArray
 ) -> FloatArray:
     """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from depths that stay wrong."""
-    camera, joints = seat.view.camera, covariance[:, :N_SLOTS, :N_SLOTS]
+    camera, joints = base.view.camera, covariance[:, :N_SLOTS, :N_SLOTS]
     unit = np.empty((N_DIGITS, N_DISCS, 3, 1))
     unit[..., :2, 0] = linearised.centre_m[..., 2:] / (np.array([camera.fx_px, camera.fy_px]) * ACROSS_M)
     unit[..., 2, 0] = 1.0 / DEPTH_STAYS_M
@@ -121,14 +121,14 @@ def compute_inherited(
     across = np.swapaxes(slope, 1, 2)
     doubt = INHERITED * np.linalg.inv(joints + NARROW2 * np.eye(N_SLOTS))
     response = np.linalg.solve(across @ slope + doubt, across)
-    root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
+    root_m = base.palm.disc_m[1:, None] @ base.view.rotation.T + base.view.translation_m
     turned = response @ (linearised.by_place @ so3.skew(root_m - linearised.centre_m) * unit).reshape(N_DIGITS, 9, 3)
-    in_camera = normal @ seat.view.rotation.T
+    in_camera = normal @ base.view.rotation.T
     moved = -in_camera[..., 2:] * in_camera
     moved[..., 2] += 1.0
     seen = linearised.by_place @ moved[..., None] * (DEPTH_STAYS_M * unit)
     by_disc = (response.reshape(N_DIGITS, N_SLOTS, N_DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
-    return np.asarray(turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2))
+    return np.asarray(turned @ base.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2))
 
 
 def compute_visibility(

@@ -69,7 +69,7 @@ def switch_modes(motion: PalmMotion, rate_rad_s: FloatArray, dt_s: float, digits
     """Probability (K, K) to go from row to column mode."""
     tissue, turning_rad_s = motion.tissue, float(np.linalg.norm(rate_rad_s))
     rates = tissue.rates.copy()
-    if tissue.follows_joints:
+    if tissue.is_joint_driven:
         rates[HOME, 1:] += tissue.leaving_per_rad * max(turning_rad_s, *digits)
     elif tissue.count > 1:
         rates[: tissue.resting, WRIST] *= 0.2 + min(turning_rad_s / tissue.turning_rad_s, 3.0)
@@ -107,7 +107,7 @@ def move_palm(
         driven[:, speed, place] = np.swapaxes(driven[:, place, speed], 1, 2)
         driven[:, speed, speed] = q * dt_s * (scales2 * np.eye(3) + more * unscaled)
     fading = dt_s / tissue.lasts_s
-    if tissue.follows_joints:
+    if tissue.is_joint_driven:
         turning_rad_s = float(np.linalg.norm(rate_rad_s))
         speeds = np.full(SOFT_TISSUE.stop - SOFT_TISSUE.start, max(turning_rad_s, *digits))
         speeds[_OF_WRIST], speeds[_OF_THUMB], speeds[_OF_KNUCKLES] = turning_rad_s, digits.thumb, digits.fingers
