@@ -1,7 +1,7 @@
-"""What is known of a depth sensor: how it measures, how sure one reading is, where it cannot be trusted.
+"""Depth sensors: noise models and limits.
 
-One value per sensor goes with the camera (:attr:`core.model.camera.Camera.sensor`) from the source to the detector, the
-calibration, the tracker and the session file, so that a new sensor is one more value here.
+One value per sensor goes with the camera (:attr:`core.model.camera.Camera.sensor`) from the source to detector,
+calibration, tracker and session file; a new sensor is one more value here.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ ASSUMED = "assumed"
 _MAX_TEXT = 80
 _MAX_EDGE_PX = 40
 CORE_SHARE = 0.4
-"""Of a disc's area: what the detector takes its depth from."""
+"""Share of a marker's area from which the detector takes its depth."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class NoiseModel:
     square_per_m: float = 0.0
 
     def sd_m(self, depth_m: FloatArray) -> FloatArray:
-        """Standard deviation (...) at depths (...), metres."""
+        """Return the standard deviation (...) at depths (...), metres."""
         out = self.square_per_m * depth_m**2
         return np.asarray(out + self.fixed_m if self.fixed_m else out)
 
@@ -45,16 +45,32 @@ class NoiseModel:
 
 @dataclass(frozen=True, slots=True)
 class DepthSensor:
-    """How depth came to be.
+    """Depth sensor and its noise.
 
-    ``reading``: noise of one reading. ``stays``: error that stays as long as the surface stays, of it or beside it: no
-    averaging over time removes it. ``patch_px``: readings within a square so wide are as one; those of several such
-    squares average where ``averages``. ``edge``: what becomes of readings about an edge (``torn`` in flecks,
-    ``fattened`` by the matching window, ``flying`` between both surfaces), ``edge_px`` how far about it.
-    There are no readings below ``nearest_m`` and above ``farthest_m``. ``registration``: who lays depth on colour. Of a
-    pair of eyes ``baseline_m`` and ``focal_px`` of the depth picture, 0 for time of flight. ``stays_px``: over how much
-    of the picture what stays is alike, 0 where no further than the patch. ``origin``: ``stated`` by the source, or
-    ``assumed``.
+    Attributes
+    ----------
+    reading : NoiseModel
+        Temporal noise of one reading.
+    stays : NoiseModel
+        Error that persists on the same surface (fixed pattern): no averaging over time removes it.
+    patch_px : float
+        Width of a square within which readings are fully correlated.
+    averages : bool
+        Whether readings of several such squares are independent.
+    edge : str
+        Readings at an edge: ``torn`` in flecks, ``fattened`` by the matching window, ``flying`` between both surfaces.
+    edge_px : int
+        Width of the affected zone.
+    nearest_m, farthest_m : float
+        Range of the sensor.
+    registration : str
+        Who registers depth to colour.
+    baseline_m, focal_px : float
+        Of a stereo pair and its depth image; 0 for time of flight.
+    stays_px : float
+        Correlation length of the persistent error; 0 if not beyond the patch.
+    origin : str
+        ``stated`` by the source, or ``assumed``.
     """
 
     name: str
@@ -74,32 +90,35 @@ class DepthSensor:
     origin: str = "stated"
 
     def reading_sd_m(self, depth_m: FloatArray) -> FloatArray:
-        """Standard deviation (...) of one reading at depths (...)."""
+        """Return the standard deviation (...) of one reading at depths (...)."""
         return self.reading.sd_m(depth_m)
 
     def mean_sd_m(self, depth_m: FloatArray, pixels: FloatArray) -> FloatArray:
-        """Standard deviation (...) of the mean of so many neighbouring readings (...) at depths (...)."""
+        """Return the standard deviation (...) of the mean of ``pixels`` neighbouring readings (...) at depths (...)."""
         sd = self.reading.sd_m(depth_m)
         if not self.averages:
             return sd
         return np.asarray(sd / np.sqrt(np.maximum(pixels / self.patch_px**2, 1.0)))
 
     def disc_sd_m(self, depth_m: FloatArray, area_px: FloatArray) -> FloatArray:
-        """Standard deviation (...) of a disc's depth, read over the middle of its area (...)."""
+        """Return the standard deviation (...) of a marker's depth, read over the middle of its area (...)."""
         return self.mean_sd_m(depth_m, CORE_SHARE * area_px)
 
     def bias_sd_m(self, depth_m: FloatArray) -> FloatArray:
-        """Standard deviation (...) of the part that stays."""
+        """Return the standard deviation (...) of the persistent error."""
         return self.stays.sd_m(depth_m)
 
     def flat_bias_sd_m(self, depth_m: FloatArray) -> FloatArray:
-        """The same over a flat surface, from which a wide matching window takes nothing off."""
+        """Return the same on a flat surface, on which a wide matching window has no effect."""
         flat = NoiseModel(0.0, self.stays.square_per_m) if self.kind == "active stereo" else self.stays
         return flat.sd_m(depth_m)
 
     def disc_bias_sd_m(self, depth_m: FloatArray, area_px: FloatArray) -> FloatArray:
-        """What stays of a flat disc's depth (...): its middle holds more than one place of a window's error, which is
-        alike over the window's width and gone beyond it."""
+        """Return the persistent error (...) of a flat marker's depth.
+
+        The error is fully correlated within the matching window's width and independent beyond it; the middle of a
+        large marker averages several windows.
+        """
         wide = np.sqrt(CORE_SHARE * area_px) / self.patch_px
         kept = np.where(
             wide <= 1.0, 1.0 - wide / 3.0, (1.0 - 1.0 / (3.0 * np.maximum(wide, 1.0))) / np.maximum(wide, 1.0)
@@ -107,9 +126,11 @@ class DepthSensor:
         return np.asarray(self.flat_bias_sd_m(depth_m) * kept)
 
     def with_focal(self, focal_px: float, color_focal_px: float = math.nan) -> DepthSensor:
-        """The same pair of eyes with depth pictures of another focal length: its disparity is as sure as before, and
-        its window as many of its own pixels wide; ``color_focal_px`` of the colour picture that depth is laid on says
-        how many of colour's that are. Other kinds stay as they are."""
+        """Return the same stereo pair with depth images of another focal length; other kinds are unchanged.
+
+        Disparity is as accurate as before, and the window as many of its own pixels wide. ``color_focal_px`` converts
+        that width to pixels of the colour image that depth is registered to.
+        """
         if self.kind != "active stereo":
             return self
         made = _build_stereo_sensor(self.name, self.baseline_m, focal_px, self.nearest_m, self.farthest_m)
@@ -117,14 +138,14 @@ class DepthSensor:
         return replace(made, origin=self.origin, patch_px=max(made.patch_px * larger, 1.0))
 
     def to_dict(self) -> dict[str, Any]:
-        """All of it in plain values, as files carry it."""
+        """Return all values in plain types, as files store them."""
         return asdict(self)
 
 
 def parse_sensor(value: object) -> DepthSensor:
-    """The sensor that a file tells by the name of a known one or as :meth:`DepthSensor.to_dict` wrote it.
+    """Parse a sensor in a file: the name of a known one, or the output of :meth:`DepthSensor.to_dict`.
 
-    Raises ValueError with what is wrong. Keys that are not known are passed over: a newer file may say more.
+    Unknown keys are ignored, since a newer file may have more. Raises ValueError.
     """
     if isinstance(value, str):
         known = next((sensor for sensor in SENSORS.values() if sensor.name == value), SENSORS.get(value))
@@ -179,11 +200,11 @@ def _is_non_negative(value: object) -> TypeGuard[float]:
 def _build_stereo_sensor(
     name: str, baseline_m: float, focal_px: float, nearest_m: float, farthest_m: float
 ) -> DepthSensor:
-    """A RealSense of the D400 family: sd = z^2 subpixel / (focal length x baseline), with a disparity to 0.08 pixel.
+    """Return a RealSense of the D400 family: sd = z^2 subpixel / (focal length x baseline), disparity sd 0.08 pixel.
 
     Grunnet-Jepsen, Sweetser and Woodfill, "Tuning depth cameras for best performance" (maker's paper, rev. 2.0): the
-    formula and its 0.08 pixel for a textured surface, over a plane: it holds what stays (the projector's spots as they
-    lie on the surface, the larger part) and what changes from picture to picture.
+    formula and its 0.08 pixel for a textured surface, over a plane. It includes the persistent error (the projector's
+    spots on the surface, the larger part) and the temporal noise.
     """
     law = NoiseModel(square_per_m=_SUBPIXEL_PX / (focal_px * baseline_m))
     patch_px = _WINDOW_PX * _COLOR_FOCAL_PX / focal_px
@@ -197,10 +218,11 @@ def _build_stereo_sensor(
 
 _SUBPIXEL_PX, _SUBPIXEL_STAYS_PX = 0.08, 0.06
 _WINDOW_PX, _COLOR_FOCAL_PX = 9.0, 525.0
-"""Width of the matching window in the depth picture; focal length of the colour picture that depth is laid on, where
-nobody says it."""
+"""Width of the matching window in the depth image; default focal length of the colour image that depth is registered
+to.
+"""
 _RELIEF_M, _RELIEF_PATCH_PX = 0.0005, 11.0
-"""What a window so wide takes off the height of knuckles, besides: it grows with the square of its width."""
+"""Height of knuckles lost in a window of that width; it grows with the square of the width."""
 
 PRIMESENSE = DepthSensor(
     "PrimeSense",
@@ -255,4 +277,4 @@ SENSORS: Mapping[str, DepthSensor] = {
 """Every known sensor by the name that files, commands and settings use."""
 
 ASSUMED_SENSOR = replace(PRIMESENSE, origin=ASSUMED)
-"""Of a source that does not say."""
+"""Sensor of a source that does not state one."""

@@ -1,8 +1,8 @@
-"""Child processes: started, settled and ended in one way.
+"""Child processes: started, set up and ended in one way.
 
-What may crash, hang, grow without end or hold the interpreter's lock runs in a child process: a camera's driver, HDF5
-on files that nobody vouches for, smoothing, tracking of stored sessions. The work is named ``"module:function"`` and
-resolved in the child, after its threads and signals are settled. This module loads no NumPy.
+What may crash, hang, grow without bound or hold the interpreter's lock runs in a child process: a camera's driver, HDF5
+on files of unknown origin, smoothing, tracking of stored sessions. The work is named ``"module:function"`` and imported
+in the child, after its threads and signals are set up. This module does not load NumPy.
 """
 
 from __future__ import annotations
@@ -23,36 +23,36 @@ from typing import Any
 
 BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 NICENESS = 5
-"""Whoever tracks, draws and stores comes first, three times, until they wait for the child."""
+"""Tracking, drawing and writing come first, until they wait for the child."""
 CLEANUP_S = 7.5
-"""A child whose owner is gone may take so long to tidy what it was at."""
+"""Time that a child whose owner is gone may take to clean up."""
 KILL_TIMEOUT_S = 3.0
-"""The system takes a killed process away within this time, unless a disk or a device holds it."""
+"""The system ends a killed process within this time, unless a disk or a device holds it."""
 _STARTING = threading.Lock()
 
 
 class ChildDiedError(Exception):
-    """The child ended, or was ended, before it answered."""
+    """Raised when the child ended, or was ended, before it answered."""
 
 
 class ChildProcess:
     """A function in a process of its own, and the owner's end of the pipe to it.
 
-    Raises :class:`OSError` where the system starts no further process. A child that nobody holds any more is ended;
-    it hears of that, and of its owner's death, by the end of its pipe.
+    Raises :class:`OSError` if the system cannot start a process. A child that is no longer referenced is ended; it
+    notices that, and its owner's death, by the end of its pipe.
 
     Parameters
     ----------
     work
-        A function of a module, or its name as ``"module:function"`` where the owner need not load it. Called with the
+        A function of a module, or its name as ``"module:function"`` if the owner need not load it. Called with the
         child's end of the pipe and then the arguments.
     arguments
         Values that can be pickled.
     name
-        What the process is called, after ``carpus-``.
+        Name of the process, after ``carpus-``.
     is_forked
-        Copy this process in place of starting an interpreter. Only where no thread, window or open HDF5 file would be
-        copied too.
+        Copy this process instead of starting an interpreter. Only if no thread, window or open HDF5 file would be
+        copied.
     """
 
     def __init__(
@@ -77,13 +77,12 @@ class ChildProcess:
 
     @property
     def pid(self) -> int:
-        """Number of the process."""
+        """Process id."""
         pid: int = self._process.pid
         return pid
 
     @property
     def is_alive(self) -> bool:
-        """Whether the process runs."""
         return bool(self._process.is_alive())
 
     def terminate(self) -> None:
@@ -91,7 +90,7 @@ class ChildProcess:
         self._process.terminate()
 
     def kill(self, grace_s: float = 0.0) -> None:
-        """End the process for certain once ``grace_s`` is over; from any thread, as often as wanted."""
+        """Kill the process after ``grace_s``; from any thread, any number of times."""
         self._process.join(grace_s)
         self._process.kill()
         self._process.join(KILL_TIMEOUT_S)
@@ -102,7 +101,7 @@ class ChildProcess:
         self.link.close()
 
     def describe_exit(self, patience_s: float = KILL_TIMEOUT_S) -> str:
-        """What a process whose pipe has ended died of."""
+        """Return how the process ended."""
         self._process.join(patience_s)
         code = self._process.exitcode
         if code is None or code >= 0:
@@ -136,7 +135,7 @@ def call_in_child(function: Callable[..., Any], *arguments: object, limit_s: flo
 
 @contextlib.contextmanager
 def _allow_children() -> Iterator[None]:
-    """Let a daemon start a child: a worker of Dask or of a pool is one, and this child does not outlive its owner."""
+    """Let a daemonic process, such as a worker of Dask, start a child, which does not outlive it."""
     own: Any = multiprocessing.current_process()
     is_daemon = own.daemon
     if is_daemon:
@@ -150,7 +149,7 @@ def _allow_children() -> Iterator[None]:
 
 @contextlib.contextmanager
 def _hide_main() -> Iterator[None]:
-    """Hide the main script, which a child would run again: as researchers write them they are not made for that."""
+    """Hide the main script, which a child would run again: researchers' scripts are not made for that."""
     main = sys.modules["__main__"]
     sys.modules["__main__"] = types.ModuleType("__main__")
     try:
@@ -178,7 +177,7 @@ def _run_child(link: Connection, work: str, arguments: bytes, is_forked: bool) -
 
 
 def _close_copied_files(link: Connection) -> None:
-    """Let go of all that a copy would hold open, the owner's end of the pipe above all."""
+    """Close all files that a fork would hold open, the owner's end of the pipe above all."""
     parent = multiprocessing.parent_process()
     assert parent is not None
     kept = sorted((2, link.fileno(), parent.sentinel))
@@ -194,8 +193,10 @@ def _send_result(link: Connection, function: Callable[..., Any], arguments: tupl
 
 
 def end_with_owner() -> None:
-    """End this child when its owner is gone, also from within a call that does not return: by SIGTERM, which work may
-    hear as a wish to tidy, and after :data:`CLEANUP_S` in any case."""
+    """End this process when its owner is gone, even from within a call that does not return.
+
+    SIGTERM comes first, which the work may handle to clean up, and after :data:`CLEANUP_S` an exit in any case.
+    """
     threading.Thread(target=_end_after_owner, name="owner", daemon=True).start()
 
 
@@ -209,6 +210,6 @@ def _end_after_owner() -> None:
 
 
 def lower_priority() -> None:
-    """Let the owner come first: under Linux this thread alone gives way."""
+    """Give the owner priority; under Linux only this thread gives way."""
     if hasattr(os, "nice"):
         os.nice(NICENESS)

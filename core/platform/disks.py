@@ -1,4 +1,4 @@
-"""The disk of a folder, as far as it tells without rights: whether the system encrypts it, whether two share one."""
+"""Properties of a folder's disk that need no special rights: whether it is encrypted, whether two folders share one."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from carpus.core.model.phrase import phrase
 EncryptionState = Literal["encrypted", "plain", "unknown"]
 
 ENCRYPTED_FILE_SYSTEMS = ("ecryptfs", "fuse.gocryptfs", "fuse.cryfs", "fuse.encfs")
-"""File systems that encrypt by themselves, whatever lies under them."""
+"""File systems that encrypt by themselves."""
 TIMEOUT_S = 20.0
 _BITLOCKER = (
     "(New-Object -ComObject Shell.Application).NameSpace('{drive}').Self"
     ".ExtendedProperty('System.Volume.BitLockerProtection')"
 )
 _ENCRYPTED_FLAG, _GET_FLAGS = 0x800, 0x80086601
-"""Of a folder of ext4 and its like that is encrypted by itself (fscrypt)."""
+"""Flag of an encrypted folder of ext4 and similar (fscrypt)."""
 
 
 def detect_encryption(folder: Path) -> EncryptionState:
-    """Of the disk that a folder lies on, or will lie on; ``unknown`` wherever the system does not tell."""
+    """Return whether the disk of an existing or future folder is encrypted, as far as the system states it."""
     there = next((one for one in (folder, *folder.parents) if one.exists()), Path.cwd()).resolve()
     try:
         if sys.platform == "win32":
@@ -40,7 +40,7 @@ def detect_encryption(folder: Path) -> EncryptionState:
 
 
 def check_disk_encryption(state: EncryptionState) -> Finding:
-    """For ``carpus doctor`` and the settings: how it stands, and how it is switched on."""
+    """Return the finding on disk encryption, for ``carpus doctor`` and the settings."""
     name = phrase("Disk encryption")
     if state == "encrypted":
         return Finding(name, "good", phrase("The disk of the data folder is encrypted by the system."))
@@ -53,7 +53,7 @@ def check_disk_encryption(state: EncryptionState) -> Finding:
 
 
 def format_encryption_advice(platform: str = sys.platform) -> str:
-    """How this system's encryption is switched on."""
+    """Return how to switch on the encryption of this system."""
     if platform == "win32":
         return phrase(
             "Switch it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control "
@@ -71,8 +71,10 @@ def format_encryption_advice(platform: str = sys.platform) -> str:
 
 
 def detect_linux_encryption(folder: Path, root: Path = Path("/")) -> EncryptionState:
-    """By the mounted file system and the layers of devices under it: the dm-crypt layer of LUKS may lie under volumes.
-    ``root`` is that of the system looked at. Raises OSError, ValueError."""
+    """Detect encryption by the mounted file system and the devices under it; LUKS may be under volumes.
+
+    ``root`` is the root folder of the examined system. Raises OSError, ValueError.
+    """
     number, kind, source = _find_mount(folder, (root / "proc/self/mountinfo").read_text(encoding="utf-8"))
     if kind in ENCRYPTED_FILE_SYSTEMS:
         return "encrypted"
@@ -83,14 +85,17 @@ def detect_linux_encryption(folder: Path, root: Path = Path("/")) -> EncryptionS
 
 
 def detect_bitlocker(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
-    """As Windows tells everybody: 1 on, 3 being switched on, 5 on but its key lies open. Raises OSError and more."""
+    """Detect BitLocker by its public state: 1 is on, 3 is being encrypted, 5 is on with an unprotected key.
+
+    Raises OSError or SubprocessError.
+    """
     command = ["powershell", "-NoProfile", "-Command", _BITLOCKER.format(drive=folder.drive)]
     said = (run_command or _run_command)(command).strip()
     return "encrypted" if said == "1" else "plain" if said in ("2", "3", "4", "5") else "unknown"
 
 
 def detect_filevault(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
-    """Of the volume, as macOS tells everybody. Raises OSError and more."""
+    """Detect FileVault of the volume; raises OSError or SubprocessError."""
     mount = next((one for one in (folder, *folder.parents) if os.path.ismount(one)), Path("/"))
     told = (run_command or _run_command)(["diskutil", "info", str(mount)])
     said = re.findall(r"^\s*(?:FileVault|Encrypted):\s+(Yes|No)", told, re.MULTILINE)
@@ -98,7 +103,7 @@ def detect_filevault(folder: Path, run_command: Callable[[Sequence[str]], str] |
 
 
 def _find_mount(folder: Path, mounts: str) -> tuple[str, str, str]:
-    """Number of the device, kind of file system and source of the mount that a folder lies in."""
+    """Return device number, file system and source of the mount that contains a folder."""
     found = ("0:0", "", "")
     longest = -1
     for line in mounts.splitlines():
@@ -110,7 +115,7 @@ def _find_mount(folder: Path, mounts: str) -> tuple[str, str, str]:
 
 
 def _detect_device_encryption(device: Path) -> EncryptionState:
-    """Encrypted by itself, or because all that it lies on is."""
+    """Return whether a device is encrypted, or all devices under it are."""
     if not device.is_dir() or (device / "loop").is_dir():
         return "unknown"
     uuid = device / "dm/uuid"
@@ -143,10 +148,10 @@ SYSTEM_DEVICES = Path("/sys/dev/block")
 
 
 def is_same_disk(one: Path, other: Path, devices: Path = SYSTEM_DEVICES) -> bool:
-    """Whether the disks below two folders that are there have one in common; False where one of them is not there.
+    """Return whether two existing folders have a disk in common; False if one does not exist.
 
-    Two partitions lie on one disk, and so does what is encrypted or joined on top of it. Where the system says nothing
-    of its disks, two folders of one file system do.
+    Two partitions are on one disk, and so are encrypted or joined devices on top of it. On systems without a device
+    table only folders of one file system are.
     """
     try:
         first, second = one.stat().st_dev, other.stat().st_dev
@@ -163,7 +168,7 @@ def _find_disks(device: int, devices: Path) -> set[str]:
 
 
 def _physical_disks(block: Path) -> set[str]:
-    """The disks that a block device is made of."""
+    """Return the disks that a block device is made of."""
     slaves = sorted((block / "slaves").glob("*"))
     if slaves:
         return {disk for slave in slaves for disk in _physical_disks(slave.resolve())}

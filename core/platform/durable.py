@@ -1,5 +1,4 @@
-"""What is written stays, and stays its owner's: brought to the disk, readable by nobody else whatever the system's
-habit is; and the fault behind a write that failed."""
+"""Durable, private writing of files: synchronised to the disk, readable by their owner only."""
 
 from __future__ import annotations
 
@@ -20,7 +19,7 @@ DISK_FULL_ERRNOS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 class FileWriter:
-    """A file in the making: closed where its block ends, abandoned where that ends by a fault, with what was taken."""
+    """Writer of a file: closed at the end of its block, abandoned after a fault with what was written."""
 
     def __enter__(self) -> Self:
         return self
@@ -39,7 +38,7 @@ class FileWriter:
 
 
 def write_fault(path: Path, cause: OSError | RuntimeError) -> CarpusFault:
-    """The fault behind an exception of a write; h5py hides some error numbers in the text."""
+    """Return the fault for an exception of a write; h5py hides some error numbers in the text."""
     found = re.search(r"errno = (\d+)", str(cause))
     number = getattr(cause, "errno", None) or (int(found[1]) if found else None)
     if number in DISK_FULL_ERRNOS:
@@ -48,7 +47,7 @@ def write_fault(path: Path, cause: OSError | RuntimeError) -> CarpusFault:
 
 
 def is_disk_full(folder: Path) -> bool:
-    """Whether the disk of a folder takes nothing more."""
+    """Return whether the disk of a folder is full."""
     try:
         with tempfile.TemporaryFile(dir=folder) as file:
             file.write(bytes(1 << 16))
@@ -60,7 +59,7 @@ def is_disk_full(folder: Path) -> bool:
 
 
 def sync_folder(folder: Path) -> None:
-    """Bring a new name to the disk, where the system can (Windows cannot open a folder)."""
+    """Synchronise a folder with a new name, if the system can (Windows cannot open a folder)."""
     try:
         descriptor = os.open(folder, os.O_RDONLY)
     except OSError:
@@ -74,8 +73,7 @@ def sync_folder(folder: Path) -> None:
 
 
 def replace_file(path: Path, write: Callable[[Path], object]) -> None:
-    """Have a file written beside an old one, bring it to the disk and put it in its place, so that a fault never costs
-    the old one.
+    """Write a file beside an old one, synchronise it and replace the old one, which no fault can damage.
 
     Raises what ``write`` raises, and :class:`DiskFull` or :class:`OutputNotWritable`; then nothing is left.
     """
@@ -96,7 +94,7 @@ def replace_file(path: Path, write: Callable[[Path], object]) -> None:
 
 
 def replace_text(path: Path, text: str) -> None:
-    """As :func:`replace_file`, with a text that nobody else may read at any time."""
+    """Replace a file by a text that is never readable by others, as :func:`replace_file` does."""
 
     def write(part: Path) -> None:
         with open(part, "x", encoding="utf-8", opener=open_private) as file:
@@ -106,8 +104,7 @@ def replace_text(path: Path, text: str) -> None:
 
 
 def open_private(name: str, flags: int) -> int:
-    """An opener for :func:`open`: a file that it opens to write can be read and written by its owner alone, whatever
-    the umask takes or gives."""
+    """Open a file so that only its owner can read and write it, whatever the umask (an opener for :func:`open`)."""
     descriptor = os.open(name, flags, 0o600)
     if flags & os.O_CREAT and hasattr(os, "fchmod"):
         with contextlib.suppress(OSError):  # a disk without rights, or another's file that may be written
@@ -116,7 +113,7 @@ def open_private(name: str, flags: int) -> int:
 
 
 def make_private_folder(folder: Path) -> None:
-    """Make a folder that only its owner may enter. Raises :class:`OutputNotWritable`."""
+    """Create a folder that only its owner may enter; raises :class:`OutputNotWritable`."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         folder.chmod(0o700)
@@ -125,7 +122,7 @@ def make_private_folder(folder: Path) -> None:
 
 
 def make_private_file(path: Path) -> None:
-    """An empty file for its owner only, unless it is there already. Raises :class:`OutputNotWritable`."""
+    """Create an empty file for its owner only, unless it exists; raises :class:`OutputNotWritable`."""
     try:
         os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
         path.chmod(0o600)
@@ -134,7 +131,7 @@ def make_private_file(path: Path) -> None:
 
 
 def link_or_copy(path: Path, target: Path) -> None:
-    """The same file under another name as well, or a private copy that is on the disk. Raises OSError."""
+    """Link a file under another name, or make a private, synchronised copy; raises OSError."""
     try:
         os.link(path, target)
     except OSError:  # no hard links here, or another disk
@@ -145,7 +142,7 @@ def link_or_copy(path: Path, target: Path) -> None:
 
 
 def lock_file(file: IO[bytes]) -> None:
-    """Until it is closed, or the program dies. Raises OSError where another program holds it."""
+    """Lock a file until it is closed or the program ends; raises OSError if another program holds it."""
     if os.name == "nt":
         import msvcrt
 

@@ -1,1 +1,1 @@
-"""Sessions on disk: the one schema, writer, reader, recovery."""
+"""Session files: schema, writer, reader and recovery."""

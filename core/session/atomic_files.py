@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all: names until then, room on the disk, and the last step to the final name."""
+"""Files that appear complete or not at all: temporary names, reserved space, publishing."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ _SUPERBLOCK = struct.Struct("<8sB4xB10xQ8xQ")
 _END_OF_FILE_AT = _SUPERBLOCK.size - 8
 TEMPORARY = ".tmp"
 STALE_AFTER_S = 60.0
-"""A file in the making is written to every few seconds; where locks do not work, one that is older is nobody's."""
+"""A file in progress is written every few seconds; without file locks an older one counts as left over."""
 _PART = re.compile(r"(?P<target>.+)\.[0-9a-f]{8}\.part")
 
 
 def temporary_path(target: Path) -> Path:
-    """Where a file is written until it is whole: beside its target, under a hidden name of its own."""
+    """Return a hidden temporary name beside the target."""
     return target.with_name(f".{target.name}.{secrets.token_hex(4)}{TEMPORARY}")
 
 
 def remove_leftovers(target: Path, min_age_s: float = STALE_AFTER_S) -> None:
-    """Take away what killed programs left of a file in the making."""
+    """Remove what killed programs left of a file in progress."""
     for left in target.parent.glob(f".{glob.escape(target.name)}.*{TEMPORARY}"):
         with contextlib.suppress(OSError):  # another program takes it away, or it is nobody's to take
             if time.time() - left.stat().st_mtime >= min_age_s and not is_being_written(left):
@@ -45,13 +45,13 @@ def remove_leftovers(target: Path, min_age_s: float = STALE_AFTER_S) -> None:
 
 
 def find_part_target(part: Path) -> Path | None:
-    """The name that a part file of Carpus 0.2.0 was to get; None for any other file."""
+    """Return the final name of a part file of Carpus 0.2.0; None for any other file."""
     match = _PART.fullmatch(part.name)
     return part.with_name(match["target"]) if match else None
 
 
 def reserve_space(descriptor: int, path: Path, begin: int, length: int) -> None:
-    """Make sure that ``length`` bytes after ``begin`` can be written, or raise :class:`DiskFull` before any is.
+    """Reserve ``length`` bytes after ``begin``, or raise :class:`DiskFull`.
 
     HDF5 writes its index in many small steps; if the disk fills between two of them the file is lost.
     """
@@ -70,7 +70,7 @@ def reserve_space(descriptor: int, path: Path, begin: int, length: int) -> None:
 
 
 def is_being_written(path: Path) -> bool:
-    """Whether this or another process has the HDF5 file open for writing."""
+    """Return whether any process has the HDF5 file open for writing."""
     if sys.platform == "win32":
         try:
             path.rename(path)  # an open file cannot be renamed there
@@ -88,7 +88,7 @@ def is_being_written(path: Path) -> bool:
 
 
 def publish(whole: Path, target: Path) -> None:
-    """Give a finished file its final name; a file that has the name already is kept, and so is the other."""
+    """Give a complete file its final name; if that is taken, both files are kept."""
     try:
         if sys.platform == "win32":
             whole.rename(target)  # refuses an existing target there
@@ -117,8 +117,8 @@ def _rename_to_free_name(whole: Path, target: Path) -> None:
 def repair_file_end(part: Path) -> None:
     """Set the end-of-file address to the file's true length.
 
-    HDF5 writes that address last. A kill before it left good data behind an end that is too early, which HDF5
-    then refuses to read; room was reserved in advance, so the true length always covers them.
+    HDF5 writes that address last. After a kill before it, HDF5 refuses to read good data behind an end that is too
+    early; space was reserved in advance, so the true length always covers them.
     """
     try:
         with part.open("r+b") as file:
@@ -135,7 +135,7 @@ def repair_file_end(part: Path) -> None:
 
 
 def find_free_name(target: Path) -> Path:
-    """The name itself, or with a number where a file has it."""
+    """Return the name, with a number if it is taken."""
     candidate, number = target, 1
     while candidate.exists() or candidate.is_symlink():
         number += 1
@@ -144,9 +144,10 @@ def find_free_name(target: Path) -> Path:
 
 
 def iter_paths(folder: Path, ending: str = "") -> Iterator[Path]:
-    """All that lies below a folder under a name with that ending, links not followed. What another program takes away
-    meanwhile, as it erases a patient, is passed over, where ``rglob`` fails. Raises OSError for what else keeps it from
-    being seen."""
+    """Yield all paths below a folder whose names have an ending; links are not followed.
+
+    Files that another program removes meanwhile are skipped, unlike in ``rglob``. Raises OSError for other failures.
+    """
 
     def handle_error(fault: OSError) -> None:
         if not isinstance(fault, FileNotFoundError | PermissionError):

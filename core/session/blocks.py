@@ -1,4 +1,4 @@
-"""Rows of a session as columns by the schema: what a recording journal and a session file are both made of."""
+"""Rows of a session as columns of the schema, for the recording journal and the session file."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.values import EncodedImages, Event, Motion
 
 Blocks = dict[str, Any]
-"""Rows to add to datasets, an array for the path of each. ``/detections/frame`` counts from the first frame of the
-blocks, the ends of pictures from their first byte."""
+"""Rows to add, an array for the path of each dataset. ``/detections/frame`` counts from the first frame of the
+blocks, the ends of images from their first byte.
+"""
 
 
 def build_frame_blocks(layout: TableLayout, frames: Sequence[TrackedFrame]) -> Blocks:
-    """Frames with their blobs and readings."""
+    """Return the columns of frames with their detections and depth samples."""
     blobs = [frame.detections for frame in frames]
     counts = np.array([len(some) for some in blobs])
     total = int(counts.sum())
@@ -41,7 +42,7 @@ def build_frame_blocks(layout: TableLayout, frames: Sequence[TrackedFrame]) -> B
 
 
 def build_motion_blocks(layout: TableLayout, motion: Motion) -> Blocks:
-    """The smoother's result of some frames."""
+    """Return the columns of the smoother's result."""
     count = len(motion.position_m)
     return {
         field.path: check_shape(field, getattr(motion, field.attribute), (count, *layout.row_shape(field)))
@@ -50,7 +51,7 @@ def build_motion_blocks(layout: TableLayout, motion: Motion) -> Blocks:
 
 
 def build_event_blocks(event: Event) -> Blocks:
-    """One event, in as many rows as its text needs."""
+    """Return one event as columns, in as many rows as its text needs."""
     rows = [Event(event.time_s, event.kind, part) for part in _split_text(event.text)]
     found = {}
     for field in schema.EVENT_FIELDS:
@@ -61,7 +62,7 @@ def build_event_blocks(event: Event) -> Blocks:
 
 
 def build_image_blocks(images: Sequence[EncodedImages]) -> Blocks:
-    """The pictures of some frames, and where each ends."""
+    """Return the encoded images of some frames, and the end of each."""
     found: Blocks = {}
     for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True):
         contents = [getattr(both, stream.attribute) for both in images]
@@ -71,7 +72,7 @@ def build_image_blocks(images: Sequence[EncodedImages]) -> Blocks:
 
 
 def check_shape(field: Field, value: Any, shape: tuple[int, ...]) -> Any:
-    """``value`` as an array of the field's type; a wrong shape is a mistake of the caller and is not stretched."""
+    """Return the value as an array of the field's type; raises ValueError if its shape is wrong."""
     data = np.asarray(value, dtype=field.h5_dtype)
     if data.shape != shape:
         raise ValueError(f"{field.path} got {data.shape}, {shape} expected")
@@ -79,7 +80,7 @@ def check_shape(field: Field, value: Any, shape: tuple[int, ...]) -> Any:
 
 
 def _fill_readings(field: Field, readings: Sequence[SurfaceSamples | None]) -> Any:
-    """The depth readings of some frames, filled up to the same number."""
+    """Return the depth samples of some frames, padded to the same number."""
     row_shape = tuple(size for size in field.shape[1:] if isinstance(size, int))
     out = np.full((len(readings), *row_shape), field.fill, dtype=field.h5_dtype)
     for row, some in zip(out, readings, strict=True):
@@ -90,7 +91,7 @@ def _fill_readings(field: Field, readings: Sequence[SurfaceSamples | None]) -> A
 
 
 def _split_text(text: str) -> Iterator[str]:
-    """A text in pieces that fit into a row, cut between letters."""
+    """Yield pieces of a text that fit into a row, cut between characters."""
     rest = text.encode("utf-8", "replace")
     while True:
         part = rest[: schema.TEXT_BYTES].decode("utf-8", "ignore")

@@ -1,4 +1,4 @@
-"""Lays out a new session file by the schema: header, calibration, and the datasets that rows are added to."""
+"""Layout of a new session file by the schema: header, calibration and datasets."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.values import Repetitions, SessionHeader
 
 ROWS_AT_ONCE = 1024
-"""Frames that are written together: whole chunks of every dataset, so that none is packed twice."""
+"""Frames written together: whole chunks of every dataset, so that none is compressed twice."""
 _CHUNK_ROWS = {"N": ROWS_AT_ONCE, "D": 4096, "E": 32, "C": 1 << 20, "B": 1 << 20}
 READINGS = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
 _READING_ROWS = 256
-"""Of the readings on the back of the hand, which are many for each frame."""
+"""Chunk rows of the depth samples, which are many in each frame."""
 _GZIP_LEVEL = 1
-"""Higher ones made the same recordings a hundredth smaller, and took as much longer as they promise."""
+"""Higher levels make files a hundredth smaller and take much longer."""
 
 
 def build_empty_session(
     header: SessionHeader, camera: Camera, calibration: Calibration, raw_depth_unit_m: float | None = None
 ) -> bytes:
-    """A session file without rows, as its bytes; with a depth unit its frames bring their pictures."""
+    """Return a session file without rows, as bytes; with a depth unit its frames have images."""
     with h5py.File("session", "w", driver="core", backing_store=False, libver="earliest") as file:
         layout = TableLayout(header.protocol, header.joint_names)
         write_header(file, header, camera)
@@ -41,7 +41,7 @@ def build_empty_session(
 
 
 def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None:
-    """The attributes of ``/`` and ``/camera``."""
+    """Write the attributes of ``/`` and ``/camera``."""
     values = {
         "format": schema.FORMAT,
         "format_version": choose_format_version(camera),
@@ -51,40 +51,43 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
     for name in schema.ROOT_ATTRIBUTES:
         file.attrs[name] = values[name] if name in values else getattr(header, name)
     group = file.create_group("/camera")
-    told = asdict(camera) | {"sensor": json.dumps(camera.sensor.to_dict(), sort_keys=True)}
-    for name, value in zip(schema.CAMERA_ATTRIBUTES, told.values(), strict=True):
+    entries = asdict(camera) | {"sensor": json.dumps(camera.sensor.to_dict(), sort_keys=True)}
+    for name, value in zip(schema.CAMERA_ATTRIBUTES, entries.values(), strict=True):
         group.attrs[name] = value
 
 
 def choose_format_version(camera: Camera) -> int:
-    """Of the format: what an older Carpus would misread has a version that it refuses."""
+    """Return the format version: files that an older Carpus would misread have one that it refuses."""
     is_inverse = camera.distortion_model == "inverse_brown_conrady" and camera.is_distorted
     return schema.LENS_VERSION if is_inverse else schema.FORMAT_VERSION
 
 
 def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibration) -> None:
-    """The datasets of ``/calibration`` and the verdict as its attributes."""
+    """Write the datasets of ``/calibration``, and the verdict as its attributes."""
     verdict = calibration.verdict
     surface = calibration.surface
-    elsewhere = {
+    other_values = {
         "clicks_px": calibration.clicks.pixel,
         "residual_m": verdict.residual_mm * 1e-3,
         "surface": np.full((TABLE_ROWS, 5), np.nan) if surface is None else surface.to_table(),
     }
     for field in schema.CALIBRATION_FIELDS:
-        value = elsewhere[field.attribute] if field.attribute in elsewhere else getattr(calibration, field.attribute)
+        value = (
+            other_values[field.attribute] if field.attribute in other_values else getattr(calibration, field.attribute)
+        )
         write_attributes(
             create_checked_dataset(file, field.path, check_shape(field, value, layout.row_shape(field))), field, layout
         )
-    findings = json.dumps([_drop_nan(asdict(finding)) for finding in verdict.findings])
+    # JSON has no NaN
+    known = [{name: value for name, value in asdict(each).items() if value == value} for each in verdict.findings]
     straight = np.array(calibration.clicks.straight_fingers, dtype=np.uint8)
-    said = (verdict.hand_length_mm * 1e-3, np.radians(verdict.tilt_deg), verdict.distance_m, verdict.frames_used)
-    for name, value in zip(schema.VERDICT_ATTRIBUTES, (*said, findings, straight), strict=True):
+    values = (verdict.hand_length_mm * 1e-3, np.radians(verdict.tilt_deg), verdict.distance_m, verdict.frames_used)
+    for name, value in zip(schema.VERDICT_ATTRIBUTES, (*values, json.dumps(known), straight), strict=True):
         file["/calibration"].attrs[name] = value
 
 
 def create_growing_datasets(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float | None) -> None:
-    """Every dataset that rows are added to, still without; ``/raw`` only with a depth unit."""
+    """Create every dataset of rows, still empty; ``/raw`` only with a depth unit."""
     raw = (*schema.RAW_STREAMS, *schema.RAW_ENDS) if raw_depth_unit_m is not None else ()
     detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
     for field in (*schema.FRAME_FIELDS, *detections, *READINGS, *schema.EVENT_FIELDS, *raw):
@@ -97,7 +100,7 @@ def create_growing_datasets(file: h5py.File, layout: TableLayout, raw_depth_unit
 
 
 def create_smoother_datasets(file: h5py.File, layout: TableLayout) -> None:
-    """The datasets of the smoother's result, still without rows."""
+    """Create the datasets of the smoother's result, still empty."""
     for field in filter(layout.has, schema.SMOOTHED_FIELDS):
         create_dataset(file, field, layout)
     for group, names in layout.group_names().items():
@@ -106,7 +109,7 @@ def create_smoother_datasets(file: h5py.File, layout: TableLayout) -> None:
 
 
 def create_dataset(file: h5py.File, field: Field, layout: TableLayout) -> h5py.Dataset:
-    """The dataset of a field that rows are added to: packed without loss, but for pictures, which are that already."""
+    """Create the dataset of a field, still empty; compressed, except images, which are so already."""
     row = layout.row_shape(field)
     packing: dict[str, Any] = {"compression": "gzip", "compression_opts": _GZIP_LEVEL, "shuffle": True}
     dataset = file.create_dataset(
@@ -124,7 +127,7 @@ def create_dataset(file: h5py.File, field: Field, layout: TableLayout) -> h5py.D
 
 
 def create_repetitions(file: h5py.File, layout: TableLayout, repetitions: Repetitions) -> None:
-    """The table of what was counted, a column for each of its figures."""
+    """Create the table of repetitions."""
     rows = [tuple(getattr(row, column.attribute) for column in schema.REPETITION_COLUMNS) for row in repetitions.rows]
     rows = [(*row[:-1], row[-1].encode()[: schema.REPETITION_DTYPE["reason"].itemsize]) for row in rows]
     table = create_checked_dataset(file, schema.REPETITIONS.path, np.array(rows, dtype=schema.REPETITION_DTYPE))
@@ -135,7 +138,7 @@ def create_repetitions(file: h5py.File, layout: TableLayout, repetitions: Repeti
 
 
 def create_checked_dataset(file: h5py.File, path: str, data: Any) -> h5py.Dataset:
-    """A dataset that is written once, in chunks with check sums."""
+    """Create a dataset that is written once, in chunks with checksums."""
     if not data.size:
         return file.create_dataset(path, data=data)
     chunks = (min(len(data), _CHUNK_ROWS["N"]), *data.shape[1:])
@@ -143,13 +146,8 @@ def create_checked_dataset(file: h5py.File, path: str, data: Any) -> h5py.Datase
 
 
 def write_attributes(dataset: h5py.Dataset, field: Field, layout: TableLayout) -> None:
-    """Unit, description and names of a dataset."""
+    """Write unit, description and names of a dataset."""
     dataset.attrs["unit"] = field.unit
     dataset.attrs["description"] = field.description
     if field.label_axis:
         dataset.attrs["names"] = layout.names(field.label_axis)
-
-
-def _drop_nan(facts: dict[str, Any]) -> dict[str, Any]:
-    """Without NaN, which JSON does not have."""
-    return {name: value for name, value in facts.items() if value == value}

@@ -1,11 +1,11 @@
-"""The recording journal: what is measured, record by record, in one file that is only ever added to.
+"""The recording journal: append-only file of everything measured while a session is recorded.
 
-It lies on this computer's own disk while a session is recorded. From it :func:`core.records.recordings.write_session`
-makes the session file, at Stop or after a kill alike. Layout, little-endian: ``CARPUSRJ``, then records of 4 letters,
-u32 number, u32 length, u32 CRC-32 of the content, u32 CRC-32 of these 16 bytes, and the content:
+It is on this computer's own disk. From it :func:`core.records.recordings.write_session` makes the session file, at Stop
+or after a kill alike. Layout, little-endian: ``CARPUSRJ``, then records of 4 letters, u32 number, u32 length, u32
+CRC-32 of the content, u32 CRC-32 of these 16 bytes, and the content:
 
 - ``SESS`` a session file without rows, as HDF5: header, camera, calibration
-- ``PATI`` whose it is: the patient's identity as text
+- ``PATI`` identity of the patient, as text
 - ``ROWS`` arrays of frames or of an event, ``SMOO`` of the smoother's result: u32 length of a JSON list of path, type
   and shape, that list, and the arrays
 """
@@ -43,14 +43,14 @@ from carpus.core.session.values import Event, Motion, SessionHeader
 SUFFIX = ".journal"
 MAGIC = b"CARPUSRJ"
 SYNC_EVERY_S = 0.5
-"""A kill or a power cut costs what came since; with the writing on a busy computer that stays below a second."""
+"""A kill or a power cut costs what came since; with the writing on a busy computer that is less than a second."""
 MAX_PENDING_ROWS = 256
-"""Rows held in memory, where frames come faster than the clock: a stored recording that is played."""
+"""Rows kept in memory while a stored recording is played faster than real time."""
 _RECORD = struct.Struct("<4sIIII")
 
 
 class RecordingJournal(FileWriter):
-    """Adds to a journal; used by one thread. What is held is written and synchronised twice a second."""
+    """Writer of a journal, to be used by one thread; synchronised twice a second."""
 
     def __init__(
         self,
@@ -61,7 +61,13 @@ class RecordingJournal(FileWriter):
         patient_id: str = "",
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then nothing is left."""
+        """Create the journal.
+
+        Raises
+        ------
+        OutputExists, OutputNotWritable, DiskFull
+            It could not be created; nothing is left.
+        """
         self.path = path
         self.rows = self.smoother_row_count = 0
         self._layout = TableLayout(header.protocol, header.joint_names)
@@ -90,7 +96,7 @@ class RecordingJournal(FileWriter):
         sync_folder(path.parent)
 
     def append(self, tracked: TrackedFrame) -> None:
-        """Take one frame. Never drops: it raises :class:`DiskFull` instead."""
+        """Append one frame; it is never dropped, :class:`DiskFull` is raised instead."""
         if tracked.timestamp_s <= self._last_time_s:
             times = {"timestamp_s": f"{tracked.timestamp_s:.6f}", "last_time_s": f"{self._last_time_s:.6f}"}
             raise TimesUnordered(self.path, phrase("{timestamp_s} s after {last_time_s} s", **times))
@@ -100,17 +106,17 @@ class RecordingJournal(FileWriter):
         self._write_when_due()
 
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
-        """Note something that happened at a time of the recording."""
+        """Add an event at a time of the recording."""
         self._pending_records.append((b"ROWS", pack_arrays(build_event_blocks(Event(time_s, kind, text)))))
         self._write_when_due()
 
     def add_smoothed(self, motion: Motion) -> None:
-        """Take the smoother's result for the next frames, from the first appended on."""
+        """Add the smoother's result of the next frames, from the first appended on."""
         self._pending_records.append((b"SMOO", pack_arrays(build_motion_blocks(self._layout, motion))))
         self.smoother_row_count += len(motion.position_m)
 
     def flush(self) -> None:
-        """Bring everything taken so far to the disk."""
+        """Write everything to the disk."""
         if self._fault is not None:
             raise self._fault
         if self._pending_frames:
@@ -119,7 +125,7 @@ class RecordingJournal(FileWriter):
         self._write()
 
     def close(self) -> None:
-        """Bring all to the disk and let go of the file, which stays. May be called twice."""
+        """Write everything to the disk and close the file. May be called twice."""
         if self._file is not None:
             try:
                 self.flush()
@@ -127,12 +133,12 @@ class RecordingJournal(FileWriter):
                 self._close_file()
 
     def abandon(self) -> None:
-        """Stop after a fault; what was taken stays."""
+        """Stop after a fault; what was added is kept."""
         with suppress(CarpusFault, ValueError):  # the exception on its way tells more
             self.close()
 
     def discard(self) -> None:
-        """Stop and remove the file: nothing was recorded, or the session has been written."""
+        """Close and remove the file: nothing was recorded, or the session has been written."""
         self._close_file()
         self.path.unlink(missing_ok=True)
 
@@ -146,7 +152,7 @@ class RecordingJournal(FileWriter):
             self.flush()
 
     def _write(self, start: bytes = b"") -> None:
-        """All that waits, in one write that is synchronised."""
+        """Write all pending records at once and synchronise."""
         self._synced_at_s = self._clock()
         if not self._pending_records:
             return
@@ -169,11 +175,10 @@ class RecordingJournal(FileWriter):
 
 
 class JournalReader:
-    """Reads a journal from its beginning on, and later what has come since; never writes.
+    """Reader of a journal from its start, and later of what was added since; never writes.
 
-    Raises :class:`SessionUnreadable` where the beginning is not a journal's. ``empty_session`` is the session file
-    without
-    rows that every session begins with, None where the recording ended before that was stored.
+    Raises :class:`SessionUnreadable` if the file is no journal. ``empty_session`` is the session file without rows,
+    None if the recording ended before it was stored.
     """
 
     def __init__(self, path: Path) -> None:
@@ -191,8 +196,10 @@ class JournalReader:
         self.empty_session = content if kind == b"SESS" else None
 
     def read(self) -> Iterator[tuple[bytes, bytes]]:
-        """Kind and content of each further record that is whole. One whose content is damaged is passed over; at a
-        place where no record begins the journal ends."""
+        """Yield kind and content of each further complete record.
+
+        Records with damaged content are skipped; the journal ends where no record begins.
+        """
         while True:
             self._file.seek(self._position)
             head = self._file.read(_RECORD.size)
@@ -213,7 +220,7 @@ class JournalReader:
                 self._has_skipped = True
 
     def is_damaged(self) -> bool:
-        """Whether a record follows one that was not read: bytes went bad, where a kill or a power cut costs the end."""
+        """Return whether a record follows a damaged one; a kill or a power cut only costs the end."""
         for _ in self.read():
             pass
         self._file.seek(self._position + 4)  # past a last one that is not whole
@@ -223,14 +230,14 @@ class JournalReader:
 
     @property
     def session_id(self) -> str:
-        """Of the session; empty where the recording ended before that was stored."""
+        """Id of the session; empty if the recording ended before it was stored."""
         if self.empty_session is None:
             return ""
         with h5py.File(io.BytesIO(self.empty_session), "r") as file:
             return str(file.attrs["session_id"])
 
     def close(self) -> None:
-        """May be called twice."""
+        """Close the file; may be called twice."""
         self._file.close()
 
     def __enter__(self) -> Self:
@@ -241,14 +248,14 @@ class JournalReader:
 
 
 def pack_arrays(blocks: Blocks) -> bytes:
-    """Arrays by path, as the content of a record."""
+    """Return arrays by path as the content of a record."""
     arrays = {path: np.ascontiguousarray(data) for path, data in blocks.items()}
     table = json.dumps([(path, data.dtype.str, data.shape) for path, data in arrays.items()]).encode()
     return b"".join((struct.pack("<I", len(table)), table, *(data.tobytes() for data in arrays.values())))
 
 
 def unpack_arrays(content: bytes) -> Blocks:
-    """What :func:`pack_arrays` packed. Raises ``ValueError`` for what it did not."""
+    """Return the arrays of :func:`pack_arrays`; raises ValueError for other content."""
     (length,) = struct.unpack_from("<I", content)
     position, blocks = 4 + length, {}
     for path, dtype, shape in json.loads(content[4:position]):
@@ -259,7 +266,7 @@ def unpack_arrays(content: bytes) -> Blocks:
 
 
 def lock_journal(path: Path) -> BinaryIO | None:
-    """The open file of a journal that nobody is adding to, which it is until closed; else None."""
+    """Open and lock a journal; None if another program writes it."""
     file = path.open("r+b")
     try:
         lock_file(file)

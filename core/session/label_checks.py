@@ -1,9 +1,8 @@
-"""Where a person says that markers are in a stored picture (and what a session tracked again says of that), and names
-that are plainly wrong: two exchanged, or one where it cannot be.
+"""Corrections of marker labels, and a check for labels that are clearly wrong: two swapped, or one misplaced.
 
-The palm is as calibrated and does not bend: its names are judged by laying it on them. A finger's discs lie no further
-from each other than on the straight finger, and fingers seen from above cross less with the right names than with two
-exchanged. What is merely unusual is not spoken of.
+The palm is rigid as calibrated: its labels are checked by fitting it to them. The markers of a finger are no farther
+apart than on the straight finger, and fingers seen from above cross less with the right labels than with two swapped.
+Labels that are merely unusual are not reported.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ from carpus.core.model.types import FloatArray
 from carpus.core.session.values import Session
 
 SAME_BLOB_PX = 6.0
-"""A place this near to a blob means the blob."""
+"""Places nearer to a blob than this mean the blob."""
 MIN_PALM_MARKERS = 3
 MAX_FIT_ERROR_M = 0.004
 _NOWHERE = np.full(2, np.nan)
@@ -35,17 +34,20 @@ _NOWHERE = np.full(2, np.nan)
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """What a person said of picture ``row``: places (u, v) by marker, None for one that is not to be seen there."""
+    """Corrected places (u, v) by marker in one frame; None for a marker that is not visible."""
 
     row: int
     places: Mapping[str, tuple[float, float] | None]
 
 
 def predict_marker_px(session: Session, row: int, places: FloatArray, number: int) -> FloatArray:
-    """Where (2,) in picture ``row`` the other discs of the palm at ``places`` (M, 2) expect marker ``number``.
+    """Predict a marker's place from the other markers of the palm.
 
-    The palm as calibrated is laid on the others by their depths; of a disc on a finger, and where fewer than three
-    others have a depth, it is where the model has it. NaN where nothing is known.
+    The calibrated palm is fitted to the others by their depths. For a marker on a finger, and if fewer than three
+    others have a depth, it is the place in the stored model.
+
+    ``places`` (M, 2) are the pixels of all markers in frame ``row``, ``number`` is the index of the marker. Returns a
+    pixel (2,), NaN if unknown.
     """
     camera, markers = session.camera, session.markers
     model_m = markers.position_cam_m[row]
@@ -54,63 +56,60 @@ def predict_marker_px(session: Session, row: int, places: FloatArray, number: in
     if number not in palm:
         return own
     others = [k for k in palm if k != number and np.isfinite(places[k]).all()]
-    depth_m = np.array([_marker_depth_m(session, row, k) for k in others])
+    measured_depth_m = markers.measured_depth_m[row, others]
+    depth_m = np.where(np.isfinite(measured_depth_m), measured_depth_m, markers.position_cam_m[row, others, 2])
     known = np.isfinite(depth_m)
     if np.count_nonzero(known) < MIN_PALM_MARKERS:
         return own
-    seen_m = camera.backproject(camera.undistort(places[others][known]), depth_m[known])
+    measured_m = camera.backproject(camera.undistort(places[others][known]), depth_m[known])
     shape_m = session.calibration.marker_position_w0_m
-    at_m = _map_by_palm(shape_m[np.array(others)[known]], seen_m, shape_m[number])
-    return np.asarray(camera.distort(camera.project(at_m[None]))[0])
+    position_m = _map_by_palm(shape_m[np.array(others)[known]], measured_m, shape_m[number])
+    return np.asarray(camera.distort(camera.project(position_m[None]))[0])
 
 
-def _map_by_palm(shape_m: FloatArray, seen_m: FloatArray, point_m: FloatArray) -> FloatArray:
-    """Where a point (3,) of the shape lies when its discs (K, 3) are laid on what is seen of them (K, 3). One disc that
-    none of the others agrees with is left out: it has a wrong place itself."""
-    rotation, shift, misfit_m = _fit_rigid(shape_m, seen_m)
+def _map_by_palm(shape_m: FloatArray, measured_m: FloatArray, point_m: FloatArray) -> FloatArray:
+    """Return a point (3,) of the palm after fitting its markers (K, 3) to the measured ones (K, 3).
+
+    One outlier among the markers is excluded: its own place is wrong.
+    """
+    rotation, shift, misfit_m = _fit_rigid(shape_m, measured_m)
     count = len(shape_m)
     if misfit_m > MAX_FIT_ERROR_M and count > MIN_PALM_MARKERS:
-        without = [_fit_rigid(shape_m[np.arange(count) != k], seen_m[np.arange(count) != k]) for k in range(count)]
+        without = [_fit_rigid(shape_m[np.arange(count) != k], measured_m[np.arange(count) != k]) for k in range(count)]
         best = min(without, key=lambda one: one[2])
         if best[2] < 0.5 * misfit_m:
             rotation, shift, _ = best
     return np.asarray(rotation @ point_m + shift)
 
 
-def _fit_rigid(shape_m: FloatArray, seen_m: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Rotation and shift that lay a shape on what is seen, and the root mean square of what is left, metres."""
-    rotation, shift = so3.fit_rigid_transform(shape_m, seen_m)
-    left_m = shape_m @ rotation.T + shift - seen_m
+def _fit_rigid(shape_m: FloatArray, measured_m: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+    """Return rotation and translation that fit a shape to its measurement, and the RMS residual in metres."""
+    rotation, shift = so3.fit_rigid_transform(shape_m, measured_m)
+    left_m = shape_m @ rotation.T + shift - measured_m
     return rotation, shift, float(np.sqrt((left_m**2).sum(axis=1).mean()))
-
-
-def _marker_depth_m(session: Session, row: int, number: int) -> float:
-    measured = float(session.markers.measured_depth_m[row, number])
-    return measured if np.isfinite(measured) else float(session.markers.position_cam_m[row, number, 2])
 
 
 IndexArray = NDArray[np.int64]
 
 MAX_PALM_MISFIT_M = 0.005
-"""Root mean square beyond which the palm's names are asked about; discs on moving skin stay below it."""
+"""RMS residual of correct labels of the palm: markers on moving skin stay below it."""
 MAX_PALM_OFFSET_M = 0.012
-"""Further than this from where the other discs of the palm expect it no disc of the palm lies."""
+"""A marker of the palm is no farther than this from the place that the others predict."""
 MAX_STRETCH, STRETCH_MARGIN_M = 1.4, 0.010
-"""A finger that bends stretches the way from disc to disc over its back by no more than this."""
+"""A bending finger stretches the distance of its markers over its back by no more than this."""
 
 CROSSING_WEIGHT, MIN_SWAP_GAIN = 0.15, 0.12
-"""What a crossing counts as against length, and what an exchange of two names must gain to be spoken of."""
+"""Weight of a crossing against length, and gain from which on a swap is reported."""
 
 _THUMB = 1
 
 EXTENDED_SHARE = 0.8
-"""Share of its length from which on a finger counts as seen at length."""
+"""Share of its length from which on a finger counts as seen at full length."""
 
 
 @dataclass(frozen=True, slots=True)
 class LabelDoubt:
-    """``swapped`` names that stand in for each other, or ``misplaced`` one that is ``offset_m`` from where it can
-    be."""
+    """Doubt about labels: two ``swapped``, or one ``misplaced`` by ``offset_m``."""
 
     swapped: tuple[str, str] | None = None
     misplaced: str = ""
@@ -118,8 +117,10 @@ class LabelDoubt:
 
 
 def find_label_doubt(session: Session, row: int, places: FloatArray, changed: Collection[str]) -> LabelDoubt | None:
-    """What is plainly wrong with the names at ``places`` (M, 2) of picture ``row``, of which a person ``changed`` some;
-    None when nothing is. Only what has to do with a changed one is told."""
+    """Return what is clearly wrong with the labels at ``places`` (M, 2), or None.
+
+    Only doubts about a ``changed`` label are reported.
+    """
     markers = list(session.header.protocol.markers)
     numbers = {markers.index(name) for name in changed}
     if not numbers:
@@ -136,7 +137,7 @@ def find_label_doubt(session: Session, row: int, places: FloatArray, changed: Co
 
 
 def _place_depths_m(session: Session, row: int, places: FloatArray) -> FloatArray:
-    """Depth (M,) at the places: what was measured of the disc that was there, else what is known of the marker."""
+    """Return the depth (M,) at the places: that of the blob there, else that known of the marker."""
     before = session.markers.measured_px[row]
     measured = session.markers.measured_depth_m[row]
     model = session.markers.position_cam_m[row, :, 2]
@@ -154,23 +155,23 @@ def _place_depths_m(session: Session, row: int, places: FloatArray) -> FloatArra
 def _find_palm_doubt(
     session: Session, row: int, places: FloatArray, depth_m: FloatArray, changed: set[int]
 ) -> tuple[tuple[int, int] | None, tuple[int, float] | None]:
-    """Two of the palm's names that were exchanged, or one that is somewhere else and how far, metres."""
+    """Return two swapped labels of the palm, or one misplaced and its offset in metres."""
     palm = [k for k in session.header.protocol.palm if np.isfinite(places[k]).all() and np.isfinite(depth_m[k])]
     if len(palm) <= MIN_PALM_MARKERS or not changed & set(palm):
         return None, None
     camera, shape_m = session.camera, session.calibration.marker_position_w0_m
-    seen_m = camera.backproject(camera.undistort(places[palm]), depth_m[palm])
-    now_m = _fit_rigid(shape_m[palm], seen_m)[2]
-    if now_m <= MAX_PALM_MISFIT_M:
+    measured_m = camera.backproject(camera.undistort(places[palm]), depth_m[palm])
+    misfit_m = _fit_rigid(shape_m[palm], measured_m)[2]
+    if misfit_m <= MAX_PALM_MISFIT_M:
         return None, None
-    best_m, pair = now_m, (0, 0)
+    best_m, pair = misfit_m, (0, 0)
     for one, other in combinations(range(len(palm)), 2):
         order = np.arange(len(palm))
         order[[one, other]] = order[[other, one]]
-        trial_m = _fit_rigid(shape_m[palm], seen_m[order])[2]
+        trial_m = _fit_rigid(shape_m[palm], measured_m[order])[2]
         if trial_m < best_m:
             best_m, pair = trial_m, (palm[one], palm[other])
-    if best_m < 0.5 * now_m and best_m <= MAX_PALM_MISFIT_M and changed & set(pair):
+    if best_m < 0.5 * misfit_m and best_m <= MAX_PALM_MISFIT_M and changed & set(pair):
         return pair, None
     off = []
     for number in sorted(changed & set(palm)):
@@ -183,7 +184,7 @@ def _find_palm_doubt(
 def _find_swapped_fingers(
     session: Session, places: FloatArray, changed: set[int], *, palm_too: bool
 ) -> tuple[int, int] | None:
-    """Two discs of different fingers that were exchanged: without that the lines of the fingers are clearly shorter."""
+    """Return two swapped markers of different fingers: without the swap the fingers' lines are clearly shorter."""
     protocol = session.header.protocol
     size_px = float(np.linalg.norm(places[protocol.markers.index("MCP3")] - places[0]))
     finger = {number: digit for digit, chain in protocol.chains.items() for number in chain[1:]}
@@ -205,7 +206,7 @@ def _find_swapped_fingers(
 
 
 def _is_extended(session: Session, places: FloatArray, size_px: float, finger: int) -> bool:
-    """Whether a finger is seen at nearly its whole length."""
+    """Return whether a finger is seen at nearly its whole length."""
     protocol, shape_m = session.header.protocol, session.calibration.marker_position_w0_m
     chain = list(protocol.chains[finger][1:])
     if not np.isfinite(places[chain]).all():
@@ -219,7 +220,7 @@ def _is_extended(session: Session, places: FloatArray, size_px: float, finger: i
 def _find_misplaced_finger(
     session: Session, places: FloatArray, depth_m: FloatArray, changed: set[int]
 ) -> tuple[int, float] | None:
-    """A finger's disc that is further from its neighbour than the finger is long, and by how much, metres."""
+    """Return a finger's marker farther from its neighbour than the finger allows, and by how many metres."""
     shape_m, camera = session.calibration.marker_position_w0_m, session.camera
     flat_m = camera.backproject(camera.undistort(places), depth_m)[:, :2]
     for chain in session.header.protocol.chains.values():
@@ -232,7 +233,7 @@ def _find_misplaced_finger(
 
 
 def _compute_tangle(protocol: MarkerProtocol, places: FloatArray, size_px: float) -> float:
-    """How long the fingers' lines are, in lengths from the wrist to the middle knuckle, and how often they cross."""
+    """Return the length of the fingers' lines, in lengths of the palm, plus their weighted crossings."""
     pieces, pairs = _finger_segments(protocol)
     start, end = places[pieces[:, 0]], places[pieces[:, 1]]
     length_px = float(np.nansum(np.linalg.norm(start - end, axis=1)))
@@ -241,8 +242,7 @@ def _compute_tangle(protocol: MarkerProtocol, places: FloatArray, size_px: float
 
 @lru_cache(maxsize=4)
 def _finger_segments(protocol: MarkerProtocol) -> tuple[IndexArray, IndexArray]:
-    """Pieces (P, 2) of the fingers' lines as rows of markers, and pairs (K, 2) of pieces of different fingers that
-    share no disc."""
+    """Return the segments (P, 2) of the fingers as marker indices, and the pairs (K, 2) that may cross."""
     ends = [(a, b, digit) for digit, chain in protocol.chains.items() for a, b in pairwise(chain)]
     pairs = [
         (i, j)
@@ -253,14 +253,24 @@ def _finger_segments(protocol: MarkerProtocol) -> tuple[IndexArray, IndexArray]:
 
 
 CORRECTED = "corrected"
-"""The event of a corrected session: when, which markers, and who."""
+"""Event of a corrected session: when, which markers, and who."""
 
 
 @dataclass(frozen=True, slots=True)
 class CorrectionSummary:
-    """``corrected_at`` the session was tracked again, ``first_corrected_s`` seconds after its first frame the first
-    picture that was put
-    right, ``markers`` their names, ``initials`` the initials of who did, empty for unknown."""
+    """Summary of a session's corrections.
+
+    Attributes
+    ----------
+    corrected_at : datetime
+        When the session was tracked again.
+    first_corrected_s : float
+        Time of the first corrected frame since the start.
+    markers : tuple of str
+        Corrected markers.
+    initials : str
+        Who corrected them, empty if unknown.
+    """
 
     corrected_at: datetime
     first_corrected_s: float
@@ -269,7 +279,7 @@ class CorrectionSummary:
 
 
 def correction_to_json(correction: Correction, initials: str) -> str:
-    """The text of the event."""
+    """Return a correction as the text of its event."""
     places = {
         name: None if place is None else [round(place[0], 1), round(place[1], 1)]
         for name, place in correction.places.items()
@@ -278,8 +288,10 @@ def correction_to_json(correction: Correction, initials: str) -> str:
 
 
 def read_corrections(session: Session) -> tuple[tuple[Correction, str], ...]:
-    """All that was put right in a session, each with the initials of who did; a text that cannot be read says only
-    when."""
+    """Return all corrections of a session with the initials of who made them.
+
+    Of a text that cannot be parsed only the time is known.
+    """
     out = []
     for event in session.events:
         if event.kind != CORRECTED or not len(session):
@@ -287,11 +299,11 @@ def read_corrections(session: Session) -> tuple[tuple[Correction, str], ...]:
         places: dict[str, tuple[float, float] | None] = {}
         by = ""
         with suppress(ValueError, TypeError, AttributeError, IndexError):
-            told = json.loads(event.text)
-            by = str(told.get("by", ""))
+            content = json.loads(event.text)
+            by = str(content.get("by", ""))
             places = {
                 str(name): None if place is None else (float(place[0]), float(place[1]))
-                for name, place in told.get("markers", {}).items()
+                for name, place in content.get("markers", {}).items()
             }
         row = int(abs(session.timestamp_s - event.time_s).argmin())
         out.append((Correction(row, places), by))
@@ -299,16 +311,16 @@ def read_corrections(session: Session) -> tuple[tuple[Correction, str], ...]:
 
 
 def summarize_corrections(session: Session) -> CorrectionSummary | None:
-    """Since when a session stands corrected; None for one as measured."""
-    said = read_corrections(session)
-    if not said:
+    """Summarise the corrections of a session; None if there are none."""
+    corrections = read_corrections(session)
+    if not corrections:
         return None
-    names = dict.fromkeys(name for correction, _ in said for name in correction.places)
-    people = dict.fromkeys(by for _, by in said if by)
+    names = dict.fromkeys(name for correction, _ in corrections for name in correction.places)
+    people = dict.fromkeys(by for _, by in corrections if by)
     start_s = float(session.timestamp_s[0])
     return CorrectionSummary(
         datetime.fromisoformat(session.header.created),
-        float(session.timestamp_s[said[0][0].row]) - start_s,
+        float(session.timestamp_s[corrections[0][0].row]) - start_s,
         tuple(names),
         ", ".join(people),
     )

@@ -1,4 +1,4 @@
-"""Values of a session that no hand and no clock can have: found when it is read, before anything computes with them."""
+"""Checks for values of a session that no hand and no clock can have, made when it is read."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
 
 
 def check_times(path: Path, timestamp_s: FloatArray) -> None:
-    """Times that are known, rise, and end within a day."""
+    """Raise :class:`SessionUnreadable` unless the times are finite, rise, and span at most a day."""
     if not len(timestamp_s):
         return
     if not np.isfinite(timestamp_s).all() or np.abs(timestamp_s).max() > MAX_TIME_S:
@@ -64,7 +64,7 @@ def check_times(path: Path, timestamp_s: FloatArray) -> None:
 
 
 def check_values(path: Path, session: Session) -> None:
-    """Raise :class:`SessionUnreadable` for a number that no measurement gives; NaN stands for unknown everywhere."""
+    """Raise :class:`SessionUnreadable` for impossible numbers; NaN stands for unknown everywhere."""
     check_times(path, session.timestamp_s)
     if len(session.status) and int(session.status.max()) >= STATUS_COUNT:
         raise SessionUnreadable(path, phrase("damaged: a frame has a status that there is not"))
@@ -102,7 +102,7 @@ def check_values(path: Path, session: Session) -> None:
 
 
 def check_calibration(path: Path, calibration: Calibration) -> None:
-    """Raise :class:`SessionUnreadable` for a calibration that no hand can be followed from."""
+    """Raise :class:`SessionUnreadable` for a calibration from which no hand can be tracked."""
     turn, spread = calibration.rotation_w0_cam, calibration.marker_covariance_w0_m2
     known = (turn, calibration.translation_w0_cam_m, calibration.marker_position_w0_m, calibration.start_angles_rad)
     good = all(np.isfinite(values).all() for values in known)
@@ -116,7 +116,7 @@ def check_calibration(path: Path, calibration: Calibration) -> None:
 
 
 def check_detections(path: Path, detections: Detections) -> None:
-    """Raise :class:`SessionUnreadable` for a blob that no picture holds; a depth may be unknown."""
+    """Raise :class:`SessionUnreadable` for impossible blobs; a depth may be unknown."""
     good = bool((np.abs(detections.pixel) <= MAX_PIXEL).all())  # NaN is not
     good = good and bool(np.isfinite(detections.area_px).all() and np.isfinite(detections.similarity).all())
     for values, most in ((detections.depth_m, MAX_POSITION_M), (detections.depth_sd_m, MAX_POSITION_M)):
@@ -126,7 +126,7 @@ def check_detections(path: Path, detections: Detections) -> None:
 
 
 def _nesting_depth(value: object) -> int:
-    """How many tables and lists lie within each other; counted without recursion."""
+    """Return how deeply dicts and lists are nested; counted without recursion."""
     deepest, level = 0, [value]
     while level:
         deepest += 1

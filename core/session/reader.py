@@ -1,8 +1,8 @@
-"""Reads session files without opening one in this process.
+"""Reading of session files in another process.
 
-Whatever a file does to the HDF5 library, it does it to the reading process (:mod:`core.session.reading_process`),
-which has limits of time and memory, serves many questions and is started anew when it has died. What is read comes
-back as values with read-only arrays.
+A damaged file may crash or hang the HDF5 library; it does so in the reading process
+(:mod:`core.session.reading_process`), which has limits of time and memory, serves many requests and is restarted when
+it has died. Results are values with read-only arrays.
 """
 
 from __future__ import annotations
@@ -25,43 +25,42 @@ from carpus.core.platform.child_process import ChildProcess
 from carpus.core.session.values import DetectionTable, EncodedImages, Session, SessionOutline, VerificationResult
 
 TIMEOUT_S, BYTES_PER_S = 20.0, 2e6
-"""An answer may take so long by the clock, and a second more for so many bytes: a slow share is no damaged file."""
+"""Time for an answer, and bytes of the file that allow another second: a slow share is no damaged file."""
 RAW_CHUNK_BYTES = 1 << 24
 _NUMPY_NAMES = ("ndarray", "dtype", "_reconstruct", "_frombuffer", "scalar")
-"""An answer is made of these and of this program's own classes; a process that a file has taken over could send others.
-"""
+"""Answers consist of these and of this program's classes; a process taken over by a file could send others."""
 
 
 def read_session(path: Path) -> Session:
-    """Read a session. Raises :class:`SessionUnreadable`.
+    """Read a session; raises :class:`SessionUnreadable`.
 
-    Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
+    Detections and images are read by :func:`read_detections` and :func:`read_raw`.
     """
     return cast(Session, _request("session", path))
 
 
 def read_outline(path: Path) -> SessionOutline:
-    """Header, length and state of a session, without its data: quick enough for a whole folder."""
+    """Read header, length and state of a session, without its data."""
     return cast(SessionOutline, _request("outline", path))
 
 
 def read_detections(path: Path) -> DetectionTable:
-    """Every blob of every frame of a session."""
+    """Read the detections of every frame of a session."""
     return cast(DetectionTable, _request("detections", path))
 
 
 def has_raw(path: Path) -> bool:
-    """Whether the session kept its pictures."""
+    """Return whether the session has stored images."""
     return bool(_request("has_raw", path))
 
 
 def raw_depth_unit_m(path: Path) -> float:
-    """Metres per count of the depth pictures kept."""
+    """Return metres per count of the stored depth images."""
     return float(_request("raw_depth_unit_m", path))
 
 
 def read_raw(path: Path) -> Iterator[EncodedImages]:
-    """The pictures kept, frame by frame."""
+    """Yield the stored images, frame by frame."""
     row = 0
     while some := cast("list[EncodedImages]", _request("raw_some", path, row, RAW_CHUNK_BYTES)):
         yield from some
@@ -69,27 +68,27 @@ def read_raw(path: Path) -> Iterator[EncodedImages]:
 
 
 def read_raw_color(path: Path, row: int) -> bytes:
-    """The colour picture kept of one row; no bytes where there is none."""
+    """Return the stored colour image of a row; empty if there is none."""
     return cast(bytes, _request("raw_color", path, row))
 
 
 def verify(path: Path) -> VerificationResult:
-    """Whether a session is whole and unchanged; as :func:`core.session.session_file.verify`."""
+    """Verify that a session is complete and unchanged; see :func:`core.session.session_file.verify`."""
     return cast(VerificationResult, _request("verify", path))
 
 
 def finish_part(part: Path, when: str) -> Path | None:
-    """Finish a part file where it can be ended by force; as :func:`core.session.rewriting.finish_part`."""
+    """Finish an interrupted part file; see :func:`core.session.rewriting.finish_part`."""
     return cast("Path | None", _request("recover", part, when))
 
 
-def rewrite_session(path: Path, target: Path, **said: str) -> None:
-    """Write a session again with other attributes; as :func:`core.session.rewriting.rewrite_session`."""
-    _request("write_anew", path, target, said)
+def rewrite_session(path: Path, target: Path, **attributes: str) -> None:
+    """Write a session again with changed attributes; see :func:`core.session.rewriting.rewrite_session`."""
+    _request("rewrite_session", path, target, attributes)
 
 
 class ReadingProcess:
-    """The one process that reads for this one; used from any thread, one question at a time."""
+    """The process that reads session files; used from any thread, one request at a time."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -97,49 +96,53 @@ class ReadingProcess:
         self._owner = os.getpid()
 
     def request(self, name: str, path: Path, *arguments: object) -> Any:
-        """The answer to a question about a file. Raises the fault that came instead, or :class:`SessionUnreadable`."""
+        """Send a request about a file and return its answer; raises its fault, or :class:`SessionUnreadable`."""
         with self._lock:
-            question = (name, os.fspath(path), arguments)
+            request = (name, os.fspath(path), arguments)
             link = self._start_child()
             try:
-                link.send(question)
-            except OSError:  # it died of something after its last answer
+                link.send(request)
+            except OSError:  # it died after its last answer
                 self._end()
                 link = self._start_child()
-                link.send(question)
-            size = _file_size(path)
+                link.send(request)
+            try:
+                size = path.stat().st_size
+            except OSError:
+                size = 0
             if not link.poll(TIMEOUT_S + size / BYTES_PER_S):
                 self._end()
                 raise SessionUnreadable(path, phrase("damaged: reading it does not end"))
             try:
-                said, value = _receive_answer(link)
+                count, packed = int(link.recv_bytes()), link.recv_bytes()
+                buffers = [link.recv_bytes() for _ in range(count)]
+                outcome, value = _AnswerUnpickler(io.BytesIO(packed), buffers=buffers).load()
             except (EOFError, OSError):
                 self._end()
                 raise SessionUnreadable(path, phrase("damaged: it cannot be read to its end")) from None
             except Exception as cause:
                 self._end()
                 raise SessionUnreadable(path, phrase("damaged: what was read of it makes no sense")) from cause
-        if said == "done":
+        if outcome == "done":
             return value
-        kind = getattr(errors, said, SessionUnreadable)
+        kind = getattr(errors, str(outcome), SessionUnreadable)
         subject, detail = value
         if isinstance(kind, type) and issubclass(kind, CarpusFault):
             raise kind(subject or path, detail)
         raise SessionUnreadable(path, detail)
 
     def start(self) -> None:
-        """Have it ready before the first question; may be called from a thread that nobody waits for. What keeps it
-        from starting is told to who asks."""
+        """Start the process before the first request; a failure is reported by the request."""
         with self._lock, contextlib.suppress(OSError):
             self._start_child()
 
     def end(self) -> None:
-        """May be called twice; the next question starts it again."""
+        """End the process; the next request starts it again. May be called twice."""
         with self._lock:
             self._end()
 
     def _start_child(self) -> Connection:
-        if self._owner != os.getpid():  # a copy of the process that it answers
+        if self._owner != os.getpid():  # this is a fork of the process that it answers
             self._child = None
         if self._child is None or not self._child.is_alive:
             self._end()
@@ -154,7 +157,7 @@ class ReadingProcess:
 
 
 READING_PROCESS = ReadingProcess()
-"""One for the whole program: it holds nothing but a process, and ends with the program."""
+"""One for the whole program."""
 
 
 def _request(name: str, path: Path, *arguments: object) -> Any:
@@ -170,7 +173,7 @@ def _request(name: str, path: Path, *arguments: object) -> Any:
 
 
 def _can_fork() -> bool:
-    """Whether a copy of this process is as good as a new one, and half a second quicker: nothing else runs in it."""
+    """Return whether forking is safe, which is half a second quicker: no threads, no Qt, no open HDF5 file."""
     if not sys.platform.startswith("linux") or threading.active_count() > 1 or "PySide6" in sys.modules:
         return False
     import h5py
@@ -179,25 +182,10 @@ def _can_fork() -> bool:
     return bool(h5py.h5f.get_obj_count(h5py.h5f.OBJ_ALL, h5py.h5f.OBJ_ALL) == 0)
 
 
-def _file_size(path: Path) -> int:
-    try:
-        return path.stat().st_size
-    except OSError:
-        return 0
-
-
-def _receive_answer(link: Connection) -> tuple[str, Any]:
-    count = int(link.recv_bytes())
-    packed = link.recv_bytes()
-    buffers = [link.recv_bytes() for _ in range(count)]
-    said, value = _AnswerUnpickler(io.BytesIO(packed), buffers=buffers).load()
-    return str(said), value
-
-
 class _AnswerUnpickler(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> Any:
         found = super().find_class(module, name) if module.split(".")[0] in ("carpus", "numpy", "pathlib") else None
-        own = isinstance(found, type) and not module.startswith("numpy")
-        if not own and not (module.startswith("numpy") and name in _NUMPY_NAMES):
+        is_own_class = isinstance(found, type) and not module.startswith("numpy")
+        if not is_own_class and not (module.startswith("numpy") and name in _NUMPY_NAMES):
             raise pickle.UnpicklingError(f"{module}.{name} is no part of an answer")
         return found

@@ -1,5 +1,4 @@
-"""What the reading process writes: a session cut short is finished, one is written anew for another patient or as a
-further result."""
+"""What the reading process writes: interrupted sessions are finished, others rewritten with changed attributes."""
 
 from __future__ import annotations
 
@@ -29,10 +28,14 @@ from carpus.core.session.session_file import layout_from_file, open_session, ver
 
 
 def finish_part(part: Path, when: str) -> Path | None:
-    """Write a session anew from a part file of Carpus 0.2.0: the rows that every dataset holds. The part file is never
-    written to, and goes once the session has its name, or a free one beside it.
+    """Write a session from a part file of Carpus 0.2.0, with the rows that every dataset has.
 
-    Returns the session's path; None, and the file stays, where it ended before the first frame was stored.
+    The part file is not changed, and removed when the session has its name, or a free one beside it.
+
+    Returns
+    -------
+    Path or None
+        The session; None if the part file ended before its first frame, and is kept.
     """
     own_name = find_part_target(part)
     if own_name is None:
@@ -74,8 +77,10 @@ def finish_part(part: Path, when: str) -> Path | None:
 
 
 def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
-    """All of a part file, each dataset cut to the rows that all of them hold; half of a smoother's result is left out,
-    since it can be computed again, and so is a table of repetitions that cannot be read."""
+    """Copy a part file, each dataset cut to the rows that all of them have.
+
+    Half a smoother's result is left out, since it can be computed again, and so is an unreadable table of repetitions.
+    """
     for name in old.attrs:
         if name != CHECKSUM_ATTRIBUTE:
             file.attrs[name] = old.attrs[name]
@@ -103,7 +108,7 @@ def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
 
 
 def _has_content(part: Path) -> bool:
-    """Whether a byte was written; a program that ended while it began leaves room that was only reserved."""
+    """Return whether any byte was written, rather than only reserved."""
     with part.open("rb") as file:
         while block := file.read(1 << 20):
             if block.strip(b"\0"):
@@ -112,10 +117,14 @@ def _has_content(part: Path) -> bool:
 
 
 def rewrite_session(path: Path, target: Path, changed: Mapping[str, str]) -> None:
-    """Write a session as ``target`` with other attributes: all else stays, and not a byte of what they said before.
+    """Write a session as ``target`` with changed attributes; no byte of their old values remains.
 
-    Raises :class:`SessionUnreadable`, :class:`SessionChanged` for one that is not whole, and the faults of writing;
-    then nothing is left behind.
+    Raises
+    ------
+    SessionUnreadable, SessionChanged
+        The session is not complete and unchanged.
+    OutputExists, OutputNotWritable, DiskFull
+        It could not be written; nothing is left.
     """
     verify(path)
     with open_session(path) as old:

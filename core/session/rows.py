@@ -1,9 +1,9 @@
-"""Only plain session files are read, and of an interrupted one as many rows as are whole: the datasets do not grow in
-one instant.
+"""Structure check of session files, and the complete rows of interrupted ones.
 
-HDF5 follows links into other files, reads the bytes of any file as external storage and allocates whatever a shape
-claims. All of that is refused here before a value is read (hard links, storage inside the file, declared types and
-sizes), so that a session holds what is in its own file.
+HDF5 follows links into other files, reads any file as external storage and allocates whatever a shape claims. All of
+that is rejected here before a value is read (hard links, storage inside the file, declared types and sizes).
+
+The datasets of an interrupted file differ in length, since they do not grow in one instant.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ MAX_DEPTH = 6
 _PLAIN_LAYOUTS = (h5py.h5d.COMPACT, h5py.h5d.CONTIGUOUS, h5py.h5d.CHUNKED)
 _PLAIN_FILTERS = (h5py.h5z.FILTER_FLETCHER32, h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE)
 MAX_COMPRESSION_RATIO = 1032
-"""Bytes that one byte of a packed chunk may become, by the format of gzip."""
+"""Largest ratio of the gzip format."""
 _KINDS = {"f": "f", "u": "iu", "i": "iu", "t": "SO", "r": "V"}
 _FIELDS = {field.path: field for field in schema.ALL_FIELDS}
 _ENDS_OF_RAW = {field.path for field in schema.RAW_STREAMS}
 
 
 def check_structure(path: Path, file: h5py.File) -> None:
-    """Raise :class:`SessionUnreadable` for a file with anything in it that is not plainly its own."""
+    """Raise :class:`SessionUnreadable` unless the file contains only plain groups and datasets of the schema's size."""
     size = path.stat().st_size
     whole = bool(file.attrs.get("complete", False))
     seen: set[tuple[int, int]] = set()
@@ -75,7 +75,7 @@ def check_structure(path: Path, file: h5py.File) -> None:
 
 
 def count_stored_rows(dataset: h5py.Dataset) -> int:
-    """Rows for which a growing dataset has chunks; its shape may claim more."""
+    """Return the rows for which a growing dataset has chunks; its shape may claim more."""
     step, *row = dataset.chunks
     chunk_bytes = step * math.prod(row) * dataset.dtype.itemsize + (4 if dataset.fletcher32 else 0)
     return int(dataset.id.get_storage_size()) // chunk_bytes * int(step) if chunk_bytes else int(dataset.shape[0])
@@ -99,7 +99,7 @@ def _check_storage(path: Path, place: str, dataset: h5py.Dataset) -> None:
 
 
 def _check_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int, *, whole: bool) -> int:
-    """Bytes that reading a dataset takes; raises where type, axes or size are not as declared."""
+    """Return the bytes that reading a dataset takes; raises if type, axes or size are not as declared."""
     kind = dataset.dtype.kind
     if kind not in _KINDS[field.dtype[0]] or (kind == "O" and h5py.check_string_dtype(dataset.dtype) is None):
         raise SessionUnreadable(
@@ -149,7 +149,7 @@ _GROWING = [
 
 @dataclass(frozen=True, slots=True)
 class RowCounts:
-    """Rows along each growing axis; every frame counted has its blobs and its pictures."""
+    """Rows along each growing axis; every frame counted has its detections and images."""
 
     frames: int
     detections: int
@@ -163,23 +163,28 @@ class RowCounts:
 
 
 def find_growing_fields(file: h5py.File) -> list[tuple[Field, h5py.Dataset]]:
-    """The datasets of this file that grew while it was written."""
+    """Return the datasets of this file that grow while it is written."""
     return [(field, file[field.path]) for field in _GROWING if field.path in file]
 
 
 def count_whole_rows(file: h5py.File) -> RowCounts:
-    """The longest beginning of the session of which every dataset holds every row."""
+    """Return how many rows from the start every dataset has."""
     longest = dict.fromkeys(schema.GROWING_AXES, 0)
     growing = find_growing_fields(file)
     for axis in longest:
         longest[axis] = min((count_readable_rows(data) for field, data in growing if field.shape[0] == axis), default=0)
-    frames = _count_rising(read_rows(file["/frames/timestamp"], longest["N"]))
+    timestamp_s = read_rows(file["/frames/timestamp"], longest["N"])
+    is_valid = np.isfinite(timestamp_s)
+    is_valid[1:] &= np.diff(timestamp_s) > 0.0
+    frames = _count_leading(is_valid)
     frames, detections = _count_with_detections(file, frames, longest["D"])
     ends = []
     for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True):
         if end.path in file:
-            reached = _select_rising_ends(read_rows(file[end.path], frames))
-            frames = min(frames, len(reached))
+            reached = read_rows(file[end.path], frames)
+            is_valid = reached >= 0
+            is_valid[1:] &= np.diff(reached) >= 0
+            reached = reached[: _count_leading(is_valid)]
             frames = int(np.searchsorted(reached, longest[str(stream.shape[0])], side="right"))
     for end in schema.RAW_ENDS:
         ends.append(int(read_rows(file[end.path], frames)[-1]) if end.path in file and frames > 0 else 0)
@@ -191,7 +196,7 @@ def count_whole_rows(file: h5py.File) -> RowCounts:
 
 
 def count_readable_rows(dataset: h5py.Dataset) -> int:
-    """Rows that can be read: a kill inside a flush may leave the last chunk announced but not reachable."""
+    """Return the rows that can be read: a kill during a flush may leave the last chunk announced but unreachable."""
     rows = int(dataset.shape[0])
     if not dataset.chunks:
         return rows
@@ -209,8 +214,11 @@ def count_readable_rows(dataset: h5py.Dataset) -> int:
 
 
 def read_rows(dataset: h5py.Dataset, end: int, first: int = 0) -> NDArray[Any]:
-    """Rows of a session that was cut short. A chunk whose check sum does not fit was being added to when the program
-    ended: only its end is new, so it is read all the same, and the times say which of its rows count."""
+    """Read rows of an interrupted session.
+
+    A chunk with a wrong checksum was being written when the program ended. Only its end is new, so it is read anyway,
+    and the times show which of its rows are valid.
+    """
     try:
         return np.asarray(dataset[first:end])
     except (OSError, RuntimeError):
@@ -223,32 +231,18 @@ def read_rows(dataset: h5py.Dataset, end: int, first: int = 0) -> NDArray[Any]:
 
 
 def read_chunk(dataset: h5py.Dataset, begin: int) -> NDArray[Any]:
-    """The chunk that begins at a row, whatever its check sum says."""
+    """Return the chunk that starts at a row, whatever its checksum."""
     _, stored = dataset.id.read_direct_chunk((begin, *(0 for _ in dataset.shape[1:])))
     size = math.prod(dataset.chunks) * dataset.dtype.itemsize
     return np.frombuffer(stored, dataset.dtype, size // dataset.dtype.itemsize).reshape(dataset.chunks)
-
-
-def _count_rising(timestamp_s: np.ndarray) -> int:
-    """Length of the beginning in which times are known and rise."""
-    good = np.isfinite(timestamp_s)
-    good[1:] &= np.diff(timestamp_s) > 0.0
-    return _count_leading(good)
 
 
 def _count_leading(good: np.ndarray) -> int:
     return len(good) if good.all() else int(np.argmin(good))
 
 
-def _select_rising_ends(ends: NDArray[Any]) -> NDArray[Any]:
-    """The beginning of a column of ends in which they are known and do not fall."""
-    good = ends >= 0
-    good[1:] &= np.diff(ends) >= 0
-    return ends[: _count_leading(good)]
-
-
 def _count_with_detections(file: h5py.File, frames: int, blobs: int) -> tuple[int, int]:
-    """How many of the frames have all their blobs, and how many blobs that makes."""
+    """Return how many frames have all their detections, and how many detections these are."""
     if schema.DETECTION_COUNT.path not in file:
         return frames, int(np.searchsorted(read_rows(file[schema.DETECTION_FRAME.path], blobs), frames))
     counts = read_rows(file[schema.DETECTION_COUNT.path], frames)

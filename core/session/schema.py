@@ -1,6 +1,6 @@
-"""The session file in one table; writer, reader, recovery and the format page follow it.
+"""The session file in one table, followed by writer, reader, recovery and the format page.
 
-A change of meaning raises :data:`FORMAT_VERSION`; a field added later says so in ``since`` and is optional to read.
+A change of meaning raises :data:`FORMAT_VERSION`; a field added later states its version in ``since`` and is optional.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from carpus.core.model.types import MAX_FINGER_READINGS, MAX_SURFACE_READINGS
 FORMAT = "carpus-session"
 FORMAT_VERSION = 2
 LENS_VERSION = 3
-"""Of a session whose lens an older Carpus would take for plumb_bob: it refuses the file. Nothing else differs."""
+"""Version of sessions whose lens an older Carpus would take for plumb_bob: it refuses them. Nothing else differs."""
 NEWEST_VERSION = LENS_VERSION
 
 ZYZ_ANGLES = ("alpha", "beta", "gamma")
@@ -72,16 +72,23 @@ GROWING_AXES = {"N": "frames", "D": "blobs of all frames", "E": "events", "C": "
 
 
 TEXT_BYTES = 2048
-"""Of a text, within its chunk and so under its check sum; the writer lays a longer one into further rows."""
+"""Size of a text, within its chunk and its checksum; the writer splits longer ones over several rows."""
 
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One dataset. ``shape`` holds numbers and axis letters; ``dtype`` f4, f8, u1, u2, i4, i8, text or rows (of a table
-    whose columns have names).
+    """Dataset of the session file.
 
-    ``attribute`` names the value in the object it is written from (a frame, blobs, an event, a calibration).
-    ``fill`` stands where nothing was written; it is never a number that could be a measurement.
+    Attributes
+    ----------
+    attribute : str
+        Name of the value in the object it is written from (frame, detections, event, calibration).
+    dtype : str
+        f4, f8, u1, u2, i4, i8, text or rows (of a table with named columns).
+    shape : tuple
+        Sizes and axis letters.
+    fill : float
+        Value where nothing was written; never a possible measurement.
     """
 
     path: str
@@ -103,13 +110,13 @@ class Field:
 
     @property
     def label_axis(self) -> str:
-        """The letter of the axis whose entries have names, or nothing."""
+        """Letter of the axis whose entries have names, or empty."""
         return next((str(axis) for axis in self.shape if axis in NAMED_AXES), "")
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """One column of a table; ``attribute`` names the value in the object that a row is written from."""
+    """Column of a table; ``attribute`` is the name of the value in the object of a row."""
 
     name: str
     attribute: str
@@ -120,13 +127,13 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class TableLayout:
-    """What the axis letters mean in one file."""
+    """Meaning of the axis letters in one file."""
 
     protocol: MarkerProtocol
     joint_names: tuple[str, ...]
 
     def names(self, axis: str) -> tuple[str, ...]:
-        """Names along a named axis."""
+        """Return the names along an axis."""
         by_axis = {
             "M": self.protocol.markers,
             "J": self.joint_names,
@@ -137,7 +144,7 @@ class TableLayout:
         return by_axis[axis]
 
     def row_shape(self, field: Field) -> tuple[int, ...]:
-        """Shape without the growing axis; the whole shape of a field that is written once."""
+        """Return the shape without the growing axis; the whole shape of a field that is written once."""
         axes = field.shape[1:] if field.shape[0] in GROWING_AXES else field.shape
         return tuple(axis if isinstance(axis, int) else len(self.names(axis)) for axis in axes)
 
@@ -145,7 +152,7 @@ class TableLayout:
         return self.protocol.has_fingers or not field.fingers_only
 
     def group_names(self) -> dict[str, tuple[str, ...]]:
-        """Groups that carry ``names`` themselves."""
+        """Return the groups that have an attribute ``names``."""
         groups = {"/markers": self.protocol.markers, "/wrist": WRIST_ANGLES}
         return groups | ({"/joints": self.joint_names} if self.protocol.has_fingers else {})
 
@@ -270,7 +277,7 @@ RAW_ENDS = (
           "where this frame's picture ends in /raw/depth; the same as before: no picture", optional=True, fill=-1),
 )
 RAW_DEPTH_UNIT = "depth_unit_m"
-"""Attribute of ``/raw``: metres per count of the depth pictures."""
+"""Attribute of ``/raw``: metres per count of the depth images."""
 
 EVENT_FIELDS = (
     Field("/events/time", "time_s", "f8", ("E",), "s",
@@ -304,7 +311,7 @@ REPETITION_COLUMNS = (
 REPETITIONS = Field("/repetitions", "repetitions", "rows", ("P",), "of each column",
                     "repetitions of the trained angle as counted when the session was finished", optional=True)
 REPETITION_ANGLE = "angle"
-"""Attribute of ``/repetitions``: name of the angle that was trained, empty where none is."""
+"""Attribute of ``/repetitions``: name of the exercised angle, empty if there is none."""
 REPETITION_DTYPE = np.dtype([(column.name, column.dtype) for column in REPETITION_COLUMNS])
 # fmt: on
 

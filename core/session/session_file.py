@@ -1,4 +1,4 @@
-"""Reads session files by the schema; in the reading process (:mod:`core.session.reader`)."""
+"""Reading of session files by the schema, in the reading process (:mod:`core.session.reader`)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.model.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
 from carpus.core.model.dates import moment_from_timestamp, to_iso
-from carpus.core.model.depth_sensor import ASSUMED_SENSOR, DepthSensor, parse_sensor
+from carpus.core.model.depth_sensor import ASSUMED_SENSOR, parse_sensor
 from carpus.core.model.errors import (
     CarpusFault,
     ProtocolUnknown,
@@ -54,32 +54,32 @@ log = logging.getLogger(__name__)
 
 
 def read_session(path: Path) -> Session:
-    """Read a session. Raises :class:`SessionUnreadable`.
+    """Read a session; raises :class:`SessionUnreadable`.
 
-    Blobs and pictures stay in the file: :func:`read_detections`, :func:`read_raw`.
+    Detections and images are read by :func:`read_detections` and :func:`read_raw_chunk`.
     """
     with open_session(path) as file:
         return _SessionFile(path, file).read_session()
 
 
 def session_from_file(path: Path, file: h5py.File) -> Session:
-    """As :func:`read_session`, of a file that is open."""
+    """Read a session from an open file."""
     return _SessionFile(path, file).read_session()
 
 
 def layout_from_file(path: Path, file: h5py.File) -> TableLayout:
-    """What the axis letters mean in a file that is open."""
+    """Return the layout of an open file."""
     return _SessionFile(path, file).layout
 
 
 def read_outline(path: Path) -> SessionOutline:
-    """Header, length and state of a session, without its data: quick enough for a whole folder."""
+    """Read header, length and state of a session, without its data."""
     with open_session(path) as file:
         return _SessionFile(path, file).read_outline()
 
 
 def read_detections(path: Path) -> DetectionTable:
-    """Every blob of every frame of a session."""
+    """Read the detections of every frame of a session."""
     with open_session(path) as file:
         source = _SessionFile(path, file)
         pixel, depth, depth_sd, area, similarity = (source.read_array(field) for field in schema.DETECTION_FIELDS)
@@ -91,8 +91,15 @@ def read_detections(path: Path) -> DetectionTable:
 
 
 def verify(path: Path) -> VerificationResult:
-    """Read all of a session against its check sums and its seal. Raises :class:`SessionUnreadable` for a damaged one,
-    :class:`SessionChanged` for one that is not as it was finished."""
+    """Verify a session by its chunk checksums and its SHA-256.
+
+    Raises
+    ------
+    SessionUnreadable
+        The file is damaged.
+    SessionChanged
+        It was changed after it was finished.
+    """
     session = read_session(path)
     with open_session(path) as file:
         seal = str(file.attrs.get(CHECKSUM_ATTRIBUTE, ""))
@@ -104,37 +111,37 @@ def verify(path: Path) -> VerificationResult:
 
 
 def has_raw(path: Path) -> bool:
-    """Whether the session kept its pictures."""
+    """Return whether the session has stored images."""
     with open_session(path) as file:
         return all(field.path in file for field in (*schema.RAW_STREAMS, *schema.RAW_ENDS))
 
 
 def raw_depth_unit_m(path: Path) -> float:
-    """Metres per count of the depth pictures kept."""
+    """Return metres per count of the stored depth images."""
     with open_session(path) as file:
         return float(file["/raw"].attrs[schema.RAW_DEPTH_UNIT])
 
 
 def read_raw_chunk(path: Path, first_row: int, max_bytes: int) -> Sequence[EncodedImages]:
-    """The pictures kept from row ``first_row`` on, as many as ``max_bytes`` hold and at least one; none at the end."""
+    """Return the stored images from a row on, at most ``max_bytes`` but at least one; none at the end."""
     with open_session(path) as file:
         source = _SessionFile(path, file)
         ends = [source.read_raw_ends(number) for number in range(len(schema.RAW_ENDS))]
         color, depth = (file[field.path] for field in schema.RAW_STREAMS)
-        some: list[EncodedImages] = []
-        taken = 0
+        images: list[EncodedImages] = []
+        total_bytes = 0
         for row in range(first_row, len(ends[0])):
             color_at, depth_at = (int(each[row - 1]) if row else 0 for each in ends)
             color_to, depth_to = (int(each[row]) for each in ends)
-            taken += color_to - color_at + depth_to - depth_at
-            if some and taken > max_bytes:
+            total_bytes += color_to - color_at + depth_to - depth_at
+            if images and total_bytes > max_bytes:
                 break
-            some.append(EncodedImages(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes()))
-        return some
+            images.append(EncodedImages(color[color_at:color_to].tobytes(), depth[depth_at:depth_to].tobytes()))
+        return images
 
 
 def read_raw_color(path: Path, row: int) -> bytes:
-    """The colour picture kept of one row; no bytes where there is none."""
+    """Return the stored colour image of a row; empty if there is none."""
     with open_session(path) as file:
         color_end, color = _SessionFile(path, file).read_raw_ends(0), file[schema.RAW_STREAMS[0].path]
         if not 0 <= row < len(color_end):
@@ -145,7 +152,7 @@ def read_raw_color(path: Path, row: int) -> bytes:
 
 @contextlib.contextmanager
 def open_session(path: Path) -> Iterator[h5py.File]:
-    """The open file of a session that this version reads; whatever goes wrong inside is :class:`SessionUnreadable`."""
+    """Open a session file that this version reads; any failure inside becomes :class:`SessionUnreadable`."""
     if not path.is_file():
         if not path.exists():
             raise SessionMissing(path)
@@ -153,7 +160,16 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     try:
         with h5py.File(path, "r") as file:
             check_structure(path, file)
-            _check_format(path, file)
+            if file.attrs.get("format") != schema.FORMAT:
+                raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
+            version = _format_version(file)
+            if not 1 <= version <= schema.NEWEST_VERSION:
+                text = phrase(
+                    "format version {version}, this Carpus reads up to {format_version}",
+                    version=version,
+                    format_version=schema.NEWEST_VERSION,
+                )
+                raise SessionUnreadable(path, text)
             yield file
     except BlockingIOError as cause:
         raise SessionUnreadable(path, phrase("still being recorded")) from cause
@@ -162,41 +178,19 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     except MemoryError as cause:
         raise SessionUnreadable(path, phrase("damaged: it asks for more memory than a session needs")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
-        # What the library says of it helps who looks into the file, and nobody who wants to see a session.
+        # The library's own message helps developers only.
         log.info("reading %s: %s", path, cause)
         raise SessionUnreadable(
             path, phrase("damaged") if h5py.is_hdf5(path) else phrase("not a session file")
         ) from cause
 
 
-def _check_format(path: Path, file: h5py.File) -> None:
-    if file.attrs.get("format") != schema.FORMAT:
-        raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
-    version = _format_version(file)
-    if not 1 <= version <= schema.NEWEST_VERSION:
-        raise SessionUnreadable(
-            path,
-            phrase(
-                "format version {version}, this Carpus reads up to {format_version}",
-                version=version,
-                format_version=schema.NEWEST_VERSION,
-            ),
-        )
-
-
 def _format_version(file: h5py.File) -> int:
     return int(file.attrs.get("format_version", 0))
 
 
-def _parse_sensor(path: Path, said: str | None) -> DepthSensor:
-    try:
-        return ASSUMED_SENSOR if said is None else parse_sensor(json.loads(said))
-    except ValueError as cause:
-        raise SessionUnreadable(path, phrase("damaged: depth sensor, {cause}", cause=cause)) from cause
-
-
 class _SessionFile:
-    """One open session: its header, and its datasets checked against the schema."""
+    """Open session file: its header, and its datasets checked against the schema."""
 
     def __init__(self, path: Path, file: h5py.File) -> None:
         self._path = path
@@ -226,16 +220,12 @@ class _SessionFile:
             ),
             quality=QualitySeries(frames["dropped_before"], frames["measured_share"], frames["nis"], frames["nis_dof"]),
             events=tuple(map(Event, *(self._read_list(field) for field in schema.EVENT_FIELDS))),
-            smoothed=self._smoothed(),
+            smoothed=self._read_motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
             repetitions=self._read_repetitions(),
         )
         check_values(self._path, session)
         return session
-
-    def _smoothed(self) -> Motion | None:
-        """None where no smoother ran."""
-        return self._read_motion(schema.SMOOTHED_FIELDS) if "/smoothed" in self._file else None
 
     def _read_repetitions(self) -> Repetitions | None:
         path = schema.REPETITIONS.path
@@ -276,7 +266,7 @@ class _SessionFile:
         )
 
     def read_array(self, field: Field) -> NDArray[Any]:
-        """A dataset with the type and shape of the schema, read-only; an optional one that is not there is unknown."""
+        """Return a dataset of the schema's type and shape, read-only; a missing optional one is unknown."""
         expected = tuple(
             self._rows.axis_length(str(axis)) if axis in schema.GROWING_AXES else size
             for axis, size in zip(field.shape, self._read_sizes(field), strict=True)
@@ -305,7 +295,7 @@ class _SessionFile:
         return array
 
     def read_raw_ends(self, number: int) -> NDArray[Any]:
-        """Where the pictures of each frame end in a stream; checked, since slices are made of it."""
+        """Return the ends of each frame's images in a stream, checked, since they are used as indices."""
         ends = self.read_array(schema.RAW_ENDS[number])
         stream = schema.RAW_STREAMS[number]
         if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > self._file[stream.path].shape[0]):
@@ -361,7 +351,7 @@ class _SessionFile:
         return header
 
     def _read_recording_date(self) -> str:
-        """Version 1 did not say: the times of the pictures do where they count from 1970, else the file's own date."""
+        """Return the date; in version 1 it is in the times if these count from 1970, else that of the file."""
         if _format_version(self._file) > 1:
             return str(self._read_attribute("recorded"))
         created = str(self._read_attribute("created"))
@@ -370,7 +360,7 @@ class _SessionFile:
         return created if moment is None else to_iso(moment)
 
     def _read_recording_id(self) -> str:
-        """Version 1 did not say: a session tracked again named the one it came from, which was made before."""
+        """Return the recording's id; version 1 only names the session that was tracked again."""
         if _format_version(self._file) > 1:
             return str(self._read_attribute("recording_id"))
         return str(self._file.attrs.get("origin", "") or self._read_attribute("session_id"))
@@ -393,9 +383,9 @@ class _SessionFile:
         return Motion(**values)
 
     def _read_camera(self) -> Camera:
-        said = self._file["/camera"].attrs
-        model = str(said.get("distortion_model", "plumb_bob"))
-        lens = tuple(float(value) for value in said["distortion"])
+        attributes = self._file["/camera"].attrs
+        model = str(attributes.get("distortion_model", "plumb_bob"))
+        lens = tuple(float(value) for value in attributes["distortion"])
         known = next(
             (one for one, count in DISTORTION_COEFFICIENT_COUNTS.items() if one == model and count == len(lens)), None
         )
@@ -403,16 +393,23 @@ class _SessionFile:
             raise SessionUnreadable(
                 self._path, phrase("distortion {model} with {count} coefficients", model=model, count=len(lens))
             )
+        try:
+            sensor = (
+                parse_sensor(json.loads(attributes["depth_sensor"])) if "depth_sensor" in attributes else ASSUMED_SENSOR
+            )
+        except ValueError as cause:
+            text = phrase("damaged: depth sensor, {cause}", cause=cause)
+            raise SessionUnreadable(self._path, text) from cause
         return Camera(
-            fx_px=float(said["fx"]),
-            fy_px=float(said["fy"]),
-            cx_px=float(said["cx"]),
-            cy_px=float(said["cy"]),
-            width_px=int(said["width"]),
-            height_px=int(said["height"]),
+            fx_px=float(attributes["fx"]),
+            fy_px=float(attributes["fy"]),
+            cx_px=float(attributes["cx"]),
+            cy_px=float(attributes["cy"]),
+            width_px=int(attributes["width"]),
+            height_px=int(attributes["height"]),
             distortion=lens,
-            origin=str(said.get("origin", "file")),
-            sensor=_parse_sensor(self._path, said.get("depth_sensor")),
+            origin=str(attributes.get("origin", "file")),
+            sensor=sensor,
             distortion_model=known,
         )
 
@@ -420,19 +417,19 @@ class _SessionFile:
         arrays = {field.attribute: self.read_array(field) for field in schema.CALIBRATION_FIELDS}
         clicks_px, residual_m = arrays.pop("clicks_px"), arrays.pop("residual_m")
         surface = DorsalSurface.from_table(arrays.pop("surface"))
-        said = self._file["/calibration"].attrs
+        attributes = self._file["/calibration"].attrs
         findings = []
-        for fact in json.loads(said.get("findings", "[]")):
+        for fact in json.loads(attributes.get("findings", "[]")):
             findings.append(CalibrationFinding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
         unknown = float("nan")
         verdict = Verdict(
             residual_mm=residual_m * 1e3,
-            hand_length_mm=float(said.get("hand_length_m", unknown)) * 1e3,
-            tilt_deg=float(np.degrees(said.get("tilt_rad", unknown))),
-            distance_m=float(said.get("distance_m", unknown)),
-            frames_used=int(said.get("frames_used", 0)),
+            hand_length_mm=float(attributes.get("hand_length_m", unknown)) * 1e3,
+            tilt_deg=float(np.degrees(attributes.get("tilt_rad", unknown))),
+            distance_m=float(attributes.get("distance_m", unknown)),
+            frames_used=int(attributes.get("frames_used", 0)),
             findings=tuple(findings),
         )
-        straight = tuple(map(bool, said.get("straight_fingers", ())))
+        straight = tuple(map(bool, attributes.get("straight_fingers", ())))
         clicks = Clicks(self._header.hand, self._header.protocol, clicks_px, straight)
         return Calibration(clicks=clicks, verdict=verdict, surface=surface, **arrays)

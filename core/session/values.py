@@ -1,4 +1,4 @@
-"""A session as values: what the writer takes and the reader gives. Arrays read are read-only."""
+"""Values of a session, as the writer takes and the reader returns them (arrays read-only)."""
 
 from __future__ import annotations
 
@@ -34,19 +34,27 @@ from carpus.core.platform.version import __version__
 IntArray = NDArray[np.integer]
 
 MAX_TARGET_DEG = 180.0
-"""No joint goes further; what a file claims beyond it is no target."""
+"""No joint moves farther; a larger target in a file is ignored."""
 SET_UP = "set_up"
-"""The part of a session's parameters that says what was aimed at."""
+"""Section of a session's parameters with the targets."""
 
 
 @dataclass(frozen=True, slots=True)
 class SessionHeader:
-    """Who, when, what and with which settings; never a name or a birth date.
+    """Header of a session; never contains a name or a birth date.
 
-    ``recorded`` when the hand moved, empty where nobody knows, and ``created`` when the file was made, both ISO 8601
-    with zone; ``recording_id`` is that of every result of one recording; ``joint_names`` empty for ``wrist6``;
-    ``parameters`` JSON of all settings;
-    ``origin`` the session this one was tracked again from, else empty.
+    Attributes
+    ----------
+    created, recorded : str
+        When the file was made and when the hand moved (empty if unknown), ISO 8601 with zone.
+    recording_id : str
+        Id of the recording, the same for all its results.
+    joint_names : tuple of str
+        Empty for ``wrist6``.
+    parameters : str
+        All settings as JSON.
+    origin : str
+        Id of the session that was tracked again, else empty.
     """
 
     session_id: str
@@ -73,22 +81,22 @@ class SessionHeader:
 
     @property
     def recording_time(self) -> datetime:
-        """When the hand moved; where nobody knows, when the file was made."""
+        """When the hand moved; if unknown, when the file was made."""
         return datetime.fromisoformat(self.recorded or self.created)
 
     @property
     def is_simulated(self) -> bool:
-        """Whether the pictures were of a simulated hand, as their source said: nobody's movement was measured."""
+        """Whether the images show a simulated hand."""
         return self._read_section("source").get(SIMULATED) == "yes"
 
     @property
     def set_up(self) -> Mapping[str, Any]:
-        """What was aimed at; empty where the session does not say."""
+        """Targets and repetitions of the exercise; empty if not stored."""
         return self._read_section(SET_UP)
 
     @property
     def targets_deg(self) -> tuple[float, float]:
-        """Targets of the exercise as set up, signed degrees of its positive and negative direction; NaN for none."""
+        """Targets in the positive and negative direction, signed degrees; NaN for none."""
         values = self.set_up.get("targets_deg")
         if not isinstance(values, list) or len(values) != 2:
             return math.nan, math.nan
@@ -118,10 +126,10 @@ def new_header(
     recorded: str | None = None,
     recording_id: str = "",
 ) -> SessionHeader:
-    """A header for a session that begins now; ``now`` needs a zone, and is injectable as ``session_id`` is.
+    """Return a header for a session that starts now; ``now`` and ``session_id`` can be given by tests.
 
-    Raises :class:`NameUnsuited` for a pseudonym that cannot be one.
-    Without ``recorded`` the hand moves now, without ``recording_id`` the session is a recording's first result.
+    Default of ``recorded`` is now; without ``recording_id`` the session is a recording's first result. Raises
+    :class:`NameUnsuited` for an invalid pseudonym.
     """
     created = (now or datetime.now().astimezone()).isoformat(timespec="seconds")
     return SessionHeader(
@@ -142,12 +150,11 @@ def new_header(
 
 @dataclass(frozen=True, slots=True)
 class Motion(KinematicState):
-    """Moments of N frames, of the filter or of the smoother: every array of a :class:`KinematicState` with N rows of
-    it."""
+    """Kinematic states of N frames: every array of a :class:`KinematicState` with a leading axis of N."""
 
 
 def stack_states(frames: Sequence[TrackedFrame | KinematicState]) -> Motion:
-    """The frames' wrist and joints, one row each."""
+    """Return the states of some frames as one motion."""
     moments = [frame.kinematics if isinstance(frame, TrackedFrame) else frame for frame in frames]
     return Motion(
         **{field.name: np.array([getattr(moment, field.name) for moment in moments]) for field in fields(Motion)}
@@ -155,15 +162,24 @@ def stack_states(frames: Sequence[TrackedFrame | KinematicState]) -> Motion:
 
 
 def iter_states(motion: Motion) -> Iterator[KinematicState]:
-    """One moment for every row."""
+    """Yield the state of every row."""
     columns = [getattr(motion, field.name) for field in fields(KinematicState)]
     return (KinematicState(*row) for row in zip(*columns, strict=True))
 
 
 @dataclass(frozen=True, slots=True)
 class MarkerSeries:
-    """M markers over N frames: model position (N, M, 3) in camera axes; blob taken (N, M, 2) and its depth (N, M);
-    whether what is seen contradicts what is stated of it (N, M)."""
+    """M markers over N frames.
+
+    Attributes
+    ----------
+    position_cam_m : ndarray, shape (N, M, 3)
+        Modelled position in camera axes.
+    measured_px, measured_depth_m : ndarray, shapes (N, M, 2) and (N, M)
+        Associated blob and its depth.
+    doubted : ndarray of bool, shape (N, M)
+        Whether the image contradicts the estimate.
+    """
 
     position_cam_m: FloatArray
     measured_px: FloatArray
@@ -173,7 +189,7 @@ class MarkerSeries:
 
 @dataclass(frozen=True, slots=True)
 class QualitySeries:
-    """Frames missing before each frame (N,), share measured (N, 3 or J), NIS (N,) and its degrees of freedom (N,)."""
+    """Frames missing before each frame (N,), measured share (N, 3 or J), NIS (N,) and its degrees of freedom (N,)."""
 
     dropped_before: IntArray
     measured_share: FloatArray
@@ -183,7 +199,7 @@ class QualitySeries:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something that happened at ``time_s`` of the recording: a repetition, a note, a pause, the camera lost."""
+    """Event at ``time_s`` of the recording: a note, a pause, the camera lost."""
 
     time_s: float
     kind: str
@@ -192,13 +208,23 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class RepetitionRow:
-    """One repetition of the trained angle, there and back: seconds on the clock of the frames, rad, rad/s; NaN unknown.
+    """One repetition of the exercised angle, there and back; seconds on the frames' clock, rad, rad/s; NaN if unknown.
 
-    From where it left one turning place to where it reached the last, pauses included, or from middle to middle of a
-    motion to both sides; ``peak_s`` when it was furthest on its way there, at ``angle_rad``. Its strokes are those that
-    end in it: ``peak_speed_rad_s`` of the quickest, ``sparc`` their mean, ``movement_units``, ``pauses`` and
-    ``pause_s``; ``movement_time_s`` how long it was on its way. ``at_least``: the angle may have gone further, and so
-    the arc, while it was hidden. ``reason`` why it does not count, empty where it does.
+    It lasts from leaving one turning point to reaching the last, pauses included, or from middle to middle of a motion
+    to both sides.
+
+    Attributes
+    ----------
+    peak_s, angle_rad : float
+        Time and angle of the farthest point.
+    peak_speed_rad_s, sparc : float
+        Of the fastest stroke; mean of the strokes that end in the repetition.
+    movement_time_s : float
+        Time in motion.
+    at_least : bool
+        The arc is a lower bound, since the angle was occluded.
+    reason : str
+        Why the repetition is excluded, empty if it is included.
     """
 
     start_s: float
@@ -221,7 +247,7 @@ class RepetitionRow:
 
 @dataclass(frozen=True, slots=True)
 class Repetitions:
-    """The repetitions of one session, of the angle that is called ``angle``; empty where none is trained."""
+    """Repetitions of the angle named ``angle``; that is empty if none is exercised."""
 
     angle: str
     rows: tuple[RepetitionRow, ...]
@@ -229,7 +255,7 @@ class Repetitions:
 
 @dataclass(frozen=True, slots=True)
 class EncodedImages:
-    """One frame's pictures as picture files: colour JPEG or PNG, depth 16-bit PNG; no bytes where there is none."""
+    """Encoded images of one frame: colour JPEG or PNG, depth 16-bit PNG; empty if there is none."""
 
     color: bytes
     depth: bytes
@@ -237,10 +263,17 @@ class EncodedImages:
 
 @dataclass(frozen=True, slots=True)
 class DetectionTable:
-    """Every blob of every frame: ``frame`` (D,) row of the frame, rising; ``blobs`` all D of them.
+    """Detections of all frames.
 
-    ``surface`` and ``fingers`` readings on the back of the hand and about the fingers: pixels (N, S, 2) and depths
-    (N, S), NaN for none; empty where the session kept none.
+    Attributes
+    ----------
+    frame : ndarray of int, shape (D,)
+        Row of the frame, rising.
+    blobs : Detections
+        All D blobs.
+    surface, fingers : tuple of ndarray
+        Depth samples on the back of the hand and around the fingers: pixels (N, S, 2) and depths (N, S), NaN for none;
+        empty if the session has none.
     """
 
     frame: IntArray
@@ -275,7 +308,7 @@ def _read_samples(kept: tuple[NDArray[Any], NDArray[Any]], row: int) -> SurfaceS
 
 @dataclass(frozen=True, slots=True)
 class SessionOutline:
-    """What a list of sessions shows; ``recovered`` as in :class:`Session`."""
+    """Entry of the session list; ``recovered`` as in :class:`Session`."""
 
     header: SessionHeader
     frames: int
@@ -286,25 +319,23 @@ class SessionOutline:
 
 @dataclass(frozen=True, slots=True)
 class VerificationResult:
-    """A session that is whole: all of its ``frames`` can be read; ``has_checksum``: and nothing was changed since it
-    was
-    finished, which sessions from before there were seals cannot tell."""
+    """Verified session: number of frames, and whether it had a SHA-256 to compare (old sessions have none)."""
 
     frames: int
     has_checksum: bool
 
 
 AngleOrder = Literal["zyx", "isb"]
-"""Order of the wrist's angles: the papers' ZYX, or flexion first as the ISB has it."""
+"""Order of the wrist's angles: the papers' ZYX, or flexion first (ISB)."""
 ANGLE_ORDERS: tuple[AngleOrder, ...] = ("zyx", "isb")
 
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """What a session file holds, without the blobs and pictures, which are read when asked for.
+    """Content of a session file without detections and images, which are read on demand.
 
-    ``timestamp_s`` and ``status`` (N,); ``smoothed`` None where no smoother ran; ``recovered`` when an
-    interrupted one was finished (ISO 8601), else empty.
+    ``timestamp_s`` and ``status`` (N,); ``smoothed`` None without a smoother; ``recovered`` is when an interrupted
+    recording was finished (ISO 8601), else empty.
     """
 
     path: Path
@@ -320,9 +351,9 @@ class Session:
     smoothed: Motion | None
     recovered: str
     repetitions: Repetitions | None = None
-    """As counted when it was finished; None where nobody did, as in one that was recovered."""
+    """As counted when it was finished; None if not counted, as in a recovered session."""
     angle_order: AngleOrder = "zyx"
-    """In which order the wrist's angles are read; in every file it is the papers'."""
+    """Order in which the wrist's angles are read; files have the papers'."""
 
     def __len__(self) -> int:
         return len(self.timestamp_s)

@@ -1,4 +1,4 @@
-"""Writes a session file, every chunk once and read back: under a hidden name until it is whole and sealed."""
+"""Writer of session files: every chunk is written once and read back, under a hidden name until complete."""
 
 from __future__ import annotations
 
@@ -39,19 +39,24 @@ from carpus.core.session.values import EncodedImages, Event, Motion, Repetitions
 
 _TIMES = schema.FRAME_FIELDS[0].path
 _INDEX_BYTES = 512 * 1024
-"""More than HDF5's index grows by in one step."""
+"""More than HDF5's index grows in one step."""
 
 
 class SessionWriter(FileWriter):
-    """One session file in the making; used by one thread, from its beginning to :meth:`close`.
+    """Session file in progress, to be used by one thread until :meth:`close`.
 
-    It gets its name in :meth:`close`, and no other file loses it. Whatever fails before, nothing is left behind: what
-    a session is made of, a recording or a journal, is still there.
+    It gets its name in :meth:`close`; no other file is overwritten. After a fault nothing is left: the recording or
+    journal still exists.
     """
 
     def __init__(self, path: Path, empty: bytes) -> None:
-        """``empty`` is the file without rows. Raises :class:`OutputExists`, :class:`OutputNotWritable` or
-        :class:`DiskFull`."""
+        """Create the file from one without rows.
+
+        Raises
+        ------
+        OutputExists, OutputNotWritable, DiskFull
+            It could not be created; nothing is left.
+        """
         if os.path.lexists(path):
             raise OutputExists(path)
         remove_leftovers(path)
@@ -85,15 +90,14 @@ class SessionWriter(FileWriter):
         *,
         raw_depth_unit_m: float | None = None,
     ) -> Self:
-        """Begin a session that is to become ``path``. With ``raw_depth_unit_m`` every frame brings its pictures."""
+        """Create a session that will become ``path``; with ``raw_depth_unit_m`` every frame has images."""
         return cls(path, build_empty_session(header, camera, calibration, raw_depth_unit_m))
 
     def __len__(self) -> int:
-        """Frames taken so far."""
+        """Number of frames appended so far."""
         return self._rows.get(_TIMES, 0) + len(self._pending_frames)
 
     def append(self, tracked: TrackedFrame, raw: EncodedImages | None = None) -> None:
-        """Take one frame."""
         if tracked.timestamp_s <= self._last_time_s:
             times = {"timestamp_s": f"{tracked.timestamp_s:.6f}", "last_time_s": f"{self._last_time_s:.6f}"}
             raise TimesUnordered(self.path, phrase("{timestamp_s} s after {last_time_s} s", **times))
@@ -107,11 +111,11 @@ class SessionWriter(FileWriter):
             self.flush()
 
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
-        """Note something that happened at a time of the recording."""
+        """Add an event at a time of the recording."""
         self.add_blocks(build_event_blocks(Event(time_s, kind, text)))
 
     def add_blocks(self, blocks: Blocks) -> None:
-        """Take rows as arrays, of frames with all that belongs to them, or of events."""
+        """Add rows as arrays, of frames with all that belongs to them, or of events."""
         blocks = dict(blocks)
         starts = {schema.DETECTION_FRAME.path: _TIMES}
         starts |= {end.path: stream.path for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True)}
@@ -125,13 +129,13 @@ class SessionWriter(FileWriter):
             self._write(whole_chunks=True)
 
     def write_motion(self, motion: Motion) -> None:
-        """Store the smoother's result, one row for every frame appended."""
+        """Write the smoother's result, one row for every frame appended."""
         if len(motion.position_m) != len(self):
             raise ValueError(f"/smoothed got {len(motion.position_m)} rows for {len(self)} frames")
         self.add_motion_blocks(build_motion_blocks(self._layout, motion))
 
     def add_motion_blocks(self, blocks: Blocks) -> None:
-        """Take the smoother's result for the next frames as arrays, from the first frame on."""
+        """Add the smoother's result of the next frames as arrays, from the first frame on."""
         if not self.smoother_row_count:
             with self._reserve_and_flush(0):
                 create_smoother_datasets(self._file, self._layout)
@@ -139,11 +143,11 @@ class SessionWriter(FileWriter):
 
     @property
     def smoother_row_count(self) -> int:
-        """For how many frames there is a smoother's result."""
+        """Number of frames with a smoother's result."""
         return self._rows.get(schema.SMOOTHED_FIELDS[0].path, 0)
 
     def drop_motion(self) -> None:
-        """Leave the smoother's result out: it does not come to all frames."""
+        """Remove the smoother's result, which is incomplete."""
         if self.smoother_row_count:
             with self._reserve_and_flush(0):
                 del self._file["/smoothed"]
@@ -152,18 +156,18 @@ class SessionWriter(FileWriter):
                     known.pop(field.path, None)
 
     def read_session(self) -> Session:
-        """What is in the file so far, as :func:`core.session.reader.read_session` gives it."""
+        """Return the session as written so far."""
         self.flush()
         return session_from_file(self.path, self._file)
 
     def write_repetitions(self, repetitions: Repetitions) -> None:
-        """Store what was counted, once all frames are there."""
+        """Write the table of repetitions, once all frames are there."""
         self.flush()
         with self._reserve_and_flush(len(repetitions.rows) * schema.REPETITION_DTYPE.itemsize):
             create_repetitions(self._file, self._layout, repetitions)
 
     def flush(self) -> None:
-        """Write what is held in memory."""
+        """Write everything to the file."""
         if self._pending_frames:
             blocks = build_frame_blocks(self._layout, self._pending_frames)
             if self._pending_images:
@@ -173,7 +177,7 @@ class SessionWriter(FileWriter):
         self._write()
 
     def close(self, recovered: str = "") -> None:
-        """Finish: seal it, bring it to the disk and give it its name. Does nothing when closed.
+        """Finish the file: compute its checksum, synchronise it and give it its name; may be called twice.
 
         ``recovered`` is when an interrupted recording was finished.
         """
@@ -195,7 +199,7 @@ class SessionWriter(FileWriter):
             self.abandon()
 
     def abandon(self) -> None:
-        """Stop; nothing is left behind. May be called twice, and when closed."""
+        """Stop and leave nothing behind; may be called twice, and when closed."""
         self._close_file(keep=False)
         self._temporary.unlink(missing_ok=True)
 
@@ -215,7 +219,7 @@ class SessionWriter(FileWriter):
             os.close(self._descriptor)
 
     def _write(self, *, whole_chunks: bool = False) -> None:
-        """Write what is held; with ``whole_chunks`` what does not fill one stays held, so that none is packed twice."""
+        """Write pending rows; with ``whole_chunks`` incomplete chunks wait, so that none is compressed twice."""
         rows: dict[str, Any] = {}
         for path, parts in self._pending.items():
             data, dataset = np.concatenate(parts), self._file[path]
@@ -240,7 +244,7 @@ class SessionWriter(FileWriter):
             os.fsync(self._descriptor)  # so that the end has little left to do
 
     def _verify_written(self, path: str, data: Any) -> None:
-        """Read back what was written last, for the seal."""
+        """Read back the rows written last and add them to their digest."""
         dataset = self._file[path]
         try:
             there = to_bytes(np.asarray(dataset[dataset.shape[0] - len(data) :]))
@@ -252,7 +256,7 @@ class SessionWriter(FileWriter):
 
     @contextlib.contextmanager
     def _reserve_and_flush(self, room: int) -> Iterator[None]:
-        """Around every change of the file: room first, so that a full disk is told before HDF5 meets it."""
+        """Reserve space before a change of the file and flush it afterwards: a full disk must not reach HDF5."""
         if not self._file:
             raise ValueError("the session is closed")
         try:
