@@ -27,7 +27,7 @@ from carpus.core.calibration.neutral_depth import (
     estimate_back_surface,
     estimate_depth_offset_px,
 )
-from carpus.core.calibration.neutral_pose import estimate_neutral_pose
+from carpus.core.calibration.neutral_pose import TOWARDS_CAMERA, estimate_neutral_pose
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import (
@@ -48,7 +48,6 @@ from carpus.core.model.types import Detections, FloatArray, Frame, Region
 
 _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""
-_TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
 MAX_STILL_MOTION_PX = 0.7
 """Motion of the markers up to which the hand is still."""
 STILL_GATE_PX, MIN_STILL_MARKERS = 4.0, 3
@@ -140,12 +139,15 @@ def calibrate_hand(
     """
     first = frames[0]
     radius_px = np.array([estimate_radius_px(first, click, camera, detection) for click in clicks.pixel])
-    region = _bounding_region(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
+    margin_px = 3.0 * float(radius_px.max()) + 12.0
+    left, top = (int(value) for value in clicks.pixel.min(axis=0) - margin_px)
+    right, bottom = (int(value) + 1 for value in clicks.pixel.max(axis=0) + margin_px)
+    region = Region(left, top, right, bottom).clip(camera.width_px, camera.height_px)
     found = _find_clicked_markers(clicks, first, region, MAX_CLICK_DISTANCE_RADII * radius_px, camera, detection)
-    appearance, blobs, taken, findings = found.appearance, found.blobs, found.blob_index, found.findings
+    appearance, blobs, blob_index, findings = found.appearance, found.blobs, found.blob_index, found.findings
     detector = Detector(appearance, camera, detection)
-    found_px = np.where((taken >= 0)[:, None], _select_rows(blobs.pixel, taken), np.nan)
-    if np.any(taken < 0):
+    found_px = np.where((blob_index >= 0)[:, None], _select_rows(blobs.pixel, blob_index), np.nan)
+    if np.any(blob_index < 0):
         verdict = _empty_verdict(clicks, findings)
         return CalibrationOutcome(verdict, None, MeasurementNoise(), appearance, found_px, 0)
 
@@ -159,12 +161,11 @@ def calibrate_hand(
         for frame in frames[1:]:
             yield frame.timestamp_s, detector.detect(frame, region)
 
-    capture = capture_neutral_pose(iterate_detections(), taken, settings)
+    capture = capture_neutral_pose(iterate_detections(), blob_index, settings)
     hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
     if not any(finding.kind in _LABEL_FINDINGS for finding in hand.verdict.findings):
-        everywhere = detector.detect(first)
-        hand = _add_near_spot_finding(hand, clicks, found_px, radius_px, everywhere)
-        hand = _add_odd_marker_finding(hand, clicks, first, found_px, everywhere, camera, detection)
+        all_blobs = detector.detect(first)
+        hand = _check_unlabelled_spots(hand, clicks, first, found_px, radius_px, all_blobs, camera, detection)
     calibration = hand.calibration
     if calibration is not None:
         still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.duration_s]
@@ -175,53 +176,42 @@ def calibrate_hand(
 _LABEL_FINDINGS = ("shifted", "swapped", "misnamed", "wrong_side")
 
 
-def _add_odd_marker_finding(
+def _check_unlabelled_spots(
     hand: MeasuredHand,
     clicks: Clicks,
     frame: Frame,
     found_px: FloatArray,
-    all_blobs: Detections,
+    radius_px: FloatArray,
+    blobs: Detections,
     camera: Camera,
     detection: DetectionSettings,
 ) -> MeasuredHand:
-    """Add a finding if a marker makes no palm, or an unlabelled spot fits better."""
-    palm = list(clicks.protocol.palm)
-    taken = np.linalg.norm(all_blobs.pixel[:, None] - found_px[None], axis=-1).min(axis=1) < SAME_SPOT_PX
-    depth_m = float(hand.verdict.distance_m)
-    near = ~np.isfinite(all_blobs.depth_m) | (np.abs(all_blobs.depth_m - depth_m) < MAX_DEPTH_OFFSET_M)
-    spare_px = all_blobs.pixel[~taken & near]
-    spare_px = spare_px[is_paper(spare_px, frame, to_hsv(frame.color_rgb), camera, detection)]
+    """Add a finding if an unlabelled spot may be a marker, or if a marker makes no palm."""
     names = clicks.protocol.markers
+    distance_px = np.linalg.norm(blobs.pixel[:, None] - found_px[None], axis=-1)
+    is_marker = distance_px.min(axis=1) < SAME_SPOT_PX
+    distance_px[distance_px.argmin(axis=0)] = np.inf  # a marker is its own nearest blob
+    near = distance_px / radius_px
+    if near.size and near.min() < SAME_MARKER_RADII:
+        spot, marker = np.unravel_index(int(near.argmin()), near.shape)
+        spot_px = tuple(map(float, blobs.pixel[spot]))
+        hand = _add_finding(hand, CalibrationFinding("near_spot", (names[marker],), spot_px=spot_px))
+    depth_m = float(hand.verdict.distance_m)
+    is_near = ~np.isfinite(blobs.depth_m) | (np.abs(blobs.depth_m - depth_m) < MAX_DEPTH_OFFSET_M)
+    spare_px = blobs.pixel[~is_marker & is_near]
+    spare_px = spare_px[is_paper(spare_px, frame, to_hsv(frame.color_rgb), camera, detection)]
 
     def plan(pixel: FloatArray) -> FloatArray:
         return plan_view(camera.backproject(camera.undistort(pixel), np.full(len(pixel), depth_m)))
 
+    palm = list(clicks.protocol.palm)
     odd = find_odd_marker(clicks.side, plan(found_px[palm]), plan(spare_px))
     if odd is None or not np.isfinite(depth_m):
         return hand
     kind: FindingKind = "other_spot" if odd.is_spot_better else "spare_spot" if odd.spot >= 0 else "no_palm"
     spot_px = tuple(map(float, spare_px[odd.spot])) if odd.spot >= 0 else ()
-    marker = (names[palm[odd.marker]],) if odd.marker >= 0 else ()
-    return _add_finding(hand, CalibrationFinding(kind, marker, spot_px=spot_px))
-
-
-def _add_near_spot_finding(
-    hand: MeasuredHand,
-    clicks: Clicks,
-    found_px: FloatArray,
-    radius_px: FloatArray,
-    all_blobs: Detections,
-) -> MeasuredHand:
-    """Add a finding if an unlabelled spot is so near to a marker that it may be the marker."""
-    apart = np.linalg.norm(all_blobs.pixel[:, None] - found_px[None], axis=-1)
-    # A disc is its own nearest blob.
-    apart[apart.argmin(axis=0)] = np.inf
-    near = apart / radius_px
-    if not near.size or not near.min() < SAME_MARKER_RADII:
-        return hand
-    spot, marker = np.unravel_index(int(near.argmin()), near.shape)
-    spot_px = tuple(map(float, all_blobs.pixel[spot]))
-    return _add_finding(hand, CalibrationFinding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
+    marker_names = (names[palm[odd.marker]],) if odd.marker >= 0 else ()
+    return _add_finding(hand, CalibrationFinding(kind, marker_names, spot_px=spot_px))
 
 
 _HandT = TypeVar("_HandT", bound=MeasuredHand)
@@ -244,12 +234,7 @@ class _ClickedMarkers:
 
 
 def _find_clicked_markers(
-    clicks: Clicks,
-    frame: Frame,
-    region: Region,
-    reach_px: FloatArray,
-    camera: Camera,
-    detection: DetectionSettings,
+    clicks: Clicks, frame: Frame, region: Region, reach_px: FloatArray, camera: Camera, detection: DetectionSettings
 ) -> _ClickedMarkers:
     def detect_at_pixels(pixel: FloatArray) -> _ClickedMarkers:
         """Learn the appearance at ``pixel`` (M, 2) and assign the blobs."""
@@ -260,16 +245,11 @@ def _find_clicked_markers(
     found = detect_at_pixels(clicks.pixel)
     if np.all(found.blob_index >= 0):
         return found
-    # Small discs and clicks at their edges: colours are better learnt in the middle of what is blue.
-    candidates = find_marker_candidates(frame, camera, detection)
-    again = detect_at_pixels(_snap_clicks(clicks.pixel, candidates, reach_px))
+    # With small markers, or clicks at their edges, the appearance is better learnt in the middle of a blue spot.
+    spots_px = find_marker_candidates(frame, camera, detection).pixel
+    spot = assign_nearest(np.linalg.norm(clicks.pixel[:, None] - spots_px[None], axis=-1), reach_px)
+    again = detect_at_pixels(np.where((spot >= 0)[:, None], _select_rows(spots_px, spot), clicks.pixel))
     return max(found, again, key=lambda each: int(np.count_nonzero(each.blob_index >= 0)))
-
-
-def _snap_clicks(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
-    """Move clicks (M, 2) onto their blobs, all together; those without a blob stay."""
-    taken = assign_nearest(np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1), reach_px)
-    return np.where((taken >= 0)[:, None], _select_rows(blobs.pixel, taken), pixel)
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:
@@ -287,11 +267,6 @@ def _select_rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
     if values.shape[0] == 0:
         return np.full((index.size, *values.shape[1:]), np.nan)
     return values[np.maximum(index, 0)]
-
-
-def _bounding_region(pixel: FloatArray, margin_px: float, camera: Camera) -> Region:
-    low, high = pixel.min(axis=0) - margin_px, pixel.max(axis=0) + margin_px
-    return Region(int(low[0]), int(low[1]), int(high[0]) + 1, int(high[1]) + 1).clip(camera.width_px, camera.height_px)
 
 
 def _assign_clicks(
@@ -327,13 +302,13 @@ def capture_neutral_pose(
         limits of the calibration
     """
     frames = iter(detections)
-    begin_s, blobs = next(frames)
+    start_s, blobs = next(frames)
     start_px = blobs.pixel[blob_index]
-    pixels, depths, said = [start_px], [blobs.depth_m[blob_index]], [blobs.depth_sd_m[blob_index]]
+    pixels, depths, stated_sds = [start_px], [blobs.depth_m[blob_index]], [blobs.depth_sd_m[blob_index]]
     areas = [blobs.area_px[blob_index]]
-    lasted_s = 0.0
+    duration_s = 0.0
     for time_s, blobs in frames:
-        if time_s - begin_s > settings.still_s:
+        if time_s - start_s > settings.still_s:
             break
         if not len(blobs):
             continue
@@ -345,12 +320,12 @@ def capture_neutral_pose(
         moved_px = np.median(blobs.pixel[nearest[near]] - start_px[near], axis=0)
         if float(np.hypot(*moved_px)) > MAX_STILL_MOTION_PX:
             break
-        lasted_s = time_s - begin_s
+        duration_s = time_s - start_s
         pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
         depths.append(np.where(near, blobs.depth_m[nearest], np.nan))
-        said.append(np.where(near, blobs.depth_sd_m[nearest], np.nan))
+        stated_sds.append(np.where(near, blobs.depth_sd_m[nearest], np.nan))
         areas.append(np.where(near, blobs.area_px[nearest], np.nan))
-    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(said), np.stack(areas), lasted_s)
+    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(stated_sds), np.stack(areas), duration_s)
 
 
 def measure_hand(
@@ -373,9 +348,11 @@ def measure_hand(
     with np.errstate(all="ignore"):
         pixel = camera.undistort(np.nanmean(capture.pixel, axis=0))
         depth_m = _nanmean(capture.depth_m)
-    noise = replace(_estimate_noise(capture, camera.sensor), marker_radius_m=_marker_radius_m(capture, camera, palm))
+    # Children wear smaller markers (reference 2).
+    radius_m = np.sqrt(_nanmean(capture.area_px[:, palm]) / np.pi) * _nanmean(capture.depth_m[:, palm]) / camera.fx_px
+    noise = replace(_estimate_noise(capture, camera.sensor), marker_radius_m=float(np.nanmedian(radius_m)))
     point_cam = camera.backproject(pixel, depth_m)
-    axes_cam = wrist_axes(point_cam[palm], _TOWARDS_CAMERA)
+    axes_cam = wrist_axes(point_cam[palm], TOWARDS_CAMERA)
     origin_cam = point_cam[palm[0]]
     marker_w0_m = (point_cam - origin_cam) @ axes_cam
     seen = np.isfinite(depth_m)
@@ -425,9 +402,9 @@ def _estimate_noise(capture: NeutralCapture, sensor: DepthSensor) -> Measurement
     """Estimate the noise of one frame without the common drift; NaN with too few frames."""
     if capture.frame_count < 4:
         return MeasurementNoise()
-    about = capture.pixel - np.nanmean(capture.pixel, axis=0)  # first: a disc not seen must not move the median
+    about = capture.pixel - np.nanmean(capture.pixel, axis=0)  # centred, so that a missing marker moves no median
     drift = about - np.nanmedian(about, axis=1, keepdims=True)
-    # The discs share the median that is taken away: a little of their own scatter goes with it, the more the fewer.
+    # The median that is removed contains a part of each marker's own scatter, more with fewer markers.
     seen = int(np.count_nonzero(np.isfinite(capture.pixel[..., 0]).sum(axis=0) > 1))
     pixel_sd = math.sqrt(_mean_variance(drift) * seen / max(seen - 1, 1))
     depth_sd = math.sqrt(_mean_variance(capture.depth_m))
@@ -439,12 +416,6 @@ def _mean_variance(series: FloatArray) -> float:
     """Return the mean variance over time of series (F, ...) seen more than once, else NaN."""
     often = np.isfinite(series).sum(axis=0) > 1
     return float(np.mean(np.nanvar(series[:, often], axis=0, ddof=1))) if often.any() else math.nan
-
-
-def _marker_radius_m(capture: NeutralCapture, camera: Camera, palm: NDArray[np.int64]) -> float:
-    """Return the median radius of the palm's markers by their area: children wear smaller ones."""
-    radius_px = np.sqrt(_nanmean(capture.area_px[:, palm]) / np.pi)
-    return float(np.nanmedian(radius_px * _nanmean(capture.depth_m[:, palm]) / camera.fx_px))
 
 
 def _marker_covariances(
@@ -472,11 +443,7 @@ def _marker_covariances(
 
 
 def _residuals_mm(
-    capture: NeutralCapture,
-    camera: Camera,
-    marker_w0_m: FloatArray,
-    rotation: FloatArray,
-    translation: FloatArray,
+    capture: NeutralCapture, camera: Camera, marker_w0_m: FloatArray, rotation: FloatArray, translation: FloatArray
 ) -> FloatArray:
     """Return the RMS distance (M,) of each marker from its fitted place."""
     placed = marker_w0_m @ rotation.T + translation

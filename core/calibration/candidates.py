@@ -51,29 +51,19 @@ def find_marker_candidates(frame: Frame, camera: Camera, settings: DetectionSett
     hsv = appearance.to_hsv(frame.color_rgb)
     blue = cv2.inRange(hsv, *(np.array(limit) for limit in PAPER_HSV_RANGE))
     opened = cv2.morphologyEx(blue, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
-    spots = _paper(
-        _find_marker_sized_spots(opened, MIN_AREA_RATIO, frame, camera, settings), frame, hsv, camera, settings
-    )
+    spots = _find_marker_sized_spots(opened, MIN_AREA_RATIO, frame, camera, settings)
+    spots = spots[is_paper(spots, frame, hsv, camera, settings)]
     if len(spots) < MIN_CANDIDATES:
         tinged = cv2.inRange(hsv, *(np.array(limit) for limit in TINGED_HSV_RANGE))
-        spots = _paper(
-            _find_marker_sized_spots(tinged, MIN_TINGED_AREA_RATIO, frame, camera, settings),
-            frame,
-            hsv,
-            camera,
-            settings,
-        )
+        spots = _find_marker_sized_spots(tinged, MIN_TINGED_AREA_RATIO, frame, camera, settings)
+        spots = spots[is_paper(spots, frame, hsv, camera, settings)]
     if len(spots) < MIN_CANDIDATES:
         return Detections.none()
-    looks, _ = learn_appearance(frame, spots, camera, settings)
-    # In cloth of the paper's hue there are more spots than discs: they must not crowd these out before they are tried.
-    found = Detector(looks, camera, replace(settings, most_blobs=MAX_CANDIDATES)).detect(frame)
+    marker_appearance, _ = learn_appearance(frame, spots, camera, settings)
+    # Cloth of the paper's hue has more spots than there are markers, which must not crowd these out.
+    found = Detector(marker_appearance, camera, replace(settings, most_blobs=MAX_CANDIDATES)).detect(frame)
     kept = is_paper(found.pixel, frame, hsv, camera, settings)
     return found.subset(kept) if np.count_nonzero(kept) >= MIN_CANDIDATES else Detections.none()
-
-
-def _paper(pixel: FloatArray, frame: Frame, hsv: ByteImage, camera: Camera, settings: DetectionSettings) -> FloatArray:
-    return pixel[is_paper(pixel, frame, hsv, camera, settings)]
 
 
 def is_paper(
@@ -83,21 +73,17 @@ def is_paper(
 
     Dark cloth falls into specks whose hue is blue by chance; they have hardly any chroma.
     """
-    colour = np.zeros(len(pixel))
-    for i, (at, radius_px) in enumerate(zip(pixel, _marker_radii_px(frame, pixel, camera, settings), strict=True)):
-        others = pixel[(np.abs(pixel - at).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
-        colour[i] = _chroma(frame.color_rgb, hsv, at, radius_px, others)
-    coloured = colour >= MIN_CHROMA
-    usual = float(np.median(colour[coloured])) if coloured.any() else 0.0
-    return np.asarray(coloured & (colour >= MIN_CHROMA_SHARE * usual))
+    chroma = np.zeros(len(pixel))
+    for i, (centre, radius_px) in enumerate(zip(pixel, _marker_radii_px(frame, pixel, camera, settings), strict=True)):
+        others = pixel[(np.abs(pixel - centre).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
+        chroma[i] = _chroma(frame.color_rgb, hsv, centre, radius_px, others)
+    is_coloured = chroma >= MIN_CHROMA
+    usual = float(np.median(chroma[is_coloured])) if is_coloured.any() else 0.0
+    return np.asarray(is_coloured & (chroma >= MIN_CHROMA_SHARE * usual))
 
 
 def _chroma(
-    color_rgb: ByteImage,
-    hsv: ByteImage,
-    centre_px: FloatArray,
-    radius_px: float,
-    neighbours_px: FloatArray,
+    color_rgb: ByteImage, hsv: ByteImage, centre_px: FloatArray, radius_px: float, neighbours_px: FloatArray
 ) -> float:
     """Return the chroma of a spot, 0 if it looks like its surroundings."""
     half = int(3.0 * radius_px) + 2
@@ -106,22 +92,22 @@ def _chroma(
     rgb, part = color_rgb[rows, columns].astype(np.float64), hsv[rows, columns]
     v, u = np.ogrid[: part.shape[0], : part.shape[1]]
     squared = (u + left - centre_px[0]) ** 2 + (v + top - centre_px[1]) ** 2
-    own = squared <= (0.7 * radius_px) ** 2
+    spot = squared <= (0.7 * radius_px) ** 2
     ring = (squared > (1.6 * radius_px) ** 2) & (squared < (2.6 * radius_px) ** 2)
-    for other in neighbours_px:  # the two discs of a fingertip nearly touch
+    for other in neighbours_px:  # the two markers of a fingertip nearly touch
         ring &= (u + left - other[0]) ** 2 + (v + top - other[1]) ** 2 > (1.3 * radius_px) ** 2
-    if not own.any() or not ring.any():
+    if not spot.any() or not ring.any():
         return 0.0
-    step = np.linalg.norm(rgb[ring] - np.median(rgb[own], axis=0), axis=1)
-    mine, around = (appearance.compute_histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
-    if (
-        np.quantile(step, 0.7) < MIN_COLOUR_CONTRAST
-        or appearance.compute_bhattacharyya(mine, around) > MAX_BACKGROUND_SIMILARITY
-    ):
+    step = np.linalg.norm(rgb[ring] - np.median(rgb[spot], axis=0), axis=1)
+    spot_histogram, ring_histogram = (
+        appearance.compute_histogram(part, mask, smooth_bins=1.2).ravel() for mask in (spot, ring)
+    )
+    similarity = appearance.compute_bhattacharyya(spot_histogram, ring_histogram)
+    if np.quantile(step, 0.7) < MIN_COLOUR_CONTRAST or similarity > MAX_BACKGROUND_SIMILARITY:
         return 0.0
-    if np.median(rgb[own].max(axis=1)) < MIN_VALUE:
+    if np.median(rgb[spot].max(axis=1)) < MIN_VALUE:
         return 0.0
-    return float(np.median(rgb[own].max(axis=1) - rgb[own].min(axis=1)))
+    return float(np.median(rgb[spot].max(axis=1) - rgb[spot].min(axis=1)))
 
 
 def _find_marker_sized_spots(
@@ -148,20 +134,21 @@ def find_marker_at_click(frame: Frame, pixel: FloatArray, camera: Camera, settin
     depth = None if frame.depth_raw is None else np.ascontiguousarray(frame.depth_raw[top:bottom, left:right])
     color = np.ascontiguousarray(frame.color_rgb[top:bottom, left:right])
     part, corner = replace(frame, color_rgb=color, depth_raw=depth), np.array([left, top], dtype=np.float64)
-    looks, centre = learn_appearance(part, (pixel - corner)[None], camera, settings)
+    marker_appearance, centre = learn_appearance(part, (pixel - corner)[None], camera, settings)
     if not np.isfinite(centre).all():
         return Detections.none()
     hsv = appearance.to_hsv(color)
     v, u = np.ogrid[: color.shape[0], : color.shape[1]]
     squared = (u - centre[0, 0]) ** 2 + (v - centre[0, 1]) ** 2
     ring = (squared > (1.5 * radius_px) ** 2) & (squared < (3.0 * radius_px) ** 2)
-    around = appearance.compute_histogram(hsv, ring, smooth_bins=1.2)
-    if appearance.compute_bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > MAX_BACKGROUND_SIMILARITY:
+    around = appearance.compute_histogram(hsv, ring, smooth_bins=1.2).ravel()
+    similarity = appearance.compute_bhattacharyya(marker_appearance.paper_histogram.ravel(), around)
+    if similarity > MAX_BACKGROUND_SIMILARITY:
         return Detections.none()
     if not is_paper(centre + corner, frame, appearance.to_hsv(frame.color_rgb), camera, settings).all():
         return Detections.none()
-    window = Detector(looks, camera, settings).compute_search_region(centre, np.zeros((1, 2, 2)), np.array([0.5]))
-    found = Detector(looks, camera, settings).detect(part, window)
+    detector = Detector(marker_appearance, camera, settings)
+    found = detector.detect(part, detector.compute_search_region(centre, np.zeros((1, 2, 2)), np.array([0.5])))
     return find_nearest_blob(replace(found, pixel=found.pixel + corner), pixel, radius_px, settings)
 
 

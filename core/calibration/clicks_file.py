@@ -12,7 +12,6 @@ from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
 from carpus.core.model.errors import ClickOutsideImage, ClicksUnreadable, OutputExists, ProtocolUnknown
 from carpus.core.model.hand.protocols import get_protocol
 from carpus.core.model.phrase import phrase
-from carpus.core.model.types import FloatArray, Side
 from carpus.core.platform.durable import open_private, write_fault
 
 _MAX_BYTES = 1_000_000
@@ -27,14 +26,26 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
     Raises :class:`ClicksUnreadable`, :class:`ProtocolUnknown` or :class:`ClickOutsideImage`.
     """
     content = _read_json_object(path)
-    side = _parse_side(path, content.get("hand"))
+    side: Any = content.get("hand")
+    if side not in ("right", "left"):
+        raise ClicksUnreadable(path, phrase("hand is {json}, right or left expected", json=json.dumps(side)[:40]))
     name = str(content.get("protocol", ""))[:40]
     try:
         protocol = get_protocol(name)
     except ProtocolUnknown as cause:
         raise ProtocolUnknown(name, f"{path}: {cause.detail}") from cause
-    pixel = _parse_pixels(path, content.get("markers"), protocol.markers)
-    clicks = Clicks(side, protocol, pixel, _parse_straight_fingers(path, content.get("straight_fingers")))
+    markers, names = content.get("markers"), protocol.markers
+    if not isinstance(markers, dict):
+        raise ClicksUnreadable(path, phrase("no markers"))
+    for problem, some in (("no click for", set(names) - set(markers)), ("unknown marker", set(markers) - set(names))):
+        if some:
+            raise ClicksUnreadable(path, f"{problem} {', '.join(sorted(some))[:200]}")
+    pixel = np.array([_parse_pixel(path, marker, markers[marker]) for marker in names])
+    straight = content.get("straight_fingers")
+    is_list = isinstance(straight, list) and len(straight) == len(ALL_STRAIGHT)
+    if straight is not None and not (is_list and all(isinstance(each, bool) for each in straight)):
+        raise ClicksUnreadable(path, phrase("straight_fingers is not five times true or false, thumb to little"))
+    clicks = Clicks(side, protocol, pixel, tuple(straight or ()))
     if width_px is not None and height_px is not None:
         check_clicks_inside(clicks, width_px, height_px)
     return clicks
@@ -57,19 +68,12 @@ def write_clicks(path: Path, clicks: Clicks) -> None:
 
 
 def check_clicks_inside(clicks: Clicks, width_px: int, height_px: int) -> None:
-    """Raise :class:`ClickOutsideImage` for the first click outside; the picture begins half a pixel before 0."""
+    """Raise :class:`ClickOutsideImage` for the first click outside; the image begins half a pixel before 0."""
     for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True):
         if not (-0.5 <= u < width_px - 0.5 and -0.5 <= v < height_px - 0.5):
-            raise ClickOutsideImage(
-                name,
-                phrase(
-                    "{u}, {v} in a picture of {width_px} x {height_px} pixels",
-                    u=f"{u:g}",
-                    v=f"{v:g}",
-                    width_px=width_px,
-                    height_px=height_px,
-                ),
-            )
+            size = {"width_px": width_px, "height_px": height_px}
+            words = phrase("{u}, {v} in a picture of {width_px} x {height_px} pixels", u=f"{u:g}", v=f"{v:g}", **size)
+            raise ClickOutsideImage(name, words)
 
 
 def _read_json_object(path: Path) -> dict[str, Any]:
@@ -109,39 +113,11 @@ def _reject_duplicate_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def _parse_side(path: Path, value: Any) -> Side:
-    if value == "right":
-        return "right"
-    if value == "left":
-        return "left"
-    raise ClicksUnreadable(path, phrase("hand is {json}, right or left expected", json=json.dumps(value)[:40]))
-
-
-def _parse_straight_fingers(path: Path, value: Any) -> tuple[bool, ...]:
-    if value is None:
-        return ()
-    if isinstance(value, list) and len(value) == len(ALL_STRAIGHT) and all(isinstance(each, bool) for each in value):
-        return tuple(value)
-    raise ClicksUnreadable(path, phrase("straight_fingers is not five times true or false, thumb to little"))
-
-
-def _parse_pixels(path: Path, markers: Any, names: tuple[str, ...]) -> FloatArray:
-    """Return the pixels (M, 2) in the order of the protocol."""
-    if not isinstance(markers, dict):
-        raise ClicksUnreadable(path, phrase("no markers"))
-    for problem, some in (("no click for", set(names) - set(markers)), ("unknown marker", set(markers) - set(names))):
-        if some:
-            raise ClicksUnreadable(path, f"{problem} {', '.join(sorted(some))[:200]}")
-    return np.array([_parse_pixel(path, name, markers[name]) for name in names])
-
-
 def _parse_pixel(path: Path, name: str, value: Any) -> tuple[float, float]:
-    if isinstance(value, list) and len(value) == 2 and all(map(_is_number, value)):
+    def is_number(one: Any) -> bool:
+        return isinstance(one, (int, float)) and not isinstance(one, bool) and abs(one) < _MAX_PIXEL_PX
+
+    if isinstance(value, list) and len(value) == 2 and all(map(is_number, value)):
         return float(value[0]), float(value[1])
-    raise ClicksUnreadable(
-        path, phrase("{name} is {json}, two pixels expected", name=name, json=json.dumps(value)[:40])
-    )
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _MAX_PIXEL_PX
+    found = json.dumps(value)[:40]
+    raise ClicksUnreadable(path, phrase("{name} is {json}, two pixels expected", name=name, json=found))

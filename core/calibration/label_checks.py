@@ -58,17 +58,16 @@ class _FingerLines:
 @lru_cache(maxsize=4)
 def _finger_lines(protocol: MarkerProtocol) -> _FingerLines:
     chains = protocol.chains
-    pieces = tuple((a, b, digit) for digit, chain in chains.items() for a, b in pairwise(chain))
-    beside = tuple(
+    segments = tuple((a, b, digit) for digit, chain in chains.items() for a, b in pairwise(chain))
+    # Segments of one finger, or from the wrist, cannot be checked for crossing; a thumb may lie on the palm.
+    crossing_pairs = tuple(
         (i, j)
-        for i, j in combinations(range(len(pieces)), 2)
-        # Pieces of one finger, and those that share the wrist, cannot be judged by crossing; a thumb may lie on the
-        # palm.
-        if pieces[i][2] != pieces[j][2]
-        and pieces[i][0] != pieces[j][0]
-        and not (_THUMB in (pieces[i][2], pieces[j][2]) and 0 in (pieces[i][0], pieces[j][0]))
+        for (i, (start, _, digit)), (j, (other_start, _, other_digit)) in combinations(enumerate(segments), 2)
+        if digit != other_digit
+        and start != other_start
+        and not (_THUMB in (digit, other_digit) and 0 in (start, other_start))
     )
-    return _FingerLines(chains, pieces, beside, protocol.rows(("MCP2", "MCP3", "MCP4", "MCP5")))
+    return _FingerLines(chains, segments, crossing_pairs, protocol.rows(("MCP2", "MCP3", "MCP4", "MCP5")))
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +86,9 @@ def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> 
         return None
     best = np.inf
     rows: tuple[tuple[int, ...], tuple[int, ...]] = ((0,), (0,))
-    for one, other in _possible_swaps(lines, len(plan)):
+    fingers = [chain[1:] for digit, chain in lines.chains.items() if digit != _THUMB]
+    single = [((i,), (j,)) for i, j in combinations(range(len(plan)), 2)]
+    for one, other in (*single, *combinations(fingers, 2)):
         trial = plan.copy()
         trial[[*one, *other]] = plan[[*other, *one]]
         value = _label_penalty(lines, side, trial)
@@ -97,35 +98,24 @@ def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> 
     exchanged = LabelFault((tuple(names[i] for i in rows[0]), tuple(names[i] for i in rows[1])))
     if best < MIN_DOUBTFUL_PENALTY:
         return exchanged
-    # No exchange mends it all: is it one disc that lies outside of the hand?
-    alone, without = _find_misplaced_marker(lines, side, plan)
-    return (
-        LabelFault(misplaced=names[alone])
-        if without < MIN_DOUBTFUL_PENALTY or best >= now - MIN_DOUBTFUL_PENALTY
-        else exchanged
-    )
-
-
-def _possible_swaps(lines: _FingerLines, count: int) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
-    """Return all pairs of markers, and of whole fingers."""
-    fingers = [chain[1:] for digit, chain in lines.chains.items() if digit != _THUMB]
-    single = [((i,), (j,)) for i, j in combinations(range(count), 2)]
-    return [*single, *combinations(fingers, 2)]
+    # No exchange explains it all: one marker may lie outside the hand.
+    marker, without = _find_misplaced_marker(lines, side, plan)
+    is_misplaced = without < MIN_DOUBTFUL_PENALTY or best >= now - MIN_DOUBTFUL_PENALTY
+    return LabelFault(misplaced=names[marker]) if is_misplaced else exchanged
 
 
 def _find_misplaced_marker(lines: _FingerLines, side: Side, plan: FloatArray) -> tuple[int, float]:
     """Return the marker whose removal leaves the least penalty, and that penalty."""
-    left = np.full(len(plan), np.inf)
+    penalty = np.full(len(plan), np.inf)
     for chain in lines.chains.values():
         for place in range(1, len(chain)):
             trial = plan.copy()
             before = plan[chain[place - 1]]
-            after = (
-                plan[chain[place + 1]] if place + 1 < len(chain) else before + 0.5 * (before - plan[chain[place - 2]])
-            )
+            is_last = place + 1 == len(chain)
+            after = before + 0.5 * (before - plan[chain[place - 2]]) if is_last else plan[chain[place + 1]]
             trial[chain[place]] = 0.5 * (before + after)
-            left[chain[place]] = min(left[chain[place]], _label_penalty(lines, side, trial))
-    return int(np.argmin(left)), float(left.min())
+            penalty[chain[place]] = min(penalty[chain[place]], _label_penalty(lines, side, trial))
+    return int(np.argmin(penalty)), float(penalty.min())
 
 
 def _label_penalty(lines: _FingerLines, side: Side, plan: FloatArray) -> float:
@@ -133,23 +123,26 @@ def _label_penalty(lines: _FingerLines, side: Side, plan: FloatArray) -> float:
     size = float(np.median([np.hypot(*(plan[k] - plan[0])) for k in lines.knuckles]))
     if not size > 0.0:
         return 0.0
-    faults = 0.0
+    penalty = 0.0
     for digit, chain in lines.chains.items():
         steps = np.diff(plan[list(chain)], axis=0)
         length = np.hypot(steps[:, 0], steps[:, 1])
         most = np.array(MAX_THUMB_LENGTH if digit == _THUMB else MAX_LENGTH)
-        faults += float(np.maximum(length / size - most, 0.0).sum()) * LENGTH_WEIGHT
+        penalty += float(np.maximum(length / size - most, 0.0).sum()) * LENGTH_WEIGHT
         along = (steps[:-1] * steps[1:]).sum(axis=1)
         across = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
         turn_deg = np.degrees(np.abs(np.arctan2(across, along)))
         base_deg = MAX_THUMB_TURN_DEG if digit == _THUMB else MAX_TURN_DEG
         limit_deg = np.array([base_deg] * 2 + [MAX_TURN_DEG])
-        # A very short piece, as of a finger bent towards the camera's line of sight, has no direction worth judging.
+        # A very short segment, as of a finger along the line of sight, has no direction to check.
         weight = np.clip(np.minimum(length[:-1], length[1:]) / (SHORT_LENGTH * size), 0.0, 1.0)
-        faults += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / TURN_PENALTY_DEG
-    start, end = (plan[[piece[end] for piece in lines.segments]] for end in (0, 1))
-    faults += float(find_crossings(start, end, np.array(lines.crossing_pairs, dtype=np.int64).reshape(-1, 2)).sum())
-    return faults + ORDER_WEIGHT * _count_unordered_knuckles(lines, side, plan)
+        penalty += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / TURN_PENALTY_DEG
+    start, end = (plan[[segment[end] for segment in lines.segments]] for end in (0, 1))
+    penalty += float(find_crossings(start, end, np.array(lines.crossing_pairs, dtype=np.int64).reshape(-1, 2)).sum())
+    ray = plan[list(lines.knuckles)] - plan[0]
+    turn = ray[:-1, 0] * ray[1:, 1] - ray[:-1, 1] * ray[1:, 0]
+    is_ordered = turn < 0.0 if side == "right" else turn > 0.0
+    return penalty + ORDER_WEIGHT * int(np.count_nonzero(~is_ordered))
 
 
 def find_crossings(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -162,14 +155,6 @@ def find_crossings(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64])
     return np.asarray(
         (orientation(a, b, c) * orientation(a, b, d) < 0.0) & (orientation(c, d, a) * orientation(c, d, b) < 0.0)
     )
-
-
-def _count_unordered_knuckles(lines: _FingerLines, side: Side, plan: FloatArray) -> int:
-    """Count the neighbouring MCPs in the wrong order around the wrist."""
-    ray = plan[list(lines.knuckles)] - plan[0]
-    turn = ray[:-1, 0] * ray[1:, 1] - ray[:-1, 1] * ray[1:, 0]
-    onwards = turn < 0.0 if side == "right" else turn > 0.0
-    return int(np.count_nonzero(~onwards))
 
 
 _PALM_PERMUTATIONS = np.array(list(permutations(range(len(PALM_MARKERS)))))
@@ -195,9 +180,14 @@ def find_shifted_labels(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
     if misfits[0] < GOOD_PALM_MISFIT or misfits[best] > BETTER_LABELS_SHARE * misfits[0]:
         return ()
     if misfits[best] > misfit(average_palm(_OTHER_SIDE[side]), palm_plan):
-        return ()  # the names are in order, but on the other hand
-    right_name = np.argsort(_PALM_PERMUTATIONS[best])  # of the disc clicked under each name
-    return tuple(PALM_MARKERS[i] for i in _permutation_cycles(right_name))
+        return ()  # the labels are in order, but on the other hand
+    right_label = np.argsort(_PALM_PERMUTATIONS[best])  # of the marker clicked under each label
+    wrong: list[int] = []
+    for label in range(len(right_label)):
+        while right_label[label] != label and label not in wrong:
+            wrong.append(label)
+            label = int(right_label[label])
+    return tuple(PALM_MARKERS[i] for i in wrong)
 
 
 def is_plausible_palm(side: Side, palm_plan: FloatArray) -> bool:
@@ -231,16 +221,6 @@ def misfit_per_removed_marker(average: FloatArray, plan: FloatArray) -> FloatArr
     """Return the misfit (M,) that is left without each marker."""
     each = range(len(plan))
     return np.array([misfit(np.delete(average, k, axis=0), np.delete(plan, k, axis=0)) for k in each])
-
-
-def _permutation_cycles(right_name: NDArray[np.int64]) -> list[int]:
-    """Return the wrong labels, each followed by the right one."""
-    out: list[int] = []
-    for start in range(len(right_name)):
-        while right_name[start] != start and start not in out:
-            out.append(start)
-            start = int(right_name[start])
-    return out
 
 
 GOOD_SIDE_MISFIT = 0.05

@@ -77,26 +77,29 @@ def propose_labels(
     """
     fixed = dict(given_labels or {})
     rows = np.array(protocol.sites)
-    place = _image_plane_positions(blobs, camera, DEFAULT_DEPTH_M)
-    fits = _find_rough_fits(place, rows, side, fixed)
+    # Positions are complex, x - iy in metres, with x right and y down in the camera.
+    has_depth = np.isfinite(blobs.depth_m)
+    median_m = float(np.median(blobs.depth_m[has_depth])) if has_depth.any() else DEFAULT_DEPTH_M
+    point = camera.backproject(camera.undistort(blobs.pixel), np.where(has_depth, blobs.depth_m, median_m))
+    position = point[:, 0] - 1j * point[:, 1]
+    fits = _find_rough_fits(position, rows, side, fixed)
     chains = [np.array(chain[1:]) for chain in protocol.chains.values()]
-    refined = [_refine_fit(place, fit, fixed, chains) for fit in fits]
-    if not refined:
-        return _proposal_from_given(fixed, rows.size)
-    best = min(refined, key=lambda one: one.cost)
-    if np.count_nonzero(best.blob >= 0) < max(4, rows.size // 2):
-        return _proposal_from_given(fixed, rows.size)
+    refined = sorted((_refine_fit(position, fit, fixed, chains) for fit in fits), key=lambda one: one.cost)
+    if not refined or np.count_nonzero(refined[0].blob >= 0) < max(4, rows.size // 2):
+        blob = np.full(rows.size, -1, dtype=np.int64)
+        blob[list(fixed)] = list(fixed.values())
+        return LabelProposal(blob, blob >= 0, np.full(rows.size, np.nan))
+    best = refined[0]
     sure = best.is_sure.copy()
     for other in refined:
         # Another hand that explains the blobs nearly as well: where it disagrees, nothing is sure.
         if other.cost < best.cost + 0.5:
             sure &= other.blob == best.blob
     if not protocol.has_fingers and (best.blob >= 0).all():
-        # Six discs of the other hand, turned round, may lie within reach too: then a person looks at each name.
-        plan = np.stack((place[best.blob].real, place[best.blob].imag), axis=1)
-        sure &= is_plausible_palm(side, plan)
+        # Six markers of the other hand, rotated, may fit too: then a person checks each label.
+        sure &= is_plausible_palm(side, np.stack((position[best.blob].real, position[best.blob].imag), axis=1))
     sure[list(fixed)] = True
-    blob = _drop_implausible_palm_labels(best.blob, place, blobs.depth_m, fixed, side, protocol)
+    blob = _drop_implausible_palm_labels(best.blob, position, blobs.depth_m, fixed, side, protocol)
     return LabelProposal(blob, sure & (blob >= 0), np.where(blob >= 0, best.misfit_m, np.nan))
 
 
@@ -130,20 +133,6 @@ def _drop_implausible_palm_labels(
             break
         out[rows[named][int(badness.argmax())]] = -1
     return out
-
-
-def _proposal_from_given(given_labels: Mapping[int, int], count: int) -> LabelProposal:
-    blob = np.full(count, -1, dtype=np.int64)
-    blob[list(given_labels)] = list(given_labels.values())
-    return LabelProposal(blob, blob >= 0, np.full(count, np.nan))
-
-
-def _image_plane_positions(blobs: Detections, camera: Camera, default_depth_m: float) -> FloatArray:
-    """Return positions (D,) as complex x - iy in metres, x right and y down in the camera."""
-    known = np.isfinite(blobs.depth_m)
-    usual_m = float(np.median(blobs.depth_m[known])) if known.any() else default_depth_m
-    point = camera.backproject(camera.undistort(blobs.pixel), np.where(known, blobs.depth_m, usual_m))
-    return np.asarray(point[:, 0] - 1j * point[:, 1])
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,19 +173,17 @@ def _find_rough_fits(
     """Return the best rough fits, best first: two markers of a posture on two blobs."""
     if position.size < 3:
         return []
-    first, second = (
-        grid.ravel() for grid in np.meshgrid(np.arange(position.size), np.arange(position.size), indexing="ij")
-    )
-    apart = first != second
-    first, second = first[apart], second[apart]
+    first, second = np.nonzero(~np.eye(position.size, dtype=bool))  # all ordered pairs of blobs
     found: list[tuple[float, _HandFit]] = []
     for posture in _flat_postures(side, REFERENCE_HAND_M)[:, rows]:
         for a, b in _anchor_pairs(rows, given_labels):
-            ends = _anchor_blobs(a, b, first, second, given_labels)
-            turn = (position[ends[1]] - position[ends[0]]) / (posture[b] - posture[a])
+            starts, ends = first, second
+            if a in given_labels and b in given_labels:
+                starts, ends = np.array([given_labels[a]]), np.array([given_labels[b]])
+            turn = (position[ends] - position[starts]) / (posture[b] - posture[a])
             scale = np.abs(turn)
             usable = (scale > MIN_SCALE) & (scale < MAX_SCALE)
-            turn, start, scale = turn[usable], position[ends[0]][usable], scale[usable]
+            turn, start, scale = turn[usable], position[starts][usable], scale[usable]
             if not turn.size:
                 continue
             laid = start[:, None] + turn[:, None] * (posture - posture[a])
@@ -220,15 +207,6 @@ def _anchor_pairs(rows: IntArray, given_labels: Mapping[int, int]) -> list[tuple
     names = (("WRIST", "TIP3"), ("WRIST", "MCP3"), ("CMC1", "TIP4"), ("MCP2", "MCP5"), ("TIP2", "TIP5"))
     pairs = [(at.get(SITES.index(a), -1), at.get(SITES.index(b), -1)) for a, b in names]
     return [(a, b) for a, b in pairs if a >= 0 and b >= 0]
-
-
-def _anchor_blobs(
-    a: int, b: int, first: IntArray, second: IntArray, given_labels: Mapping[int, int]
-) -> tuple[IntArray, IntArray]:
-    """Return the blobs for the markers a and b."""
-    if a in given_labels and b in given_labels:
-        return np.array([given_labels[a]]), np.array([given_labels[b]])
-    return first, second
 
 
 def _refine_fit(

@@ -169,10 +169,7 @@ def view_tilt_rad(rotation_w2_w0: FloatArray, rotation_w0_cam: FloatArray) -> Fl
 
 
 def valid_view(
-    status: NDArray[np.integer],
-    palm_measured_px: FloatArray,
-    rotation_w2_w0: FloatArray,
-    rotation_w0_cam: FloatArray,
+    status: NDArray[np.integer], palm_measured_px: FloatArray, rotation_w2_w0: FloatArray, rotation_w0_cam: FloatArray
 ) -> BoolArray:
     """Select frames (N,) that are tracked, with 4 or more palm markers and a tilt up to 70 degrees.
 

@@ -81,24 +81,13 @@ def charuco_board(board: Board) -> cv2.aruco.CharucoBoard:
 def create_board_sheet(board: Board, paper: Paper) -> PrintedSheet:
     """Place the board on a landscape sheet with a ruler."""
     height_mm, width_mm = PAPER_MM[paper]
-    marks = board_items(board, *_board_corner_mm(board, width_mm, height_mm))
-    square = f"{board.square_m * 1e3:g} mm"
-    said = SheetText(
-        phrase(
-            "Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.",
-            name=board.name(),
-            square=square,
-        ),
-        25.0,
-        height_mm - PAGE_MARGIN_MM - 0.8,
-        8.0,
-    )
-    return PrintedSheet(width_mm, height_mm, (*marks, *ruler_items(25.0, height_mm - PAGE_MARGIN_MM - 8.5), said))
-
-
-def _board_corner_mm(board: Board, width_mm: float, height_mm: float) -> tuple[float, float]:
-    left = 0.5 * (width_mm - board.columns * board.square_m * 1e3)
-    return left, PAGE_MARGIN_MM + 0.3 * (height_mm - PAPER_MM["a4"][0])
+    left_mm = 0.5 * (width_mm - board.columns * board.square_m * 1e3)
+    items = board_items(board, left_mm, PAGE_MARGIN_MM + 0.3 * (height_mm - PAPER_MM["a4"][0]))
+    facts = {"name": board.name(), "square": f"{board.square_m * 1e3:g} mm"}
+    words = phrase("Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.", **facts)
+    bottom_mm = height_mm - PAGE_MARGIN_MM
+    text = SheetText(words, 25.0, bottom_mm - 0.8, 8.0)
+    return PrintedSheet(width_mm, height_mm, (*items, *ruler_items(25.0, bottom_mm - 8.5), text))
 
 
 def board_items(board: Board, left_mm: float, top_mm: float) -> tuple[SheetItem, ...]:
@@ -122,7 +111,7 @@ def _code_boxes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
         x, y = left_mm + float(corners[0][0]) * 1e3, top_mm + float(corners[0][1]) * 1e3
         picture = cv2.aruco.generateImageMarker(codes, int(number), _CODE_CELLS)
         for row, line in enumerate(np.asarray(picture) == 0):
-            # neighbours as one box: between two a viewer may show a hair of white
+            # neighbouring cells as one box: viewers may show a white hairline between two
             edges = np.flatnonzero(np.diff(np.concatenate(([0], line.astype(np.int8), [0]))))
             for start, end in edges.reshape(-1, 2):
                 out.append(SheetBox(x + cell * float(start), y + cell * row, cell * float(end - start), cell))
@@ -176,7 +165,7 @@ def _refine_corners(gray: ByteImage, rough: np.ndarray, half_px: int) -> FloatAr
 
 
 def _find_charuco(gray: ByteImage, board: Board) -> DetectedBoard | None:
-    # A cell of a code has three or four pixels: twice enlarged, twice as many codes are read.
+    # A cell of a code has three or four pixels: enlarged twice, twice as many codes are read.
     large = cv2.resize(gray, None, fx=2, fy=2, interpolation=cv2.INTER_LANCZOS4)
     pixel, corner, _, _ = _charuco_detector(board).detectBoard(large)
     if corner is None or len(corner) < MIN_CORNERS:  # type: ignore[redundant-expr]  # OpenCV gives None
@@ -190,7 +179,7 @@ def _find_charuco(gray: ByteImage, board: Board) -> DetectedBoard | None:
 def _charuco_detector(board: Board) -> cv2.aruco.CharucoDetector:
     parameters = cv2.aruco.DetectorParameters()
     parameters.perspectiveRemovePixelPerCell = 8
-    parameters.perspectiveRemoveIgnoredMarginPerCell = 0.33  # blurred cells speak in their middle
+    parameters.perspectiveRemoveIgnoredMarginPerCell = 0.33  # blurred cells are certain in their middle only
     return cv2.aruco.CharucoDetector(charuco_board(board), cv2.aruco.CharucoParameters(), parameters)
 
 

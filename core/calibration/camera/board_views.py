@@ -134,10 +134,10 @@ def to_board_view(
     pose = board_pose(detected, camera)
     if pose is None:
         return None
-    turn, shift = pose
-    rotation = np.asarray(cv2.Rodrigues(turn)[0], dtype=np.float64)
+    rotation_vector, translation = pose
+    rotation = np.asarray(cv2.Rodrigues(rotation_vector)[0], dtype=np.float64)
     normal = rotation[:, 2] if rotation[2, 2] > 0.0 else -rotation[:, 2]
-    centre = rotation @ detected.board.outline_m.mean(axis=0) + shift.ravel()
+    centre = rotation @ detected.board.outline_m.mean(axis=0) + translation.ravel()
     if centre[2] <= 0.0:
         return None
     away = centre / np.linalg.norm(centre)
@@ -145,16 +145,13 @@ def to_board_view(
     if tilt_deg > MAX_TILT_DEG:
         return None
     lean = normal - (normal @ away) * away
-    return BoardView(detected, tilt_deg, _nearer_side(lean) if tilt_deg >= MIN_TILT_DEG else None, float(centre[2]),
-                depth_raw, depth_unit_m)  # fmt: skip
-
-
-def _nearer_side(lean: FloatArray) -> TiltSide:
-    """Return the nearer side, from the part of the normal across the line of sight."""
-    # Away from the camera the normal leans towards the far side's opposite: a plane with n_x > 0 is nearer at +x.
-    if abs(lean[0]) >= abs(lean[1]):
-        return "right" if lean[0] > 0.0 else "left"
-    return "bottom" if lean[1] > 0.0 else "top"
+    # Away from the camera the normal leans opposite to the far side: a plane with n_x > 0 is nearer at +x.
+    across: TiltSide = "right" if lean[0] > 0.0 else "left"
+    down: TiltSide = "bottom" if lean[1] > 0.0 else "top"
+    nearer_side: TiltSide | None = across if abs(lean[0]) >= abs(lean[1]) else down
+    if tilt_deg < MIN_TILT_DEG:
+        nearer_side = None
+    return BoardView(detected, tilt_deg, nearer_side, float(centre[2]), depth_raw, depth_unit_m)
 
 
 def is_new_view(detected: DetectedBoard, views: Sequence[BoardView]) -> bool:
@@ -180,11 +177,6 @@ def assess_views(views: Sequence[BoardView], width_px: int, height_px: int) -> V
     sides = frozenset(view.nearer_side for view in views if view.nearer_side is not None)
     distances = [view.distance_m for view in views]
     return ViewCoverage(len(views), count, sides, min(distances, default=math.nan), max(distances, default=math.nan))
-
-
-def common_board(views: Sequence[BoardView]) -> Board:
-    """Return the board of all views."""
-    return views[0].detected.board
 
 
 RejectReason = Literal["", "dark", "no_board", "too_tilted", "moving", "blurred", "known"]
@@ -242,8 +234,8 @@ class ViewCollector:
 
     def add(self, frame: Frame) -> bool:
         """Process a frame and return whether its view was kept."""
-        look = self.process_frame(frame)
-        return look is not None and look.is_kept
+        result = self.process_frame(frame)
+        return result is not None and result.is_kept
 
     def process_frame(self, frame: Frame) -> BoardFrame | None:
         """Search a frame for the board; None if it comes too soon after the last one."""
@@ -260,18 +252,13 @@ class ViewCollector:
         view = to_board_view(found, self._camera, frame.depth_raw, frame.depth_unit_m)
         if view is None:
             return BoardFrame(found, "too_tilted")
-        edge, motion = edge_width_px(frame.color_rgb, found), _motion_px(found, frame.timestamp_s, before)
-        lack: RejectReason = (
-            "blurred" if edge > MAX_EDGE_WIDTH_PX else "" if is_new_view(found, self._views) else "known"
-        )
-        lack = "moving" if motion > MAX_MOTION_PX else lack
-        if not lack:
+        reason: RejectReason = "" if is_new_view(found, self._views) else "known"
+        if edge_width_px(frame.color_rgb, found) > MAX_EDGE_WIDTH_PX:
+            reason = "blurred"
+        if before is not None and frame.timestamp_s - before[0] <= _MAX_MOTION_GAP_S:
+            camera_frames = (frame.timestamp_s - before[0]) * _CAMERA_FPS
+            if corner_motion_px(found, before[1]) / camera_frames > MAX_MOTION_PX:
+                reason = "moving"
+        if not reason:
             self._views.append(view)
-        return BoardFrame(found, lack, is_kept=not lack)
-
-
-def _motion_px(detected: DetectedBoard, now_s: float, before: tuple[float, DetectedBoard] | None) -> float:
-    """Return the motion of the corners per camera frame; NaN without a frame just before."""
-    if before is None or now_s - before[0] > _MAX_MOTION_GAP_S:
-        return math.nan
-    return corner_motion_px(detected, before[1]) / ((now_s - before[0]) * _CAMERA_FPS)
+        return BoardFrame(found, reason, is_kept=not reason)

@@ -19,7 +19,6 @@ from carpus.core.calibration.camera.board_views import (
     BoardView,
     ViewCoverage,
     assess_views,
-    common_board,
 )
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
@@ -80,11 +79,10 @@ class DepthCheck:
 
 def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
     """Compare depth with the board's plane over all used views; None if too few have depth."""
+    poses = zip(intrinsics.board_rotation_vector, intrinsics.board_translation_m, strict=True)
     blocks = [
-        _depth_readings(views[k], intrinsics.camera, turn, shift)
-        for k, turn, shift in zip(
-            intrinsics.used_views, intrinsics.board_rotation_vector, intrinsics.board_translation_m, strict=True
-        )
+        _depth_readings(views[k], intrinsics.camera, *pose)
+        for k, pose in zip(intrinsics.used_views, poses, strict=True)
     ]
     known = [block for block in blocks if block is not None]
     if len(known) < MIN_DEPTH_VIEWS:
@@ -93,14 +91,14 @@ def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: Dept
     with_offset = bool(middle.max() >= MIN_DISTANCE_RATIO * middle.min())
     values, sd = _fit_with_sd(known, with_offset, sensor)
     if with_offset and abs(values[3]) < MIN_OFFSET_SDS * sd[3]:
-        # A shift that is not sure of itself only makes the scale less sure.
+        # An uncertain offset only makes the scale less certain.
         values, sd = _fit_with_sd(known, False, sensor)
         with_offset = False
     scatter = np.concatenate([block[:, 0] - _design_matrix(block, with_offset) @ values for block in known])
     flat_m = 1.4826 * float(np.median(np.abs(scatter)))
     offset, offset_sd = (float(values[3]), float(sd[3])) if with_offset else (0.0, math.nan)
     apart_sd = float(sd[1:3].max())
-    # A focal length that is off makes every true distance off by the same share.
+    # An error of the focal length changes every true distance by the same share.
     scale_sd = math.hypot(float(sd[0]), intrinsics.focal_sd_px / intrinsics.camera.fx_px)
     return DepthCheck(float(values[0]), scale_sd, offset, offset_sd, values[1:3], apart_sd, flat_m, len(known))
 
@@ -149,9 +147,8 @@ def _depth_readings(
     corners = camera.distort(camera.project(outline))
     cv2.fillConvexPoly(inside, np.round(corners).astype(np.int32), 1)
     edge = 2 * _BOARD_MARGIN_PX + 1
-    inside = np.asarray(
-        cv2.erode(inside, np.ones((edge, edge), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
-    )
+    kernel = np.ones((edge, edge), np.uint8)
+    inside = np.asarray(cv2.erode(inside, kernel, borderType=cv2.BORDER_CONSTANT, borderValue=0))
     v, u = np.nonzero(inside[::_STEP_PX, ::_STEP_PX])
     u, v = u * _STEP_PX, v * _STEP_PX
     measured = view.depth_raw[v, u] * view.depth_unit_m
@@ -215,24 +212,16 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
     if missing:
         raise BoardViewsTooSimilar(subject, missing)
     fit, view_error_px = _fit_intrinsics(views, range(len(views)), width_px, height_px)
-    # A picture that was blurred or bent the board counts no more.
+    # Views with a blurred image or a bent board are excluded.
     kept = np.flatnonzero(view_error_px <= _OUTLIER_FACTOR * float(np.median(view_error_px))).tolist()
     if _MIN_VIEWS_KEPT <= len(kept) < len(views):
         fit, _ = _fit_intrinsics(views, kept, width_px, height_px)
     if fit.reprojection_error_px > MAX_ERROR_PX or not math.isfinite(fit.reprojection_error_px):
-        raise BoardUnfit(
-            subject,
-            phrase(
-                "corners lie {error_px} px off, at most {most_px} are fair",
-                error_px=format_rounded(fit.reprojection_error_px, 1),
-                most_px=f"{MAX_ERROR_PX:g}",
-            ),
-        )
+        sizes = {"error_px": format_rounded(fit.reprojection_error_px, 1), "most_px": f"{MAX_ERROR_PX:g}"}
+        raise BoardUnfit(subject, phrase("corners lie {error_px} px off, at most {most_px} are fair", **sizes))
     if fit.focal_sd_px > MAX_FOCAL_SD_SHARE * fit.camera.fx_px:
-        share = 100.0 * fit.focal_sd_px / fit.camera.fx_px
-        raise BoardViewsTooSimilar(
-            subject, phrase("the focal length is known to {share} % only", share=format_rounded(share, 1))
-        )
+        share = format_rounded(100.0 * fit.focal_sd_px / fit.camera.fx_px, 1)
+        raise BoardViewsTooSimilar(subject, phrase("the focal length is known to {share} % only", share=share))
     return fit
 
 
@@ -245,7 +234,7 @@ def _fit_intrinsics(
     pixels = [found.pixel.astype(np.float32).reshape(-1, 1, 2) for found in some]
     guess = np.array([[width_px * 0.82, 0.0, 0.5 * (width_px - 1)], [0.0, width_px * 0.82, 0.5 * (height_px - 1)],
                       [0.0, 0.0, 1.0]])  # fmt: skip
-    # k3 cannot be told from k2 on a lens of 60 degrees, and bends the corners of the picture when it is let free.
+    # On a lens of 60 degrees k3 cannot be separated from k2, and would bend the corners of the image.
     flags = cv2.CALIB_FIX_K3 | cv2.CALIB_USE_INTRINSIC_GUESS
     error, k, bend, turns, shifts, sd, _, view_error = cv2.calibrateCameraExtended(
         points, pixels, (width_px, height_px), guess, np.zeros(5), flags=flags
@@ -285,9 +274,9 @@ class CameraCalibration:
 def calibrate_camera(views: Sequence[BoardView], previous_camera: Camera, subject: str) -> CameraCalibration:
     """Calibrate from the collected views. Raises as :func:`solve_intrinsics`."""
     intrinsics = solve_intrinsics(views, previous_camera.width_px, previous_camera.height_px, subject)
-    judgement = assess_views(views, previous_camera.width_px, previous_camera.height_px)
+    coverage = assess_views(views, previous_camera.width_px, previous_camera.height_px)
     depth = check_depth(views, intrinsics, previous_camera.sensor)
-    return CameraCalibration(previous_camera, intrinsics, depth, judgement, common_board(views).name())
+    return CameraCalibration(previous_camera, intrinsics, depth, coverage, views[0].detected.board.name())
 
 
 def format_calibration(calibration: CameraCalibration) -> list[str]:
@@ -297,10 +286,8 @@ def format_calibration(calibration: CameraCalibration) -> list[str]:
     middle = f"{format_rounded(camera.cx_px, 1)}, {format_rounded(camera.cy_px, 1)}"
     was_focal = f"{format_rounded(before.fx_px, 1)} x {format_rounded(before.fy_px, 1)}"
     was_middle = f"{format_rounded(before.cx_px, 1)}, {format_rounded(before.cy_px, 1)}"
-    near, far = (
-        format_rounded(distance_m * 100)
-        for distance_m in (calibration.coverage.nearest_m, calibration.coverage.farthest_m)
-    )
+    coverage = calibration.coverage
+    near, far = (format_rounded(distance_m * 100) for distance_m in (coverage.nearest_m, coverage.farthest_m))
     out = [
         f"Board: {calibration.board}, {len(found.used_views)} pictures, {near} to {far} cm away",
         f"Lines land within {format_rounded(found.reprojection_error_px, 2)} px ({found.error_text})",

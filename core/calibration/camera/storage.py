@@ -26,14 +26,9 @@ def to_stored_calibration(
     old_scale = float(before.get("depth_scale_corrected", 1.0))
     old_offset_m = 1e-3 * float(before.get("depth_offset_corrected_mm", 0.0))
     found = calibration.intrinsics
-    return StoredCalibration(
-        serial,
-        to_iso(when),
-        old_scale * scale,
-        old_scale * offset_m + old_offset_m,
-        found.reprojection_error_px,
-        len(found.used_views),
-    )
+    offset_m = old_scale * offset_m + old_offset_m
+    error_px, views = found.reprojection_error_px, len(found.used_views)
+    return StoredCalibration(serial, to_iso(when), old_scale * scale, offset_m, error_px, views)
 
 
 def write_calibration(path: Path, calibration: CameraCalibration, stored: StoredCalibration) -> Path:

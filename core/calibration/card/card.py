@@ -86,14 +86,8 @@ def measure_dimensions(positions_m: FloatArray) -> FloatArray:
         up = -up
     slope = math.degrees(math.asin(float(np.clip((e - d) @ up / np.linalg.norm(e - d), -1.0, 1.0))))
     lengths = (np.linalg.norm(b - a), np.linalg.norm(c - a), (e - a) @ up)
-    return np.array(
-        [
-            slope,
-            _angle_between_deg(e - d, f - e),
-            _angle_between_deg(b - a, c - a),
-            *(1e3 * float(one) for one in lengths),
-        ]
-    )
+    angles = (slope, _angle_between_deg(e - d, f - e), _angle_between_deg(b - a, c - a))
+    return np.array([*angles, *(1e3 * float(length) for length in lengths)])
 
 
 def _angle_between_deg(one: FloatArray, other: FloatArray) -> float:
@@ -120,21 +114,18 @@ def card_sheet(paper: Paper) -> PrintedSheet:
     right, bottom = left + WIDTH_MM, top + FOOT_MM
     corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
     foot = [SheetLine(one, other, dashed=True) for one, other in zip(corners, corners[1:] + corners[:1], strict=True)]
-    said = [
+    steps = (
+        phrase("1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm."),
+        phrase("2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field."),
+        phrase("3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds."),
+    )
+    texts = [
         SheetText(phrase("Carpus check card"), 20.0, 20.0, 14.0, bold=True),
-        SheetText(phrase("1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm."), 20.0, 28.0),
-        SheetText(
-            phrase("2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field."),
-            20.0,
-            33.0,
-        ),
-        SheetText(
-            phrase("3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds."), 20.0, 38.0
-        ),
+        *(SheetText(step, 20.0, 28.0 + 5.0 * k) for k, step in enumerate(steps)),
         SheetText(phrase("the wedge’s side with two discs here"), left + 1.0, top + 5.0, 7.0),
         SheetText(phrase("its side with one disc here"), left + 4.0, bottom - 2.5, 7.0),
     ]
-    return PrintedSheet(width_mm, height_mm, (*discs, *foot, *said, *ruler_items(20.0, height_mm - 14.0)))
+    return PrintedSheet(width_mm, height_mm, (*discs, *foot, *texts, *ruler_items(20.0, height_mm - 14.0)))
 
 
 WEDGE_CORNER_MM = (80.0, 22.0)
@@ -148,27 +139,27 @@ def wedge_sheet(paper: Paper) -> PrintedSheet:
     right, middle = left + WIDTH_MM, left + 0.5 * WIDTH_MM
     folds = [top + SLOPE_MM, top + 2.0 * SLOPE_MM, top + 2.0 * SLOPE_MM + FOOT_MM]
     end = folds[-1] + _TAB_MM
-    marks: list[SheetItem] = [SheetDisc(middle, top + s, DISC_RADIUS_MM, BLUE) for s in _ON_SLOPE_MM]
-    marks.append(SheetDisc(middle, folds[0] + _ridge_to_f_mm(), DISC_RADIUS_MM, BLUE))
-    marks += [SheetLine((left, y), (right, y), dashed=True) for y in folds]
-    marks += [SheetLine((left, top), (right, top)), SheetLine((left + 4.0, end), (right - 4.0, end))]
+    items: list[SheetItem] = [SheetDisc(middle, top + s, DISC_RADIUS_MM, BLUE) for s in _ON_SLOPE_MM]
+    items.append(SheetDisc(middle, folds[0] + _ridge_to_f_mm(), DISC_RADIUS_MM, BLUE))
+    items += [SheetLine((left, y), (right, y), dashed=True) for y in folds]
+    items += [SheetLine((left, top), (right, top)), SheetLine((left + 4.0, end), (right - 4.0, end))]
     for edge, outwards in ((left, -1.0), (right, 1.0)):
         apex = (edge + outwards * HEIGHT_MM, folds[1] + 0.5 * FOOT_MM)
-        marks += [
+        items += [
             SheetLine((edge, top), (edge, folds[1])),
             SheetLine((edge, folds[1]), (edge, folds[2]), dashed=True),
             SheetLine((edge, folds[1]), apex),
             SheetLine(apex, (edge, folds[2])),
             SheetLine((edge, folds[2]), (edge - outwards * 4.0, end)),
         ]
-    said = [
+    texts = [
         SheetText(phrase("Wedge: cut along the lines, fold back along the dashes"), 20.0, 16.0, 11.0, bold=True),
         SheetText("30°", left + 3.0, folds[0] - 3.0, 8.0),
         SheetText("30°", left + 3.0, folds[0] + 5.0, 8.0),
         SheetText(phrase("foot: glue onto the card"), left + 3.0, folds[1] + 0.5 * FOOT_MM, 8.0),
         SheetText(phrase("glue under the low edge"), left + 6.0, end - 3.0, 8.0),
     ]
-    return PrintedSheet(width_mm, height_mm, (*marks, *said, *ruler_items(20.0, height_mm - 14.0)))
+    return PrintedSheet(width_mm, height_mm, (*items, *texts, *ruler_items(20.0, height_mm - 14.0)))
 
 
 CHECK_S = 30.0

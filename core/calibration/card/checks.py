@@ -57,9 +57,8 @@ class CheckStatus:
     @property
     def is_out_of_tolerance(self) -> bool:
         """True if the last check was out of tolerance and the camera was not calibrated since."""
-        return (
-            self.last_check is not None and not self.last_check.reading.is_within_tolerance and not self.is_recalibrated
-        )
+        check = self.last_check
+        return check is not None and not check.reading.is_within_tolerance and not self.is_recalibrated
 
     @property
     def is_due(self) -> bool:
@@ -94,8 +93,8 @@ def add_check(path: Path, check: CardCheck) -> None:
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         with open(path, "ab", opener=open_private) as file:
-            torn = file.tell() > 0 and not _has_final_newline(path)
-            file.write(("\n" if torn else "").encode() + json.dumps(content).encode() + b"\n")
+            is_torn = file.tell() > 0 and path.read_bytes()[-1:] != b"\n"
+            file.write(("\n" if is_torn else "").encode() + json.dumps(content).encode() + b"\n")
             file.flush()
             os.fsync(file.fileno())
     except OSError as cause:
@@ -141,27 +140,24 @@ def examine_cameras(data_folder: Path, now: datetime) -> Iterator[Finding]:
 
 
 def _examine_camera(status: CheckStatus) -> Finding:
-    said, remedies = "never calibrated", ["Run: carpus calibrate-camera."]
+    text, remedies = "never calibrated", ["Run: carpus calibrate-camera."]
     if math.isfinite(status.calibration_age_days):
-        said = f"calibrated {_days_ago_text(status.calibration_age_days)}"
+        text = f"calibrated {_days_ago_text(status.calibration_age_days)}"
         remedies = ["Run: carpus calibrate-camera: the calibration is older than a year."]
         remedies = remedies if status.calibration_age_days > MAX_CALIBRATION_AGE_DAYS else []
     if status.last_check is None:
-        said += ", never checked"
+        text += ", never checked"
         remedies.append("Run: carpus check-card.")
     else:
-        said += f", checked {_days_ago_text(status.check_age_days)}: {verdict_sentence(status.last_check.reading)}"
+        text += f", checked {_days_ago_text(status.check_age_days)}: {verdict_sentence(status.last_check.reading)}"
         if status.is_out_of_tolerance:
             remedies.append("It measured wrong at the last check: check once more, then calibrate it again.")
         elif status.is_due:
-            why = (
-                "it was calibrated since"
-                if status.is_recalibrated
-                else f"the check is older than {MAX_CHECK_AGE_DAYS:g} days"
-            )
-            remedies.append(f"Run: carpus check-card: {why}.")
+            is_old = f"the check is older than {MAX_CHECK_AGE_DAYS:g} days"
+            reason = "it was calibrated since" if status.is_recalibrated else is_old
+            remedies.append(f"Run: carpus check-card: {reason}.")
     state: State = "bad" if status.is_out_of_tolerance else "warning" if remedies else "good"
-    return Finding(f"Camera {status.serial}", state, said, " ".join(remedies))
+    return Finding(f"Camera {status.serial}", state, text, " ".join(remedies))
 
 
 def _days_ago_text(days: float) -> str:
@@ -188,9 +184,3 @@ def _parse_check(line: str) -> CardCheck | None:
         return None
     reading = CardReading(measured, sd, scale, math.nan, 0, 0, most_angle_deg, most_length_mm)
     return CardCheck(when, serial, reading, calibrated)
-
-
-def _has_final_newline(path: Path) -> bool:
-    with path.open("rb") as file:
-        file.seek(-1, os.SEEK_END)
-        return file.read(1) == b"\n"

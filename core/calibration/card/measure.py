@@ -13,6 +13,7 @@ from carpus.core.calibration.candidates import find_marker_candidates
 from carpus.core.calibration.card.card import (
     CHECK_S,
     DIMENSIONS,
+    DISCS,
     MAX_ANGLE_ERROR_DEG,
     MAX_LENGTH_ERROR_MM,
     CardReading,
@@ -25,11 +26,11 @@ from carpus.core.model.errors import CardNotVisible
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Detections, FloatArray, Frame
 
-# How far off the card's figures may be: the fixed limits, or what the sensor states of itself where that is more.
+# Tolerance of the card's dimensions: the fixed limits, or those of the sensor if they are wider.
 #
-# What stays of a sensor's error as long as the card lies (its bumps, its pattern) no number of pictures takes away: of
-# a camera with wide bumps a right one is several degrees off on a face as small as the wedge's. Of a sensor whose
-# neighbours share the step to which depth is rounded, a part of that step stays too, since nothing moves.
+# Averaging does not remove the constant part of a sensor's error (bumps, pattern) while the card lies still: a good
+# camera with wide bumps is several degrees off on a face as small as the wedge's. If neighbouring pixels share the step
+# to which depth is rounded, a part of that step stays too.
 LIMIT_SDS = 3.0
 """A camera within tolerance exceeds it in one dimension of 370."""
 _ROUNDING_SHARE = 0.4
@@ -44,20 +45,20 @@ def dimensions_sd(positions_m: FloatArray, camera: Camera) -> FloatArray:
     sd_m = np.hypot(camera.sensor.flat_bias_sd_m(depth_m), rounded_m)
     covariance = np.outer(sd_m, sd_m) * _error_correlation(positions_m, camera)
     rays = positions_m / depth_m[:, None]
-    right = measure_dimensions(positions_m)
+    dimensions = measure_dimensions(positions_m)
     slope = np.empty((len(DIMENSIONS), len(positions_m)))
     for k, ray in enumerate(rays):
         moved = positions_m.copy()
         moved[k] += _STEP_M * ray
-        slope[:, k] = (measure_dimensions(moved) - right) / _STEP_M
+        slope[:, k] = (measure_dimensions(moved) - dimensions) / _STEP_M
     return np.asarray(np.sqrt(np.einsum("ij,jk,ik->i", slope, covariance, slope)))
 
 
 def card_limits(positions_m: FloatArray, camera: Camera) -> tuple[float, float]:
     """Return the largest errors of an angle (degrees) and a length (mm) within tolerance."""
     sd = LIMIT_SDS * dimensions_sd(positions_m, camera)
-    angles = max(sd[k] for k, figure in enumerate(DIMENSIONS) if figure.kind == "angle")
-    lengths = max(sd[k] for k, figure in enumerate(DIMENSIONS) if figure.kind == "length")
+    angles = max(sd[k] for k, dimension in enumerate(DIMENSIONS) if dimension.kind == "angle")
+    lengths = max(sd[k] for k, dimension in enumerate(DIMENSIONS) if dimension.kind == "length")
     return max(MAX_ANGLE_ERROR_DEG, float(angles)), max(MAX_LENGTH_ERROR_MM, float(lengths))
 
 
@@ -136,25 +137,17 @@ class CardMeasurement:
     def compute_reading(self, subject: str) -> CardReading:
         """Compute the result. Raises :class:`CardNotVisible` with fewer than five frames."""
         if len(self._positions) < MIN_FRAMES:
-            raise CardNotVisible(
-                subject,
-                phrase(
-                    "all six discs in {count} of {looked} pictures",
-                    count=len(self._positions),
-                    looked=self._frames_searched,
-                ),
-            )
+            counts = {"count": len(self._positions), "looked": self._frames_searched}
+            raise CardNotVisible(subject, phrase("all six discs in {count} of {looked} pictures", **counts))
         each = np.array([measure_dimensions(one) for one in self._positions])
         middle = np.median(np.array(self._positions), axis=0)
-        ratio = (
-            _pairwise_distances(middle)
-            @ _pairwise_distances(disc_positions_m())
-            / np.sum(_pairwise_distances(disc_positions_m()) ** 2)
-        )
+        once = np.triu_indices(len(DISCS), 1)
+        measured, true = (_distance_matrix(points)[once] for points in (middle, disc_positions_m()))
+        scale = measured @ true / np.sum(true**2)
         distance_m = float(np.linalg.norm(middle.mean(axis=0)))
         sd = each.std(axis=0, ddof=1)
         return CardReading(
-            measure_dimensions(middle), sd, float(ratio), distance_m, len(self._positions), self._frames_searched,
+            measure_dimensions(middle), sd, float(scale), distance_m, len(self._positions), self._frames_searched,
             *card_limits(middle, self._camera),
         )  # fmt: skip
 
@@ -163,14 +156,14 @@ def measure_card(
     frames: Iterable[Frame], camera: Camera, subject: str, settings: DetectionSettings | None = None
 ) -> CardReading:
     """Measure the card over the first 30 s. Raises :class:`CardNotVisible` with fewer than five frames."""
-    watch = CardMeasurement(camera, settings)
+    measurement = CardMeasurement(camera, settings)
     first_s = math.nan
     for frame in frames:
         first_s = frame.timestamp_s if math.isnan(first_s) else first_s
         if frame.timestamp_s - first_s > CHECK_S:
             break
-        watch.process_frame(frame)
-    return watch.compute_reading(subject)
+        measurement.process_frame(frame)
+    return measurement.compute_reading(subject)
 
 
 def find_card_discs(blobs: Detections, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
@@ -194,8 +187,3 @@ def find_card_discs(blobs: Detections, camera: Camera) -> tuple[FloatArray, Floa
 def _distance_matrix(points: FloatArray) -> FloatArray:
     """Return all distances (P, P) between points."""
     return np.asarray(np.linalg.norm(points[:, None] - points[None], axis=-1))
-
-
-def _pairwise_distances(points: FloatArray) -> FloatArray:
-    """Return the distances between points, each once."""
-    return np.asarray(_distance_matrix(points)[np.triu_indices(len(points), 1)])

@@ -252,11 +252,7 @@ def format_agreements(agreements: Sequence[tuple[str, Agreement]]) -> list[str]:
 
 def format_limit_verdicts(all_pairs: Sequence[AnglePairs], limit_deg: float) -> list[str]:
     """Return for each angle whether the limits of agreement lie within a limit set before."""
-    said = {
-        "agree": "agrees within {limit:g}°",
-        "apart": "up to {apart}° apart",
-        "few": "too few pairs to say",
-    }
+    said = {"agree": "agrees within {limit:g}°", "apart": "up to {apart}° apart", "few": "too few pairs to say"}
     return [
         f"Limit        {pairs.name} {said[verdict].format(limit=limit_deg, apart=apart)}"
         for pairs in all_pairs

@@ -196,12 +196,7 @@ def _unwrap_angle(angle_rad: FloatArray) -> FloatArray:
 
 
 def _estimate_shift(
-    curves: AlignmentCurves,
-    session: Session,
-    reference: Reference,
-    max_shift_s: float,
-    lag_s: float,
-    drift: float,
+    curves: AlignmentCurves, session: Session, reference: Reference, max_shift_s: float, lag_s: float, drift: float
 ) -> ClockShift:
     """Return the given shift or the best one, with its residual drift."""
     if math.isfinite(lag_s):
@@ -451,10 +446,7 @@ def _is_in_neutral_pose(time_s: FloatArray, begin_s: float) -> np.ndarray:
 
 # --- readings --------------------------------------------------------------------------------------------------
 def _compare_readings(
-    reference: Reference,
-    time_s: FloatArray,
-    session_angles: Mapping[str, FloatArray],
-    figures: SessionResults | None,
+    reference: Reference, time_s: FloatArray, session_angles: Mapping[str, FloatArray], figures: SessionResults | None
 ) -> Comparison:
     """Compare readings with the held angle around their time, or with the session's range."""
     not_used = list(reference.unused)

@@ -268,10 +268,7 @@ def _correlations(a: FloatArray, b: FloatArray, lags: NDArray[np.intp], min_coun
     one_a, one_b = has_a.astype(np.float64), has_b.astype(np.float64)
     count = np.maximum(np.rint(sum_products(one_a, one_b)), 1.0)
     mean_x, mean_y = sum_products(x, one_b) / count, sum_products(one_a, y) / count
-    power_x, power_y = (
-        sum_products(x * x, one_b) / count - mean_x**2,
-        sum_products(one_a, y * y) / count - mean_y**2,
-    )
+    power_x, power_y = (sum_products(x * x, one_b) / count - mean_x**2, sum_products(one_a, y * y) / count - mean_y**2)
     # What a transform leaves of the variance of a curve that stands still is no movement.
     moves = (count >= min_count) & (power_x > 1e-10 * np.mean(x * x)) & (power_y > 1e-10 * np.mean(y * y))
     with np.errstate(divide="ignore", invalid="ignore"):
