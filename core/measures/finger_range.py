@@ -14,7 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.measures.motion_range import MIN_REPETITIONS_FOR_SD, MotionRange, RangeStatistics, motion_range
+from carpus.core.measures.motion_range import (
+    MIN_REPETITIONS_FOR_SD,
+    NO_RANGE,
+    MotionRange,
+    motion_range,
+    range_statistics,
+)
 from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import MAX_ANGLE_SD_RAD, BoolArray, Signal, low_pass, resample_evenly
@@ -77,9 +83,8 @@ def plausible_joints(names: Sequence[str], angles_rad: FloatArray) -> BoolArray:
     """
     low, high = np.array([HARD_LIMITS_RAD[name] for name in names]).T
     with np.errstate(invalid="ignore"):
-        return np.asarray(
-            (angles_rad >= low - LIMIT_TOLERANCE_RAD) & (angles_rad <= high + LIMIT_TOLERANCE_RAD), dtype=np.bool_
-        )
+        is_above, is_below = angles_rad >= low - LIMIT_TOLERANCE_RAD, angles_rad <= high + LIMIT_TOLERANCE_RAD
+    return np.asarray(is_above & is_below, dtype=np.bool_)
 
 
 def joint_track(
@@ -92,16 +97,9 @@ def joint_track(
 ) -> JointTrack:
     """Build the track of one joint from its columns (N,) of the session."""
     both = np.column_stack((angle_rad, sd_rad))
-    seen, tracked = resample_evenly(timestamp_s, both, valid), resample_evenly(timestamp_s, both)
-    return JointTrack(
-        name,
-        low_pass(seen.column(0), MAX_CUTOFF_HZ),
-        seen.column(1),
-        tracked.column(0),
-        tracked.column(1),
-        seen.valid_share,
-        smoothed,
-    )
+    visible, tracked = resample_evenly(timestamp_s, both, valid), resample_evenly(timestamp_s, both)
+    angle, sd = low_pass(visible.column(0), MAX_CUTOFF_HZ), visible.column(1)
+    return JointTrack(name, angle, sd, tracked.column(0), tracked.column(1), visible.valid_share, smoothed)
 
 
 def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionRange:
@@ -112,8 +110,7 @@ def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionR
     """
     usable = _usable_repetitions(track.visible, repetitions)
     if not track.is_known or (repetitions and not usable):
-        nothing = RangeStatistics(np.empty(0), math.nan, math.nan)
-        return MotionRange(nothing, nothing, nothing, 0, True, True)
+        return NO_RANGE
     limits = []
     for start_s, end_s in _windows(track.visible, usable):
         part = track.visible.crop(start_s, end_s).value
@@ -122,11 +119,8 @@ def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionR
         limits.append((_is_exceeded(angle - np.nanmax(part) + sd), _is_exceeded(np.nanmin(part) - angle + sd)))
     whole = tuple(rep for rep, limit in zip(usable, limits, strict=False) if not any(limit))
     if len(whole) >= MIN_REPETITIONS_FOR_SD:
-        return replace(
-            motion_range(track.visible, track.visible_sd, whole, smoothed=track.smoothed),
-            top_limited=False,
-            bottom_limited=False,
-        )
+        measured = motion_range(track.visible, track.visible_sd, whole, smoothed=track.smoothed)
+        return replace(measured, top_limited=False, bottom_limited=False)
     measured = motion_range(track.visible, track.visible_sd, usable, smoothed=track.smoothed)
     top, bottom = (any(limit[end] for limit in limits) for end in (0, 1))
     return replace(measured, top_limited=top, bottom_limited=bottom)
@@ -158,34 +152,35 @@ def total_active_motion(
         True if the DIP is taken as two thirds of the PIP
     """
     weight = flexion_weights(len(tracks), inferred=inferred)
-    nothing = RangeStatistics(np.empty(0), math.nan, math.nan)
     if not all(track.is_known for track in tracks):
-        return MotionRange(nothing, nothing, nothing, 0, True, True)
-    time_s, seen, seen_sd = _align_signals([track.visible for track in tracks], [track.visible_sd for track in tracks])
-    bend = np.maximum(seen, 0.0) * weight
-    sum_of = Signal(time_s, bend.sum(axis=1), tracks[0].visible.rate_hz, 1.0, np.empty((0, 2)))
-    variance = (seen_sd * weight) ** 2
-    usable = _usable_repetitions(sum_of, repetitions)
-    nowhere = (repetitions and not usable) or not sum_of.is_finite.any()
-    windows = [] if nowhere else _windows(sum_of, usable)
+        return NO_RANGE
+    time_s, angle, angle_sd = _align_signals(
+        [track.visible for track in tracks], [track.visible_sd for track in tracks]
+    )
+    flexion_sum = (np.maximum(angle, 0.0) * weight).sum(axis=1)
+    total = Signal(time_s, flexion_sum, tracks[0].visible.rate_hz, 1.0, np.empty((0, 2)))
+    variance = (angle_sd * weight) ** 2
+    usable = _usable_repetitions(total, repetitions)
+    is_hidden = (repetitions and not usable) or not total.is_finite.any()
+    windows = [] if is_hidden else _windows(total, usable)
     found: list[tuple[float, float, float, bool]] = []
     for start_s, end_s in windows:
-        part = sum_of.crop(start_s, end_s)
+        part = total.crop(start_s, end_s)
         first = int(np.searchsorted(time_s, part.time_s[0]))
         top, bottom = first + int(np.nanargmax(part.value)), first + int(np.nanargmin(part.value))
-        bent_back = seen[bottom] <= 0.0
-        error = float(variance[top].sum() + np.where(bent_back, 0.0, variance[bottom]).sum())
-        full, missing = float(sum_of.value[top]), float(sum_of.value[bottom])
-        found.append((full, missing, error, _is_sum_exceeded(tracks, weight, start_s, end_s, sum_of, full, missing)))
+        is_hyperextended = angle[bottom] <= 0.0
+        error = float(variance[top].sum() + np.where(is_hyperextended, 0.0, variance[bottom]).sum())
+        full, missing = float(total.value[top]), float(total.value[bottom])
+        found.append((full, missing, error, _is_sum_exceeded(tracks, weight, start_s, end_s, total, full, missing)))
     whole = [item for item in found if not item[3]]
     kept = whole if len(whole) >= MIN_REPETITIONS_FOR_SD else found
     flexion, deficit = (np.array([item[k] for item in kept]) for k in (0, 1))
     sd = math.sqrt(sum(item[2] for item in kept) / len(kept)) if kept else math.nan
-    total, limited = flexion - deficit, not kept or any(item[3] for item in kept)
+    limited = not kept or any(item[3] for item in kept)
     return MotionRange(
-        arc=RangeStatistics(total, float(total.max()) if kept else math.nan, sd),
-        maximum=RangeStatistics(flexion, float(flexion.max()) if kept else math.nan, sd),
-        minimum=RangeStatistics(deficit, float(deficit.min()) if kept else math.nan, sd),
+        arc=range_statistics(flexion - deficit, sd, largest=True),
+        maximum=range_statistics(flexion, sd, largest=True),
+        minimum=range_statistics(deficit, sd, largest=False),
         repetitions=len(usable),
         top_limited=limited,
         bottom_limited=limited,
@@ -196,11 +191,8 @@ def _usable_repetitions(signal: Signal, repetitions: Sequence[Repetition]) -> tu
     """Return the repetitions that are visible enough, marked as valid."""
     out = []
     for repetition in repetitions:
-        finite = signal.crop(repetition.start_s, repetition.end_s).is_finite
-        if (
-            finite.sum() >= MIN_VISIBLE_SHARE * (repetition.end_s - repetition.start_s) * signal.rate_hz
-            and finite.any()
-        ):
+        count = signal.crop(repetition.start_s, repetition.end_s).is_finite.sum()
+        if count and count >= MIN_VISIBLE_SHARE * (repetition.end_s - repetition.start_s) * signal.rate_hz:
             out.append(replace(repetition, valid_share=1.0))
     return tuple(out)
 
@@ -247,10 +239,10 @@ def _find_occluded_samples(base: Signal, visible: Signal, start_s: float, end_s:
 def _align_signals(values: Sequence[Signal], sds: Sequence[Signal]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return times (n,), values and standard deviations (n, k) at the first signal's times."""
     time_s = values[0].time_s
-    return time_s, _interpolate_columns(time_s, values), _interpolate_columns(time_s, sds)
 
+    def interpolate(signals: Sequence[Signal]) -> FloatArray:
+        # Linear between two samples of one period; a NaN beside the time stays one.
+        columns = [np.interp(time_s, s.time_s, s.value, left=math.nan, right=math.nan) for s in signals]
+        return np.asarray(np.column_stack(columns), dtype=np.float64)
 
-def _interpolate_columns(time_s: FloatArray, signals: Sequence[Signal]) -> FloatArray:
-    # Linear between two samples of one period; a NaN beside the time stays one.
-    columns = [np.interp(time_s, s.time_s, s.value, left=math.nan, right=math.nan) for s in signals]
-    return np.asarray(np.column_stack(columns), dtype=np.float64)
+    return time_s, interpolate(values), interpolate(sds)

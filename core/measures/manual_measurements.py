@@ -25,6 +25,10 @@ GONIOMETER_DEG = 10.0
 """Commonly required change per joint; 12 to 30 degrees were found over two days (reference 6.3, C30)."""
 ANGLE_SOURCE = "commonly quoted for one rater"
 SCORE_SOURCE = "Sorensen 2013"
+_DEFAULT_IDS = {
+    *("FLEXION", "EXTENSION", "RADIAL", "ULNAR"),
+    *("GRIP", "KEY_PINCH", "WRIST_ROUND", "PRWE", "PAIN_AT_REST"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,9 +40,7 @@ class ManualMeasure:
     min_value, max_value : limits of an entry
     usual_range : outside it the person is asked to check the value
     trial_count : number of trials that are averaged
-    is_per_hand : True for a measure of one hand, False for one of the person
     session_measure : (angle or joint, movement) that Carpus measures too
-    is_default : True if it is on the form without being chosen
     name : empty for angles, whose name follows from the id
     """
 
@@ -53,99 +55,56 @@ class ManualMeasure:
     source: str
     modes: tuple[Mode, ...] = ("",)
     trial_count: int = 1
-    is_per_hand: bool = True
     session_measure: tuple[str, str] | None = None
-    is_default: bool = False
-    decimals: int = 0
+    decimals: int = 1
     name: str = ""
 
+    @property
+    def is_per_hand(self) -> bool:
+        """True for a measure of one hand, False for one of the person."""
+        return self.kind != "score"
 
-def _angle_measure(
-    name: str, usual_max: float, session_measure: tuple[str, str] | None, *, is_default: bool = False
-) -> ManualMeasure:
+    @property
+    def is_default(self) -> bool:
+        """True if it is on the form without being chosen."""
+        return self.id in _DEFAULT_IDS
+
+
+_BOTH_MODES: tuple[Mode, ...] = ("active", "passive")
+
+
+def _angle_measure(name: str, usual_max: float, session_measure: tuple[str, str] | None) -> ManualMeasure:
+    limits, modes = (-90.0, 180.0, (-20.0, usual_max)), _BOTH_MODES
     return ManualMeasure(
-        name, "angle", "deg", -90.0, 180.0, (-20.0, usual_max), "more", GONIOMETER_DEG, ANGLE_SOURCE,
-        modes=("active", "passive"), session_measure=session_measure, is_default=is_default,
-    )  # fmt: skip
+        name, "angle", "deg", *limits, "more", GONIOMETER_DEG, ANGLE_SOURCE, modes, 1, session_measure, decimals=0
+    )
 
 
 def _force_measure(
-    id: str, name: str, usual_max: float, min_real_change: float, source: str, *, is_default: bool = False
+    id: str, name: str, usual_max: float, min_real_change: float = math.nan, source: str = ""
 ) -> ManualMeasure:
-    return ManualMeasure(
-        id,
-        "force",
-        "kg",
-        0.0,
-        150.0,
-        (0.0, usual_max),
-        "more",
-        min_real_change,
-        source,
-        trial_count=3,
-        is_default=is_default,
-        decimals=1,
-        name=name,
-    )
+    limits = (0.0, 150.0, (0.0, usual_max))
+    return ManualMeasure(id, "force", "kg", *limits, "more", min_real_change, source, trial_count=3, name=name)
 
 
 def _size_measure(
-    id: str,
-    name: str,
-    min_value: float,
-    max_value: float,
-    usual_range: tuple[float, float],
-    *,
-    is_default: bool = False,
+    id: str, name: str, min_value: float, max_value: float, usual_range: tuple[float, float]
 ) -> ManualMeasure:
-    return ManualMeasure(
-        id,
-        "size",
-        "cm",
-        min_value,
-        max_value,
-        usual_range,
-        "",
-        math.nan,
-        "",
-        is_default=is_default,
-        decimals=1,
-        name=name,
-    )
+    return ManualMeasure(id, "size", "cm", min_value, max_value, usual_range, "", math.nan, "", name=name)
 
 
 def _score_measure(
-    id: str,
-    name: str,
-    max_value: float,
-    better_direction: Better,
-    min_real_change: float,
-    source: str,
-    *,
-    is_default: bool = False,
+    id: str, name: str, max_value: float, better: Better, min_real_change: float = math.nan, source: str = ""
 ) -> ManualMeasure:
-    return ManualMeasure(
-        id,
-        "score",
-        "points",
-        0.0,
-        max_value,
-        (0.0, max_value),
-        better_direction,
-        min_real_change,
-        source,
-        is_per_hand=False,
-        is_default=is_default,
-        decimals=1,
-        name=name,
-    )
+    limits = (0.0, max_value, (0.0, max_value))
+    return ManualMeasure(id, "score", "points", *limits, better, min_real_change, source, name=name)
 
 
 _WRIST = (
-    _angle_measure("FLEXION", 100.0, ("flexion", "flexion"), is_default=True),
-    _angle_measure("EXTENSION", 95.0, ("flexion", "extension"), is_default=True),
-    _angle_measure("RADIAL", 40.0, ("deviation", "radial"), is_default=True),
-    _angle_measure("ULNAR", 55.0, ("deviation", "ulnar"), is_default=True),
+    _angle_measure("FLEXION", 100.0, ("flexion", "flexion")),
+    _angle_measure("EXTENSION", 95.0, ("flexion", "extension")),
+    _angle_measure("RADIAL", 40.0, ("deviation", "radial")),
+    _angle_measure("ULNAR", 55.0, ("deviation", "ulnar")),
     _angle_measure("PRONATION", 100.0, ("pronosupination", "pronation")),
     _angle_measure("SUPINATION", 105.0, ("pronosupination", "supination")),
 )
@@ -157,28 +116,40 @@ _JOINTS = tuple(
     for joint, most in (_USUAL_MAX_THUMB_DEG if finger == 1 else _USUAL_MAX_FINGER_DEG).items()
     for measure in (
         _angle_measure(f"{joint}{finger}_FLEXION", most, (f"{joint}{finger}_flexion", "flexion")),
-        # Carpus's least bent angle is no extension of the joint by itself: the two do not stand beside each other.
+        # The smallest angle that Carpus measures is no extension of a single joint, so the two are not compared.
         _angle_measure(f"{joint}{finger}_EXTENSION", 45.0, None),
     )
 )
 
+_VOLUME = ManualMeasure(
+    "VOLUME",
+    "size",
+    "ml",
+    50.0,
+    1500.0,
+    (200.0, 800.0),
+    "",
+    math.nan,
+    "",
+    decimals=0,
+    name=phrase("Volume of the hand"),
+)
+
 MEASURES: tuple[ManualMeasure, ...] = (
     *_WRIST,
-    _force_measure("GRIP", phrase("Grip"), 80.0, 6.5, "Kim 2014, Bohannon 2019", is_default=True),
-    _force_measure("KEY_PINCH", phrase("Key pinch"), 15.0, math.nan, "", is_default=True),
-    _force_measure("THREE_POINT_PINCH", phrase("Three-point pinch"), 15.0, math.nan, ""),
-    _force_measure("TIP_PINCH", phrase("Tip pinch"), 12.0, math.nan, ""),
-    _size_measure("WRIST_ROUND", phrase("Round the wrist"), 5.0, 40.0, (11.0, 25.0), is_default=True),
+    _force_measure("GRIP", phrase("Grip"), 80.0, 6.5, "Kim 2014, Bohannon 2019"),
+    _force_measure("KEY_PINCH", phrase("Key pinch"), 15.0),
+    _force_measure("THREE_POINT_PINCH", phrase("Three-point pinch"), 15.0),
+    _force_measure("TIP_PINCH", phrase("Tip pinch"), 12.0),
+    _size_measure("WRIST_ROUND", phrase("Round the wrist"), 5.0, 40.0, (11.0, 25.0)),
     _size_measure("PALM_ROUND", phrase("Round the palm"), 5.0, 50.0, (14.0, 30.0)),
     _size_measure("FIGURE_OF_EIGHT", phrase("Figure of eight"), 10.0, 80.0, (30.0, 60.0)),
-    ManualMeasure(
-        "VOLUME", "size", "ml", 50.0, 1500.0, (200.0, 800.0), "", math.nan, "", name=phrase("Volume of the hand")
-    ),
-    _score_measure("PRWE", "PRWE", 100.0, "less", 14.0, SCORE_SOURCE, is_default=True),
+    _VOLUME,
+    _score_measure("PRWE", "PRWE", 100.0, "less", 14.0, SCORE_SOURCE),
     _score_measure("QUICK_DASH", "QuickDASH", 100.0, "less", 14.0, SCORE_SOURCE),
     _score_measure("DASH", "DASH", 100.0, "less", 10.0, SCORE_SOURCE),
-    _score_measure("MHQ", "MHQ", 100.0, "more", math.nan, ""),
-    _score_measure("PAIN_AT_REST", phrase("Pain at rest"), 10.0, "less", 2.0, "Farrar 2001", is_default=True),
+    _score_measure("MHQ", "MHQ", 100.0, "more"),
+    _score_measure("PAIN_AT_REST", phrase("Pain at rest"), 10.0, "less", 2.0, "Farrar 2001"),
     _score_measure("PAIN_MOVING", phrase("Pain when moving"), 10.0, "less", 2.0, "Farrar 2001"),
     *_JOINTS,
 )
@@ -216,11 +187,12 @@ class ManualValue:
     entered_at: datetime | None = None
 
     def __post_init__(self) -> None:
-        of = find_manual_measure(self.measure)
-        if self.mode not in of.modes or bool(self.side) != of.is_per_hand or len(self.trials) > of.trial_count:
+        measure = find_manual_measure(self.measure)
+        has_wrong_side = bool(self.side) != measure.is_per_hand
+        if self.mode not in measure.modes or has_wrong_side or len(self.trials) > measure.trial_count:
             raise ValueError(f"{self.measure}: way {self.mode!r}, side {self.side!r}, {len(self.trials)} tries")
-        if not all(of.min_value <= one <= of.max_value for one in self.trials):
-            raise ValueError(f"{self.measure}: {self.trials} is outside {of.min_value:g} to {of.max_value:g}")
+        if not all(measure.min_value <= one <= measure.max_value for one in self.trials):
+            raise ValueError(f"{self.measure}: {self.trials} is outside {measure.min_value:g} to {measure.max_value:g}")
         if len(self.location) > MAX_LOCATION_LENGTH:
             raise ValueError(f"{self.measure}: where is longer than {MAX_LOCATION_LENGTH} letters")
 
@@ -249,9 +221,8 @@ def current_values(entries: Iterable[ManualValue]) -> list[ManualValue]:
 
     ``entries`` are in the order in which they were entered.
     """
-    return sorted(
-        (entry for entry in find_latest_entries(entries).values() if entry.trials), key=lambda entry: entry.day
-    )
+    latest = find_latest_entries(entries).values()
+    return sorted((entry for entry in latest if entry.trials), key=lambda entry: entry.day)
 
 
 def find_latest_entries(entries: Iterable[ManualValue]) -> dict[tuple[MeasureKey, date], ManualValue]:
@@ -290,12 +261,12 @@ def compute_change(history: Sequence[ManualValue]) -> ManualChange | None:
     if len(history) < 2:
         return None
     first, last = history[0], history[-1]
-    of = find_manual_measure(first.measure)
-    gain = (last.value - first.value) * (-1.0 if of.better_direction == "less" else 1.0)
+    measure = find_manual_measure(first.measure)
+    gain = (last.value - first.value) * (-1.0 if measure.better_direction == "less" else 1.0)
     verdict: ChangeVerdict = "not_judged"
-    if of.better_direction and math.isfinite(of.min_real_change):
-        verdict = "within_error" if abs(gain) <= of.min_real_change else "improved" if gain > 0.0 else "worse"
-    return ManualChange(first, last, of.min_real_change, verdict)
+    if measure.better_direction and math.isfinite(measure.min_real_change):
+        verdict = "within_error" if abs(gain) <= measure.min_real_change else "improved" if gain > 0.0 else "worse"
+    return ManualChange(first, last, measure.min_real_change, verdict)
 
 
 def is_unusual(measure: ManualMeasure, value: float) -> bool:

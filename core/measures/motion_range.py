@@ -102,20 +102,23 @@ def motion_range(
     top_values, bottom_values = np.array(tops), np.array(bottoms)
     top_sd, bottom_sd = _rms(top_sds), _rms(bottom_sds)
     return MotionRange(
-        arc=_range_statistics(top_values - bottom_values, math.hypot(top_sd, bottom_sd), largest=True),
-        maximum=_range_statistics(top_values, top_sd, largest=True),
-        minimum=_range_statistics(bottom_values, bottom_sd, largest=False),
+        arc=range_statistics(top_values - bottom_values, math.hypot(top_sd, bottom_sd), largest=True),
+        maximum=range_statistics(top_values, top_sd, largest=True),
+        minimum=range_statistics(bottom_values, bottom_sd, largest=False),
         repetitions=len(usable),
         top_limited=top_limited,
         bottom_limited=bottom_limited,
     )
 
 
-def _range_statistics(values: FloatArray, measurement_sd: float, *, largest: bool) -> RangeStatistics:
-    best = math.nan
-    if len(values):
-        best = float(values.max() if largest else values.min())
+def range_statistics(values: FloatArray, measurement_sd: float, *, largest: bool) -> RangeStatistics:
+    """Return the statistics of values (n,) of which the largest or the smallest is the best."""
+    best = float(values.max() if largest else values.min()) if len(values) else math.nan
     return RangeStatistics(values, best, measurement_sd)
+
+
+_NOTHING = RangeStatistics(np.empty(0), math.nan, math.nan)
+NO_RANGE = MotionRange(_NOTHING, _NOTHING, _NOTHING, 0, True, True)
 
 
 def _rms(values: list[float]) -> float:

@@ -142,21 +142,21 @@ def find_reaches(
     occluded_s
         (g, 2) start and end of occlusions, although tracked
     """
-    unseen = position.gaps_s if occluded_s is None else np.vstack((position.gaps_s, occluded_s))
+    hidden_s = position.gaps_s if occluded_s is None else np.vstack((position.gaps_s, occluded_s))
     smooth = low_pass(position)
     known = np.flatnonzero(smooth.is_finite)
     if len(known) < 2:
         return ()
     start_s = float(position.time_s[known[0]])
-    home = np.nanmedian(smooth.crop(start_s, start_s + START_S).value, axis=0)
-    away_m = np.linalg.norm(smooth.value - home, axis=1)
+    start = np.nanmedian(smooth.crop(start_s, start_s + START_S).value, axis=0)
+    distance_from_start_m = np.linalg.norm(smooth.value - start, axis=1)
     if direction is not None:
         places = smooth.value[known]
         line = np.linalg.svd(places - places.mean(axis=0), full_matrices=False)[2][0]
-        away_m = (smooth.value - home) @ (line if float(line @ direction) >= 0.0 else -line)
-    # Counted as an angle is, whose least range stands for the least reach.
-    strokes = find_repetitions(replace(position, value=away_m * (MIN_RANGE_RAD / MIN_REACH_M))).strokes
-    found = (_measure_reach(position, smooth, stroke, noise, unseen) for stroke in strokes if not stroke.is_half)
+        distance_from_start_m = (smooth.value - start) @ (line if float(line @ direction) >= 0.0 else -line)
+    # Repetitions are found as in an angle, with its least range for the least reach.
+    strokes = find_repetitions(replace(position, value=distance_from_start_m * (MIN_RANGE_RAD / MIN_REACH_M))).strokes
+    found = (_measure_reach(position, smooth, stroke, noise, hidden_s) for stroke in strokes if not stroke.is_half)
     return tuple(reach for reach in found if reach is not None)
 
 
@@ -164,7 +164,7 @@ def _measure_reach(
     position: Signal, smooth: Signal, stroke: Stroke, stated_noise: Noise, occluded_s: FloatArray
 ) -> Reach | None:
     unknown = Reach(stroke.is_rising, stroke.start_s, stroke.end_s, PathMeasures())
-    # A way may have a stop in it (reach, then lift): the part that counts is found in no more noise than it must be.
+    # A reach may contain a stop (reach, then lift): a low cut-off finds the part that counts despite the noise.
     rough = _movement_interval(low_pass(position, MIN_SMOOTHNESS_CUTOFF_HZ), stroke)
     if rough is None:
         return None
@@ -175,7 +175,7 @@ def _measure_reach(
     chord = float(np.linalg.norm(part.value[-1] - part.value[0]))
     around = position.crop(stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
     noise = limit_noise(stated_noise, around, duration_s)
-    # Half as much again as the mean is the least that a movement from rest to rest has for a peak.
+    # The peak of a movement from rest to rest is at least 1.5 times its mean.
     cutoff_hz = cutoff_for_speed(noise, 1.5 * chord / duration_s, duration_s)
     if math.isnan(cutoff_hz):
         return replace(unknown, is_too_slow=True)
@@ -199,7 +199,7 @@ def _movement_interval(position: Signal, stroke: Stroke) -> tuple[float, float] 
         return None
     peak_at = int(np.argmax(np.where(inside, speed, -math.inf)))
     begin, end = (_find_slow_sample(speed, peak_at, step, ONSET_SPEED_SHARE * speed[peak_at]) for step in (-1, +1))
-    # Who turns without stopping is never slow: the turning points end the way at the latest.
+    # A hand that turns without stopping is never slow: the turning points are the latest ends.
     return max(float(position.time_s[begin]), stroke.start_s), min(float(position.time_s[end]), stroke.end_s)
 
 

@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carpus.core.measures.signals import Signal, find_runs, low_pass
 from carpus.core.model.types import FloatArray
@@ -118,62 +117,56 @@ def find_repetitions(angle: Signal) -> RepetitionAnalysis:
     if len(known) < 2 or angle.time_s[-1] - angle.time_s[0] < MIN_RECORDING_S:
         return NO_REPETITIONS
     smooth = low_pass(angle, COUNTING_CUTOFF_HZ).value
-    noise = _NOISE_RANGE * _residual_sd(angle.value, smooth)
-    least = max(MIN_RANGE_RAD, noise)
+    residual = np.abs(angle.value - smooth)
+    residual = residual[np.isfinite(residual)]
+    noise = _NOISE_RANGE * (1.4826 * float(np.median(residual)) if len(residual) else 0.0)
+    min_swing = max(MIN_RANGE_RAD, noise)
     parts = _split_at_long_gaps(angle)
-    extent = _median_swing([_find_turning_points(smooth, least, part) for part in parts])
-    unseen = tuple((float(start), float(end)) for start, end in angle.gaps_s if end - start > MAX_OCCLUSION_S)
-    if math.isnan(extent):
-        return RepetitionAnalysis((), (), occluded_s=unseen)
-    least = max(least, _MIN_AMPLITUDE_SHARE * extent)
-    turned = [(part, _find_turning_points(smooth, least, part)) for part in parts]
-    near = max(_HYSTERESIS_SHARE * extent, _MIN_HYSTERESIS_RAD)
-    still_rad = max(_STILL_SHARE * extent, noise)
-    runs = [
-        _Segment.with_end_points(smooth, part, turns, near, still_rad, angle.rate_hz) for part, turns in turned if turns
+    usual_swing = _median_swing([_find_turning_points(smooth, min_swing, part) for part in parts])
+    occluded = tuple((float(start), float(end)) for start, end in angle.gaps_s if end - start > MAX_OCCLUSION_S)
+    if math.isnan(usual_swing):
+        return RepetitionAnalysis((), (), occluded_s=occluded)
+    min_swing = max(min_swing, _MIN_AMPLITUDE_SHARE * usual_swing)
+    tolerance = max(_HYSTERESIS_SHARE * usual_swing, _MIN_HYSTERESIS_RAD)
+    still_rad = max(_STILL_SHARE * usual_swing, noise)
+    segments = [
+        _Segment.with_end_points(smooth, part, points, tolerance, still_rad, angle.rate_hz)
+        for part in parts
+        if (points := _find_turning_points(smooth, min_swing, part))
     ]
-    home = _RestPosition.from_segments(runs, near)
-    time = angle.time_s
+    rest, time_s = _RestPosition.from_segments(segments, tolerance), angle.time_s
     strokes: list[Stroke] = []
     whole: list[Repetition] = []
-    cut: list[Repetition] = []
-    for run in runs:
-        strokes += _find_strokes(run, home, time, least)
-        marks = home.repetition_boundaries(run, runs)
-        whole += [_make_repetition(angle, a, b) for a, b in pairwise(marks) if time[b] - time[a] >= MIN_DURATION_S]
-        first, last = run.part.start, run.part.stop - 1
-        if not home.is_at_rest(run.turning_points[0]) and run.turning_points[0].sample not in marks:
-            cut.append(_make_repetition(angle, first, marks[0] if marks else last, first))
-        end, before = run.turning_points[-1], run.turning_points[-2]
-        # Who stops half way and stays there has not come back: what was seen ends in that repetition.
-        left = home.side is not None and end.is_high is not home.side and abs(end.value - before.value) >= least
-        if (left or not home.is_at_rest(end)) and marks and marks[-1] < run.turning_points[-1].sample:
-            cut.append(_make_repetition(angle, marks[-1], last, last))
-    return RepetitionAnalysis(tuple(whole), tuple(strokes), tuple(cut), unseen)
-
-
-def _find_strokes(segment: _Segment, rest: _RestPosition, time_s: FloatArray, min_rad: float) -> list[Stroke]:
-    return [
-        Stroke(
-            float(time_s[a.sample]),
-            float(time_s[b.sample]),
-            b.is_high,
-            rest.side is None and "middle" in map(rest.classify, (a, b)),
-        )
-        for a, b in pairwise(segment.turning_points)
-        if abs(b.value - a.value) >= min_rad
-    ]
+    partial: list[Repetition] = []
+    for segment in segments:
+        points = segment.turning_points
+        for a, b in pairwise(points):
+            if abs(b.value - a.value) >= min_swing:
+                is_half = rest.side is None and "middle" in map(rest.classify, (a, b))
+                strokes.append(Stroke(float(time_s[a.sample]), float(time_s[b.sample]), b.is_high, is_half))
+        bounds = rest.repetition_boundaries(segment, segments)
+        for start, end in pairwise(bounds):
+            if time_s[end] - time_s[start] >= MIN_DURATION_S:
+                whole.append(_make_repetition(angle, start, end))
+        first, last = segment.part.start, segment.part.stop - 1
+        if not rest.is_at_rest(points[0]) and points[0].sample not in bounds:
+            partial.append(_make_repetition(angle, first, bounds[0] if bounds else last, first))
+        # A hand that stops half way and stays there has not come back: the visible part ends in that repetition.
+        has_left = rest.side is not None and points[-1].is_high is not rest.side
+        has_left = has_left and abs(points[-1].value - points[-2].value) >= min_swing
+        if (has_left or not rest.is_at_rest(points[-1])) and bounds and bounds[-1] < points[-1].sample:
+            partial.append(_make_repetition(angle, bounds[-1], last, last))
+    return RepetitionAnalysis(tuple(whole), tuple(strokes), tuple(partial), occluded)
 
 
 def _make_repetition(angle: Signal, start: int, end: int, cut_at: int | None = None) -> Repetition:
     """Build the repetition between two samples, cut at ``cut_at`` if given."""
-    time = angle.time_s
-    one = Repetition(float(time[start]), float(time[end]), float(np.isfinite(angle.value[start : end + 1]).mean()))
+    time_s, valid_share = angle.time_s, float(np.isfinite(angle.value[start : end + 1]).mean())
     if cut_at is None:
-        return one
-    by_gap = angle.is_near_gap(float(time[cut_at]), 1.5 / angle.rate_hz)
-    by: CutReason = "cut_by_gap" if by_gap else "cut_by_start" if cut_at == start else "cut_by_end"
-    return replace(one, cut=by, cut_s=float(time[cut_at]))
+        return Repetition(float(time_s[start]), float(time_s[end]), valid_share)
+    is_gap = angle.is_near_gap(float(time_s[cut_at]), 1.5 / angle.rate_hz)
+    reason: CutReason = "cut_by_gap" if is_gap else "cut_by_start" if cut_at == start else "cut_by_end"
+    return Repetition(float(time_s[start]), float(time_s[end]), valid_share, reason, float(time_s[cut_at]))
 
 
 NoRepetitionReason = Literal["too_short", "nothing_seen", "small_range", "cut_by_gap", "no_return", "too_quick"]
@@ -196,29 +189,20 @@ def explain_no_repetitions(angle: Signal, analysis: RepetitionAnalysis) -> NoRep
         return "small_range"
     if any(one.cut == "cut_by_gap" for one in analysis.partial_repetitions):
         return "cut_by_gap"
-    # One slow stroke is enough to know that haste was not the reason.
+    # One slow stroke shows that speed was not the reason.
     longest_s = max((one.end_s - one.start_s for one in analysis.strokes), default=0.0)
     return "too_quick" if len(analysis.strokes) > 2 and longest_s < MIN_DURATION_S else "no_return"
 
 
 def _split_at_long_gaps(angle: Signal) -> list[slice]:
     """Return the samples between gaps that are too long to count across."""
-    finite = angle.is_finite
-    parts = find_runs(finite)
     out: list[slice] = []
-    for part in parts:
+    for part in find_runs(angle.is_finite):
         if out and (part.start - out[-1].stop) / angle.rate_hz <= MAX_OCCLUSION_S:
             out[-1] = slice(out[-1].start, part.stop)
         else:
             out.append(part)
     return out
-
-
-def _residual_sd(value: FloatArray, smooth: FloatArray) -> float:
-    """Return the robust standard deviation of what a low-pass removed."""
-    rest = value - smooth
-    rest = rest[np.isfinite(rest)]
-    return 1.4826 * float(np.median(np.abs(rest))) if len(rest) else 0.0
 
 
 def _find_turning_points(value: FloatArray, min_swing: float, part: slice = slice(None)) -> list[_TurningPoint]:
@@ -232,6 +216,10 @@ def _find_turning_points(value: FloatArray, min_swing: float, part: slice = slic
     curve = value[known]
     bends = np.flatnonzero(np.diff(np.sign(np.diff(curve)), prepend=2.0, append=2.0) != 0)
     bends = np.unique(np.concatenate(([0], bends, [len(curve) - 1])))
+
+    def point(index: int, *, is_high: bool) -> _TurningPoint:
+        return _TurningPoint(is_high, int(known[index]), float(curve[index]))
+
     turns: list[_TurningPoint] = []
     low = high = int(bends[0])
     rising: bool | None = None
@@ -241,18 +229,14 @@ def _find_turning_points(value: FloatArray, min_swing: float, part: slice = slic
         if curve[at] < curve[low]:
             low = at
         if rising is not False and curve[high] - curve[at] >= min_swing:
-            turns.append(_turning_point(known, curve, high, is_high=True))
+            turns.append(point(high, is_high=True))
             rising, low = False, at
         elif rising is not True and curve[at] - curve[low] >= min_swing:
-            turns.append(_turning_point(known, curve, low, is_high=False))
+            turns.append(point(low, is_high=False))
             rising, high = True, at
     if rising is not None:
-        turns.append(_turning_point(known, curve, high if rising else low, is_high=rising))
+        turns.append(point(high if rising else low, is_high=rising))
     return turns
-
-
-def _turning_point(known: NDArray[np.intp], curve: FloatArray, index: int, *, is_high: bool) -> _TurningPoint:
-    return _TurningPoint(is_high, int(known[index]), float(curve[index]))
 
 
 def _median_swing(turns_of_parts: list[list[_TurningPoint]]) -> float:
@@ -321,16 +305,14 @@ class _RestPosition:
     @classmethod
     def from_segments(cls, segments: Sequence[_Segment], tolerance: float) -> _RestPosition:
         """Estimate from where the hand was still at the start or the end, else from where it was."""
-        usual = [
-            _typical_extreme([turn for run in segments for turn in run.turning_points if turn.is_high is high])
-            for high in (False, True)
-        ]
-        home = cls(usual[0], usual[1], tolerance)
+        points = [point for segment in segments for point in segment.turning_points]
+        low, high = (_typical_extreme([point for point in points if point.is_high is side]) for side in (False, True))
+        rest = cls(low, high, tolerance)
         ends = (segments[0].turning_points[0], segments[-1].turning_points[-1])
         for end in (*(end for end in ends if end.is_still), *ends):
-            if home.classify(end) != "elsewhere":
-                return home if home.classify(end) == "middle" else replace(home, side=end.is_high)
-        return replace(home, side=ends[0].is_high)
+            if rest.classify(end) != "elsewhere":
+                return rest if rest.classify(end) == "middle" else replace(rest, side=end.is_high)
+        return replace(rest, side=ends[0].is_high)
 
     @property
     def middle(self) -> float:
@@ -356,27 +338,24 @@ class _RestPosition:
     def repetition_boundaries(self, segment: _Segment, segments: Sequence[_Segment]) -> list[int]:
         """Return the samples at which a repetition begins or ends."""
         if self.side is not None:
-            at_home = "high" if self.side else "low"
-            return [turn.sample for turn in segment.turning_points if self.classify(turn) == at_home]
-        outs = [
-            turn
-            for turn in segment.turning_points
-            if turn.is_seen or turn.distance_beyond(self.middle) >= self.tolerance
-        ]
-        first_high = self._is_first_high([segment, *segments])
-        found: list[int] = []
-        for k, turn in enumerate(outs):
-            if turn.is_high is first_high:
-                passed = segment.find_crossing(self.middle, turn, before=True)
-                if k and passed is not None:
-                    found.append(max(passed, outs[k - 1].sample))
-                elif self.classify(segment.turning_points[0]) == "middle":
-                    found.append(segment.turning_points[0].sample if passed is None else passed)
-        if outs and outs[-1].is_high is not first_high:
-            passed = segment.find_crossing(self.middle, outs[-1], before=False)
-            if passed is not None or self.classify(segment.turning_points[-1]) == "middle":
-                found.append(segment.turning_points[-1].sample if passed is None else passed)
-        return found
+            side = "high" if self.side else "low"
+            return [one.sample for one in segment.turning_points if self.classify(one) == side]
+        points = segment.turning_points
+        outer = [one for one in points if one.is_seen or one.distance_beyond(self.middle) >= self.tolerance]
+        is_first_high = self._is_first_high([segment, *segments])
+        bounds: list[int] = []
+        for k, one in enumerate(outer):
+            if one.is_high is is_first_high:
+                crossing = segment.find_crossing(self.middle, one, before=True)
+                if k and crossing is not None:
+                    bounds.append(max(crossing, outer[k - 1].sample))
+                elif self.classify(points[0]) == "middle":
+                    bounds.append(points[0].sample if crossing is None else crossing)
+        if outer and outer[-1].is_high is not is_first_high:
+            crossing = segment.find_crossing(self.middle, outer[-1], before=False)
+            if crossing is not None or self.classify(points[-1]) == "middle":
+                bounds.append(points[-1].sample if crossing is None else crossing)
+        return bounds
 
     def _is_first_high(self, segments: Sequence[_Segment]) -> bool:
         """True if repetitions from the middle go to the high side first."""

@@ -165,41 +165,48 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     part = _low_pass_stroke(angle, stroke, MAX_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s)
     if not part.is_finite.all() or len(part.time_s) < 2:
         return StrokeMeasures(stroke, float(np.ptp(part.value[part.is_finite])) if part.is_finite.any() else math.nan)
-    duration_s = estimate_duration_s(
-        _low_pass_stroke(angle, stroke, SPEED_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s).value, angle.rate_hz
-    )
+    smooth_part = _low_pass_stroke(angle, stroke, SPEED_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s)
+    duration_s = estimate_duration_s(smooth_part.value, angle.rate_hz)
     noise = _stroke_noise(angle, stroke, sd, duration_s, smoothed=smoothed)
-    arc = _stroke_arc(part, noise, duration_s)
+    clean = low_pass(part, clean_cutoff_hz(duration_s)).value
+    high, low = (estimate_extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
+    arc = high - low
     if not arc >= MIN_RANGE_RAD:
         return StrokeMeasures(stroke, arc)
-    pace = _find_quickest_part(angle, stroke, noise, arc, duration_s)
-    if pace is None:
+    quickest = _find_quickest_part(angle, stroke, noise, arc, duration_s)
+    if quickest is None:
         return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
-    moved = _measure_motion(angle, stroke, noise, pace.cutoff_hz)
-    if moved is None:
+    motion = _measure_motion(angle, stroke, noise, quickest.cutoff_hz)
+    if motion is None:
         return _measure_without_rest(angle, stroke, sd, arc, smoothed=smoothed)
-    sub_s = pace.duration_s if pace.has_stops else math.inf
-    smooth = _measure_motion(angle, stroke, noise, cutoff_for_smoothness(noise, arc, moved.duration_s, sub_s))
-    jerk = _measure_motion(angle, stroke, noise, cutoff_for_jerk(noise, pace.arc, pace.duration_s, moved.duration_s))
-    speed_sd = noise.speed_sd(pace.cutoff_hz)
-    told = pace.cutoff_hz >= MIN_SMOOTHNESS_CUTOFF_HZ and _PAUSE_SDS * speed_sd <= PAUSE_SPEED_SHARE * moved.peak
-    standing = moved.pauses_s if told else None
+    submovement_s = quickest.duration_s if quickest.has_stops else math.inf
+    cutoff_hz = cutoff_for_smoothness(noise, arc, motion.duration_s, submovement_s)
+    smooth = _measure_motion(angle, stroke, noise, cutoff_hz)
+    cutoff_hz = cutoff_for_jerk(noise, quickest.arc, quickest.duration_s, motion.duration_s)
+    jerk = _measure_motion(angle, stroke, noise, cutoff_hz)
+    speed_sd = noise.speed_sd(quickest.cutoff_hz)
+    is_detailed = quickest.cutoff_hz >= MIN_SMOOTHNESS_CUTOFF_HZ
+    pauses_s = motion.pauses_s if is_detailed and _PAUSE_SDS * speed_sd <= PAUSE_SPEED_SHARE * motion.peak else None
+    min_rise, min_dip = max(_PEAK_RISE_SHARE * motion.peak, MIN_PEAK_RAD_S), DIP_SDS * speed_sd
+    peaks = math.nan
+    if is_detailed and min_dip <= min_rise:
+        peaks = float(count_speed_peaks(motion.onset_to_offset, angle.rate_hz, min_rise, min_dip)) or math.nan
     smoothness = math.nan if smooth is None else sparc(smooth.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S)
     return StrokeMeasures(
         stroke=stroke,
         arc_rad=arc,
-        peak_speed_rad_s=moved.peak,
-        mean_speed_rad_s=moved.mean,
-        movement_time_s=moved.duration_s,
-        time_to_peak_share=moved.time_to_peak_share,
-        peaks=_count_movement_units(moved, angle.rate_hz, pace.cutoff_hz, speed_sd),
-        pauses=math.nan if standing is None else float(len(standing)),
-        pause_s=math.nan if standing is None else math.fsum(standing),
+        peak_speed_rad_s=motion.peak,
+        mean_speed_rad_s=motion.mean,
+        movement_time_s=motion.duration_s,
+        time_to_peak_share=motion.time_to_peak_share,
+        peaks=peaks,
+        pauses=math.nan if pauses_s is None else float(len(pauses_s)),
+        pause_s=math.nan if pauses_s is None else math.fsum(pauses_s),
         sparc=smoothness,
         ldlj=math.nan if jerk is None else log_dimensionless_jerk(jerk.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S),
         peak_speed_sd_rad_s=speed_sd,
-        onset_s=moved.onset_s,
-        offset_s=moved.offset_s,
+        onset_s=motion.onset_s,
+        offset_s=motion.offset_s,
         too_slow_to_be_smooth=math.isnan(smoothness),
     )
 
@@ -211,7 +218,10 @@ def _measure_without_rest(
 
     Onset and offset of its rough curve were noise, so the whole stroke decides how much it is low-passed.
     """
-    if _is_cut_short(angle, stroke):
+    # Ended by a gap or by the recording, it may have been faster beyond.
+    near_s = 1.5 / angle.rate_hz
+    at_end = stroke.start_s - angle.time_s[0] < near_s or angle.time_s[-1] - stroke.end_s < near_s
+    if at_end or any(angle.is_near_gap(time_s, near_s) for time_s in (stroke.start_s, stroke.end_s)):
         return StrokeMeasures(stroke, arc)
     duration_s = stroke.end_s - stroke.start_s
     noise = _stroke_noise(angle, stroke, sd, duration_s, smoothed=smoothed)
@@ -222,30 +232,15 @@ def _measure_without_rest(
     return StrokeMeasures(stroke, arc, float(speed.max()), peak_speed_sd_rad_s=noise.speed_sd(cutoff_hz))
 
 
-def _count_movement_units(motion: _StrokeMotion, rate_hz: float, cutoff_hz: float, speed_sd: float) -> float:
-    least_rise = max(_PEAK_RISE_SHARE * motion.peak, MIN_PEAK_RAD_S)
-    dip = DIP_SDS * speed_sd
-    if cutoff_hz < MIN_SMOOTHNESS_CUTOFF_HZ or dip > least_rise:
-        return math.nan
-    return float(count_speed_peaks(motion.onset_to_offset, rate_hz, least_rise, min_dip=dip)) or math.nan
-
-
 def estimate_duration_s(angle: FloatArray, rate_hz: float) -> float:
     """Estimate the duration of a stroke (n,) from the times of 10 % and 90 % of its way.
 
     A speed that is mostly noise would give the duration of the noise.
     """
     share = (angle - angle[0]) / (angle[-1] - angle[0]) if angle[-1] != angle[0] else np.linspace(0.0, 1.0, len(angle))
-    there = int(np.argmax(share >= 1.0 - _EDGE_SHARE))
-    left = int(np.flatnonzero(share[: there + 1] <= _EDGE_SHARE)[-1])
-    return max(there - left, 1) / rate_hz * _EDGES_TO_DURATION
-
-
-def _is_cut_short(angle: Signal, stroke: Stroke) -> bool:
-    """True if a gap or an end of the recording ends the stroke, which may have been faster beyond it."""
-    near_s = 1.5 / angle.rate_hz
-    at_end = stroke.start_s - angle.time_s[0] < near_s or angle.time_s[-1] - stroke.end_s < near_s
-    return bool(at_end) or any(angle.is_near_gap(at, near_s) for at in (stroke.start_s, stroke.end_s))
+    end = int(np.argmax(share >= 1.0 - _EDGE_SHARE))
+    start = int(np.flatnonzero(share[: end + 1] <= _EDGE_SHARE)[-1])
+    return max(end - start, 1) / rate_hz * _EDGES_TO_DURATION
 
 
 def _stroke_noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: float, *, smoothed: bool) -> Noise:
@@ -254,13 +249,6 @@ def _stroke_noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: 
         return Noise(0.0, 1.0)
     around = (stroke.start_s - 0.5 * duration_s, stroke.end_s + 0.5 * duration_s)
     return moving_noise(angle.crop(*around), sd.crop(*around), duration_s, smoothed=smoothed)
-
-
-def _stroke_arc(part: Signal, noise: Noise, duration_s: float) -> float:
-    """Return the arc between both extremes, without the bias of noise."""
-    clean = low_pass(part, clean_cutoff_hz(duration_s)).value
-    high, low = (estimate_extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
-    return high - low
 
 
 _MIN_PEAK_TO_MEAN = 1.5
@@ -293,18 +281,16 @@ def _find_quickest_part(
     for closer_hz in (cutoff_hz, *np.geomspace(cutoff_hz, max(most_hz, cutoff_hz), 5)[1:].tolist()):
         closer = _stroke_speed(angle, stroke, closer_hz)
         top = float(closer.max())
-        part_s = _half_peak_duration_s(closer, angle.rate_hz) / _HALF_HEIGHT_SHARE if top > 0.0 else math.inf
+        part_s = math.inf
+        if top > 0.0:
+            half = next(run for run in find_runs(closer >= 0.5 * top) if run.start <= np.argmax(closer) < run.stop)
+            part_s = (half.stop - half.start) / angle.rate_hz / _HALF_HEIGHT_SHARE
         added = noise.speed_sd(closer_hz) ** 2 - noise.speed_sd(cutoff_hz) ** 2
-        if (
-            part_s < _MAX_SUBMOVEMENT_SHARE * duration_s
-            and np.mean((closer - smooth) ** 2) >= _SUBMOVEMENT_SDS**2 * added
-        ):
+        is_visible = np.mean((closer - smooth) ** 2) >= _SUBMOVEMENT_SDS**2 * added
+        if part_s < _MAX_SUBMOVEMENT_SHARE * duration_s and is_visible:
             part_hz = cutoff_for_speed(noise, top, part_s)
-            return (
-                None
-                if math.isnan(part_hz)
-                else _QuickestPart(part_hz, part_s, min(top * part_s / _MINIMUM_JERK_PEAK_TO_MEAN, arc), has_stops=True)
-            )
+            part_arc = min(top * part_s / _MINIMUM_JERK_PEAK_TO_MEAN, arc)
+            return None if math.isnan(part_hz) else _QuickestPart(part_hz, part_s, part_arc, has_stops=True)
     return _QuickestPart(cutoff_hz, duration_s, arc, has_stops=False)
 
 
@@ -322,14 +308,6 @@ def _low_pass_stroke(angle: Signal, stroke: Stroke, cutoff_hz: float) -> Signal:
     """
     reach_s = _FILTER_MARGIN_CYCLES / cutoff_hz + _FILTER_MARGIN_S
     return low_pass(angle.crop(stroke.start_s - reach_s, stroke.end_s + reach_s), cutoff_hz)
-
-
-def _half_peak_duration_s(speed: FloatArray, rate_hz: float) -> float:
-    """Return how long the speed stays above half of its peak."""
-    at = int(np.argmax(speed))
-    high = speed >= 0.5 * speed[at]
-    about = next(part for part in find_runs(high) if part.start <= at < part.stop)
-    return float(about.stop - about.start) / rate_hz
 
 
 @dataclass(frozen=True, slots=True)
@@ -357,11 +335,11 @@ def _measure_motion(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: floa
     inside = slice(int(first), int(last))
     if not np.isfinite(velocity[inside]).all() or not (velocity[inside] > 0.0).any():
         return None
-    left, there = _find_turning_bands(stroke.direction * smooth.value[inside], noise)
-    peak_at = int(first) + left + int(np.argmax(velocity[inside][left : there + 1]))
+    left, arrived = _find_turning_bands(stroke.direction * smooth.value[inside], noise)
+    peak_at = int(first) + left + int(np.argmax(velocity[inside][left : arrived + 1]))
     level = ONSET_SPEED_SHARE * float(velocity[peak_at])
     onset = _find_movement_edge(velocity, int(first) + left, peak_at, -1, level)
-    offset = _find_movement_edge(velocity, int(first) + there, peak_at, +1, level)
+    offset = _find_movement_edge(velocity, int(first) + arrived, peak_at, +1, level)
     if not offset > onset:
         return None
     begin, end = math.ceil(onset), math.floor(offset)
@@ -404,7 +382,7 @@ def _pause_durations_s(time_s: FloatArray, speed: FloatArray, level: float) -> t
     for part in find_runs(speed < level):
         before, after = part.start - 1, part.stop
         if before < 0 or after == len(speed):
-            continue  # it only begins or ends
+            continue  # onset or offset
         down = time_s[before] + (time_s[before + 1] - time_s[before]) * _crossing_share(speed, before, level)
         up = time_s[after - 1] + (time_s[after] - time_s[after - 1]) * _crossing_share(speed, after - 1, level)
         if up - down >= MIN_PAUSE_S:

@@ -109,7 +109,7 @@ class HandMotion:
         """Return deviation, flexion, pronosupination, (N, 3)."""
         ramp = _exercise_ramp(time_s)
         tremor = self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s - STILL_S)) * ramp
-        sway = self.sway.wrist_rad(time_s) * ramp[:, None]
+        sway = self.sway.evaluate(time_s)[:, :3] * ramp[:, None]
         own = self.wrist.evaluate(time_s) + sway + tremor[:, None] * self.tremor_axis
         return np.asarray(own + self.habits.evaluate(time_s, ramp)[:, :3])
 
@@ -118,19 +118,21 @@ class HandMotion:
         ramp = _exercise_ramp(time_s)[:, None]
         tremor = 0.5 * self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s[:, None] - STILL_S) + 1.0)
         flexing = np.array([name.startswith(("MCP", "IP1")) and name.endswith("flexion") for name in self.joint_names])
-        own = self.joints.evaluate(time_s) + ramp * (self.sway.joint_rad(time_s) + tremor * flexing)
+        own = self.joints.evaluate(time_s) + ramp * (self.sway.evaluate(time_s)[:, 6:] + tremor * flexing)
         unrest = self.habits.evaluate(time_s, ramp[:, 0])[:, 6:]
         if self.habits.tenodesis == 0.0:
             return np.asarray(own + unrest)
-        extension = -self.wrist_angles_rad(time_s)[:, 1]
-        return np.asarray(
-            own + unrest + self.habits.closing_rad(extension)[:, None] * _closing_shares(self.joint_names)
-        )
+        closing_rad = self.habits.closing_rad(-self.wrist_angles_rad(time_s)[:, 1])
+        shares = [
+            _CLOSING.get(name, _CLOSING.get(name[:3], 0.0) if name.endswith("flexion") else 0.0)
+            for name in self.joint_names
+        ]
+        return np.asarray(own + unrest + closing_rad[:, None] * np.array(shares))
 
     def arm_displacement_m(self, time_s: FloatArray) -> FloatArray:
         """Return the displacement of the arm in W0, (N, 3)."""
         ramp = _exercise_ramp(time_s)
-        own = self.arm.evaluate(time_s) + self.sway.arm_displacement_m(time_s) * ramp[:, None]
+        own = self.arm.evaluate(time_s) + self.sway.evaluate(time_s)[:, 3:6] * ramp[:, None]
         return np.asarray(own + self.habits.evaluate(time_s, ramp)[:, 3:6])
 
 
@@ -147,15 +149,6 @@ class Sway:
         waves = np.sin(self.rate_rad_s * time_s[:, None, None] + self.phase_rad)
         return np.asarray((self.amount * waves).sum(axis=-1))
 
-    def wrist_rad(self, time_s: FloatArray) -> FloatArray:
-        return self.evaluate(time_s)[:, :3]
-
-    def arm_displacement_m(self, time_s: FloatArray) -> FloatArray:
-        return self.evaluate(time_s)[:, 3:6]
-
-    def joint_rad(self, time_s: FloatArray) -> FloatArray:
-        return self.evaluate(time_s)[:, 6:]
-
 
 @dataclass(frozen=True, slots=True)
 class Habits:
@@ -167,22 +160,14 @@ class Habits:
 
     def evaluate(self, time_s: FloatArray, ramp: FloatArray) -> FloatArray:
         """Return the channels (N, C) of :class:`Sway` for the ramp (N,) of the exercise."""
-        begun = self.constant_sway.evaluate(np.zeros(1))
-        return np.asarray(
-            self.exercise_sway.evaluate(time_s) * ramp[:, None] + self.constant_sway.evaluate(time_s) - begun
-        )
+        start = self.constant_sway.evaluate(np.zeros(1))
+        exercise = self.exercise_sway.evaluate(time_s) * ramp[:, None]
+        return np.asarray(exercise + self.constant_sway.evaluate(time_s) - start)
 
     def closing_rad(self, extension_rad: FloatArray) -> FloatArray:
         """Return the flexion (N,) of MCP and PIP: they close with wrist extension, open less with flexion."""
         bend = np.sqrt(extension_rad**2 + _TENODESIS_BEND_RAD**2) - _TENODESIS_BEND_RAD
         return np.asarray(self.tenodesis * (2.0 * extension_rad + bend) / 3.0)
-
-
-def _closing_shares(names: tuple[str, ...]) -> FloatArray:
-    """Return the share (J,) of each joint in tenodesis."""
-    return np.array(
-        [_CLOSING.get(name, _CLOSING.get(name[:3], 0.0) if name.endswith("flexion") else 0.0) for name in names]
-    )
 
 
 def _exercise_ramp(time_s: FloatArray) -> FloatArray:
@@ -285,11 +270,9 @@ def sample_tissue(spec: RecordingSpec) -> SimulatedTissue:
     glide_mm = drawn_mm if spec.skin_glide_mm is None else spec.skin_glide_mm
     cupping = drawn_cup if spec.cupping is None else spec.cupping
     share = np.array([_GAIN_OF_JOINT.get(name, _GAIN_OF_JOINT.get(name[:3], 0.0)) for name in SITES])
-    gain = share * rng.uniform(0.8, 1.2, len(share)) * glide_mm * 1e-3 / (0.5 * math.pi)
-    swerve = rng.uniform(-0.25, 0.25, len(share))
     return SimulatedTissue(
-        glide_m_rad=gain,
-        swerve_rad=swerve,
+        glide_m_rad=share * rng.uniform(0.8, 1.2, len(share)) * glide_mm * 1e-3 / (0.5 * math.pi),
+        swerve_rad=rng.uniform(-0.25, 0.25, len(share)),
         cup_rad=FULL_CUP_RAD * cupping,
         knuckle_rise_m=rng.uniform(0.0005, 0.0012) if glide_mm > 0.0 or cupping > 0.0 else 0.0,
         lag_s=rng.uniform(*_LAG_S),
@@ -319,29 +302,28 @@ class TissueMovement:
         """Return the state at times (N,)."""
         if self._tissue.is_rigid:
             return TissueState.rigid(len(time_s))
-        return TissueState(
-            *(self._interpolate(values, time_s) for values in (self._glide_m, self._cup_rad, self._rise))
-        )
 
-    def _interpolate(self, values: FloatArray, time_s: FloatArray) -> FloatArray:
-        return np.stack([np.interp(time_s, self._time_s, column) for column in values.T], axis=-1)
+        def interpolate(values: FloatArray) -> FloatArray:
+            return np.stack([np.interp(time_s, self._time_s, column) for column in values.T], axis=-1)
+
+        return TissueState(interpolate(self._glide_m), interpolate(self._cup_rad), interpolate(self._rise))
 
 
 def apply_play(driver: FloatArray, play: float) -> FloatArray:
     """Apply play to a driver (N, C): the output moves only while an end of the gap pushes it."""
     half, out = 0.5 * play, np.empty_like(driver)
-    now = out[0] = driver[0]
+    current = out[0] = driver[0]
     for i in range(1, len(driver)):
-        now = out[i] = np.clip(now, driver[i] - half, driver[i] + half)
+        current = out[i] = np.clip(current, driver[i] - half, driver[i] + half)
     return out
 
 
 def apply_lag(driver: FloatArray, steps: float) -> FloatArray:
     """Apply a first-order lag of so many steps to a driver (N, C), starting at rest."""
     share, out = 1.0 / (1.0 + steps), np.empty_like(driver)
-    now = out[0] = driver[0]
+    current = out[0] = driver[0]
     for i in range(1, len(driver)):
-        now = out[i] = now + share * (driver[i] - now)
+        current = out[i] = current + share * (driver[i] - current)
     return out
 
 
@@ -349,8 +331,8 @@ def _angles_beneath_rad(wrist_rad: FloatArray, names: tuple[str, ...], joints_ra
     """Return the angle (N, 21) of the joint under each marker: flexion, of CMC1 palmar abduction."""
     out = np.zeros((len(joints_rad), 21))
     out[:, 0] = wrist_rad[:, 1]
-    for disc, joint in (("CMC1", "CMC1_abduction"), ("MCP1", "MCP1_flexion"), ("IP1", "IP1_flexion")):
-        out[:, SITES.index(disc)] = joints_rad[:, names.index(joint)]
+    for marker, joint in (("CMC1", "CMC1_abduction"), ("MCP1", "MCP1_flexion"), ("IP1", "IP1_flexion")):
+        out[:, SITES.index(marker)] = joints_rad[:, names.index(joint)]
     out[:, 5:].reshape(-1, 4, 4)[..., :3] = finger_angles(joints_rad)[..., 1:]
     return out
 

@@ -53,12 +53,8 @@ def find_spot_pixels(
     None if that is outside the box.
     """
     around = bounding_box(camera, center_m[None], np.array([radius_m]), margin_px=2.0)
-    around = Box(
-        max(around.top, box.top),
-        min(around.bottom, box.bottom),
-        max(around.left, box.left),
-        min(around.right, box.right),
-    )
+    top, left = max(around.top, box.top), max(around.left, box.left)
+    around = Box(top, min(around.bottom, box.bottom), left, min(around.right, box.right))
     if around.bottom - around.top < 3 or around.right - around.left < 3:
         return None
     place = around.relative_slices(box)
@@ -97,12 +93,6 @@ def project_patch(
     return (rows, columns), share.astype(np.float32), z.astype(np.float32)
 
 
-def blend_color(image: FloatImage, place: tuple[slice, slice], share: FloatImage, color: FloatArray) -> None:
-    """Blend a colour into a part of an image by its share."""
-    inner = image[place]
-    inner += share[..., None] * (color.astype(np.float32) - inner)
-
-
 def skin_albedo(
     appearance: Appearance, points: FloatImage, markers_cam_m: FloatArray, hand_axes: FloatArray
 ) -> FloatImage:
@@ -119,15 +109,11 @@ def skin_albedo(
     mottled = np.float32(1.0) + np.float32(0.016) * waves
     red = np.zeros_like(waves)
     for row in _KNUCKLES:
-        red += _gaussian_ball(coarse, markers_cam_m[row], _KNUCKLE_RADIUS_M)
+        offset = coarse - markers_cam_m[row].astype(np.float32)
+        red += np.exp(np.einsum("hwi,hwi->hw", offset, offset) * np.float32(-0.5 / _KNUCKLE_RADIUS_M**2))
     full = cv2.resize(np.dstack((mottled, np.minimum(red, 1.0))), size, interpolation=cv2.INTER_LINEAR)
     tint = np.float32(1.0) - full[..., 1:] * _KNUCKLE_TINT
     return np.asarray(appearance.skin.astype(np.float32) * full[..., :1] * tint, dtype=np.float32)
-
-
-def _gaussian_ball(points: FloatImage, center_m: FloatArray, radius_m: float) -> FloatImage:
-    offset = points - center_m.astype(np.float32)
-    return np.asarray(np.exp(np.einsum("hwi,hwi->hw", offset, offset) * np.float32(-0.5 / radius_m**2)))
 
 
 def paint_nails(
@@ -154,11 +140,10 @@ def paint_bands(
         share = np.clip(0.5 - along / _BAND_EDGE_M, 0.0, 1.0) * is_forearm
         if np.isfinite(band.to_m):
             share *= np.clip(0.5 + (to_wrist + np.float32(band.to_m)) / _BAND_EDGE_M, 0.0, 1.0)
-        folds = (
-            1.0 + 0.06 * np.sin(along * 310.0 + 9.0 * np.sin(along * 41.0)) if band.is_cloth else np.ones_like(along)
-        )
-        stuff = band.color.astype(np.float32) * folds[..., None]
-        albedo += share[..., None] * (stuff - albedo)
+        wave = np.sin(along * 310.0 + 9.0 * np.sin(along * 41.0))
+        folds = 1.0 + 0.06 * wave if band.is_cloth else np.ones_like(along)
+        color = band.color.astype(np.float32) * folds[..., None]
+        albedo += share[..., None] * (color - albedo)
 
 
 def paint_ring(albedo: FloatImage, points: FloatImage, color: FloatArray, bone_m: FloatArray, size: float) -> None:
@@ -199,7 +184,7 @@ def ambient_occlusion(skin: TracedSurface, background_m: FloatImage) -> FloatIma
     """Return the share of ambient light per pixel, less where the surroundings are nearer."""
     around = np.where(skin.coverage > 0.5, skin.depth_m, background_m)
     small = around
-    if min(around.shape) > 1:  # of a hand about to leave the picture one column may be left
+    if min(around.shape) > 1:  # a hand that leaves the image may have one column left
         small = cv2.resize(around, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
     soft = cv2.GaussianBlur(small, (0, 0), 4.0)
     deeper = np.clip((small - soft) / _CORNER_DEPTH_M, 0.0, 1.0)
@@ -274,33 +259,33 @@ class Renderer:
 
     def render_depth(self, time_s: float, is_covered: NDArray[np.bool_]) -> FloatImage:
         """Render the depth (H, W) along z, m."""
-        bodies = self._trace_surfaces(time_s)
-        self._draw_false_blobs(None, bodies.depth_m, time_s, bodies.pose, ("skin", "air"))
-        self._draw_markers(None, bodies.depth_m, bodies, is_covered)
-        return bodies.depth_m
+        surfaces = self._trace_surfaces(time_s)
+        self._draw_false_blobs(None, surfaces.depth_m, time_s, surfaces.pose, ("skin", "air"))
+        self._draw_markers(None, surfaces.depth_m, surfaces, is_covered)
+        return surfaces.depth_m
 
     def render(self, time_s: float, is_covered: NDArray[np.bool_]) -> CleanImage:
         """Render colour and depth; ``is_covered`` (21,) markers are hidden under a skin-coloured cover."""
-        bodies = self._trace_surfaces(time_s)
-        color, depth = self._shade_table(bodies), bodies.depth_m
-        if bodies.skin is not None:
-            self._draw_skin(color, bodies, bodies.skin)
-        self._draw_false_blobs(color, depth, time_s, bodies.pose, ("table", "skin"))
-        visible = self._draw_markers(color, depth, bodies, is_covered)
-        if bodies.rod is not None:
-            self._draw_rod(color, depth, bodies.rod)
-        self._draw_false_blobs(color, depth, time_s, bodies.pose, ("air",))
+        surfaces = self._trace_surfaces(time_s)
+        color, depth = self._shade_table(surfaces), surfaces.depth_m
+        if surfaces.skin is not None:
+            self._draw_skin(color, surfaces, surfaces.skin)
+        self._draw_false_blobs(color, depth, time_s, surfaces.pose, ("table", "skin"))
+        visible = self._draw_markers(color, depth, surfaces, is_covered)
+        if surfaces.rod is not None:
+            self._draw_rod(color, depth, surfaces.rod)
+        self._draw_false_blobs(color, depth, time_s, surfaces.pose, ("air",))
         return CleanImage(color, depth, visible)
 
     def _trace_surfaces(self, time_s: float) -> _SceneSurfaces:
         pose = self.scene.pose(np.array([time_s]))
         skin = trace_cones(self.scene.camera, self.scene.cones_cam(pose, 0))
-        thing = self._trace_rod(time_s)
+        rod = self._trace_rod(time_s)
         depth = self.appearance.table_depth_m.copy()
-        for surface in (skin, thing):
+        for surface in (skin, rod):
             if surface is not None:
                 _merge_nearer(depth, surface)
-        return _SceneSurfaces(depth, skin, thing, pose)
+        return _SceneSurfaces(depth, skin, rod, pose)
 
     def _trace_rod(self, time_s: float) -> TracedSurface | None:
         ends = None if self._rod is None else self._rod.end_points_w0_m(time_s)
@@ -312,41 +297,37 @@ class Renderer:
         across = (across / np.linalg.norm(across))[None]
         return trace_cones(self.scene.camera, Cones(a[None], b[None], across, radius, radius, none, none, none))
 
-    def _shade_flat(self, color: FloatArray, normal: FloatArray) -> FloatArray:
-        """Return the linear light (3,) of a flat surface."""
-        lambert = max(float(normal @ self.appearance.light_cam), 0.0)
-        return np.asarray(color * (lambert * self.appearance.lamp + self.appearance.ambient))
-
     def _shade_table(self, surfaces: _SceneSurfaces) -> FloatImage:
         """Return the lit table (H, W, 3) with the hand's shadow."""
-        looks = self.appearance
-        facing = np.float32(max(float(self._up @ looks.light_cam), 0.0))
+        appearance = self.appearance
+        facing = np.float32(max(float(self._up @ appearance.light_cam), 0.0))
         if surfaces.skin is None:
-            return np.asarray(looks.table * (facing * looks.lamp + looks.ambient).astype(np.float32))
-        lit = table_shadow(self.scene.camera, surfaces.skin, looks.light_cam, self._up, self._table_point_m)
-        out, lamp, ambient = np.empty_like(looks.table), looks.lamp.astype(np.float32), looks.ambient.astype(np.float32)
+            return np.asarray(appearance.table * (facing * appearance.lamp + appearance.ambient).astype(np.float32))
+        lit = table_shadow(self.scene.camera, surfaces.skin, appearance.light_cam, self._up, self._table_point_m)
+        lamp, ambient = appearance.lamp.astype(np.float32), appearance.ambient.astype(np.float32)
+        out = np.empty_like(appearance.table)
         for channel in range(3):  # one at a time: NumPy is slow over rows of three
-            out[..., channel] = looks.table[..., channel] * (facing * lit * lamp[channel] + ambient[channel])
+            out[..., channel] = appearance.table[..., channel] * (facing * lit * lamp[channel] + ambient[channel])
         return out
 
     def _draw_skin(self, color: FloatImage, surfaces: _SceneSurfaces, skin: TracedSurface) -> None:
-        scene, looks, pose = self.scene, self.appearance, surfaces.pose
+        scene, appearance, pose = self.scene, self.appearance, surfaces.pose
         rows, columns = skin.box.slices
         x, y = self._rays[0][None, columns], self._rays[1][rows, None]
         points = np.stack((x * skin.depth_m, y * skin.depth_m, skin.depth_m), axis=-1)
-        discs = scene.to_camera(scene.markers_w0_m(pose)[0])
-        albedo = skin_albedo(looks, points, discs, scene.rotation_w0_cam @ pose.rotation_w2_w0[0])
-        paint_nails(albedo, scene.camera, skin.box, points, discs, scene.patient.size)
+        markers = scene.to_camera(scene.markers_w0_m(pose)[0])
+        albedo = skin_albedo(appearance, points, markers, scene.rotation_w0_cam @ pose.rotation_w2_w0[0])
+        paint_nails(albedo, scene.camera, skin.box, points, markers, scene.patient.size)
         wrist = scene.to_camera(pose.arm_displacement_m[0])
-        paint_bands(albedo, looks, points, skin.part == Part.FOREARM, wrist, scene.rotation_w0_cam[:, 0])
-        if looks.ring is not None:
+        paint_bands(albedo, appearance, points, skin.part == Part.FOREARM, wrist, scene.rotation_w0_cam[:, 0])
+        if appearance.ring is not None:
             bones = scene.bones_w(pose)
             ends = np.stack((bones.start_m[0, _RING_BONE], bones.end_m[0, _RING_BONE]))
             ends = ends @ pose.rotation_w2_w0[0].T + pose.position_m[0]
-            paint_ring(albedo, points, looks.ring, scene.to_camera(ends), scene.patient.size)
-        corners = ambient_occlusion(skin, looks.table_depth_m[rows, columns])
+            paint_ring(albedo, points, appearance.ring, scene.to_camera(ends), scene.patient.size)
+        corners = ambient_occlusion(skin, appearance.table_depth_m[rows, columns])
         inner = color[rows, columns]
-        inner += skin.coverage[..., None] * (shade_skin(albedo, skin.normal, corners, looks) - inner)
+        inner += skin.coverage[..., None] * (shade_skin(albedo, skin.normal, corners, appearance) - inner)
 
     def _draw_markers(
         self, color: FloatImage | None, depth_m: FloatImage, surfaces: _SceneSurfaces, is_covered: NDArray[np.bool_]
@@ -355,21 +336,23 @@ class Renderer:
         scene, pose = self.scene, surfaces.pose
         centers = scene.to_camera(scene.markers_w0_m(pose)[0])
         normals = scene.marker_normals_w0(pose)[0] @ scene.rotation_w0_cam.T
-        front = self._rod_depth(surfaces)
+        front = np.full(surfaces.depth_m.shape, _NOTHING_M, dtype=np.float32)
+        if surfaces.rod is not None:
+            _merge_nearer(front, surfaces.rod)
         visible = np.zeros(len(self._rows))
         for m, row in enumerate(self._rows):
             if is_covered[row]:
                 continue
             bend = _PALM_BEND if row in PALM_SITES else _DIGIT_BEND
             radius_m = float(scene.patient.marker_radius_m[row])
-            disc = PaperPatch(centers[row], normals[row], radius_m, self.appearance.paper, bend)
-            laid = self._draw_patch(color, depth_m, disc)
-            if laid is None:
+            patch = PaperPatch(centers[row], normals[row], radius_m, self.appearance.paper, bend)
+            drawn = self._draw_patch(color, depth_m, patch)
+            if drawn is None:
                 continue
-            place, share, z = laid
+            place, share, z = drawn
             # Paper area that one pixel sees: z^2 / f^2 over the cosines of ray and normal.
             x, y = self._rays[0][None, place[1]], self._rays[1][place[0], None]
-            facing = np.abs(disc.normal[0] * x + disc.normal[1] * y + disc.normal[2])
+            facing = np.abs(patch.normal[0] * x + patch.normal[1] * y + patch.normal[2])
             area = z**2 / (facing * scene.camera.fx_px * scene.camera.fy_px)
             seen_area = float((share * (z < front[place]) * area).sum())
             visible[m] = min(seen_area / (math.pi * radius_m**2), 1.0)
@@ -379,13 +362,16 @@ class Renderer:
         self, color: FloatImage | None, depth_m: FloatImage, patch: PaperPatch
     ) -> tuple[tuple[slice, slice], FloatImage, FloatImage] | None:
         """Draw one patch into depth and, if given, colour; None if it is not visible."""
-        laid = project_patch(self.scene.camera, self._rays, depth_m, patch)
-        if laid is not None:
-            place, share, z = laid
+        drawn = project_patch(self.scene.camera, self._rays, depth_m, patch)
+        if drawn is not None:
+            place, share, z = drawn
             if color is not None:
-                blend_color(color, place, share, self._shade_flat(patch.color, patch.normal))
+                lambert = max(float(patch.normal @ self.appearance.light_cam), 0.0)
+                light = patch.color * (lambert * self.appearance.lamp + self.appearance.ambient)
+                inner = color[place]
+                inner += share[..., None] * (light.astype(np.float32) - inner)
             np.copyto(depth_m[place], z, where=share > 0.5)
-        return laid
+        return drawn
 
     def _draw_false_blobs(
         self, color: FloatImage | None, depth_m: FloatImage, time_s: float, pose: HandPose, places: tuple[str, ...]
@@ -401,17 +387,11 @@ class Renderer:
                 patch = PaperPatch(self.scene.to_camera(center), turned, blob.radius_m, paper, _PALM_BEND)
                 self._draw_patch(color, depth_m, patch)
 
-    def _rod_depth(self, surfaces: _SceneSurfaces) -> FloatImage:
-        front = np.full(surfaces.depth_m.shape, _NOTHING_M, dtype=np.float32)
-        if surfaces.rod is not None:
-            _merge_nearer(front, surfaces.rod)
-        return front
-
     def _draw_rod(self, color: FloatImage, depth_m: FloatImage, rod: TracedSurface) -> None:
-        looks = self.appearance
+        appearance = self.appearance
         rows, columns = rod.box.slices
-        lambert = np.clip(rod.normal @ looks.light_cam.astype(np.float32), 0.0, 1.0)[..., None]
-        shaded = looks.rod.astype(np.float32) * (lambert * looks.lamp.astype(np.float32) + looks.ambient)
+        lambert = np.clip(rod.normal @ appearance.light_cam.astype(np.float32), 0.0, 1.0)[..., None]
+        shaded = appearance.rod.astype(np.float32) * (lambert * appearance.lamp.astype(np.float32) + appearance.ambient)
         alpha = (rod.coverage * (rod.depth_m <= depth_m[rows, columns] + 1e-3))[..., None]
         inner = color[rows, columns]
         inner += (alpha * (shaded - inner)).astype(np.float32)

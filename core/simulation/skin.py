@@ -124,16 +124,10 @@ class Cones:
         self, points: Callable[[FloatArray], FloatArray], sizes: Callable[[FloatArray], FloatArray], part: FloatArray
     ) -> Cones:
         """Apply functions to all points and to all sizes."""
-        return Cones(
-            points(self.a_m),
-            points(self.b_m),
-            points(self.lateral),
-            sizes(self.radius_a_m),
-            sizes(self.radius_b_m),
-            sizes(self.width_a_m),
-            sizes(self.width_b_m),
-            part,
-        )
+        a, b, lateral = map(points, (self.a_m, self.b_m, self.lateral))
+        radius_a, radius_b = map(sizes, (self.radius_a_m, self.radius_b_m))
+        width_a, width_b = map(sizes, (self.width_a_m, self.width_b_m))
+        return Cones(a, b, lateral, radius_a, radius_b, width_a, width_b, part)
 
     def rotate(self, rows: NDArray[np.int64], rotation: FloatArray, pivot_m: FloatArray) -> None:
         """Rotate some cones in place by rotations (..., 3, 3) about a point."""
@@ -219,22 +213,22 @@ class _MarkerSupport:
         self._digits = digits.regroup(5)
         self._blend_m = np.array([BLEND_M.get(Part(n), FINGER_BLEND_M) for n in range(Part.THUMB, Part.FOREARM)])
 
-    def distance(self, disc_m: FloatArray) -> FloatArray:
+    def distance(self, marker_m: FloatArray) -> FloatArray:
         """Return the signed distance (..., 21) of markers (..., 21, 3) to their support."""
-        to_cones = cone_distances(disc_m, self._palm)
+        to_cones = cone_distances(marker_m, self._palm)
         out = to_cones[..., 0]
         for i in range(1, to_cones.shape[-1]):
             out = smooth_minimum(out, to_cones[..., i], BLEND_M[Part.PALM])
-        on_digits = disc_m[..., 1:, :].reshape(*disc_m.shape[:-2], 5, 4, 3)
+        on_digits = marker_m[..., 1:, :].reshape(*marker_m.shape[:-2], 5, 4, 3)
         digit = cone_distances(on_digits, self._digits).min(axis=-1)
         palm = out[..., 1:].reshape(digit.shape)
         carried = smooth_minimum(palm, digit, self._blend_m[:, None])
-        return np.concatenate((out[..., :1], carried.reshape(*disc_m.shape[:-2], 20)), axis=-1)
+        return np.concatenate((out[..., :1], carried.reshape(*marker_m.shape[:-2], 20)), axis=-1)
 
-    def gradient(self, disc_m: FloatArray, distance: FloatArray) -> FloatArray:
+    def gradient(self, marker_m: FloatArray, distance: FloatArray) -> FloatArray:
         """Return its gradient (..., 21, 3)."""
         steps = _SLOPE_STEP_M * np.eye(3)
-        return np.stack([self.distance(disc_m + step) - distance for step in steps], axis=-1) / _SLOPE_STEP_M
+        return np.stack([self.distance(marker_m + step) - distance for step in steps], axis=-1) / _SLOPE_STEP_M
 
 
 def project_to_surface(marker_m: FloatArray, cones: Cones) -> tuple[FloatArray, FloatArray]:
@@ -248,7 +242,7 @@ def project_to_surface(marker_m: FloatArray, cones: Cones) -> tuple[FloatArray, 
         normal = slope / np.maximum(steepness, 1e-12)
         step = normal / np.maximum(steepness, 0.3)
         place = place - distance[..., None] * step
-    # Near by now: the slope stays as it was.
+    # The point is near now: the last gradient will do.
     return place - support.distance(place)[..., None] * step, normal
 
 
@@ -261,8 +255,8 @@ class HandSkin:
         self._size = patient.size
         self._mirror = np.array([1.0, -1.0 if patient.anatomy.side == "left" else 1.0, 1.0])
         offset = anatomy_from_size(patient.anatomy.hand_length_m, nail_discs=True).skin_offset_m
-        # Where the subject's own offsets are known the bones lie in the joints; in the papers' chain, which has
-        # none, the usual thickness of flesh is kept under the discs.
+        # With the patient's own offsets the bones lie in the joints; the papers' chain has none, so the usual thickness
+        # of flesh lies under the markers.
         own = patient.anatomy.skin_offset_m
         self._radius = np.where(own > 0.0, own, offset)
         self._palm = self._fit_palm()
@@ -312,7 +306,7 @@ class HandSkin:
         along = heads - palm.a_m[..., _METACARPALS, :]
         along = along / np.linalg.norm(along, axis=-1, keepdims=True)
         reach = BLEND_M[Part.PALM]
-        # The smooth union lifts the skin by the square of what is missing to its reach, over four times the reach.
+        # The smooth union lifts the skin by (reach - distance)^2 / (4 reach).
         up = np.sqrt(4.0 * reach * self._knuckle_rise_m)
         radius = palm.radius_b_m[..., _METACARPALS] - reach + rise * up
         width = palm.width_b_m[..., _METACARPALS]
@@ -330,7 +324,7 @@ class HandSkin:
     def forearm_cones_w0(self, supination_rad: float) -> Cones:
         """Return the forearm in W0, turned about its axis as far as the hand's (signed Euler phi)."""
         s = self._size
-        joint = np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * s])  # where it usually is: the skin joins there
+        joint = np.array([0.0, 0.0, -WRIST_JOINT_DEPTH_M * s])  # the usual place, where the skin joins
         turn = 0.85 * supination_rad
         lateral = np.array([0.0, np.cos(turn), np.sin(turn)])
         down = np.array([0.0, np.sin(turn), -np.cos(turn)])
@@ -394,24 +388,21 @@ class HandSkin:
         under = discs - r[:, None] * np.array([0.0, 0.0, 1.0])
         knuckle = under[2:]
         level = np.array([0.0, 1.0, 0.0])
-        # The base of the thumb slopes down to its side, and its disc lies on that slope.
+        # The base of the thumb slopes down to its side, and its marker lies on that slope.
         slope = np.array([0.0, np.cos(_THUMB_BASE_TILT_RAD), -np.sin(_THUMB_BASE_TILT_RAD)])
         thumb = discs[1] - r[1] * np.cross([1.0, 0.0, 0.0], slope) + 3.0 * slope
-
-        def vector(x: float, y: float, z: float) -> FloatArray:
-            return np.array([x, y, z])
 
         metacarpals = [
             (np.array([start, 0.5 * end[1], -18.0]), end, level, 12.0, radius, 1.5, 1.5)
             for start, end, radius in zip((38.0, 30.0, 24.0, 22.0), knuckle, r[2:], strict=True)
         ]
         rows = [
-            (vector(0, -8, -11), vector(20, -10, -15), level, 11.0, 11.5, 8.2, 8.2),
-            (thumb, vector(40, 0, -18), slope, r[1], 11.0, 5.5, 2.0),
+            (np.array([0, -8, -11]), np.array([20, -10, -15]), level, 11.0, 11.5, 8.2, 8.2),
+            (thumb, np.array([40, 0, -18]), slope, r[1], 11.0, 5.5, 2.0),
             *metacarpals,
-            (vector(34, -7, -21), vector(64, -6, -20), level, 12.0, 11.0, 20.0, 20.0),
-            (vector(14, -17, -20), vector(54, -27, -19), level, 12.0, 10.0, 2.0, 2.0),
-            (under[1] + vector(6, 2, -7), vector(60, 20, -24), level, 12.0, 8.0, 3.0, 2.0),
+            (np.array([34, -7, -21]), np.array([64, -6, -20]), level, 12.0, 11.0, 20.0, 20.0),
+            (np.array([14, -17, -20]), np.array([54, -27, -19]), level, 12.0, 10.0, 2.0, 2.0),
+            (under[1] + np.array([6, 2, -7]), np.array([60, 20, -24]), level, 12.0, 8.0, 3.0, 2.0),
         ]
         a, b, lateral, radius_a, radius_b, width_a, width_b = (np.array([row[i] for row in rows]) for i in range(7))
         return Cones(
@@ -432,13 +423,8 @@ class HandSkin:
         discs = disc_centres(anatomy, joint_angles_rad)
         frames = segment_frames(anatomy, joint_angles_rad)
         normal = frames.dorsal_normal
-        a: list[FloatArray] = []
-        b: list[FloatArray] = []
-        lateral: list[FloatArray] = []
-        radius_a: list[float] = []
-        radius_b: list[float] = []
-        width_a: list[float] = []
-        width_b: list[float] = []
+        points: list[tuple[FloatArray, FloatArray, FloatArray]] = []
+        sizes: list[tuple[float, float, float, float]] = []
         for digit in range(5):
             segments = [SEGMENTS.index("MC1") + 3 * digit + i for i in range(3)]
             n = np.moveaxis(normal[..., segments, :], -2, 0)
@@ -449,9 +435,9 @@ class HandSkin:
             for i in range(3):
                 up = standing[i] / np.linalg.norm(standing[i], axis=-1, keepdims=True)
                 under.append(discs[..., first + 1 + i, :] - radius[first + 1 + i] * up)
-            # The digit goes on beyond the disc on the nail, and tapers.
+            # The digit goes on beyond the marker on the nail, and tapers.
             under[3] = under[3] + _BEYOND_NAIL * (under[3] - under[2])
-            # The digit's base stays out of the fillet's reach below the palm's disc, which it would lift.
+            # The digit's base stays below the reach of the fillet, which would lift the palm's marker.
             reach = BLEND_M[Part.THUMB] if digit == 0 else FINGER_BLEND_M
             base = min(_BASE_RADIUS_M[digit] * s, radius[first] + lowered - reach)
             pip, dip, nail = radius[first + 1 : first + 4]
@@ -460,25 +446,11 @@ class HandSkin:
             for i in range(3):
                 direction = under[i + 1] - under[i]
                 direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
-                a.append(under[i])
-                b.append(under[i + 1])
-                lateral.append(np.cross(n[i], direction))
-                radius_a.append(radii[i])
-                radius_b.append(radii[i + 1])
-                width_a.append(widths[i])
-                width_b.append(widths[i + 1])
-        lead = joint_angles_rad.shape[:-1]
-
-        def broadcast(values: list[float]) -> FloatArray:
-            return np.broadcast_to(np.array(values), (*lead, len(values)))
-
-        return Cones(
-            np.stack(a, axis=-2),
-            np.stack(b, axis=-2),
-            np.stack(lateral, axis=-2),
-            broadcast(radius_a),
-            broadcast(radius_b),
-            broadcast(width_a),
-            broadcast(width_b),
-            np.repeat(np.arange(Part.THUMB, Part.FOREARM, dtype=np.float64), 3),
-        )
+                points.append((under[i], under[i + 1], np.cross(n[i], direction)))
+                sizes.append((radii[i], radii[i + 1], widths[i], widths[i + 1]))
+        shape = (*joint_angles_rad.shape[:-1], len(sizes))
+        part = np.repeat(np.arange(Part.THUMB, Part.FOREARM, dtype=np.float64), 3)
+        a, b, lateral = (np.stack(column, axis=-2) for column in zip(*points, strict=True))
+        columns = (np.broadcast_to(np.array(size), shape) for size in zip(*sizes, strict=True))
+        radius_a, radius_b, width_a, width_b = columns
+        return Cones(a, b, lateral, radius_a, radius_b, width_a, width_b, part)

@@ -66,17 +66,17 @@ def compare_files(
     session = read_session(session_path)
     reference = read_reference(reference_path, columns, markers, radians, smoothed, session.header.hand)
     figures = compute_session_results(session, choices) if reference.readings else None
-    compared = compare_session(
+    comparison = compare_session(
         session, reference, smoothed=smoothed, max_shift_s=max_shift_s, lag_s=lag_s, drift=drift, figures=figures
-    )  # fmt: skip
-    return FileComparison(compared, session, reference_path)
+    )
+    return FileComparison(comparison, session, reference_path)
 
 
 def write_comparison(comparison: FileComparison, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
     """Write the tables into a folder and return their paths; an existing file is not replaced."""
-    said = build_provenance(comparison.session)
-    said["reference"] = {"file": comparison.reference.name, "sha256": sha256_of_file(comparison.reference)}
-    return write_tables(comparison.comparison, folder, comparison.stem, said, comparison.reference.name, form)
+    provenance = build_provenance(comparison.session)
+    provenance["reference"] = {"file": comparison.reference.name, "sha256": sha256_of_file(comparison.reference)}
+    return write_tables(comparison.comparison, folder, comparison.stem, provenance, comparison.reference.name, form)
 
 
 COLUMNS = (
@@ -90,32 +90,21 @@ COLUMNS = (
 def to_row(pairs: AnglePairs) -> dict[str, Any]:
     """Return the statistics of one angle by the names of :data:`COLUMNS`."""
     f = pairs.agreement_deg
-    values = (
-        pairs.name,
-        f.count,
-        f.effective_count,
-        f.bias,
-        *f.bias_interval,
-        f.sd,
-        f.limits[0],
-        *f.lower_interval,
-        f.limits[1],
-        *f.upper_interval,
-        f.rmse,
-        f.largest_difference,
-        f.correlation,
-        f.icc,
-        *f.icc_interval,
-        f.icc_3_1,
-        *f.icc_3_1_interval,
-        f.cmc,
-    )
+    bias = (f.bias, *f.bias_interval, f.sd)
+    limits = (f.limits[0], *f.lower_interval, f.limits[1], *f.upper_interval)
+    iccs = (f.icc, *f.icc_interval, f.icc_3_1, *f.icc_3_1_interval)
+    errors = (f.rmse, f.largest_difference, f.correlation)
+    values = (pairs.name, f.count, f.effective_count, *bias, *limits, *errors, *iccs, f.cmc)
     return dict(zip(COLUMNS, values, strict=True))
 
 
 def to_json(comparison: Comparison, provenance: Mapping[str, Any], reference: str) -> dict[str, Any]:
     """Return the comparison as an object for JSON."""
     shift, alignment = comparison.shift, comparison.alignment
+    rigid: dict[str, Any] | None = None
+    if alignment is not None:
+        rigid = {"turn_deg": math.degrees(alignment.rotation_rad), "residual_mm": 1e3 * alignment.residual_m}
+        rigid |= {"markers": alignment.markers, "zero": alignment.zero}
     return {
         "reference": reference,
         "reference_kind": comparison.kind,
@@ -130,14 +119,7 @@ def to_json(comparison: Comparison, provenance: Mapping[str, Any], reference: st
         "drift": None if shift is None else shift.drift,
         "drift_found": None if shift is None else shift.residual_drift,
         "remarks": comparison.remarks,
-        "alignment": None
-        if alignment is None
-        else {
-            "turn_deg": math.degrees(alignment.rotation_rad),
-            "residual_mm": 1e3 * alignment.residual_m,
-            "markers": alignment.markers,
-            "zero": alignment.zero,
-        },
+        "alignment": rigid,
         "pictures": comparison.frame_count,
         "left_out": comparison.excluded_count,
         "overlap_s": comparison.overlap_s,
@@ -176,9 +158,8 @@ def format_comparison(comparison: Comparison) -> list[str]:
     """Return the lines for a terminal, remarks first."""
     out = [f"LOOK FIRST   {remark}." for remark in comparison.remarks]
     if comparison.remarks and comparison.shift is not None:
-        out.append(
-            "             --columns ANGLE=-COLUMN turns a sign, --lag and --drift take what is known of the clocks."
-        )
+        hint = "--columns ANGLE=-COLUMN turns a sign, --lag and --drift take what is known of the clocks."
+        out.append(f"             {hint}")
     out.append(f"Reference    {comparison.kind}")
     if comparison.shift is not None:
         shift = comparison.shift
@@ -190,26 +171,23 @@ def format_comparison(comparison: Comparison) -> list[str]:
             f"curves match {format_rounded(shift.match, 3)}"
         )
     if comparison.alignment is not None:
-        turn = math.degrees(comparison.alignment.rotation_rad)
-        off = 1e3 * comparison.alignment.residual_m
+        turn = format_rounded(math.degrees(comparison.alignment.rotation_rad), 1)
+        off = format_rounded(1e3 * comparison.alignment.residual_m, 1)
         names = " ".join(comparison.alignment.markers)
-        out.append(
-            f"Alignment    {format_rounded(turn, 1)}° as one rigid body, {format_rounded(off, 1)} mm apart ({names})"
-        )
+        out.append(f"Alignment    {turn}° as one rigid body, {off} mm apart ({names})")
         out.append(f"Zero         {comparison.alignment.zero}")
     what = "readings" if comparison.shift is None else "pictures"
-    why = "predicted, doubtful, lost or not still"
-    out.append(f"Left out     {comparison.excluded_count} of {comparison.frame_count} {what}: {why}")
+    counts = f"{comparison.excluded_count} of {comparison.frame_count} {what}"
+    out.append(f"Left out     {counts}: predicted, doubtful, lost or not still")
     out.append("Differences  Carpus less reference, degrees; in brackets 95 % intervals, repeated values allowed for")
     out.append("")
     if comparison.shift is None:
         out += [*_format_pairs(comparison.pairs), ""]
-    figures = [
-        (pairs.name, pairs.agreement_deg) for pairs in comparison.pairs if math.isfinite(pairs.agreement_deg.bias)
-    ]
-    if figures:
-        out += [*format_agreements(figures), ""]
-    few = [pairs.name for pairs in comparison.pairs if not math.isfinite(pairs.agreement_deg.bias)]
+    agreements = [(pairs.name, pairs.agreement_deg) for pairs in comparison.pairs]
+    known = [(name, agreement) for name, agreement in agreements if math.isfinite(agreement.bias)]
+    if known:
+        out += [*format_agreements(known), ""]
+    few = [name for name, agreement in agreements if not math.isfinite(agreement.bias)]
     out += [f"Not judged: {name}, of which there are fewer than {MIN_PAIRS} pairs." for name in few]
     out += [f"Not used: {reason}." for reason in comparison.unused]
     return out
@@ -224,11 +202,10 @@ def _format_pairs(pairs: Sequence[AnglePairs]) -> list[str]:
     width = max(map(len, names.values()))
     out = [f"{'':{width}}  {'at':>9}  {'Carpus':>8}  {'reading':>8}  {'difference':>10}"]
     for one in pairs:
-        mine, theirs = (to_clinical_rad(one.name, angle) for angle in (one.measured_rad, one.reference_rad))
-        columns = one.time_s, np.degrees(mine), np.degrees(theirs)
-        for time_s, mine, other in zip(*columns, strict=True):
+        angles = (to_clinical_rad(one.name, angle) for angle in (one.measured_rad, one.reference_rad))
+        for time_s, measured, read in zip(one.time_s, *map(np.degrees, angles), strict=True):
             at = f"{format_rounded(time_s, 2)} s" if math.isfinite(time_s) else "range"
-            out.append(f"{names[one.name]:{width}}  {at:>9}  {mine:8.2f}  {other:8.2f}  {mine - other:10.2f}")
+            out.append(f"{names[one.name]:{width}}  {at:>9}  {measured:8.2f}  {read:8.2f}  {measured - read:10.2f}")
     return out
 
 
@@ -252,21 +229,18 @@ def format_agreements(agreements: Sequence[tuple[str, Agreement]]) -> list[str]:
 
 def format_limit_verdicts(all_pairs: Sequence[AnglePairs], limit_deg: float) -> list[str]:
     """Return for each angle whether the limits of agreement lie within a limit set before."""
-    said = {"agree": "agrees within {limit:g}°", "apart": "up to {apart}° apart", "few": "too few pairs to say"}
+    texts = {"agree": "agrees within {limit:g}°", "apart": "up to {apart}° apart", "few": "too few pairs to say"}
     return [
-        f"Limit        {pairs.name} {said[verdict].format(limit=limit_deg, apart=apart)}"
+        f"Limit        {pairs.name} {texts[verdict].format(limit=limit_deg, apart=apart)}"
         for pairs in all_pairs
-        if (verdict := judge_agreement(pairs.agreement_deg, limit_deg)) in said
+        if (verdict := judge_agreement(pairs.agreement_deg, limit_deg)) in texts
         and (apart := format_rounded(max_absolute_limit(pairs.agreement_deg), 1))
     ]
 
 
 def _format_with_interval(value: float, interval: tuple[float, float]) -> str:
-    return (
-        f"{_format_coefficient(value)} ({_format_coefficient(interval[0])} to {_format_coefficient(interval[1])})"
-        if math.isfinite(value)
-        else "–"
-    )
+    low, high = map(_format_coefficient, interval)
+    return f"{_format_coefficient(value)} ({low} to {high})" if math.isfinite(value) else "–"
 
 
 def _format_coefficient(value: float) -> str:

@@ -125,51 +125,53 @@ def compare_session(
         raise _overlap_error(reference)
     motion = motion_estimate(session) if smoothed else session.motion
     time_s = session.timestamp_s - session.timestamp_s[0]
-    use = np.asarray(session.status) == TrackStatus.TRACKED
+    is_tracked = np.asarray(session.status) == TrackStatus.TRACKED
     names = (*WRIST_ANGLES, *session.header.joint_names)
     values = np.column_stack((motion.angles_rad, motion.joint_angles_rad))
-    own = {name: np.where(use, values[:, k], np.nan) for k, name in enumerate(names)}
+    session_angles = {name: np.where(is_tracked, values[:, k], np.nan) for k, name in enumerate(names)}
     if reference.readings:
-        return _compare_readings(reference, time_s, own, figures)
-    not_used = list(reference.unused)
+        return _compare_readings(reference, time_s, session_angles, figures)
+    unused = list(reference.unused)
     if reference.points_m:
         curves = _speed_curves(session, reference, time_s)
-        not_used += [f"{name}: fingers are not worked out from markers" for name in session.header.joint_names[:1]]
+        unused += [f"{name}: fingers are not worked out from markers" for name in session.header.joint_names[:1]]
     else:
-        curves = _angle_curves(session, reference, time_s, own)
-        not_used += [f"{name}: not in the session" for name in reference.angles_rad if name not in own]
-        not_used += [f"{name}: not in the reference" for name in own if name not in reference.angles_rad]
+        curves = _angle_curves(session, reference, time_s, session_angles)
+        unused += [f"{name}: not in the session" for name in reference.angles_rad if name not in session_angles]
+        unused += [f"{name}: not in the reference" for name in session_angles if name not in reference.angles_rad]
     shift = _estimate_shift(curves, session, reference, max_shift_s, lag_s, drift)
-    theirs: Mapping[str, FloatArray] = reference.angles_rad
+    reference_angles: Mapping[str, FloatArray] = reference.angles_rad
     alignment = None
     if reference.points_m:
-        theirs, alignment = _angles_from_points(session, reference, time_s, shift)
+        reference_angles, alignment = _angles_from_points(session, reference, time_s, shift)
     reference_s = _reference_times_s(reference, session)
     pairs = []
     for name in names:
-        if name not in theirs:
+        if name not in reference_angles:
             continue
-        found = interpolate(shift.reference_time_s(time_s), reference_s, _unwrap_angle(theirs[name]))
-        pair = _pair_angle(name, time_s, own[name], found)
+        found = interpolate(shift.reference_time_s(time_s), reference_s, _unwrap_angle(reference_angles[name]))
+        pair = _pair_angle(name, time_s, session_angles[name], found)
         if pair is None:
-            not_used.append(f"{name}: fewer than {MIN_PAIRS} pictures in common")
+            unused.append(f"{name}: fewer than {MIN_PAIRS} pictures in common")
         else:
             pairs.append(pair)
     if not pairs:
         raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
     overlap_s = max(float(one.time_s[-1] - one.time_s[0]) for one in pairs)
     rate_hz = 1.0 / float(np.median(np.diff(reference_s))) if len(reference_s) > 1 else math.nan
+    remarks = (*reference.remarks, *_alignment_remarks(alignment), *comparison_remarks(pairs, shift, overlap_s))
+    excluded = int((~is_tracked).sum())
     return Comparison(
         reference.kind,
         tuple(pairs),
         shift,
         alignment,
         len(session),
-        int((~use).sum()),
+        excluded,
         overlap_s,
         rate_hz,
-        tuple(not_used),
-        (*reference.remarks, *_alignment_remarks(alignment), *comparison_remarks(pairs, shift, overlap_s)),
+        tuple(unused),
+        remarks,
     )
 
 
@@ -202,12 +204,12 @@ def _estimate_shift(
     if math.isfinite(lag_s):
         given = ClockShift(lag_s, math.nan, is_given=True, drift=drift)
         return with_residual_drift(curves, replace(given, match=curves.match(given)))
-    alike = 0.0
+    tolerance = 0.0
     if _has_same_clock(reference, session):
-        alike = SAME_CLOCK_TOLERANCE if reference.angles_rad else 0.0
+        tolerance = SAME_CLOCK_TOLERANCE if reference.angles_rad else 0.0
         max_shift_s = min(max_shift_s, SAME_CLOCK_S) if reference.same_clock else max_shift_s
     faster = replace(curves, time_s=curves.time_s * (1.0 + drift))
-    shift = replace(find_shift(faster, max_shift_s, alike), drift=drift)
+    shift = replace(find_shift(faster, max_shift_s, tolerance), drift=drift)
     shift = with_residual_drift(curves, shift)
     _check_match(reference, curves, shift)
     return shift
@@ -227,10 +229,8 @@ def _check_match(reference: Reference, curves: AlignmentCurves, shift: ClockShif
         cleared = ClockShift(shift.drift_free_lag_s, math.nan, drift=shift.drift + shift.residual_drift)
         match = max(match, abs(curves.match(cleared)))
     if not match >= MIN_MATCH:
-        raise ReferenceUnsuited(
-            reference.path,
-            phrase("the curves match by {match} at best: is it the same movement?", match=format_rounded(match, 2)),
-        )
+        words = phrase("the curves match by {match} at best: is it the same movement?", match=format_rounded(match, 2))
+        raise ReferenceUnsuited(reference.path, words)
 
 
 def comparison_remarks(
@@ -273,11 +273,8 @@ def _alignment_remarks(alignment: Alignment | None) -> list[str]:
 def _clock_remarks(shift: ClockShift, overlap_s: float) -> list[str]:
     out: list[str] = []
     if overlap_s < MIN_SAFE_OVERLAP_S:
-        out.append(
-            phrase(
-                "only {time} s are in common: the shift of the clocks is not sure", time=format_rounded(overlap_s, 1)
-            )
-        )
+        time = format_rounded(overlap_s, 1)
+        out.append(phrase("only {time} s are in common: the shift of the clocks is not sure", time=time))
     if shift.match < 0.0 and math.isfinite(shift.max_shift_s):
         out.append(
             phrase("the curves run against each other, or the shift is beyond {most} s", most=f"{shift.max_shift_s:g}")
@@ -386,12 +383,9 @@ def _point_speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
 def _common_markers(reference: Reference) -> list[str]:
     names = [name for name in PALM_MARKERS if name in reference.points_m]
     if len(names) < 3:
-        raise ReferenceUnsuited(
-            reference.path,
-            phrase(
-                "three discs of the palm are needed; say which of {there} they are", there=list_names(reference.names)
-            ),
-        )
+        there = list_names(reference.names)
+        words = phrase("three discs of the palm are needed; say which of {there} they are", there=there)
+        raise ReferenceUnsuited(reference.path, words)
     return names
 
 
@@ -421,7 +415,7 @@ def _angles_from_points(
     begin_s, zero = 0.0, NEUTRAL_POSE
     own_s = (reference_s - shift.lag_s) / (1.0 + shift.drift)
     if not (known & _is_in_neutral_pose(own_s, begin_s)).any():
-        # It began later: the zero is the session's own at the first moment that both have.
+        # The reference began later: its zero is the session's at the first common frame.
         begin_s, zero = float(time_s[both][0]), FIRST_IN_COMMON
         own = session.motion.rotation_w2_w0[both & _is_in_neutral_pose(time_s, begin_s)]
         start = so3.mean_rotation(own, np.full(len(own), 1.0 / len(own)))
@@ -449,37 +443,31 @@ def _compare_readings(
     reference: Reference, time_s: FloatArray, session_angles: Mapping[str, FloatArray], figures: SessionResults | None
 ) -> Comparison:
     """Compare readings with the held angle around their time, or with the session's range."""
-    not_used = list(reference.unused)
+    unused = list(reference.unused)
     found: dict[str, list[tuple[float, float, float]]] = {}
-    left = 0
+    excluded_count = 0
     for reading in reference.readings:
         if reading.angle not in session_angles:
-            not_used.append(phrase("{angle}: not in the session", angle=reading.angle))
+            unused.append(phrase("{angle}: not in the session", angle=reading.angle))
             continue
         if math.isfinite(reading.time_s):
             about = np.abs(time_s - reading.time_s) <= STILL_S
             values = session_angles[reading.angle][about & np.isfinite(session_angles[reading.angle])]
             if len(values) < MIN_PAIRS or float(np.ptp(values)) > 2.0 * MAX_STILL_RAD:
-                left += 1
-                not_used.append(
-                    phrase(
-                        "{angle} at {time} s: the hand was not still, or not seen",
-                        angle=reading.angle,
-                        time=f"{reading.time_s:g}",
-                    )
-                )
+                facts = {"angle": reading.angle, "time": f"{reading.time_s:g}"}
+                excluded_count += 1
+                unused.append(phrase("{angle} at {time} s: the hand was not still, or not seen", **facts))
                 continue
             mine = float(values.mean())
         else:
             mine = _range_end(figures, reading.angle, reading.movement)
             if not math.isfinite(mine):
-                left += 1
-                not_used.append(
-                    phrase(
-                        "{movement}: the session has no range that way, and the list names no time",
-                        movement=reading.movement,
-                    )
+                words = phrase(
+                    "{movement}: the session has no range that way, and the list names no time",
+                    movement=reading.movement,
                 )
+                excluded_count += 1
+                unused.append(words)
                 continue
         found.setdefault(reading.angle, []).append((reading.time_s, mine, reading.value_rad))
     pairs = []
@@ -489,10 +477,10 @@ def _compare_readings(
             figures_deg = compute_agreement(np.degrees(mine_rad), np.degrees(theirs_rad), waveform=False)
             pairs.append(AnglePairs(name, t, mine_rad, theirs_rad, figures_deg))
     if not pairs:
-        raise ReferenceUnsuited(reference.path, not_used[-1] if not_used else phrase("no reading can be used"))
+        raise ReferenceUnsuited(reference.path, unused[-1] if unused else phrase("no reading can be used"))
     count = len(reference.readings)
     return Comparison(
-        reference.kind, tuple(pairs), None, None, count, left, math.nan, math.nan, tuple(not_used),
+        reference.kind, tuple(pairs), None, None, count, excluded_count, math.nan, math.nan, tuple(unused),
         (*reference.remarks, *comparison_remarks(pairs, None)),
     )  # fmt: skip
 

@@ -115,9 +115,8 @@ def read_reference(
     if suffix in POINT_FILES:
         return _from_points(path, suffix, markers or {}, hand)
     if suffix in ANGLE_FILES:
-        return _from_angles(
-            path, phrase("angles by {format}", format=suffix[1:].upper()), read_mot(path), columns or {}, radians, hand
-        )
+        kind = phrase("angles by {format}", format=suffix[1:].upper())
+        return _from_angles(path, kind, read_mot(path), columns or {}, radians, hand)
     if suffix in TABLE_FILES:
         return _from_table(path, columns or {}, radians, hand)
     if suffix == ".h5":
@@ -131,9 +130,8 @@ def _from_session(path: Path, smoothed: bool) -> Reference:
     names = (*WRIST_ANGLES, *session.header.joint_names)
     values = np.column_stack((motion.angles_rad, motion.joint_angles_rad))
     words = f"session {session.header.session_id}" + (", simulated" if session.header.is_simulated else "")
-    return Reference(
-        path, words, session.timestamp_s, {name: values[:, k] for k, name in enumerate(names)}, same_clock=True
-    )
+    angles = {name: values[:, k] for k, name in enumerate(names)}
+    return Reference(path, words, session.timestamp_s, angles, same_clock=True)
 
 
 def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side | None) -> Reference:
@@ -141,7 +139,7 @@ def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side
     by_whole, by_plain = defaultdict[str, list[int]](list), defaultdict[str, list[int]](list)
     for k, name in enumerate(track.names):
         by_whole[name.strip().upper()].append(k)
-        by_plain[_bare_marker_name(name)].append(k)
+        by_plain[name.split(":")[-1].strip().upper()].append(k)  # without the subject
     taken: dict[str, int] = {}
     for name in SITES:
         wanted = markers.get(name, name).strip().upper()
@@ -149,27 +147,17 @@ def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side
         if found:
             taken[name] = _select_hand(path, wanted, found, track.names, hand)
         elif name in markers:
-            raise ReferenceUnreadable(
-                path,
-                phrase(
-                    "it has no marker {wanted}; it has {names}", wanted=markers[name], names=list_names(track.names)
-                ),
-            )
+            facts = {"wanted": markers[name], "names": list_names(track.names)}
+            raise ReferenceUnreadable(path, phrase("it has no marker {wanted}; it has {names}", **facts))
     taken = {name: k for name, k in taken.items() if np.isfinite(track.position_m[:, k]).any()}
-    left = [name for k, name in enumerate(track.names) if k not in taken.values()]
-    unused = _list_unused(
-        phrase("markers"), left, phrase("none of the discs by their names, of the other hand, or never seen")
-    )
+    others = [name for k, name in enumerate(track.names) if k not in taken.values()]
+    reason = phrase("none of the discs by their names, of the other hand, or never seen")
+    unused = _list_unused(phrase("markers"), others, reason)
     return Reference(
         path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s,
         points_m={name: track.position_m[:, k] for name, k in taken.items()}, unused=unused, names=track.names,
         remarks=_hand_remarks([track.names[k] for name, k in taken.items() if name not in markers], track.names, hand),
     )  # fmt: skip
-
-
-def _bare_marker_name(name: str) -> str:
-    """Return a marker's name without its subject, in capitals."""
-    return name.split(":")[-1].strip().upper()
 
 
 def _select_hand(path: Path, wanted: str, candidates: Sequence[int], names: Sequence[str], hand: Side | None) -> int:
@@ -178,10 +166,8 @@ def _select_hand(path: Path, wanted: str, candidates: Sequence[int], names: Sequ
         return candidates[0]
     of_hand = [k for k in candidates if _parse_side(names[k]) == hand]
     if hand is None or len(of_hand) != 1:
-        several = list_names([names[k] for k in candidates])
-        raise ReferenceUnreadable(
-            path, phrase("it has {several} for {wanted}: say which it is", several=several, wanted=wanted)
-        )
+        facts = {"several": list_names([names[k] for k in candidates]), "wanted": wanted}
+        raise ReferenceUnreadable(path, phrase("it has {several} for {wanted}: say which it is", **facts))
     return of_hand[0]
 
 
@@ -205,11 +191,9 @@ def list_names(names: Sequence[str]) -> str:
     if not names:
         return phrase("nothing")
     shown = ", ".join(names[:MAX_LISTED])
-    return (
-        shown
-        if len(names) <= MAX_LISTED
-        else phrase("{names} and {count} more", names=shown, count=len(names) - MAX_LISTED)
-    )
+    if len(names) > MAX_LISTED:
+        return phrase("{names} and {count} more", names=shown, count=len(names) - MAX_LISTED)
+    return shown
 
 
 def _from_angles(
@@ -220,32 +204,26 @@ def _from_angles(
     found, taken = {}, set[str]()
     for name in ANGLE_NAMES:
         wanted = columns.get(name, "")
-        sign, said = -1.0 if wanted.startswith("-") and wanted not in names else 1.0, wanted
+        sign = -1.0 if wanted.startswith("-") and wanted not in names else 1.0
+        wanted = wanted if sign > 0.0 else wanted[1:]
         if wanted:
-            said = wanted if sign > 0.0 else wanted[1:]
-            candidates = [one for one in names if one.lower() == said.lower()]
-            candidates = candidates or [one for one in names if split_unit(one)[0].lower() == said.lower()]
+            candidates = [one for one in names if one.lower() == wanted.lower()]
+            candidates = candidates or [one for one in names if split_unit(one)[0].lower() == wanted.lower()]
             if not candidates:
-                raise ReferenceUnreadable(
-                    path, phrase("it has no column {wanted}; it has {names}", wanted=said, names=list_names(names))
-                )
+                facts = {"wanted": wanted, "names": list_names(names)}
+                raise ReferenceUnreadable(path, phrase("it has no column {wanted}; it has {names}", **facts))
         else:
             candidates = _find_columns(name, names)
         if candidates:
-            column = names[_select_hand(path, said or name, [names.index(one) for one in candidates], names, hand)]
+            column = names[_select_hand(path, wanted or name, [names.index(one) for one in candidates], names, hand)]
             taken.add(column)
             values = sign * table.values[column]
             found[name] = values if in_radians else np.radians(values)
-    left = [name for name in names if name not in taken]
-    unused = _list_unused(phrase("columns"), left, phrase("no angles by their names, or of the other hand"))
-    by_name = [column for column in names if column in taken and column not in map(_strip_sign, columns.values())]
-    return Reference(
-        path, kind, table.time_s, found, unused=unused, names=tuple(names), remarks=_hand_remarks(by_name, names, hand)
-    )
-
-
-def _strip_sign(wanted: str) -> str:
-    return wanted.removeprefix("-")
+    others = [name for name in names if name not in taken]
+    unused = _list_unused(phrase("columns"), others, phrase("no angles by their names, or of the other hand"))
+    given = {column.removeprefix("-") for column in columns.values()}
+    remarks = _hand_remarks([column for column in names if column in taken and column not in given], names, hand)
+    return Reference(path, kind, table.time_s, found, unused=unused, names=tuple(names), remarks=remarks)
 
 
 def _list_unused(kind: str, names: Sequence[str], reason: str) -> tuple[str, ...]:
@@ -268,22 +246,18 @@ def _find_time_column(table: TextTable) -> str:
     return next((by_base[name] for name in TIME_NAMES if name in by_base), "")
 
 
-def _is_reading_list(table: TextTable) -> bool:
-    return bool({"angle", "movement"} & {split_unit(name)[0].lower() for name in table.names})
-
-
 def _from_table(path: Path, columns: Mapping[str, str], radians: bool | None, hand: Side | None) -> Reference:
-    table = read_table(path, {*KNOWN_NAMES, *(split_unit(_strip_sign(name))[0].lower() for name in columns.values())})
-    if _is_reading_list(table):
+    given = (split_unit(name.removeprefix("-"))[0].lower() for name in columns.values())
+    table = read_table(path, {*KNOWN_NAMES, *given})
+    if {"angle", "movement"} & {split_unit(name)[0].lower() for name in table.names}:
         return _from_readings(path, table)
     time_name = columns.get("time") or _find_time_column(table)
     time_name = next((name for name in table.names if time_name in (name, split_unit(name)[0])), time_name)
     if time_name not in table.names:
-        raise ReferenceUnreadable(
-            path, phrase("it has no column of times; say which of {names} it is", names=list_names(table.names))
-        )
+        listed = list_names(table.names)
+        raise ReferenceUnreadable(path, phrase("it has no column of times; say which of {names} it is", names=listed))
     time_s, remarks = _parse_times(path, time_name, table.column(time_name))
-    # A row that comes no later than the one before is left out: of two at one time the first counts.
+    # A row with the time of the row before is excluded.
     known = np.flatnonzero(np.isfinite(time_s))
     rises = np.append(True, np.diff(time_s[known]) > 0.0) if len(known) else np.empty(0, bool)
     if len(known) < 2 or (np.diff(time_s[known]) < 0.0).any():
@@ -303,9 +277,8 @@ def _from_table(path: Path, columns: Mapping[str, str], radians: bool | None, ha
                 remarks.append(bad)
     if radians is None and any(_has_unit(name, "rad") for name in values):
         radians = not any(_has_unit(name, "deg") for name in values)
-    found = _from_angles(
-        path, phrase("angles by table"), TimeTable(time_s[known], values, None), columns, radians, hand
-    )
+    table_values = TimeTable(time_s[known], values, None)
+    found = _from_angles(path, phrase("angles by table"), table_values, columns, radians, hand)
     return replace(found, remarks=(*found.remarks, *remarks))
 
 
@@ -339,40 +312,36 @@ def _parse_times(path: Path, name: str, cells: Sequence[str]) -> tuple[FloatArra
     step = float(np.median(np.diff(known))) if len(known) > 1 else 0.0
     for least, scale, named in TIME_UNITS_BY_STEP:
         if step >= least:
-            words = phrase(
-                "{name}: taken as {unit}, since a row comes every {step}", name=name, unit=named, step=f"{step:g}"
-            )
-            return time_s * scale, [words]
+            facts = {"name": name, "unit": named, "step": f"{step:g}"}
+            return time_s * scale, [phrase("{name}: taken as {unit}, since a row comes every {step}", **facts)]
     return time_s, []
 
 
 def _from_readings(path: Path, table: TextTable) -> Reference:
     """Read a goniometer list: ``angle`` or ``movement``, ``reading_deg``, optional ``time_s``."""
     low = {split_unit(name)[0].lower(): name.lower() for name in reversed(table.names)}
-    value_name = next(
-        (low[n] for n in ("reading_deg", "value_deg", "deg", "reading", "value", "angle_deg") if n in low), ""
-    )
+    value_names = ("reading_deg", "value_deg", "deg", "reading", "value", "angle_deg")
+    value_name = next((low[name] for name in value_names if name in low), "")
     time_name = _find_time_column(table)
     if not value_name:
-        raise ReferenceUnreadable(
-            path, phrase("it has no column reading_deg; it has {names}", names=list_names(table.names))
-        )
+        listed = list_names(table.names)
+        raise ReferenceUnreadable(path, phrase("it has no column reading_deg; it has {names}", names=listed))
     times_s = parse_times(table.column(time_name))[0] if time_name else [math.nan] * len(table.rows)
     scale = SECONDS.get(split_unit(time_name)[1] or time_name.lower().rpartition("_")[2], 1.0)
     readings, unused = [], []
     for k, line in enumerate(table.line_numbers):
         row = table.row(k)
-        said = (row.get(low.get("movement", ""), "") or row.get(low.get("angle", ""), "")).strip()
+        text = (row.get(low.get("movement", ""), "") or row.get(low.get("angle", ""), "")).strip()
         value = parse_number(row[value_name])
-        name = next((one for one in ANGLE_NAMES if one.lower() == said.lower()), "")
-        movement, sign = said.lower(), 1.0
+        name = next((one for one in ANGLE_NAMES if one.lower() == text.lower()), "")
+        movement, sign = text.lower(), 1.0
         if movement in MOVEMENTS and (name in ("", "flexion")):
             name, sign = MOVEMENTS[movement]
         if not name or not math.isfinite(value):
             unused.append(
                 phrase("line {line}: “{cell}” is no reading", line=line, cell=row[value_name])
                 if name
-                else phrase("line {line}: no angle is called {said}", line=line, said=said or phrase("nothing"))
+                else phrase("line {line}: no angle is called {said}", line=line, said=text or phrase("nothing"))
             )
             continue
         value_rad = sign * math.radians(value)

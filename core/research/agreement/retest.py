@@ -81,26 +81,15 @@ def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequenc
     if all(len(one) == each for one in values):
         df = _degrees_of_freedom(np.array(values), df)
     sem = math.sqrt(variance)
-    interval = (
-        math.sqrt(df * variance / _chi2_quantile(df, 0.975)),
-        math.sqrt(df * variance / _chi2_quantile(df, 0.025)),
-    )
+    quantiles = (float(scipy.special.chdtri(df, 1.0 - share)) for share in (0.975, 0.025))
+    low, high = (math.sqrt(df * variance / quantile) for quantile in quantiles)
+    interval = (low, high)
     table = np.array([one[:each] for one in values])
-    mdc = (MDC95_FACTOR * interval[0], MDC95_FACTOR * interval[1])
+    mdc95_interval = (MDC95_FACTOR * interval[0], MDC95_FACTOR * interval[1])
     step = float(np.mean([one[-1] - one[0] for one in values]))
-    return RetestResult(
-        n,
-        total,
-        *icc_2_1(table),
-        *icc_3_1(table),
-        sem,
-        interval,
-        df,
-        MDC95_FACTOR * sem,
-        mdc,
-        _intra_rater_sem(kept),
-        step,
-    )
+    intra, mdc95 = _intra_rater_sem(kept), MDC95_FACTOR * sem
+    icc, icc_3 = icc_2_1(table), icc_3_1(table)
+    return RetestResult(n, total, *icc, *icc_3, sem, interval, df, mdc95, mdc95_interval, intra, step)
 
 
 def _degrees_of_freedom(table: FloatArray, max_df: float) -> float:
@@ -117,21 +106,16 @@ def _degrees_of_freedom(table: FloatArray, max_df: float) -> float:
     return min((a + b) ** 2 / below, max_df) if below > 0.0 else max_df
 
 
-def _chi2_quantile(df: float, share: float) -> float:
-    """Return a quantile of the chi-square distribution."""
-    return float(scipy.special.chdtri(df, 1.0 - share))
-
-
 def _intra_rater_sem(readings: Sequence[Sequence[tuple[float, str]]]) -> float:
     if len({who for one in readings for _, who in one if who}) < 2:
         return math.nan
     squares, df = 0.0, 0
     for one in readings:
-        of = defaultdict(list)
+        by_rater = defaultdict(list)
         for value, who in one:
             if who:
-                of[who].append(value)
-        for same in of.values():
+                by_rater[who].append(value)
+        for same in by_rater.values():
             squares += float(((np.array(same) - np.mean(same)) ** 2).sum())
             df += len(same) - 1
     return math.sqrt(squares / df) if df else math.nan
@@ -188,19 +172,19 @@ def analyse_retests(
 
 def _analyse_group(group: Sequence[SessionResults], raters: Mapping[str, str]) -> RetestAnalysis:
     people: dict[tuple[str, str], list[SessionResults]] = defaultdict(list)
-    out: list[ExcludedSession] = []
+    excluded: list[ExcludedSession] = []
     for figures in group:  # in order of time
-        mine = people[(figures.subject_id.casefold(), figures.side)]
-        reasons = incomparable_reasons(mine[0] if mine else figures, figures)
+        own = people[(figures.subject_id.casefold(), figures.side)]
+        reasons = incomparable_reasons(own[0] if own else figures, figures)
         if not figures.repetition_count:
             reasons = (*reasons, "few_repetitions_after")
         if reasons:
-            out.append(ExcludedSession(figures.session_id, reasons[0]))
-        elif mine and (figures.when - mine[0].when).total_seconds() > MAX_DAYS_APART * 86400.0:
-            out.append(ExcludedSession(figures.session_id, "too_late"))
+            excluded.append(ExcludedSession(figures.session_id, reasons[0]))
+        elif own and (figures.when - own[0].when).total_seconds() > MAX_DAYS_APART * 86400.0:
+            excluded.append(ExcludedSession(figures.session_id, "too_late"))
         else:
-            mine.append(figures)
-    out += [ExcludedSession(one[0].session_id, "once") for one in people.values() if len(one) == 1]
+            own.append(figures)
+    excluded += [ExcludedSession(one[0].session_id, "once") for one in people.values() if len(one) == 1]
     measured = [one for one in people.values() if len(one) > 1]
     keys = Counter(key for one in measured for figures in one for key in _range_means(figures))
     found = {}
@@ -213,7 +197,7 @@ def _analyse_group(group: Sequence[SessionResults], raters: Mapping[str, str]) -
     return RetestAnalysis(
         first.protocol, first.exercise.id, first.angle_order, len(measured), len(kept),
         len({raters[one.session_id] for one in kept if one.session_id in raters}),
-        any(one.is_simulated for one in kept), found, tuple(out),
+        any(one.is_simulated for one in kept), found, tuple(excluded),
     )  # fmt: skip
 
 

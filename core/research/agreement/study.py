@@ -100,10 +100,8 @@ class AgreementStudy:
         )  # fmt: skip
         first = self.comparisons[0][1].comparison
         remarks = [f"{one.pairs.name}: {words}" for one in self.pooled_angles for words in _pooling_remarks(one)]
-        return Comparison(
-            kind, tuple(one.pairs for one in self.pooled_angles), first.shift, None, 0, 0, math.nan, math.nan, (),
-            tuple(remarks),
-        )  # fmt: skip
+        pairs = tuple(one.pairs for one in self.pooled_angles)
+        return Comparison(kind, pairs, first.shift, None, 0, 0, math.nan, math.nan, (), tuple(remarks))
 
 
 def read_study_table(path: Path, parse_mapping: Callable[[str], Mapping[str, str]]) -> tuple[StudyRow, ...]:
@@ -156,7 +154,7 @@ def run_study(
     ``load_choices`` returns the repetitions that a person excluded from a session. Raises :class:`ReferenceUnsuited`
     if no row can be compared.
     """
-    done, left_out = list[tuple[StudyRow, FileComparison]](), list[tuple[StudyRow, str]]()
+    comparisons, excluded = list[tuple[StudyRow, FileComparison]](), list[tuple[StudyRow, str]]()
     for number, line in enumerate(rows):
         progress(number, len(rows))
         try:
@@ -166,93 +164,68 @@ def run_study(
                 choices=load_choices(line.session),
             )  # fmt: skip
         except CarpusFault as fault:
-            left_out.append((line, format_fault_line(fault)))
+            excluded.append((line, format_fault_line(fault)))
         else:
-            done.append((line, result))
-    if not done:
-        raise ReferenceUnsuited(table, left_out[0][1])
-    names = dict.fromkeys(pairs.name for _, result in done for pairs in result.comparison.pairs)
-    return AgreementStudy(table, tuple(done), tuple(left_out), tuple(_pool_angle(name, done) for name in names))
+            comparisons.append((line, result))
+    if not comparisons:
+        raise ReferenceUnsuited(table, excluded[0][1])
+    names = dict.fromkeys(pairs.name for _, result in comparisons for pairs in result.comparison.pairs)
+    pooled = tuple(_pool_angle(name, comparisons) for name in names)
+    return AgreementStudy(table, tuple(comparisons), tuple(excluded), pooled)
 
 
 def _pool_angle(name: str, comparisons: Sequence[tuple[StudyRow, FileComparison]]) -> PooledAngle:
-    found = [
-        (line.person, pairs) for line, result in comparisons for pairs in result.comparison.pairs if pairs.name == name
-    ]
-    everything = [pairs for _, pairs in found]
+    all_pairs: list[AnglePairs] = []
     by_person: dict[str, list[AnglePairs]] = {}
-    for person, pairs in found:
-        by_person.setdefault(person, []).append(pairs)
+    for row, result in comparisons:
+        for pairs in result.comparison.pairs:
+            if pairs.name == name:
+                all_pairs.append(pairs)
+                by_person.setdefault(row.person, []).append(pairs)
     measured = [np.degrees(np.concatenate([one.measured_rad for one in own])) for own in by_person.values()]
     reference = [np.degrees(np.concatenate([one.reference_rad for one in own])) for own in by_person.values()]
     waveform = any(result.comparison.shift is not None for _, result in comparisons)
-    figures, between = compute_pooled_agreement(measured, reference, waveform)
-    fewest = min_pairs_per_person(waveform=waveform)
+    agreement, variance = compute_pooled_agreement(measured, reference, waveform)
+    min_pairs = min_pairs_per_person(waveform=waveform)
     counts = (np.isfinite(a + b).sum() for a, b in zip(measured, reference, strict=True))
-    left_out = tuple(person for person, count in zip(by_person, counts, strict=True) if count < fewest)
-    times, begin_s = [], 0.0
-    for one in everything:
+    excluded = tuple(person for person, count in zip(by_person, counts, strict=True) if count < min_pairs)
+    times, start_s = [], 0.0
+    for one in all_pairs:
         time_s = np.where(np.isfinite(one.time_s), one.time_s, np.arange(len(one.time_s)))
-        times.append(begin_s + time_s - time_s[0])
-        begin_s = float(times[-1][-1]) + SESSION_GAP_S
-    pairs = AnglePairs(
-        name, np.concatenate(times), np.concatenate([one.measured_rad for one in everything]),
-        np.concatenate([one.reference_rad for one in everything]), figures,
-    )  # fmt: skip
-    return PooledAngle(pairs, between, len(everything), left_out, fewest)
+        times.append(start_s + time_s - time_s[0])
+        start_s = float(times[-1][-1]) + SESSION_GAP_S
+    measured_rad = np.concatenate([one.measured_rad for one in all_pairs])
+    reference_rad = np.concatenate([one.reference_rad for one in all_pairs])
+    pooled = AnglePairs(name, np.concatenate(times), measured_rad, reference_rad, agreement)
+    return PooledAngle(pooled, variance, len(all_pairs), excluded, min_pairs)
 
 
 def _pooling_remarks(pooled: PooledAngle) -> list[str]:
     out = []
     if pooled.excluded_people:
-        out.append(
-            phrase(
-                "not in the figures of all: {people}, with fewer than {fewest} pairs",
-                people=", ".join(pooled.excluded_people),
-                fewest=str(pooled.min_pairs),
-            )
-        )
+        facts = {"people": ", ".join(pooled.excluded_people), "fewest": str(pooled.min_pairs)}
+        out.append(phrase("not in the figures of all: {people}, with fewer than {fewest} pairs", **facts))
     if not math.isfinite(pooled.pairs.agreement_deg.bias):
-        out.append(
-            phrase("{people} people are too few for figures of all: three are needed", people=pooled.variance.people)
-        )
+        people = pooled.variance.people
+        out.append(phrase("{people} people are too few for figures of all: three are needed", people=people))
     return [str(words) for words in out]
 
 
 def write_agreement_study(study: AgreementStudy, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
     """Write ``STEM.study.csv`` (all people, then each session) and ``STEM.study.json``."""
     stem = study.table.stem
-    rows = [
-        [
-            "all people",
-            "",
-            "",
-            "",
-            *map(format_cell, to_row(one.pairs).values()),
-            str(one.variance.people),
-            str(one.session_count),
-            format_cell(one.variance.sd_between),
-            format_cell(one.variance.sd_within),
-            "; ".join(_pooling_remarks(one)),
-        ]
-        for one in study.pooled_angles
-    ]
-    rows += [
-        [
-            "session",
-            line.person,
-            line.session.name,
-            line.reference.name,
-            *map(format_cell, to_row(pairs).values()),
-            "1",
-            "1",
-            "",
-            "",
-            "; ".join(result.comparison.angle_remarks(pairs.name)),
-        ]
-        for line, result in study.comparisons
-        for pairs in result.comparison.pairs
-    ]
+    rows = []
+    for one in study.pooled_angles:
+        values = map(format_cell, to_row(one.pairs).values())
+        counts = (str(one.variance.people), str(one.session_count))
+        sds = (format_cell(one.variance.sd_between), format_cell(one.variance.sd_within))
+        rows.append(["all people", "", "", "", *values, *counts, *sds, "; ".join(_pooling_remarks(one))])
+    for line, result in study.comparisons:
+        names = (line.person, line.session.name, line.reference.name)
+        for pairs in result.comparison.pairs:
+            values = map(format_cell, to_row(pairs).values())
+            remarks = "; ".join(result.comparison.angle_remarks(pairs.name))
+            rows.append(["session", *names, *values, "1", "1", "", "", remarks])
     rows += [
         ["left out", line.person, line.session.name, line.reference.name,
          *[""] * (len(STUDY_COLUMNS) - 5), why]

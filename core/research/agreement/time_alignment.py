@@ -99,7 +99,7 @@ class AlignmentCurves:
     def weight(self) -> FloatArray:
         """Weight of each signal in a match: how much it moves in both."""
         with np.errstate(invalid="ignore"), warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)  # what is known nowhere has no spread
+            warnings.simplefilter("ignore", RuntimeWarning)  # an unknown signal has no spread
             spread = np.nanstd(self.values, axis=0) * np.nanstd(self.reference_values, axis=0)
         return np.where(np.isfinite(spread), spread, 0.0)
 
@@ -141,26 +141,17 @@ def find_shift(curves: AlignmentCurves, max_shift_s: float, same_clock_tolerance
     best = float(score[tops[0]])
     if score[furthest] >= best - same_clock_tolerance:
         return ClockShift(0.0, float(match[furthest]))
-    # Drift blurs a match the more, the longer the two overlap: the tops are compared without it.
+    # Drift blurs a match more with a longer overlap, so the peaks are compared without it.
     near = sorted((k for k in tops if score[k] >= best - MAX_DRIFT_DROP), key=lambda k: abs(shifts[k]))
     near = list(dict.fromkeys((tops[0], *near[:MAX_COMPARED_PEAKS])))
-    fits = [
-        _estimate_drift(curves, ClockShift(_refine_peak_s(shifts, score, k), float(match[k])))
-        if len(near) > 1
-        else None
-        for k in near
-    ]
-    cleared = np.array([max(fit.match if fit else 0.0, score[k]) for k, fit in zip(near, fits, strict=True)])
-    worse = (
-        0.5
-        * INDEPENDENT_HZ
-        * shorter_s
-        * np.log((1.0 - cleared + RESIDUAL_FLOOR) / (1.0 - cleared.max() + RESIDUAL_FLOOR))
-    )
-    at = min(
-        (k for k, less in zip(near, worse, strict=True) if less <= MAX_LOG_LIKELIHOOD_DROP),
-        key=lambda k: abs(shifts[k]),
-    )
+    cleared = score[near]
+    if len(near) > 1:
+        fits = [_estimate_drift(curves, ClockShift(_refine_peak_s(shifts, score, k), float(match[k]))) for k in near]
+        cleared = np.array([max(fit.match if fit else 0.0, score[k]) for k, fit in zip(near, fits, strict=True)])
+    unexplained = 1.0 - cleared + RESIDUAL_FLOOR
+    drop = 0.5 * INDEPENDENT_HZ * shorter_s * np.log(unexplained / unexplained.min())
+    equal = (k for k, less in zip(near, drop, strict=True) if less <= MAX_LOG_LIKELIHOOD_DROP)
+    at = min(equal, key=lambda k: abs(shifts[k]))
     rivals = sorted((k for k in tops if k != at and score[k] >= best - MAX_RIVAL_DROP), key=lambda k: abs(shifts[k]))
     together = next((k for k in tops if match[k] > 0.0), None) if match[at] < 0.0 else None
     return ClockShift(
@@ -233,7 +224,7 @@ def _estimate_drift(curves: AlignmentCurves, shift: ClockShift) -> _DriftEstimat
     found = scipy.optimize.minimize(lambda x: -match(*x), simplex[0], method="Nelder-Mead", options=options)  # type: ignore[call-overload]
     drift, later_s = map(float, found.x)
     best = -float(found.fun)
-    # A correlation that falls by c d^2 / 2 about its top: the variance of where the top is, by least squares.
+    # The correlation falls by c d^2 / 2 about its peak, which gives the variance of the peak by least squares.
     bend = (2.0 * best - match(drift - step, later_s) - match(drift + step, later_s)) / step**2
     if not bend > 0.0 or abs(drift) > MAX_DRIFT:
         return None
@@ -268,8 +259,9 @@ def _correlations(a: FloatArray, b: FloatArray, lags: NDArray[np.intp], min_coun
     one_a, one_b = has_a.astype(np.float64), has_b.astype(np.float64)
     count = np.maximum(np.rint(sum_products(one_a, one_b)), 1.0)
     mean_x, mean_y = sum_products(x, one_b) / count, sum_products(one_a, y) / count
-    power_x, power_y = (sum_products(x * x, one_b) / count - mean_x**2, sum_products(one_a, y * y) / count - mean_y**2)
-    # What a transform leaves of the variance of a curve that stands still is no movement.
+    power_x = sum_products(x * x, one_b) / count - mean_x**2
+    power_y = sum_products(one_a, y * y) / count - mean_y**2
+    # The rounding error of the transform is no movement of a constant curve.
     moves = (count >= min_count) & (power_x > 1e-10 * np.mean(x * x)) & (power_y > 1e-10 * np.mean(y * y))
     with np.errstate(divide="ignore", invalid="ignore"):
         alike = (sum_products(x, y) / count - mean_x * mean_y) / np.sqrt(power_x * power_y)

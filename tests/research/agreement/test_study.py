@@ -74,7 +74,7 @@ def test_the_furthest_shift_and_what_was_left_out_reach_every_session(
     monkeypatch.setattr("carpus.app.session_commands.read_choices", lambda _: left_out)
     assert command("compare", "--study", folder / "all.csv", "--max-shift", "0.5").code == 0
     assert len(asked) == 7
-    assert all(how["most_shift_s"] == 0.5 and how["choices"] is left_out for how in asked)
+    assert all(how["max_shift_s"] == 0.5 and how["choices"] is left_out for how in asked)
 
 
 def test_people_count_alike_and_all_is_in_one_table(folder: Path, tmp_path: Path, command: Command) -> None:
