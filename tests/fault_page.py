@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from carpus.core.model.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault, Notice
 from carpus.core.model.fault_text import format_fault
 
 PAGE = Path(__file__).parents[1] / "resources" / "faults.md"
@@ -21,9 +21,10 @@ the program itself.
 
 
 def all_faults(of: type[CarpusFault] = CarpusFault) -> Iterator[type[CarpusFault]]:
-    """Every kind of fault."""
+    """Every kind of fault that has a code."""
     for kind in of.__subclasses__():
-        yield kind
+        if kind is not Notice:
+            yield kind
         yield from all_faults(kind)
 
 

@@ -7,7 +7,6 @@ import pkgutil
 import re
 import string
 import typing
-from collections.abc import Iterator
 
 import pytest
 
@@ -23,26 +22,20 @@ from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.fault_text import format_fault, format_fault_line, join_marker_names, marker_name
 from carpus.core.model.hand.protocols import HAND21
-from tests.fault_page import PAGE, fault_page
+from tests.fault_page import PAGE, all_faults, fault_page
 
 JARGON = re.compile(r"\b(exception|abort|aborted|null|None|nan)\b", re.IGNORECASE)
 """Words of programmers, which no clinician reads."""
-
-
-def kinds(of: type[CarpusFault] = CarpusFault) -> Iterator[type[CarpusFault]]:
-    for kind in of.__subclasses__():
-        yield kind
-        yield from kinds(kind)
 
 
 def all_kinds() -> set[type[CarpusFault]]:
     """Faults are defined in core.model.errors, but a kind that hides in another module is found too."""
     for module in pkgutil.walk_packages(carpus.core.__path__, "carpus.core."):
         importlib.import_module(module.name)
-    return {kind for kind in kinds() if kind.__module__.startswith("carpus.core.")}
+    return {kind for kind in all_faults() if kind.__module__.startswith("carpus.core.")}
 
 
-KINDS = sorted(kinds(), key=lambda kind: kind.__name__)
+KINDS = sorted(all_faults(), key=lambda kind: kind.__name__)
 
 
 def texts() -> list[str]:
@@ -56,11 +49,11 @@ def test_every_fault_says_for_itself_what_happened_and_what_to_do() -> None:
 
 
 def test_every_fault_states_for_itself_whether_the_data_are_safe() -> None:
-    assert not hasattr(CarpusFault, "safe")
+    assert not hasattr(CarpusFault, "data_safety")
     assert [kind.__name__ for kind in KINDS if "data_safety" not in vars(kind)] == []
     nothing_lost = {kind.__name__ for kind in KINDS if "othing is lost" in kind.data_safety}
     assert nothing_lost <= {
-        "ClickOutsidePicture", "ClickOnNoMarker", "MarkerWithoutDepth", "CalibrationImpossible", "CameraUnknown",
+        "ClickOutsideImage", "ClickOnNoMarker", "MarkerWithoutDepth", "CalibrationImpossible", "CameraUnknown",
         "CameraMissing", "CameraBusy", "CameraPermission", "PinUncheckable",
     }  # fmt: skip
 

@@ -1,1 +1,1 @@
-"""Sessions in open formats, and what other programs wrote in them: one file for each format."""
+"""Sessions in open formats, and readers of other programs' files: one module for each format."""

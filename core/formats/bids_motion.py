@@ -1,7 +1,7 @@
-"""BIDS-Motion (BIDS 1.11): one data set for all sessions, every picture a row with its own time.
+"""BIDS-Motion (BIDS 1.11): one data set for all sessions, one row per frame with its own time.
 
-Positions in metres and camera axes, orientation and velocity of the hand in W0, angles and their standard deviations
-in degrees; what is not known is ``n/a``. The pictures themselves are no part of BIDS-Motion.
+Positions in metres and camera axes, orientation and velocity of the hand in W0, angles and their standard deviations in
+degrees; unknown is ``n/a``. Frames themselves are not part of BIDS-Motion.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ from carpus.core.session.values import Session
 
 BIDS_VERSION = "1.11.0"
 OWN_FOLDER = "bids"
-"""Beside other formats the data set has a folder of its own: nothing else may lie in it."""
+"""The data set's folder beside other formats: nothing else may lie in it."""
 TRACKSYS = "carpus"
 MISSING = "n/a"
 DESCRIPTION = "dataset_description.json"
 
 
 class BidsChannel(NamedTuple):
-    """One column of ``_motion.tsv``, and its row of ``_channels.tsv``."""
+    """Column of ``_motion.tsv`` and row of ``_channels.tsv``."""
 
     name: str
     component: str
@@ -56,8 +56,10 @@ class BidsChannel(NamedTuple):
 
 
 def check(folder: Path) -> None:
-    """Raise :class:`OutputExists` where a data set is already, or what a killed export left of one: its tables would
-    have to be changed, and a session would be there twice."""
+    """Raise :class:`OutputExists` if there is a data set, or what a killed export left of one.
+
+    Its tables would have to be changed, and a session might be in it twice.
+    """
     if (folder / DESCRIPTION).exists():
         raise OutputExists(folder / DESCRIPTION)
     for left in folder.glob(f"sub-*/ses-*/motion/*_tracksys-{TRACKSYS}_*"):
@@ -65,7 +67,7 @@ def check(folder: Path) -> None:
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:
-    """Write the files of one session; the data set's own come by :func:`complete`."""
+    """Write the files of one session; :func:`complete` adds those of the data set."""
     session = take.session
     subject, day = f"sub-{subject_label(session.header.subject_id)}", f"ses-{session_label(take)}"
     task = task_label(session.header.exercise)
@@ -113,7 +115,7 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
 
 
 def complete(folder: Path, written: Sequence[Mapping[str, Any]]) -> list[Path]:
-    """The files that speak of all sessions, by their provenances."""
+    """Write the files of the data set from the sessions' provenances."""
     people: dict[str, Mapping[str, Any]] = {}
     for one in written:
         people.setdefault(subject_label(one["of"]["subject_id"]), one["of"])
@@ -152,7 +154,7 @@ def complete(folder: Path, written: Sequence[Mapping[str, Any]]) -> list[Path]:
 
 
 def list_channels(session: Session) -> list[BidsChannel]:
-    """Every column: time, status, discs, hand, angles and their standard deviations."""
+    """Return all columns: time, status, markers, hand, angles and their standard deviations."""
     motion, header = session.motion, session.header
     count = len(session)
     start_s = session.timestamp_s[0] if count else 0.0
@@ -205,7 +207,7 @@ def list_channels(session: Session) -> list[BidsChannel]:
 
 
 def subject_label(subject_id: str) -> str:
-    """A pseudonym as BIDS takes it: letters and digits; and a suffix where more is lost than a space.
+    """Return a pseudonym in letters and digits, with a suffix if more than a space is lost.
 
     >>> subject_label("Linden 42"), subject_label("Linden-42"), subject_label("")
     ('Linden42', 'Linden4287a6', 'unknown')
@@ -216,7 +218,7 @@ def subject_label(subject_id: str) -> str:
 
 
 def session_label(take: ExportItem) -> str:
-    """Day and time of the recording; of a de-identified one the day counted from the first session."""
+    """Return day and time of the recording; de-identified, the day since the first session."""
     moment = _acquisition_time(take)
     if moment == MISSING:
         return f"id{_label(take.session.header.session_id)[:8]}"
@@ -227,7 +229,7 @@ def session_label(take: ExportItem) -> str:
 
 
 def task_label(exercise: str) -> str:
-    """An exercise as BIDS takes it.
+    """Return an exercise as a BIDS task.
 
     >>> task_label("WRIST_FE"), task_label("")
     ('wristFe', 'free')
@@ -249,7 +251,7 @@ def _event_cell(value: float | str) -> str:
 
 
 def _acquisition_time(take: ExportItem) -> str:
-    """When the hand moved, as BIDS writes it: the clock of the clinic, no zone."""
+    """Return when the hand moved by the clinic's clock, without zone."""
     recorded = take.session.header.recorded
     return datetime.fromisoformat(recorded).strftime("%Y-%m-%dT%H:%M:%S") if recorded else MISSING
 

@@ -1,4 +1,4 @@
-"""Reads C3D of all six encodings: PC, SGI and DEC order of bytes, integer and float (user guide of c3d.org)."""
+"""Reader of C3D in all six encodings: PC, SGI and DEC, integer and float (user guide of c3d.org)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _METRES = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "dm": 1e-1, "in": 0.0254}
 
 @dataclass(frozen=True, slots=True)
 class PointTrack:
-    """Points of another program: ``time_s`` (K,), ``names`` (P,), ``position_m`` (K, P, 3), NaN where there is none."""
+    """Points of another program: ``time_s`` (K,), ``names`` (P,), ``position_m`` (K, P, 3) with NaN for none."""
 
     time_s: FloatArray
     names: tuple[str, ...]
@@ -32,7 +32,7 @@ class PointTrack:
 
 
 def read_c3d(path: Path) -> PointTrack:
-    """The points of a C3D file. Raises :class:`ReferenceUnreadable`."""
+    """Read the points of a C3D file. Raises :class:`ReferenceUnreadable`."""
     try:
         if path.stat().st_size > MAX_BYTES:
             raise ReferenceUnreadable(path, phrase("larger than 2 GB"))
@@ -84,12 +84,12 @@ def _parse_points(content: bytes, path: Path) -> PointTrack:
 
 
 def zeros_to_nan(position_m: FloatArray) -> FloatArray:
-    """Places (K, P, 3) with a gap where a program wrote 0, 0, 0 for a marker that it did not see."""
+    """Replace positions (K, P, 3) that are 0, 0, 0 (markers that were not seen) by NaN."""
     return np.where((position_m == 0.0).all(axis=-1, keepdims=True), np.nan, position_m)
 
 
 def _frame_count(said: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:
-    """Frames as the file says it where the header's 16 bits do not hold them."""
+    """Return the number of frames, also where the header's 16 bits do not hold it."""
     trial = said.get("TRIAL", {})
     ends = [trial.get(f"ACTUAL_{which}_FIELD", []) for which in ("START", "END")]
     if all(len(end) >= 2 for end in ends):
@@ -131,7 +131,7 @@ def _read_parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str
 
 
 def _read_values(content: bytes, here: int, order: str, dec: bool) -> tuple[list[Any], int]:
-    """A parameter's values and how many bytes they take; ValueError where the file does not hold them."""
+    """Return a parameter's values and their bytes. Raises ValueError if the file does not hold them."""
     kind, dimensions = struct.unpack_from("bB", content, here)
     shape = list(content[here + 2 : here + 2 + dimensions])
     here += 2 + dimensions
@@ -152,7 +152,7 @@ def _read_values(content: bytes, here: int, order: str, dec: bool) -> tuple[list
 
 
 def _to_numbers(raw: np.ndarray, order: str, dec: bool, is_float: bool) -> np.ndarray:
-    """Bytes (..., count) as 16-bit integers or 32-bit floats of the machine that wrote them."""
+    """Convert bytes (..., count) to 16-bit integers or 32-bit floats of the writing machine."""
     raw = np.ascontiguousarray(raw)
     if not is_float:
         return raw.view(f"{order}i2").astype(np.float32)

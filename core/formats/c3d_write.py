@@ -1,9 +1,7 @@
-"""C3D: millimetres in camera axes; residual above 0 for a disc that was seen, 0 for a predicted one, -1 for none.
+"""Writer of C3D: millimetres in camera axes; residual above 0 for a seen marker, 0 predicted, -1 none.
 
-A writer of its own: of the libraries, ezc3d 1.7 stops at 65,535 frames and has the bytes of residual and camera mask
-the other way round from all other readers. Here both bytes are above nothing exactly where a disc was seen.
-
-Layout after the user guide of c3d.org: header, parameters and data in blocks of 512 bytes, Intel order, float.
+Of the libraries, ezc3d 1.7 stops at 65,535 frames and swaps the bytes of residual and camera mask. Layout after the
+user guide of c3d.org: header, parameters and data in blocks of 512 bytes, Intel order, float.
 """
 
 from __future__ import annotations
@@ -31,22 +29,23 @@ from carpus.core.session.values import Event, Session
 BLOCK = 512
 INTEL = 84
 RESIDUAL_STEP_MM = 0.05
-"""Of one count of a residual; with the minus sign that means float it is POINT:SCALE."""
+"""One count of a residual; negative in POINT:SCALE, which means float."""
 MAX_RESIDUAL_COUNT = 127
 CAMERA_MASK = 1
-"""The mask: Carpus has one camera."""
+"""Carpus has one camera."""
 MAX_HEADER_COUNT = 65535
 MAX_DIMENSION = 255
-"""No dimension of a parameter is longer."""
+"""Longest dimension of a parameter."""
 MAX_TEXT_BYTES = 96
 JOINT_PREFIX = "J_"
 
 
 @dataclass(frozen=True, slots=True)
 class C3dPoints:
-    """``labels`` and ``descriptions`` of P points; ``position_mm`` (K, P, 3), NaN for none; ``residual_mm`` (K, P),
-    above
-    0 for what was seen, else 0."""
+    """P points over K frames: ``position_mm`` (K, P, 3), NaN for none.
+
+    ``residual_mm`` (K, P) is above 0 for a seen marker, else 0.
+    """
 
     labels: tuple[str, ...]
     descriptions: tuple[str, ...]
@@ -55,7 +54,7 @@ class C3dPoints:
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:
-    """Write ``NAME.c3d``; the file."""
+    """Write ``NAME.c3d``; return its path."""
     path = folder / f"{take.name}.c3d"
     even = take.times
     points = build_points(take.session, even)
@@ -69,7 +68,7 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
 
 
 def build_points(session: Session, times: UniformTimes) -> C3dPoints:
-    """The discs, then the joint centres of the whole hand, which are computed and never seen."""
+    """Return the markers, then the joint centres of the whole hand, which are computed."""
     names = session.header.protocol.markers
     discs = times.interpolate(session.markers.position_cam_m)
     nearest = times.row_index
@@ -88,7 +87,7 @@ def build_points(session: Session, times: UniformTimes) -> C3dPoints:
 
 
 def model_residual_mm(session: Session) -> FloatArray:
-    """How far the model's disc lies beside the blob, across the line of sight, (N, M)."""
+    """Return the distance (N, M) of the model's marker from the blob, across the line of sight."""
     place, camera = session.markers.position_cam_m, session.camera
     ideal = camera.project(np.where(place[..., 2:] > 0.0, place, np.nan))
     pixel = camera.distort(np.nan_to_num(ideal).reshape(-1, 2)).reshape(ideal.shape)
@@ -110,7 +109,7 @@ def _point_data(points: C3dPoints, batch_rows: int = 4096) -> Iterator[bytes]:
 
 
 def _header_and_parameters(take: ExportItem, times: UniformTimes, points: C3dPoints) -> bytes:
-    """Header and parameters; the parameters say where the data begin, and are laid out twice to know it."""
+    """Lay out header and parameters, twice to know where the data begin."""
     first = b"".join(_parameter_groups(take, times, points, 0))
     blocks = -(-(len(first) + 4 + 1) // BLOCK)
     data_block = 2 + blocks
@@ -241,6 +240,6 @@ def _texts(number: int, name: str, texts: Sequence[str]) -> bytes:
 
 
 def _to_bytes(text: str, max_bytes: int) -> bytes:
-    """A text as bytes that is cut between letters, and on one line."""
+    """Encode a text on one line, cut between letters."""
     data = " ".join(text.split()).encode()[:max_bytes]
     return data.decode("utf-8", "ignore").encode()

@@ -1,10 +1,9 @@
-"""CSV: tidy tables with a unit in each column's name, and a page that explains every column.
+"""CSV: tidy tables with a unit in each column's name, and a JSON that explains every column.
 
-In the form of a person's region for a spreadsheet, or, with ``.for-programs`` before ``.csv``, the same everywhere:
-``NAME.wrist.csv`` one row a picture; ``NAME.joints.csv`` one row a picture and joint angle; ``NAME.markers.csv`` one
-row a picture and marker; ``NAME.events.csv``; ``NAME.repetitions.csv``; ``NAME.measures.csv`` one row a figure;
-``NAME.by-hand.csv`` where somebody measured by hand that day; ``NAME.csv.json``. Every column of an estimate says whose
-it is, ``filter_`` or ``smoother_``. What is not known is empty.
+Tables are in the form of a person's region for a spreadsheet or, with ``.for-programs`` before ``.csv``, the same
+everywhere. One row per frame in ``NAME.wrist.csv``, per frame and joint angle in ``NAME.joints.csv``, per frame and
+marker in ``NAME.markers.csv``; also ``events``, ``repetitions``, ``measures``, and ``by-hand`` if there are manual
+measurements of that day. Columns of estimates begin with ``filter_`` or ``smoother_``. Unknown is empty.
 """
 
 from __future__ import annotations
@@ -125,11 +124,11 @@ EVENT_COLUMNS = {
 
 Column = np.ndarray
 Table = dict[str, Column]
-"""Columns of equal length by their names: numbers, NaN where not known, or texts."""
+"""Columns of equal length by name: numbers, NaN if unknown, or texts."""
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:
-    """Write the tables; the files written."""
+    """Write the tables; return their paths."""
     out = []
     end = ".for-programs.csv" if take.dialect == MACHINE_DIALECT else ".csv"
     said = {
@@ -158,11 +157,11 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
 
 
 CLINICAL_ROTATION_NAMES = {True: "supination_from_thumb_up", False: "rotation_from_start"}
-"""What ``pronosupination`` is called where it is counted as clinicians do, by whether it is from thumb up."""
+"""Name of ``pronosupination`` counted as clinicians do, by whether it is from thumb up."""
 
 
 def _with_clinical_rotation(made: dict[str, Table], take: ExportItem) -> dict[str, Table]:
-    """Tables with the forearm's rotation as a clinician reads it, under another name than that of the files."""
+    """Return the tables with the forearm's rotation as clinicians count it, under another name."""
     exercise, start_rad = take.results.exercise, take.session.calibration.start_angles_rad
     thumb_up = is_counted_from_thumb_up(exercise)
     out = dict(made)
@@ -185,7 +184,7 @@ def _with_clinical_rotation(made: dict[str, Table], take: ExportItem) -> dict[st
 
 
 def build_tables(session: Session) -> dict[str, Table]:
-    """Wrist, joints (of the whole hand), markers and events as columns."""
+    """Build the tables of wrist, joints (of the whole hand), markers and events."""
     out = {"wrist": _wrist_table(session)}
     if session.header.joint_names:
         out["joints"] = _joint_table(session)
@@ -229,7 +228,7 @@ def _joint_columns(estimate: str, motion: Motion) -> Table:
 
 
 def build_repetition_table(session: Session, figures: SessionResults) -> Table:
-    """The repetitions as they are shown, with a person's choices: one row each, degrees and seconds."""
+    """Build the table of repetitions with a person's choices: degrees and seconds."""
     rows = [one.row for one in figures.repetitions if one.row is not None]
     angle = trained_angle_name(session)
     turned = {name: f"{name.removesuffix('_rad')}_deg" for name in ("angle_rad", "arc_rad", "arc_sd_rad")}
@@ -271,7 +270,7 @@ def _marker_table(session: Session) -> Table:
 
 
 def _repeat_for_names(session: Session, names: Sequence[str]) -> Table:
-    """Time and status of each picture, once for each of the names."""
+    """Return time and status of each frame, once for each name."""
     return {
         "timestamp_s": np.repeat(session.timestamp_s, len(names)),
         "status": np.repeat(_status_names(session), len(names)),
@@ -294,7 +293,7 @@ def _status_names(session: Session) -> Column:
 
 
 def _text_rows(table: Table) -> Iterator[tuple[str, ...]]:
-    """Every row as texts: times to the microsecond, other numbers to a thousandth."""
+    """Yield rows as texts: times to the microsecond, other numbers to a thousandth."""
 
     def format_column(name: str, values: Column) -> list[str]:
         if values.dtype.kind == "f":

@@ -1,8 +1,8 @@
-"""The formats that a session can be written in (one line here and one module for each), and sessions written in them:
-one or hundreds, into one folder, in which nothing is overwritten.
+"""Export of sessions: the list of formats, and sessions written into one folder without overwriting.
 
-A module has ``write(take, folder)`` and, where a format speaks of all sessions together, ``check(folder)`` before the
-first, ``complete(folder, provenances)`` after the last and ``OWN_FOLDER``. It is loaded only when it is asked for.
+A format is a line here and a module with ``write(item, folder)``. One for all sessions together also has
+``check(folder)`` before the first, ``complete(folder, provenances)`` after the last, and ``OWN_FOLDER``. Modules are
+loaded when needed.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from carpus.core.session.values import Session
 
 
 class Format(NamedTuple):
-    """``description`` say what it is for."""
+    """Module and description of a format."""
 
     module: str
     description: str
@@ -48,7 +48,7 @@ FORMATS = {
 
 
 class FormatWriter:
-    """One format in one export."""
+    """Writer of one format in one export."""
 
     def __init__(self, name: str, folder: Path, is_only: bool) -> None:
         self._module: Any = import_module(f"{__package__}.{FORMATS[name].module}")
@@ -68,7 +68,7 @@ class FormatWriter:
         return out
 
     def complete(self) -> Sequence[Path]:
-        """What speaks of all sessions."""
+        """Write the files of all sessions together."""
         complete = getattr(self._module, "complete", None)
         return complete(self.folder, self._written) if complete is not None and self._written else ()
 
@@ -78,17 +78,16 @@ README = "README.txt"
 
 @dataclass(frozen=True, slots=True)
 class ExportRequest:
-    """One session to export: ``path`` of its file; ``read`` gives it as it shall be written, with a person's choices
-    of its repetitions."""
+    """Session to export; ``read`` returns it as it shall be written, with a person's choices."""
 
     path: Path
     read: Callable[[], tuple[Session, RepetitionChoices | None]]
     manual_measurements: tuple[ManualValue, ...] = ()
-    """All that was ever measured by hand of the patient; what counts of the session's day and hand goes along."""
+    """All of the patient; those of the session's day and hand are exported."""
 
     @classmethod
     def from_file(cls, path: Path, choices: Callable[[Path], RepetitionChoices] | None = None) -> ExportRequest:
-        """A session file as it is, with what a person chose of its repetitions as ``choices`` reads that."""
+        """Request a session file as it is, with choices read by ``choices``."""
         # The list of formats is read by windows, which load nothing that reads files.
         from carpus.core.session.reader import read_session
 
@@ -96,7 +95,7 @@ class ExportRequest:
 
 
 class RefusedSession(NamedTuple):
-    """A session that could not be exported, and why."""
+    """Session that could not be exported, and why."""
 
     path: Path
     fault: CarpusFault
@@ -104,9 +103,10 @@ class RefusedSession(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class ExportResult:
-    """``files`` written, ``refused`` sessions; ``cancelled`` when somebody stopped it on the way.
-    ``files_by_session`` the files
-    of each session by its path; the others are of all of them."""
+    """Files written and sessions refused.
+
+    ``files_by_session`` are the files of each session; the others belong to all of them.
+    """
 
     folder: Path
     files: tuple[Path, ...]
@@ -125,11 +125,11 @@ def export_sessions(
     progress: Callable[[int, int], None] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> ExportResult:
-    """Write sessions in formats into a folder. A session that cannot be read or written is told, the others go on.
+    """Export sessions into a folder; sessions that fail are reported, the others continue.
 
-    ``dialect`` is that of the tables (CSV).
-    ``progress`` hears (done, total) steps, one for each session and format; ``cancelled`` is asked before each. Raises
-    :class:`OutputExists` or :class:`OutputNotWritable` for what is known before the first session.
+    ``dialect`` is that of CSV tables. ``progress`` receives steps done and in all, one for each session and format;
+    ``cancelled`` is called before each. Raises :class:`OutputExists` or :class:`OutputNotWritable` for what is known
+    before the first session.
     """
     sessions = list(requests)
     unknown = [name for name in formats if name not in FORMATS]
@@ -173,7 +173,7 @@ def export_sessions(
 
 
 def _prepare_deidentifier(sessions: Iterable[ExportRequest]) -> Deidentifier:
-    """Names that are nobody's for those whose sessions these are."""
+    """Return new names for the subjects of all sessions."""
     from carpus.core.session.reader import read_outline
 
     nobody = Deidentifier()

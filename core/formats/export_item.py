@@ -1,5 +1,7 @@
-"""One session on its way into other formats, and its rows on evenly spaced times for those that know no other: nothing
-is made up across a gap."""
+"""One session to export, and its rows at uniform times for formats that need them.
+
+Gaps stay gaps.
+"""
 
 from __future__ import annotations
 
@@ -20,19 +22,21 @@ from carpus.core.session.values import Event, Session
 
 DEFAULT_RATE_HZ = 30.0
 WHOLE_RATE_TOLERANCE = 0.01
-"""A rate as near to a whole number is that number: cameras keep theirs, their time stamps waver."""
+"""A rate this near to a whole number is that number: time stamps jitter, cameras do not."""
 MAX_STEP = 1.75
-"""In steps of the rate: what lies between two rows that are further apart was not recorded."""
+"""In frame periods; between rows further apart nothing was recorded."""
 MAX_OWN_STEP = 0.5
-"""In steps of the rate: a picture stands for the even time that is nearest to its own."""
+"""In frame periods; a frame stands for the uniform time nearest to its own."""
 SAME_TIME_STEP = 1e-3
-"""In steps of the rate: as near to a row, a time is that row's."""
+"""In frame periods; a time this near to a row is that row's."""
 
 
 @dataclass(frozen=True, slots=True)
 class UniformTimes:
-    """K times ``start_s + k / rate_hz``. ``before`` and ``after`` (K,) rows they lie between, -1 in a gap; ``fraction``
-    (K,) of the way from one to the other."""
+    """K times ``start_s + k / rate_hz``.
+
+    ``before`` and ``after`` (K,): rows around each time, -1 in a gap; ``fraction`` (K,) of the way between them.
+    """
 
     start_s: float
     rate_hz: float
@@ -45,17 +49,20 @@ class UniformTimes:
 
     @property
     def elapsed_s(self) -> FloatArray:
-        """The times (K,) after the first frame."""
+        """Times (K,) after the first."""
         return np.arange(len(self)) / self.rate_hz
 
     @property
     def row_index(self) -> np.ndarray:
-        """The row (K,) that a value which cannot be averaged is taken from, -1 in a gap."""
+        """Nearest row (K,), for values that cannot be averaged, -1 in a gap."""
         return np.where(self.fraction <= 0.5, self.before, self.after)
 
     def interpolate(self, values: FloatArray, is_angular: bool = False) -> FloatArray:
-        """``values`` (N, ...) at the times (K, ...), on the straight line between two rows, or the nearest where
-        the other is not known; NaN in a gap. ``is_angular`` takes the short way round the circle, radians."""
+        """Interpolate ``values`` (N, ...) linearly at the times (K, ...); NaN in a gap.
+
+        If one of two rows is unknown the nearer one is used. ``is_angular`` takes the shorter way round the circle
+        (radians).
+        """
         if not len(values):
             return np.full((len(self), *values.shape[1:]), np.nan)
         first, second = values[self.before], values[self.after]
@@ -71,7 +78,7 @@ class UniformTimes:
 
 
 def frame_rate_hz(session: Session) -> float:
-    """Frames a second of the camera, those that are missing counted."""
+    """Return the camera's frame rate, missing frames included."""
     count = len(session)
     if count < 2:
         return DEFAULT_RATE_HZ
@@ -82,10 +89,10 @@ def frame_rate_hz(session: Session) -> float:
 
 
 def uniform_times(timestamp_s: FloatArray, rate_hz: float) -> UniformTimes:
-    """From the first to the last of strictly rising times (N,).
+    """Return uniform times from the first to the last of increasing times (N,).
 
-    Time stamps waver about the camera's even ones, so the even times are laid through their middle: a recording
-    without gaps has as many of them as pictures. The outermost may lie up to half a step outside.
+    They are laid through the middle of the jittering time stamps, so a recording without gaps has one for each frame;
+    the outermost may lie half a period outside.
     """
     count = len(timestamp_s)
     if not count:
@@ -128,18 +135,17 @@ ANGLE_DEFINITIONS = (
 
 @dataclass(frozen=True, slots=True)
 class ExportItem:
-    """``name`` without ending, the same for every file of it; ``provenance`` what it was made from, by what."""
+    """Session to export; ``name`` is the stem of all its files."""
 
     session: Session
     results: SessionResults
     name: str
     provenance: Mapping[str, Any]
     manual_measurements: tuple[ManualValue, ...] = ()
-    """What a person measured by hand on the day of the session, of its hand and of the person; never in the figures."""
+    """Manual measurements on the day of the session, of its hand and of the person."""
     source_camera: Camera | None = None
-    """Whose pixels the session's file has; the session's own camera may be a rounded one."""
+    """Camera whose pixels the file has; that of the session may be a generic one."""
     dialect: TableDialect = MACHINE_DIALECT
-    """Of its tables."""
 
     @property
     def times(self) -> UniformTimes:
@@ -147,7 +153,7 @@ class ExportItem:
 
 
 def repetition_events(item: ExportItem) -> list[Event]:
-    """Start, peak and end of every repetition as shown, on the clock of the frames, for formats that know moments."""
+    """Return start, peak and end of every repetition as events on the clock of the frames."""
     if not len(item.session):
         return []
     start_s, out = float(item.session.timestamp_s[0]), []
@@ -162,19 +168,19 @@ def repetition_events(item: ExportItem) -> list[Event]:
 
 
 def joint_centres_cam_m(session: Session) -> FloatArray:
-    """Joint centres and tips (N, M, 3) in camera axes; (N, 0, 3) without fingers."""
+    """Return joint centres and tips (N, M, 3) in camera axes; (N, 0, 3) without fingers."""
     calibration = session.calibration
     turned = session.motion.joint_position_m @ calibration.rotation_w0_cam.T
     return np.asarray(turned + calibration.translation_w0_cam_m)
 
 
 def is_measured(session: Session) -> np.ndarray:
-    """Whether each marker was seen in each frame, (N, M)."""
+    """Return whether each marker was seen in each frame, (N, M)."""
     return np.asarray(np.isfinite(session.markers.measured_px).all(axis=-1))
 
 
 def format_number(value: float, digits: int) -> str:
-    """A number in a table; not known is empty, and nothing is minus nothing.
+    """Format a number of a table; unknown is empty, and there is no minus zero.
 
     >>> format_number(-0.0001, 3), format_number(float("nan"), 3)
     ('0.000', '')

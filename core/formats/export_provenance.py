@@ -1,5 +1,7 @@
-"""What every export says of itself (of which session, by which program, from which recording, camera and settings), and
-sessions that lead back to nobody (clinical reference 8.5): new random names, days counted, no texts."""
+"""Provenance of every export, and de-identified sessions (clinical reference 8.5).
+
+De-identified sessions have new random names, counted days and no texts.
+"""
 
 from __future__ import annotations
 
@@ -27,13 +29,13 @@ ANONYMOUS_SOURCE_FIELDS = (
     "depth_sensor", "depth_unit_m", "format", "intrinsics", "nominal_fps", "registered", "mirrored", "simulated",
     "driver",
 )  # fmt: skip
-"""What a de-identified export says of the source: nothing that names a device, a file or a day."""
+"""Fields of the source that name no device, file or day."""
 FOCAL_STEP_SHARE = 25.0 / 640.0
-"""Of the picture's width: units of one kind differ by less."""
+"""Of the image width; cameras of one kind differ by less."""
 
 
 def build_provenance(session: Session, deidentified: bool = False) -> dict[str, Any]:
-    """As plain values for JSON. De-identified: no hash, name or date leads back."""
+    """Return the provenance as values for JSON; de-identified, without hash, name or date."""
     header = session.header
     source, settings = (made_by.parameter_section(header.parameters, part) for part in ("source", "settings"))
     out: dict[str, Any] = {
@@ -68,7 +70,7 @@ def build_provenance(session: Session, deidentified: bool = False) -> dict[str, 
 
 
 def generic_camera(camera: Camera) -> Camera:
-    """A camera of this kind that could be any unit: no lens errors, the middle of the picture, a rounded focal length.
+    """Return a camera of this kind without the traits of one unit: no distortion, rounded focal length.
 
     >>> camera = generic_camera(Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.0, 0.001, 0.0)))
     >>> camera.fx_px, camera.fy_px, camera.cx_px, camera.is_distorted
@@ -84,7 +86,7 @@ def generic_camera(camera: Camera) -> Camera:
 
 
 def reproject_pixels(pixel: FloatArray, old: Camera, new: Camera) -> FloatArray:
-    """Pixels (..., 2) of one camera as another one at its place sees them; NaN stays."""
+    """Convert pixels (..., 2) of one camera to another one at its place; NaN stays."""
     out = np.asarray(pixel, dtype=np.float64).reshape(-1, 2).copy()
     known = np.isfinite(out).all(axis=1)
     ideal = old.undistort(out[known])
@@ -93,14 +95,14 @@ def reproject_pixels(pixel: FloatArray, old: Camera, new: Camera) -> FloatArray:
 
 
 DAY_ZERO = datetime(1900, 1, 1, tzinfo=UTC)
-"""Day of a patient's first session; BIDS marks a shifted date by a year before 1925."""
+"""Day of a patient's first session; BIDS marks shifted dates by a year before 1925."""
 _SETUP_FIELDS = ("targets_deg", "repetitions", "ends_free")
 _LEARNT_TIME_FIELD = "neutral_ends_s"
 
 
 @dataclass(slots=True)
 class Deidentifier:
-    """New names for one export; the same patient and recording get the same ones, and no list of them is kept."""
+    """New names for one export: the same for the same patient and recording; no list is kept."""
 
     _subjects: dict[str, str] = field(default_factory=dict)
     _ids: dict[str, str] = field(default_factory=dict)
@@ -108,17 +110,16 @@ class Deidentifier:
     _names: dict[str, int] = field(default_factory=dict)
 
     def register(self, outline: SessionOutline) -> None:
-        """Told of every session before the first is written, so that days count from the earliest."""
+        """Register a session before the first is written, so that days count from the earliest."""
         header = outline.header
         if header.recorded:
             day = _day(header.recorded)
             self._first_day[header.subject_id] = min(day, self._first_day.get(header.subject_id, day))
 
     def deidentify(self, session: Session) -> Session:
-        """The same movement of nobody: times from nought, no text that a person wrote, nothing of the device.
+        """Return the session with times from zero, without texts of people and traits of the device.
 
-        The camera is a rounded one, and every pixel lies where that one would see it: from exact pixels and places the
-        exact camera could be worked out, which is the same in every export of a clinic.
+        Pixels are those of a generic camera: from exact pixels and positions the clinic's camera could be computed.
         """
         start_s = float(session.timestamp_s[0]) if len(session) else 0.0
         old, new = session.camera, generic_camera(session.camera)
@@ -147,7 +148,7 @@ class Deidentifier:
         )
 
     def new_file_stem(self, header: SessionHeader) -> str:
-        """A file name from a header that is de-identified already."""
+        """Return a file name from a de-identified header."""
         day = f"day{(_day(header.recorded) - DAY_ZERO).days:04d}" if header.recorded else "day"
         stem = f"{header.subject_id}_{day}"
         self._names[stem] = self._names.get(stem, 0) + 1
@@ -177,7 +178,7 @@ class Deidentifier:
 
 
 def _day(moment: str) -> datetime:
-    """The day on the clinic's clock, whatever its zone."""
+    """Return the day on the clinic's clock, whatever its zone."""
     return datetime.fromisoformat(moment).replace(hour=0, minute=0, second=0, microsecond=0, tzinfo=UTC)
 
 

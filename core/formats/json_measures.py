@@ -1,4 +1,4 @@
-"""JSON of the measures: every figure of a session with its unit, repetitions, quality and provenance."""
+"""JSON of the measures: every measure of a session with unit, repetitions, quality and provenance."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _SESSION_COLUMNS = (
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:
-    """Write ``NAME.measures.json``; the file."""
+    """Write ``NAME.measures.json``; return its path."""
     return [write_new_json(folder / f"{take.name}.measures.json", measures_content(take))]
 
 
 def measures_content(take: ExportItem) -> dict[str, Any]:
-    """All of it as plain values; numbers that are not known are null in the file."""
+    """Return the content as plain values; unknown numbers become null."""
     figures, header = take.results, take.session.header
     rows = [asdict(row) for row in build_measure_rows(figures, take.name)]
     quality, columns = figures.quality, build_repetition_table(take.session, figures)
@@ -68,7 +68,7 @@ def measures_content(take: ExportItem) -> dict[str, Any]:
 
 
 def list_norms(figures: SessionResults) -> list[dict[str, Any]]:
-    """Usual values that stand beside figures of this session, each with its source, ages and sexes."""
+    """Return the reference ranges shown with this session, with source, ages and sexes."""
     angle = figures.exercise.angle
     wrist: list[tuple[str, Norm | None]] = []
     if angle is not None:

@@ -1,4 +1,4 @@
-"""The measures of many sessions as one table: CSV, or Parquet with the extra ``carpus[tables]``."""
+"""Table of the measures of many sessions: CSV, or Parquet with the extra ``carpus[tables]``."""
 
 from __future__ import annotations
 
@@ -27,9 +27,10 @@ MEASURES_HEADER = tuple(field.name for field in fields(MeasureRow))
 
 
 def check_measures_path(path: Path) -> None:
-    """Raise now what :func:`open_measures_file` would raise of a place after hours of work: a table of measures is
-    replaced,
-    anything else is somebody else's."""
+    """Raise before hours of work what :func:`open_measures_file` would raise for a path.
+
+    A table of measures may be replaced, any other file may not.
+    """
     parquet = _import_pyarrow()[1] if path.suffix.lower() == PARQUET else None
     if not path.exists():
         return
@@ -56,10 +57,10 @@ def _import_pyarrow() -> tuple[Any, Any]:
 
 @contextmanager
 def open_measures_file(path: Path, *, overwrite: bool = False) -> Iterator[Callable[[Sequence[MeasureRow]], None]]:
-    """A table that takes rows as they come and holds few of them in memory, by the ending of its name ``.parquet`` or
-    else CSV; it has its name when all is written.
+    """Open a table (Parquet by its ending, else CSV) that takes rows as they come.
 
-    Raises :class:`OutputExists`, :class:`OutputNotWritable`, or :class:`ExtraMissing` without pyarrow.
+    The file gets its name when it is complete. Raises :class:`OutputExists`, :class:`OutputNotWritable`, or
+    :class:`ExtraMissing` without pyarrow.
     """
     if path.suffix.lower() != PARQUET:
         with open_new_file(path, overwrite=overwrite) as file:
@@ -92,7 +93,7 @@ def open_measures_file(path: Path, *, overwrite: bool = False) -> Iterator[Calla
 
 
 def write_measures(rows: Sequence[MeasureRow], path: Path, dialect: TableDialect = MACHINE_DIALECT) -> Path:
-    """Write the whole table, as :func:`open_measures_file`; ``dialect`` of a CSV."""
+    """Write a whole table; ``dialect`` is that of a CSV."""
     if path.suffix.lower() != PARQUET:
         return write_new_table(path, MEASURES_HEADER, to_csv_rows(rows), dialect)
     with open_measures_file(path) as take:
@@ -101,5 +102,5 @@ def write_measures(rows: Sequence[MeasureRow], path: Path, dialect: TableDialect
 
 
 def to_csv_rows(rows: Sequence[MeasureRow]) -> list[list[str]]:
-    """Every row as texts: unknown is empty, numbers to six digits that count."""
+    """Convert rows to texts: unknown is empty, numbers have six significant digits."""
     return [[escape_formula(format_cell(value)) for value in astuple(row)] for row in rows]

@@ -1,7 +1,7 @@
-"""MOT for OpenSim: wrist and joint angles in degrees, evenly sampled; what is not known is NaN.
+"""MOT for OpenSim: wrist and joint angles in degrees at uniform times; unknown is NaN.
 
-``NAME.mot`` is the filter's result as it came, ``NAME.smoothed.mot`` the smoother's where it ran. The columns carry
-the side as OpenSim's do: ``wrist_flexion_r``, ``mcp2_flexion_l``.
+``NAME.mot`` has the filter's result, ``NAME.smoothed.mot`` the smoother's. Columns end with the side as in OpenSim:
+``wrist_flexion_r``, ``mcp2_flexion_l``.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from carpus.core.session.values import Motion, Session
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:
-    """Write ``NAME.mot``, ``NAME.smoothed.mot`` where there is one, and ``NAME.mot.json``; the files."""
+    """Write ``NAME.mot``, ``NAME.smoothed.mot`` if there is one, and ``NAME.mot.json``; return their paths."""
     session, even = take.session, take.times
     out = []
     for motion, name in ((session.motion, take.name), (session.smoothed, f"{take.name}.smoothed")):
@@ -46,7 +46,7 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
 
 
 def column_names(session: Session) -> list[str]:
-    """Names of the angles as OpenSim writes them, in file order."""
+    """Return the angles' names in OpenSim, in file order."""
     side = session.header.hand[0]
     return [f"{'wrist_' if name in WRIST_ANGLES else ''}{name.lower()}_{side}" for name in _angle_names(session)]
 

@@ -1,4 +1,4 @@
-"""Reads OpenSim's texts: TRC (points) and MOT or STO (columns over time)."""
+"""Reader of OpenSim's texts: TRC (points) and MOT or STO (columns over time)."""
 
 from __future__ import annotations
 
@@ -18,8 +18,7 @@ _METRES = {"mm": 1e-3, "m": 1.0, "cm": 1e-2}
 
 @dataclass(frozen=True, slots=True)
 class TimeTable:
-    """A table over time: ``time_s`` (K,), ``values`` of each named column (K,), NaN for none; ``in_degrees`` whether
-    its angles are, None where it does not say."""
+    """Named columns over ``time_s`` (K,), NaN for none; ``in_degrees`` is None if the file does not say."""
 
     time_s: FloatArray
     values: dict[str, FloatArray]
@@ -27,7 +26,7 @@ class TimeTable:
 
 
 def read_trc(path: Path) -> PointTrack:
-    """The points of a TRC file. Raises :class:`ReferenceUnreadable`."""
+    """Read the points of a TRC file. Raises :class:`ReferenceUnreadable`."""
     lines = read_text(path).splitlines()
     if len(lines) < 6 or not lines[0].startswith("PathFileType"):
         raise ReferenceUnreadable(path, "no TRC")
@@ -50,7 +49,7 @@ def read_trc(path: Path) -> PointTrack:
 
 
 def read_mot(path: Path) -> TimeTable:
-    """The columns of a MOT or STO file. Raises :class:`ReferenceUnreadable`."""
+    """Read the columns of a MOT or STO file. Raises :class:`ReferenceUnreadable`."""
     lines = read_text(path).splitlines()
     ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
     if not ends or ends[0] + 1 >= len(lines):
@@ -71,7 +70,7 @@ def read_mot(path: Path) -> TimeTable:
 
 
 def _parse_cell(cell: str) -> float:
-    """NaN of an empty cell; raises ValueError where it holds something else than a number."""
+    """Parse a number, NaN for an empty cell. Raises ValueError for anything else."""
     if is_non_numeric(cell):
         raise ValueError(f"“{cell[:20]}” is no number")
     return parse_number(cell)

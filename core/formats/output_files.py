@@ -1,4 +1,4 @@
-"""A new file that is whole or not there, and never takes the place of another."""
+"""New files that are complete or absent, and never replace another."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _NUMBER_PATTERN = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
 class SupportsWrite(Protocol):
-    """What :mod:`csv` writes to."""
+    """Object that :mod:`csv` can write to."""
 
     def write(self, text: str, /) -> int: ...
 
 
 @contextmanager
 def open_new_file(path: Path, *, overwrite: bool = False) -> Iterator[IO[bytes]]:
-    """A file to write, which gets its name only when all of it is written; ``overwrite`` the one that has it.
+    """Open a file that gets its name when it is complete; ``overwrite`` replaces an existing one.
 
     Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-done stays.
     """
@@ -57,23 +57,20 @@ def open_new_file(path: Path, *, overwrite: bool = False) -> Iterator[IO[bytes]]
 
 
 def require_folder(path: Path) -> None:
-    """Where a person names one file its folder is there; none is made: its name may be misspelt.
-
-    Raises :class:`OutputNotWritable`.
-    """
+    """Raise :class:`OutputNotWritable` if a named file's folder is missing: its name may be misspelt."""
     if not path.parent.is_dir():
         raise OutputNotWritable(path, os.strerror(errno.ENOENT))
 
 
 def write_new_text(path: Path, text: str, *, overwrite: bool = False) -> Path:
-    """Write a text as a new file, lines ended by a line feed alone."""
+    """Write a text as a new file with line feeds."""
     with open_new_file(path, overwrite=overwrite) as file:
         file.write(text.encode("utf-8"))
     return path
 
 
 def write_new_json(path: Path, content: Any, *, overwrite: bool = False) -> Path:
-    """Write JSON that every reader takes: what is not known is null, never NaN."""
+    """Write standard JSON as a new file: unknown numbers are null, never NaN."""
     return write_new_text(
         path, json.dumps(nan_to_none(content), indent=2, ensure_ascii=False) + "\n", overwrite=overwrite
     )
@@ -81,15 +78,14 @@ def write_new_json(path: Path, content: Any, *, overwrite: bool = False) -> Path
 
 @dataclass(frozen=True, slots=True)
 class TableDialect:
-    """How a table of texts is written. ``has_bom``: begins with the byte order mark, by which a spreadsheet knows
-    UTF-8."""
+    """Dialect of a text table; ``has_bom`` lets a spreadsheet recognise UTF-8."""
 
     separator: str = ","
     decimal: str = "."
     has_bom: bool = False
 
     def to_cell(self, text: str) -> str:
-        """A cell as a spreadsheet shows it and does not calculate it, numbers with the form's decimal sign.
+        """Return a cell that a spreadsheet does not calculate, numbers with the decimal sign.
 
         >>> TableDialect(";", ",").to_cell("-1.5"), TableDialect(";", ",").to_cell("=1+2")
         ('-1,5', "'=1+2")
@@ -99,7 +95,6 @@ class TableDialect:
 
 
 MACHINE_DIALECT = TableDialect()
-"""The same in every country."""
 TAB_DIALECT = TableDialect("\t")
 
 
@@ -107,7 +102,7 @@ def write_new_table(
     path: Path, head: Sequence[str], rows: Iterable[Iterable[str]], dialect: TableDialect = MACHINE_DIALECT, *,
     overwrite: bool = False,
 ) -> Path:  # fmt: skip
-    """Write a table row by row; ``head`` may be empty. No cell is calculated by a spreadsheet that opens it."""
+    """Write a table as a new file; ``head`` may be empty. No cell is a formula."""
     with open_new_file(path, overwrite=overwrite) as file:
         text = _Utf8Writer(file)
         if dialect.has_bom:
@@ -127,7 +122,7 @@ def write_rows(
 
 
 def escape_formula(text: str) -> str:
-    """A cell that a spreadsheet shows and does not calculate; numbers are left as they are.
+    """Return a text that a spreadsheet shows and does not calculate; numbers stay.
 
     >>> escape_formula("=1+2"), escape_formula("fist"), escape_formula("-1.5e3")
     ("'=1+2", 'fist', '-1.5e3')
@@ -136,7 +131,7 @@ def escape_formula(text: str) -> str:
 
 
 def format_cell(value: Any) -> str:
-    """A value as a table has it: unknown is empty, numbers to six digits that count."""
+    """Format a value of a table: unknown is empty, numbers have six significant digits."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
@@ -145,7 +140,7 @@ def format_cell(value: Any) -> str:
 
 
 def nan_to_none(value: Any) -> Any:
-    """The same with None for every number that is not finite, and plain numbers for NumPy's.
+    """Replace numbers that are not finite by None, and NumPy's values by plain ones.
 
     >>> nan_to_none({"a": [1.0, float("nan")]})
     {'a': [1.0, None]}
@@ -160,7 +155,7 @@ def nan_to_none(value: Any) -> Any:
 
 
 class _Utf8Writer:
-    """What :mod:`csv` writes to, over a file of bytes."""
+    """Text writer for :mod:`csv` over a binary file."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self._file = file
@@ -170,7 +165,7 @@ class _Utf8Writer:
 
 
 def _publish(half: Path, path: Path) -> None:
-    """The name in one step that does not replace; on file systems without links by a look before."""
+    """Rename without replacing; on file systems without links after a check."""
     try:
         os.link(half, path)
     except FileExistsError:

@@ -1,4 +1,4 @@
-"""The session itself as a session file: all but the pictures, to be imported again to the same charts."""
+"""Copy of a session file without frames, which can be imported again with the same results."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from carpus.core.session.writer import SessionWriter
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:
-    """Write ``NAME.h5`` with a seal of its own; the file. Raises :class:`OutputExists`."""
+    """Write ``NAME.h5`` with its own checksum; return its path. Raises :class:`OutputExists`."""
     path = folder / f"{take.name}.h5"
     session = take.session
     folder.mkdir(parents=True, exist_ok=True)
@@ -64,7 +64,7 @@ def _tracked_frames(take: ExportItem) -> Iterator[TrackedFrame]:
 
 
 def _move_detections(table: DetectionTable, old: Camera, new: Camera) -> DetectionTable:
-    """What was detected as the camera of the copy sees it."""
+    """Reproject detections to the camera of the copy."""
     surface, fingers = ((reproject_pixels(pixel, old, new), depth) for pixel, depth in (table.surface, table.fingers))
     blobs = replace(table.blobs, pixel=reproject_pixels(table.blobs.pixel, old, new))
     return DetectionTable(table.frame, blobs, surface, fingers)

@@ -1,5 +1,4 @@
-"""Tables as people's programs and spreadsheets write them: any separator, decimal sign and encoding, lines before the
-header, units in the names."""
+"""Reader of people's tables: any separator, decimal sign and encoding, lines before the header, units in names."""
 
 from __future__ import annotations
 
@@ -18,7 +17,6 @@ from carpus.core.model.phrase import phrase
 
 MAX_BYTES = 1 << 30
 MAX_HEADER_LINE = 200
-"""Before the header of a table."""
 _SEPARATORS = ";\t,"
 _EMPTY_CELLS = ("", "-", "–", "—", "nan", "na", "n/a", "null")
 _PLAIN_CHARACTERS = str.maketrans("\N{MINUS SIGN}\N{EN DASH}", "--", " \N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}")
@@ -28,26 +26,24 @@ _CLOCK_PATTERN = re.compile(r"^(?:(\d+):)?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)$")
 
 @dataclass(frozen=True, slots=True)
 class TextTable:
-    """Cells as texts: ``names`` of the columns, each another one; ``rows`` with a cell for each name;
-    ``line_numbers`` of each
-    row in the file."""
+    """Cells as texts; ``names`` are unique, ``line_numbers`` are those of the rows in the file."""
 
     names: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     line_numbers: tuple[int, ...]
 
     def column(self, name: str) -> list[str]:
-        """The cells of a column."""
+        """Return the cells of a column."""
         at = self.names.index(name)
         return [row[at] for row in self.rows]
 
     def row(self, at: int) -> dict[str, str]:
-        """A row's cells by the names in small letters."""
+        """Return a row's cells by the names in lower case."""
         return {name.lower(): cell for name, cell in zip(self.names, self.rows[at], strict=True)}
 
 
 def read_text(path: Path) -> str:
-    """Read a text in UTF-8, UTF-16 or, where it is neither, Windows-1252. Raises :class:`ReferenceUnreadable`."""
+    """Read a text in UTF-8, UTF-16 or else Windows-1252. Raises :class:`ReferenceUnreadable`."""
     try:
         if path.stat().st_size > MAX_BYTES:
             raise ReferenceUnreadable(path, phrase("larger than 1 GB"))
@@ -66,9 +62,11 @@ def read_text(path: Path) -> str:
 
 
 def read_table(path: Path, known_names: Collection[str]) -> TextTable:
-    """Read the table in a file: its header is the line that has one of the ``known_names`` names (in small letters,
-    without
-    unit), or else the one that most rows of numbers follow. Raises :class:`ReferenceUnreadable`."""
+    """Read the table of a file. Raises :class:`ReferenceUnreadable`.
+
+    Its header is the line with one of ``known_names`` (lower case, without unit), else the one followed by the most
+    rows of numbers.
+    """
     text = read_text(path)
     separators = _SEPARATORS
     said = re.match(r"\s*\"?sep=(.)\"?[^\n]*\n", text, re.IGNORECASE)
@@ -84,7 +82,7 @@ def read_table(path: Path, known_names: Collection[str]) -> TextTable:
 def _find_table(
     text: str, separator: str, known_names: Collection[str]
 ) -> tuple[tuple[bool, int, int], TextTable] | None:
-    """The table by one separator, and how likely it is one; None where there is none."""
+    """Find the table for one separator and its score, None if there is none."""
     reader = csv.reader(io.StringIO(text), delimiter=separator, skipinitialspace=True)
     try:
         lines = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
@@ -119,7 +117,7 @@ def _find_table(
 
 
 def split_unit(name: str) -> tuple[str, str]:
-    """A column's name and its unit in brackets, empty where it says none; of columns of one name the same name.
+    """Split a column's name and its unit in brackets (empty for none); ``#2`` of equal names is removed.
 
     >>> split_unit("Flexion (°)"), split_unit("time [ms]"), split_unit("flexion #2")
     (('Flexion', '°'), ('time', 'ms'), ('flexion', ''))
@@ -130,7 +128,7 @@ def split_unit(name: str) -> tuple[str, str]:
 
 
 def parse_number(text: str | None) -> float:
-    """A number as people write it, NaN for what is none: decimal comma or point, any minus, a degree sign behind it.
+    """Parse a number as people write it, else NaN: decimal comma or point, any minus, a degree sign.
 
     >>> parse_number("−0,5"), parse_number("1.234,5"), parse_number("1,234.5"), parse_number("45°")
     (-0.5, 1234.5, 1234.5, 45.0)
@@ -147,13 +145,15 @@ def parse_number(text: str | None) -> float:
 
 
 def is_non_numeric(text: str) -> bool:
-    """Whether a cell holds something that is neither a number nor a way to say that there is none."""
+    """Return whether a cell holds something that is neither a number nor a mark for none."""
     return text.strip().lower() not in _EMPTY_CELLS and not math.isfinite(parse_number(text))
 
 
 def parse_times(cells: Sequence[str]) -> tuple[list[float], bool]:
-    """Times (K,) of numbers, or in seconds of clocks (h:mm:ss.f, mm:ss.f) and dates with one; NaN for what is none; and
-    whether they were clocks, past midnight too."""
+    """Parse times (K,), NaN for none, and return whether they were clock times.
+
+    Clock times (h:mm:ss.f, mm:ss.f) and dates with one become seconds, also past midnight.
+    """
     numbers = [parse_number(cell) for cell in cells]
     if sum(map(math.isfinite, numbers)) * 2 >= len(numbers):
         return numbers, False

@@ -1,6 +1,6 @@
-"""TRC for OpenSim: the paper discs in millimetres, evenly sampled, Y up; what is not known is an empty cell.
+"""TRC for OpenSim: marker positions in millimetres at uniform times, Y up; unknown is an empty cell.
 
-``NAME.trc.json`` says the rotation and where it all comes from; the format has no place for it.
+``NAME.trc.json`` states rotation and provenance, for which the format has no place.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from carpus.core.formats.export_item import CAMERA_AXES, ExportItem, format_numb
 from carpus.core.formats.output_files import open_new_file, write_new_json
 
 ROTATION_UP_CAM = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-"""Camera axes to OpenSim's: the camera looks down, so that away from it is down; X stays, Z is down the picture."""
+"""Camera axes to OpenSim's: the camera looks down; X stays, Z is down in the image."""
 ROTATION_DESCRIPTION = (
     "X_trc = x, Y_trc = -z, Z_trc = y of the colour camera's axes: Y up for a camera that looks straight down; "
     "right-handed, origin at the camera"
@@ -22,7 +22,7 @@ ROTATION_DESCRIPTION = (
 
 
 def write(take: ExportItem, folder: Path) -> list[Path]:
-    """Write ``NAME.trc`` and ``NAME.trc.json``; the files."""
+    """Write ``NAME.trc`` and ``NAME.trc.json``; return their paths."""
     path = folder / f"{take.name}.trc"
     with open_new_file(path) as file:
         for line in _lines(take, path.name):

@@ -1,4 +1,4 @@
-"""Days and moments as they are stored: ISO 8601, moments with a zone."""
+"""Days and times as stored: ISO 8601, times with a zone."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _EARLIEST = datetime(2000, 1, 1, tzinfo=UTC)
 
 
 def moment_from_timestamp(timestamp_s: float) -> datetime | None:
-    """The moment that a picture's time names when it counts from 1970, None when it counts from anything else."""
+    """Convert a frame's time to UTC if it counts from 1970, else return None."""
     latest_s = datetime.now(UTC).timestamp() + 86400.0
     if not _EARLIEST.timestamp() <= timestamp_s <= latest_s:
         return None
@@ -17,7 +17,7 @@ def moment_from_timestamp(timestamp_s: float) -> datetime | None:
 
 
 def is_moment(text: str) -> bool:
-    """Whether a text is a date and time with its zone."""
+    """Return whether a text is a date and time with zone."""
     try:
         return datetime.fromisoformat(text).utcoffset() is not None
     except ValueError:
@@ -25,7 +25,7 @@ def is_moment(text: str) -> bool:
 
 
 def parse_day(text: str) -> date | None:
-    """The day that a text names, None for one that is none."""
+    """Parse a day, None if the text is none."""
     try:
         return date.fromisoformat(text)
     except ValueError:
@@ -33,5 +33,5 @@ def parse_day(text: str) -> date | None:
 
 
 def to_iso(moment: datetime) -> str:
-    """ISO 8601 to the second, in the zone of this place."""
+    """Format a time to the second in the local zone."""
     return moment.astimezone().isoformat(timespec="seconds")

@@ -1,4 +1,4 @@
-"""How a fault and a marker are said: the facts in their sentences, in English or translated before they are filled."""
+"""Texts of faults and markers: facts in their sentences, in English or translated before they are filled in."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from carpus.core.model.installation import install_hint
 from carpus.core.model.phrase import Phrase, phrase
 
 Translate = Callable[[str], str]
-"""Says a :class:`Phrase` in a language, any other text as it is."""
+"""Translates a :class:`Phrase`; any other text stays."""
 
 
 @dataclass(frozen=True, slots=True)
 class MessageText:
-    """The three answers of every message; of a fault also its subject area, its code and ``details`` for IT support.
+    """Texts of a message: what happened, whether data are safe, and what to do.
 
-    ``data_safety`` is empty where nothing is recorded yet.
+    Faults add subject area, code and ``details`` for IT support. ``data_safety`` is empty where nothing is recorded
+    yet.
     """
 
     summary: str
@@ -32,7 +33,7 @@ class MessageText:
 
 
 _CONNECTIVES = " (for|at|to|in|für|auf|nach|unter|per|su|a) "
-"""What binds a fact to its sentence, in all languages, and goes with it where there is none."""
+"""Words that join a fact to its sentence in all languages, and go with it if there is none."""
 
 _FACT_IN_BRACKETS = re.compile(r" \((\{subject\}, )?\{detail\}\)")
 MAX_NAME_CHARACTERS = 32
@@ -103,14 +104,13 @@ def format_fault(
 
 
 def format_fault_line(fault: CarpusFault) -> str:
-    """One line for the command line: what happened, to which file, whether data are safe, what to do, and the code."""
+    """Format a fault as one line for the command line, with its code."""
     words = format_fault(fault, marker_names=True)
     parts = (words.summary, words.data_safety, words.remedy, _support_text(fault, str), f"({words.code})")
     return " ".join(part for part in parts if part)
 
 
 def _support_text(fault: CarpusFault, translate: Translate) -> str:
-    """What who installs and repairs can do besides."""
     if isinstance(fault, errors.ExtraMissing) and fault.subject:
         return translate(install_hint(fault.subject))
     return translate(fault.support)
@@ -137,7 +137,7 @@ def shorten_path(text: str) -> str:
 
 
 def marker_name(marker: str, translate: Translate = str) -> str:
-    """Clinical name of a marker; any other name stays.
+    """Return the clinical name of a marker; any other name stays.
 
     >>> marker_name("MCP2"), marker_name("CMC1"), marker_name("PIP5")
     ('index knuckle', 'thumb base', 'little finger middle joint')
@@ -146,7 +146,7 @@ def marker_name(marker: str, translate: Translate = str) -> str:
 
 
 def join_marker_names(markers: list[str] | tuple[str, ...], translate: Translate = str) -> str:
-    """Several markers as a person says them.
+    """Join the clinical names of markers.
 
     >>> join_marker_names(("MCP2", "MCP3")), join_marker_names(("WRIST", "CMC1", "MCP4"))
     ('index and middle knuckle', 'wrist, thumb base and ring knuckle')
@@ -160,7 +160,7 @@ def join_marker_names(markers: list[str] | tuple[str, ...], translate: Translate
 
 
 def _fill_template(text: str, subject: str, detail: str) -> str:
-    """Put the facts in their places; a place without a fact goes, with what binds it to the sentence."""
+    """Fill in the facts; the place of a missing fact is removed with its connective."""
     facts = {"subject": subject, "detail": " ".join(detail.split())}
     for name, fact in facts.items():
         if not fact:
@@ -169,5 +169,5 @@ def _fill_template(text: str, subject: str, detail: str) -> str:
 
 
 def join_sentences(summary: str, remedy: str) -> str:
-    """What happened and what to do as one sentence."""
+    """Join what happened and what to do in one sentence."""
     return f"{summary.removesuffix('.')}; {remedy[0].lower()}{remedy[1:]}"

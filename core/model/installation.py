@@ -1,5 +1,7 @@
-"""What an examination of this computer found, and the one place that says how what is missing is installed: from
-source, and in the packed program, which has no pip."""
+"""Findings about this computer, and how missing packages are installed.
+
+From source by pip; the packed program has no pip.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ State = Literal["good", "warning", "bad"]
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One need. ``observation`` is the fact; ``remedy`` what to do, empty when nothing is to be done."""
+    """Checked requirement: the ``observation``, and a ``remedy``, empty if nothing is to be done."""
 
     name: str
     state: State
@@ -25,17 +27,17 @@ class Finding:
 CAMERAS_EXTRA = "carpus-cameras-extra"
 """The second Debian package."""
 CAMERAS_EXTRA_PACKAGES = NO_DEPENDENCY_PACKAGES = ("pyorbbecsdk2",)
-"""Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
-it would take the place of what Carpus runs on: for that reason there is no extra for it."""
+"""Their own requirements (an older NumPy, a second OpenCV, Open3D) are those of their examples and would replace what
+Carpus runs on: so there is no extra for them."""
 
 
 def is_packed() -> bool:
-    """Whether this is the program with its own Python, in which nothing can be installed."""
+    """Return whether this is the packed program, in which nothing can be installed."""
     return getattr(sys, "frozen", False)
 
 
 def install_hint(*packages: str) -> Phrase:
-    """What to do for Python packages that are missing."""
+    """Return how to install missing Python packages."""
     if not is_packed():
         alone = "--no-deps " if set(packages) <= set(NO_DEPENDENCY_PACKAGES) else ""
         return phrase("Run “{command}”.", command=f"{sys.executable} -m pip install {alone}{' '.join(packages)}")

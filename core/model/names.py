@@ -1,6 +1,4 @@
-"""What a person may type: pseudonyms and names by one rule for window, commands, store and files, with
-what is told of one that nobody knows; least and largest numbers; and where what is known of cameras lies, by serial
-number."""
+"""Rules for what a person types: pseudonyms and names, suggestions for mistyped ones, limits of numbers."""
 
 from __future__ import annotations
 
@@ -18,10 +16,9 @@ _INVISIBLE = {"\u034f", "\u115f", "\u1160", "\u2800", "\u3164", "\uffa0", *map(c
 
 
 def normalize_name(text: str) -> str:
-    """The text as it is kept: composed (NFC), blanks single and none around it. Raises :class:`NameUnsuited`.
+    """Return a name as stored: NFC, single blanks, none around it. Raises :class:`NameUnsuited`.
 
-    Signs that nobody sees (soft hyphens, joiners, direction marks, controls) are refused: two names that look the same
-    would be two.
+    Invisible characters are refused: two names that look alike would differ.
 
     >>> normalize_name(" Linden 42 ")
     'Linden 42'
@@ -36,7 +33,7 @@ def normalize_name(text: str) -> str:
 
 
 def fold_name(text: str) -> str:
-    """A name as it is compared: capitals and kinds of the same letter do not count."""
+    """Return a name as it is compared, without case and variants of letters."""
     return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", text).casefold()).strip()
 
 
@@ -45,7 +42,7 @@ MIN_SIMILARITY = 0.6
 
 
 def find_similar_name(word: str, names: Iterable[str]) -> str | None:
-    """The known name that a mistyped one most likely means, None where none is near.
+    """Return the known name that a mistyped one most likely means, None if none is similar.
 
     >>> find_similar_name("trak", ["track", "info"]), find_similar_name("xyz", ["track"])
     ('track', None)
@@ -56,7 +53,7 @@ def find_similar_name(word: str, names: Iterable[str]) -> str | None:
 
 
 def describe_known_names(word: str, names: Iterable[str]) -> str:
-    """What was meant by ``word`` and the names that there are, as one sentence for a person.
+    """Return a suggestion for a mistyped ``word`` and the known names as a sentence.
 
     >>> describe_known_names("slwo", ["slow", "brisk"])
     'did you mean “slow”? There are: slow, brisk'
@@ -74,11 +71,11 @@ def describe_known_names(word: str, names: Iterable[str]) -> str:
 
 
 CAMERAS_FOLDER = "cameras"
-"""Folder of stored calibrations and checks inside the data folder, where back-ups find it."""
+"""Folder of camera calibrations and checks in the data folder, where backups find it."""
 
 
 def file_stem(serial: str) -> str:
-    """A serial number as part of a file's name.
+    """Return a serial number for use in a file name.
 
     >>> file_stem("1206/a b")
     '1206-a-b'
@@ -87,12 +84,11 @@ def file_stem(serial: str) -> str:
 
 
 Limits = Mapping[str, tuple[float, float]]
-"""Least and largest value by the name of the field."""
+"""Minimum and maximum by field."""
 
 
 def check_limits(section: str, settings: object, limits: Limits) -> None:
-    """Raise :class:`SettingsInvalid` for a number beyond its limits, also one of several, and for no number of several.
-    None is no number."""
+    """Raise :class:`SettingsInvalid` for numbers beyond their limits or an empty tuple; None is allowed."""
     for name, (low, high) in limits.items():
         value = getattr(settings, name)
         several = value if isinstance(value, tuple) else (value,)

@@ -1,7 +1,6 @@
-"""A sentence that core says: its template and the facts in it, so that a window can translate it before filling it.
+"""Translatable sentences of core: template and facts, so that a window can translate before filling in.
 
-As a string it is the English sentence, filled: what the command line prints and files hold. ``make translations``
-finds the templates by the literal in ``phrase("...")``.
+As a string it is the filled English sentence. ``make translations`` finds the literal in ``phrase("...")``.
 """
 
 from __future__ import annotations
@@ -10,7 +9,7 @@ from collections.abc import Mapping
 
 
 class Phrase(str):
-    """An English sentence that knows what it was made of; facts may be :class:`Phrase` themselves."""
+    """English sentence with its template and facts, which may be :class:`Phrase` themselves."""
 
     __slots__ = ("facts", "template")
     template: str
@@ -18,7 +17,7 @@ class Phrase(str):
 
 
 def phrase(template: str, **facts: object) -> Phrase:
-    """The template with the facts in its places; without facts it stays as it is.
+    """Fill facts into a template; without facts it stays as it is.
 
     >>> sentence = phrase("it has no column {name}", name="time")
     >>> sentence, sentence.template, sentence.facts

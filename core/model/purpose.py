@@ -1,4 +1,4 @@
-"""The five things that Carpus does, in the words of the command line's help, of the first start and of the README."""
+"""What Carpus does, for the command line's help, the first start and the README."""
 
 from __future__ import annotations
 
@@ -11,4 +11,4 @@ PURPOSE = (
     (phrase("Report"), phrase("a session or the progress as a PDF in English, German or Italian")),
     (phrase("Export"), phrase("to CSV, JSON, C3D, TRC, MOT and BIDS")),
 )
-"""A word for each, and what it means; together one sentence."""
+"""A verb and what it means; together one sentence."""

@@ -1,4 +1,4 @@
-"""A setting's value as TOML or JSON has it, turned into the type of its field."""
+"""Conversion of values in TOML or JSON to the type of a settings field."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from carpus.core.model.phrase import phrase
 
 MAX_NUMBER = 1e15
 NOT_IN_FILE: Mapping[str, bool] = {"in_file": False}
-"""Metadata of a field that no settings file sets: a constant whose reason its class gives, or a value of one run."""
+"""Metadata of a field that no settings file sets."""
 
 
 def settable_names(kind: type) -> set[str]:
-    """Names of the fields of a settings class that a file may set."""
+    """Return the fields of a settings class that a file may set."""
     return {item.name for item in fields(kind) if item.metadata.get("in_file", True)}
 
 
 def expand_home(text: str) -> Path:
-    """A path with the person's home in the place of ``~``; as it is where nobody has that name."""
+    """Expand ``~`` in a path; unchanged if there is no such user."""
     try:
         return Path(text).expanduser()
     except RuntimeError:
@@ -31,7 +31,7 @@ def expand_home(text: str) -> Path:
 
 
 def convert_value(hint: Any, value: Any, name: str, file: str = "") -> Any:
-    """Return ``value`` as the type of a field, ``name``. Raises :class:`SettingsInvalid` where it is no such value."""
+    """Convert ``value`` to the type of a field. Raises :class:`SettingsInvalid`."""
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin is Literal and value in arguments:
         return value

@@ -1,5 +1,4 @@
-"""What Carpus is made of beside its own code, with licences, as the installed parts say; and whether there is a newer
-one in the folder that the clinic itself named: nobody else is ever asked."""
+"""Packages that Carpus uses, with their licences, and a newer version in the clinic's update folder."""
 
 from __future__ import annotations
 
@@ -15,15 +14,15 @@ from carpus.core.model.installation import is_packed
 
 _LICENCE_NAMES = ("LICEN", "COPYING", "NOTICE", "AUTHORS")
 _FOLDERS = ("licences", "fonts", "icons")
-"""Of the resources: what was packed with the program, the typeface, the icons."""
+"""Resources with licences: packed libraries, typeface, icons."""
 _MAX_EXPRESSION = 80
 PACKED_TEXTS = "licences.txt"
-"""Beside the program, where it was packed with its own Python."""
+"""Beside the packed program."""
 
 
 @dataclass(frozen=True, slots=True)
 class BundledPart:
-    """One part. ``licence`` in few words, ``texts`` in full; both may be empty."""
+    """Package with its licence in few words and in full; both may be empty."""
 
     name: str
     version: str
@@ -32,7 +31,7 @@ class BundledPart:
 
 
 def list_bundled_parts() -> list[BundledPart]:
-    """Every package that an installed program needs, itself first, then by name; without what is not installed."""
+    """Return all installed packages that the program needs, itself first, then by name."""
     seen: dict[str, BundledPart] = {}
     waiting = ["carpus"]
     while waiting:
@@ -52,8 +51,7 @@ def list_bundled_parts() -> list[BundledPart]:
 
 
 def licence_texts() -> str:
-    """All of it for reading: a list of the parts, then every text. A packed program has it ready, with the system's
-    libraries that were packed too."""
+    """Return the list of packages and all licence texts; a packed program has them ready."""
     ready = Path(sys.executable).parent / PACKED_TEXTS
     if is_packed() and ready.is_file():
         return ready.read_text(encoding="utf-8", errors="replace")
@@ -111,7 +109,7 @@ _PACKAGE = "carpus"
 
 
 def find_latest_version(folder: Path) -> str:
-    """Of the packages listed in an apt repository's folder, empty for none. Raises :class:`OSError`."""
+    """Return the latest version in an apt repository's folder, empty for none. Raises OSError."""
     text = (folder / "Packages").read_text(encoding="utf-8", errors="replace")
     found = []
     for part in text.split("\n\n"):
@@ -122,7 +120,7 @@ def find_latest_version(folder: Path) -> str:
 
 
 def is_newer(version: str, other: str) -> bool:
-    """Whether a version, written as Python or Debian does, comes after another.
+    """Return whether a version (as in Python or Debian) comes after another.
 
     >>> is_newer("0.10.0", "0.9.1"), is_newer("0.2.0rc1", "0.2.0"), is_newer("0.2.0", "0.2.0")
     (True, False, False)

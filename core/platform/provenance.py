@@ -1,4 +1,4 @@
-"""Of what, by what and with what something was made: version, revision, and full hashes."""
+"""Provenance: version, source revision and SHA-256 of files, recordings and settings."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from carpus.core.platform.version import __version__
 
 _REVISION_LENGTH = 40
 REVISION_FILE = "revision.txt"
-"""Beside the other resources of an installed program; a checkout knows its revision itself."""
+"""Resource of an installed program; a checkout knows its revision itself."""
 HASHED_LISTS = ("rgb.txt", "depth.txt", "camera_info.yaml")
 
 
 def source_revision() -> str:
-    """The source revision of this program, 40 digits; empty where nobody knows."""
+    """Return the source revision of this program, 40 digits; empty if unknown."""
     root = Path(__file__).resolve().parents[2]
     with suppress(OSError, ValueError):
         git = root / ".git"
@@ -33,13 +33,13 @@ def source_revision() -> str:
 
 
 def version_with_revision() -> str:
-    """``0.1.0 (1a2b3c4)``; the version alone where nobody knows the revision."""
+    """Return ``0.1.0 (1a2b3c4)``, or the version alone if the revision is unknown."""
     known = source_revision()
     return f"{__version__} ({known[:7]})" if known else __version__
 
 
 def parameter_section(parameters: str, section: str) -> dict[str, Any]:
-    """A part of a session's parameters, as ``provenance`` or ``source``; empty where it says nothing."""
+    """Return a section of a session's parameters, such as ``provenance``; empty if there is none."""
     try:
         said = json.loads(parameters)[section]
     except (KeyError, TypeError, ValueError):
@@ -48,21 +48,21 @@ def parameter_section(parameters: str, section: str) -> dict[str, Any]:
 
 
 def sha256_of_file(path: Path) -> str:
-    """Of all its bytes. Raises OSError."""
+    """Return the SHA-256 of a file. Raises OSError."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def sha256_of_settings(settings: Any) -> str:
-    """Of settings as JSON with sorted names and no spaces."""
+    """Return the SHA-256 of settings as JSON with sorted names and no spaces."""
     return hashlib.sha256(json.dumps(settings, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
 
 def sha256_of_recording(path: Path) -> str:
-    """Of a recording: of its file; of a folder over the names and SHA-256 of its lists and of the pictures in them.
+    """Return the SHA-256 of a recording: of its file, or of a folder's lists and the frames in them.
 
-    The line of each file is ``SHA256 NAME`` with a line feed, in the order of the names, as ``sha256sum`` writes it but
-    with one space. What else lies in the folder (clicks, truth) does not count. Raises OSError.
+    For a folder it is that of lines ``SHA256 NAME``, sorted by name, as ``sha256sum`` writes them but with one space.
+    Other files do not count. Raises OSError.
     """
     if path.is_file():
         return sha256_of_file(path)

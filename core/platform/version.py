@@ -1,3 +1,3 @@
-"""The version of this program: the one place where it stands."""
+"""Version of this program, stated here only."""
 
 __version__ = "0.2.0"

@@ -1,1 +1,1 @@
-"""What reports, progress and tables say, as figures."""
+"""Results of a session: what reports, progress and tables show."""

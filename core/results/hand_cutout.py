@@ -1,7 +1,7 @@
-"""The hand alone out of a camera picture, and where its trained angle lies in it; face and room are never in it.
+"""Cut-out of the hand from a frame, and the position of its trained angle there.
 
-Pixels of the colour picture. What is not within a few centimetres of the hand, as the tracked discs say where it is, is
-one flat grey; where the hand was lost nothing is shown.
+Pixels of the colour frame. Everything further than a few centimetres from the hand, located by the tracked markers,
+becomes flat grey, so face and room are never visible; without a tracked hand there is no image.
 """
 
 from __future__ import annotations
@@ -19,19 +19,18 @@ from carpus.core.results.valid_data import motion_estimate
 from carpus.core.session.values import Session
 
 MARGIN_M = 0.03
-"""So much around the hand stays."""
+"""Kept around the hand."""
 FINGER_SHARE, THUMB_SHARE, ARM_SHARE = 1.25, 0.9, 0.5
-"""Where no disc is on the fingers: how far they reach beyond the knuckles, the thumb beside its base, and how much of
-the forearm stays, as parts of the way from the wrist to the middle knuckle."""
+"""Without markers on the fingers: reach of the fingers beyond the MCP joints, of the thumb beside its base, and kept
+length of the forearm, relative to the distance from WRIST to MCP3."""
 BACKGROUND_GREY = 34
-"""The grey of what is cut away."""
 MAX_TILT_DEG = 20.0
-"""Between a movement's axis and the line of sight: beyond it an angle on the picture would look too small."""
+"""Between a movement's axis and the line of sight; beyond it an angle in the image looks too small."""
 
 
 @dataclass(frozen=True, slots=True)
 class AngleOverlay:
-    """An angle on the picture: from ``vertex`` towards ``zero`` it is 0, towards ``hand`` as it stands; pixels (2,)."""
+    """Angle in the image: 0 from ``vertex`` to ``zero``, the current angle to ``hand``; pixels (2,)."""
 
     vertex: FloatArray
     zero: FloatArray
@@ -40,7 +39,7 @@ class AngleOverlay:
 
 @dataclass(frozen=True, slots=True)
 class HandCutout:
-    """The part of a frame that holds the hand; ``left_px`` and ``top_px`` are where it lay in the frame."""
+    """Part of a frame with the hand; ``left_px`` and ``top_px`` are its position in the frame."""
 
     image: ByteImage
     left_px: int
@@ -48,7 +47,7 @@ class HandCutout:
 
 
 def markers_px(session: Session, row: int) -> FloatArray:
-    """Where the discs are, (M, 2): measured, else as the model has them; NaN while lost."""
+    """Return marker positions (M, 2) in pixels: measured, else projected from the model; NaN while lost."""
     out = np.array(session.markers.measured_px[row], dtype=float)
     places = session.markers.position_cam_m[row]
     hidden = ~np.isfinite(out).all(axis=1) & np.isfinite(places).all(axis=1)
@@ -58,7 +57,7 @@ def markers_px(session: Session, row: int) -> FloatArray:
 
 
 def _hand_outline(session: Session, row: int) -> tuple[FloatArray, float] | None:
-    """Points (K, 2) that hold the hand, and how many pixels around them stay; None while it is lost."""
+    """Return points (K, 2) around the hand and the margin in pixels, None while the hand is lost."""
     spots, depth = markers_px(session, row), session.markers.position_cam_m[row][:, 2]
     names = session.header.protocol.markers
     if session.status[row] == TrackStatus.LOST or not np.isfinite(spots).all() or not np.isfinite(depth).any():
@@ -79,7 +78,7 @@ def _hand_outline(session: Session, row: int) -> tuple[FloatArray, float] | None
 
 
 def cut_out_hand(frame: ByteImage, session: Session, row: int) -> HandCutout | None:
-    """Cut the hand of a row out of its frame, with nothing else in it; None where the hand was lost or is outside."""
+    """Cut the hand out of a frame; None if it was lost or is outside."""
     found = _hand_outline(session, row)
     if found is None:
         return None
@@ -96,7 +95,7 @@ def cut_out_hand(frame: ByteImage, session: Session, row: int) -> HandCutout | N
 
 
 def angle_overlay(session: Session, row: int, exercise: Exercise) -> AngleOverlay | None:
-    """Where the trained angle lies on the picture; None where it does not lie in it, or the row was not measured."""
+    """Return where the trained angle lies in the image, None if it is not in its plane or not measured."""
     if session.status[row] != TrackStatus.TRACKED:
         return None
     spots = dict(zip(session.header.protocol.markers, markers_px(session, row), strict=True))
@@ -136,5 +135,5 @@ def _wrist_overlay(
 
 
 def _is_facing_camera(axis_cam: FloatArray) -> bool:
-    """Whether a movement about an axis (3,) in camera axes lies in the picture."""
+    """Return whether a movement about an axis (3,) in camera axes lies in the image plane."""
     return abs(float(axis_cam[2])) >= math.cos(math.radians(MAX_TILT_DEG))

@@ -1,4 +1,4 @@
-"""The measures of a session as rows of one long table: every figure with what it is of, its unit and its session."""
+"""Measures of a session as rows of one long table."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ from carpus.core.results.session_results import SessionResults
 
 @dataclass(frozen=True, slots=True)
 class MeasureRow:
-    """One figure of one session. ``measure`` and ``of``: the arc of flexion, the peak speed of the trained angle;
-    ``positive`` what a larger figure means, the same in every column of the row; ``estimate`` filter or smoother;
-    ``mean``, ``sd`` between repetitions, ``best``, ``measurement_sd`` of one value, over ``count`` of them;
-    ``at_least`` where the camera's view limits it; ``seen_share`` of the frames; ``inferred`` where an end joint that
-    no disc measures is part of it. Unknown is NaN."""
+    """Row of the table of measures; its fields are the columns of the files.
+
+    ``of``: what was measured; ``positive``: what a larger value means, in all columns; ``estimate``: filter or
+    smoother; ``sd``: between repetitions; ``measurement_sd``: of one value; ``at_least``: a lower bound; ``inferred``:
+    a DIP joint without a marker is part of it. Unknown is NaN.
+    """
 
     session: str
     session_id: str
@@ -49,7 +50,7 @@ class MeasureRow:
 
 
 def build_measure_rows(figures: SessionResults, session: str) -> tuple[MeasureRow, ...]:
-    """All measures of a session whose file is called ``session``."""
+    """Return all measures of a session whose file is called ``session``."""
     estimate = "smoother" if figures.is_smoothed else "filter"
     return tuple(replace(row, estimate=estimate, positive=_row_direction(row)) for row in _rows(figures, session))
 
@@ -77,7 +78,7 @@ _TOTAL_MEASURES = {"arc": "total active motion", "extension": "extension deficit
 
 
 def positive_direction(angle: str) -> str:
-    """What a larger angle means, of the wrist or of a joint by its name in every file.
+    """Return what a larger value of an angle of the wrist or of a joint means.
 
     >>> positive_direction("deviation"), positive_direction("MCP2_abduction"), positive_direction("CMC1_extension")
     ('radial', 'to the thumb', 'thumb away from the index finger in the plane of the palm')
@@ -107,7 +108,7 @@ def _row_direction(row: MeasureRow) -> str:
 
 
 def _table_name(row: Measure) -> str:
-    """A measure by its name in the table: of a joint and of a total, an end is no movement."""
+    """Return a measure's name in the table; ends of joints and totals are not movements."""
     if row.group == "share":
         return ", ".join(filter(None, (row.quantity, grade_share(row))))
     if row.group != "range" or row.wrist_angle >= 0:

@@ -1,8 +1,7 @@
-"""What the papers draw of a movement: path with the hand's axes, velocities, ZYZ, and the ways of the finger joints;
-and the same as one table. And one angle where it was seen.
+"""Curves of the papers: path with the hand's axes, velocities, ZYZ angles and joint paths; also as a table.
 
-Wrist paper, figures 3, 5 and 6; hand paper, figures 2 and 3. Places in millimetres and the stored W0, angles in
-degrees, seconds; unknown is NaN, and what the camera did not see is never filled in.
+Wrist paper, figures 3, 5 and 6; hand paper, figures 2 and 3. Positions in millimetres in W0, angles in degrees; unknown
+is NaN, and unseen stretches are never filled in.
 """
 
 from __future__ import annotations
@@ -32,12 +31,13 @@ from carpus.core.session.values import Motion, Session
 
 @dataclass(frozen=True, slots=True)
 class MotionCurves:
-    """N frames. ``time_s`` (N,) after the first; ``is_predicted`` (N,); ``position_mm`` and ``velocity_mm_s`` (N, 3) of
-    the wrist in W0, ``angular_velocity_deg_s`` (N, 3) about the hand's axes, ``axes`` (N, 3, 3) columns X, Y, Z of W2
-    in W0;
-    ``zyz_deg`` and ``zyz_sd_deg`` (N, 3), ``zyz_sum_deg`` (N,) alpha + gamma; ``joint_mm`` (N, M, 3) the joints and
-    tips by ``joint_names`` in W0, M 0 for the wrist alone; ``is_joint_seen`` (N, M) whether the disc there has a
-    blob."""
+    """Curves over N frames.
+
+    ``time_s`` (N,) after the first frame; ``position_mm`` and ``velocity_mm_s`` (N, 3) of the wrist in W0;
+    ``angular_velocity_deg_s`` (N, 3) about the hand's axes; ``axes`` (N, 3, 3), columns X, Y, Z of W2 in W0;
+    ``zyz_deg`` and ``zyz_sd_deg`` (N, 3), ``zyz_sum_deg`` (N,) alpha + gamma; ``joint_mm`` (N, M, 3) joints and tips in
+    W0, M = 0 for the wrist alone; ``is_joint_seen`` (N, M) the marker there has a blob.
+    """
 
     side: Side
     time_s: FloatArray
@@ -55,7 +55,7 @@ class MotionCurves:
 
 
 def compute_motion_curves(session: Session) -> MotionCurves:
-    """Of the smoother's result where there is one; nothing where the hand was lost."""
+    """Compute the curves, smoothed if there is a smoother's result; NaN where the hand was lost."""
     motion, side = motion_estimate(session), session.header.hand
     count = motion.joint_position_m.shape[1]
     zyz, sd, total = zyz_with_sd(motion.rotation_w2_w0, motion.angles_sd_rad, side)
@@ -78,14 +78,14 @@ def compute_motion_curves(session: Session) -> MotionCurves:
 
 @dataclass(frozen=True, slots=True)
 class CurveColumn:
-    """One curve: ``name`` with its unit at the end, ``values`` (N,)."""
+    """Curve ``values`` (N,); ``name`` ends with the unit."""
 
     name: str
     values: FloatArray
 
 
 def motion_columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
-    """Every curve of a session by its filter or its smoother, ``motion``."""
+    """Yield every curve of a session by the filter or smoother, ``motion``."""
     side = session.header.hand
     for axis, letter in enumerate("xyz"):
         yield CurveColumn(f"position_{letter}_mm", 1e3 * motion.position_m[:, axis])
@@ -107,8 +107,10 @@ def motion_columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
 
 
 def visible_angle_deg(session: Session, name: str) -> FloatArray:
-    """One angle (N,) in degrees: the wrist's, a joint's or ``TAM3``, by its name in every file.
-    NaN where it was not seen well enough to be measured by the rules of its ranges, or the session does not have it."""
+    """Return an angle (N,) in degrees by its name in files: of the wrist, a joint, or ``TAM3``.
+
+    NaN where it was not seen well enough to be measured, or if the session does not have it.
+    """
     if (angle := wrist_angle_index(name)) >= 0:
         motion = motion_estimate(session)
         angles_rad = clinical_angles_rad(session)
@@ -124,8 +126,10 @@ def visible_angle_deg(session: Session, name: str) -> FloatArray:
 
 
 def _total_flexion_deg(joints: JointCurves, finger: int) -> FloatArray:
-    """Sum of a finger's bending (N,) where all its joints were seen; an end joint without a disc is two thirds of the
-    middle joint."""
+    """Return the total flexion (N,) of a finger where all its joints were seen.
+
+    A DIP joint without a marker is two thirds of the PIP joint.
+    """
     names, inferred = flexion_joints(finger, joints.names)
     if not set(names) <= set(joints.names):
         return np.full(len(joints.time_s), np.nan)

@@ -1,7 +1,7 @@
-"""Usual ranges of healthy people: each with its source and whom that source measured; none where it says nothing.
+"""Reference ranges of healthy people, each with its source and whom that measured.
 
-A range is of one joint moved actively as far as it goes, so it stands beside the angle that an exercise trains, and
-beside no other; a total beside a fist. Pronation and supination are of the forearm, from thumb up.
+A range is of one joint moved actively to its end, so it is shown beside the trained angle only, and a total beside a
+fist only. Pronation and supination are of the forearm, from thumb up.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from carpus.core.results.measure import Measure, is_total_active_motion
 
 Grade = Literal["excellent", "good", "fair", "poor"]
 NORMAL_TOTAL_DEG = {1: 140.0, 2: 260.0, 3: 260.0, 4: 260.0, 5: 260.0}
-"""TAM of a healthy finger where the other hand is not known (clinical reference 4.3)."""
+"""TAM of a healthy finger if the other hand is unknown (clinical reference 4.3)."""
 
 
 def total_share(total_deg: float, finger: int, other_hand_deg: float = math.nan) -> float:
-    """Share of the other hand's TAM, or of the usual one where that is not known.
+    """Return a TAM's share of the other hand's, or of the normal one if that is unknown.
 
     >>> round(total_share(195.0, 3), 2)
     0.75
@@ -31,7 +31,7 @@ def total_share(total_deg: float, finger: int, other_hand_deg: float = math.nan)
 
 
 def total_grade(share: float) -> Grade | None:
-    """Excellent from the normal on, good above 75 %, fair above 50 %, else poor; None where nothing is known."""
+    """Grade a share: excellent from 100 %, good above 75 %, fair above 50 %, else poor; None if unknown."""
     if not math.isfinite(share):
         return None
     if share >= 1.0:
@@ -41,7 +41,7 @@ def total_grade(share: float) -> Grade | None:
 
 @dataclass(frozen=True, slots=True)
 class Norm:
-    """Lowest and highest usual value of the sources, degrees; ``source``, ``ages`` and ``sexes`` in words."""
+    """Lowest and highest value of the sources in degrees; source, ages and sexes in words."""
 
     low_deg: float
     high_deg: float
@@ -50,7 +50,7 @@ class Norm:
     sexes: str
 
     def sentence(self) -> str:
-        """Where it is from and whom it covers."""
+        """Return the source and whom it covers as a sentence."""
         return phrase(
             "Usual: {source}; {ages}, {sexes}; not for children or old age.",
             source=self.source, ages=self.ages, sexes=self.sexes
@@ -64,11 +64,11 @@ _WRIST_DEG: Mapping[str, tuple[float, float]] = {
     "flexion": (60.0, 80.0), "extension": (60.0, 70.0), "radial": (20.0, 20.0), "ulnar": (30.0, 30.0),
     "pronation": (80.0, 80.0), "supination": (80.0, 80.0),
 }  # fmt: skip
-"""The lower of the two sources (AMA), and the higher (AAOS) (clinical reference 4.1)."""
+"""The lower source (AMA) and the higher one (AAOS) (clinical reference 4.1)."""
 
 
 def wrist_norm(movement: str, angle: int, exercise: Exercise) -> Norm | None:
-    """Of one direction, or the sum of both for an arc, where the exercise trains this angle.
+    """Return the range of a direction, or of an arc, if the exercise trains this angle.
 
     >>> from carpus.core.model.hand.exercises import get_exercise
     >>> norm = wrist_norm("arc", 1, get_exercise("WRIST_FE"))
@@ -83,7 +83,7 @@ def wrist_norm(movement: str, angle: int, exercise: Exercise) -> Norm | None:
 
 
 def total_norm(finger: int, exercise: Exercise) -> Norm | None:
-    """Of a finger's total active motion, where the exercise is the fist of which the source speaks."""
+    """Return the range of a finger's TAM, if the exercise is the fist that the source describes."""
     if not (exercise.has_total_motion and exercise.joint):
         return None
     total = NORMAL_TOTAL_DEG[finger]
@@ -96,8 +96,11 @@ SHARE_OF_NORMAL, SHARE_OF_OTHER = "share of the usual TAM", "share of the other 
 def compute_total_shares(
     rows: Sequence[Measure], exercise: Exercise, other_hand: Sequence[Measure] = ()
 ) -> tuple[Measure, ...]:
-    """Every finger's TAM as a share of the other hand's where that was seen whole, else of the usual one in the
-    exercise that its source speaks of. That of a lower bound is one too."""
+    """Compute the share of every finger's TAM.
+
+    Of the other hand's TAM if that was seen whole, else of the normal one in the exercise of its source. A lower bound
+    gives a lower bound.
+    """
     out = []
     beside = {
         row.subject: row.mean for row in other_hand if row.quantity == "arc" and row.count and not row.is_lower_bound
@@ -114,5 +117,5 @@ def compute_total_shares(
 
 
 def grade_share(share: Measure) -> Grade | None:
-    """Grade a share of a finger's total; None for one that was not seen whole."""
+    """Grade a share of a finger's total; None for a lower bound."""
     return None if share.is_lower_bound else total_grade(share.mean)

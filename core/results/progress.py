@@ -1,5 +1,7 @@
-"""Whether sessions compare, what changed from one to the other, and the way of many over time; the goals that they
-speak for, a small step at a time. A goal is proposed, never set: the therapist accepts or changes it."""
+"""Comparison of sessions, progress over many, and proposed goals.
+
+A goal is proposed, never set: the therapist accepts or changes it.
+"""
 
 from __future__ import annotations
 
@@ -55,27 +57,25 @@ INVALIDATING_FINDINGS = (
     "other_spot",
     "no_palm",
 )
-"""Findings at the calibration after which the angles may be something else: such a session never compares."""
+"""Calibration findings after which the angles may be wrong: such a session is never compared."""
 MAX_DISTANCE_STEP_M = 0.10
 MAX_START_ANGLE_STEP_DEG = 5.0
-"""Beyond these two sessions were not set up alike."""
+"""Beyond these limits two sessions were not set up alike."""
 
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """One range in two sessions, ``after`` against ``before``: the means differ by more than ``change_limit_deg``, or
-    not."""
+    """One range in two sessions, ``after`` against ``before``."""
 
     before: Measure
     after: Measure
     limit_deg: float
     verdict: Verdict
     reasons: tuple[IncomparableReason, ...] = ()
-    """Why the two are not judged; empty when they are."""
+    """Why the two are not compared; empty if they are."""
 
     @property
     def key(self) -> MeasureKey:
-        """What is compared."""
         return self.after.key
 
     @property
@@ -88,22 +88,22 @@ class Comparison:
 
     @property
     def is_beyond_error(self) -> bool:
-        """Whether the two differ by more than error."""
+        """True if the means differ by more than the measurement error."""
         return self.verdict in ("improved", "worse")
 
     @property
     def lower_bounds(self) -> tuple[bool, bool]:
-        """Whether the value before and the one after are lower bounds, since the joint was hidden in part."""
+        """Which of the two values are lower bounds, since the joint was hidden in part."""
         return (self.before.is_lower_bound, self.after.is_lower_bound) if self.is_joint else (False, False)
 
     @property
     def is_lower_bound(self) -> bool:
-        """Whether the gain is a lower bound."""
+        """True if the gain is a lower bound."""
         return self.lower_bounds == (False, True)
 
     @property
     def display_difference_deg(self) -> float:
-        """Difference of the rounded means, so that the figures on a page agree with each other."""
+        """Difference of the rounded means, so that the values on a page agree."""
         if not math.isfinite(self.difference_deg):
             return math.nan
         return float(round_half_away(self.after.mean) - round_half_away(self.before.mean))
@@ -111,23 +111,23 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True)
 class ProgressPoint:
-    """One session on the way; not ``is_comparable`` means that it is shown but not compared, for ``reasons``."""
+    """Session in the progress; with ``reasons`` it is shown but not compared."""
 
     results: SessionResults
     reasons: tuple[IncomparableReason, ...]
 
     @property
     def is_comparable(self) -> bool:
-        """Whether it compares with the first session."""
+        """True if it compares with the first session."""
         return not self.reasons
 
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Sessions of one hand and exercise in order of time; first and last fair ones compared, arc first.
+    """Sessions of one hand and exercise in order of time; the first and last comparable ones are compared.
 
-    ``keys`` what of the whole hand is followed, of any session; empty for the wrist. ``superseded`` earlier results of
-    recordings that were tracked again: a recording counts once, by its newest result.
+    ``keys``: measures of the whole hand that are followed, empty for the wrist. ``superseded``: earlier results of
+    re-analysed recordings, each of which counts once.
     """
 
     points: tuple[ProgressPoint, ...]
@@ -136,33 +136,33 @@ class Progress:
     keys: tuple[MeasureKey, ...] = ()
     superseded: tuple[SessionResults, ...] = ()
     manual_measurements: tuple[ManualValue, ...] = ()
-    """What counts of what was measured by hand, of this hand and of the person, by day; beside ours, never in it."""
+    """Included manual measurements of this hand and of the person, by day; never mixed with ours."""
 
     @property
     def earlier_results(self) -> int:
-        """How many earlier results of the same recordings there are, read or not."""
+        """Number of earlier results of the same recordings."""
         return max(len(self.superseded), sum(point.results.earlier_results for point in self.points))
 
     @property
     def reference(self) -> SessionResults | None:
-        """The session compared with: the first that is fair in itself, else the first of all."""
+        """Session compared with: the first comparable one, else the first."""
         chosen = next((point for point in self.points if point.is_comparable), self.points[0] if self.points else None)
         return chosen.results if chosen is not None else None
 
     @property
     def current(self) -> SessionResults | None:
-        """The last one that compares."""
+        """Last comparable session."""
         fair = [point.results for point in self.points if point.is_comparable]
         return fair[-1] if fair else None
 
     @property
     def study(self) -> RetestStudy | None:
-        """The clinic's own test and retest by which changes are judged, None for the default limits."""
+        """The clinic's own test-retest study that sets the limits, None for the default limits."""
         return self.current.study if self.current is not None else None
 
     @property
     def main_comparison(self) -> Comparison | None:
-        """The comparison that answers the question: of the trained arc, or the largest change beyond error."""
+        """Comparison of the trained arc, or the largest change beyond error."""
         beyond = [item for item in self.comparisons if item.is_beyond_error]
         arcs = [item for item in self.comparisons if item.after.quantity == "arc"]
         best: list[Comparison | None] = [*(item for item in arcs if item in beyond), *beyond, *arcs, None]
@@ -172,10 +172,10 @@ class Progress:
 def compare_ranges(
     before: SessionResults, after: SessionResults, rows: Sequence[Measure] | None = None
 ) -> tuple[Comparison, ...]:
-    """Compare the means of ranges that both sessions have: some ``rows`` of the later one, or those of its wrist.
+    """Compare the means of ranges in both sessions: ``rows`` of the later one, or its wrist ranges.
 
-    Nothing is a change within measurement error. A hidden joint is not judged, but for a sure gain. Sessions that the
-    progress leaves out are not judged here either: there is one judgement, wherever it is shown.
+    A change within the measurement error is none. A hidden joint is not assessed, except for a certain gain. Sessions
+    that the progress excludes are not assessed here either.
     """
     unfair = tuple(dict.fromkeys((*incomparable_reasons(before, before), *incomparable_reasons(before, after))))
     out = []
@@ -202,8 +202,7 @@ def compare_ranges(
 def _range_obstacles(
     before: SessionResults, old: Measure, after: SessionResults, new: Measure
 ) -> Iterator[IncomparableReason]:
-    """Why two ranges do not compare, whatever else speaks against their sessions. One of a session without repetitions
-    (free movement) never does."""
+    """Yield reasons why two ranges do not compare, besides those of their sessions."""
     if before.side != after.side:
         yield "side"
     if before.protocol != after.protocol:
@@ -219,8 +218,10 @@ def _range_obstacles(
 
 
 def change_limit_deg(figures: SessionResults, row: Measure, *, is_arc_change: bool = False) -> float:
-    """Return what a change of a range must exceed: the clinic's own limit where it has one, else the default, which is
-    that of one end unless it is ``is_arc_change``, whose two ends may both be off."""
+    """Return the limit that a change must exceed: the clinic's own, else the default.
+
+    The default is that of one end, unless ``is_arc_change``: both ends of an arc may be off.
+    """
     own = figures.study.limit_deg(row.subject, row.quantity) if figures.study is not None else None
     both_ends = is_arc_change and row.quantity == "arc" and not is_total_active_motion(row.subject)
     default = math.degrees(change_limit_rad(_limit_name(row))) * (ARC_LIMIT_FACTOR if both_ends else 1.0)
@@ -232,7 +233,7 @@ def _limit_name(row: Measure) -> str:
 
 
 def incomparable_reasons(first: SessionResults, other: SessionResults) -> tuple[IncomparableReason, ...]:
-    """Why a session does not compare with the first one; with itself: why it compares with none."""
+    """Return why a session does not compare with the first; with itself: with any."""
     reasons: list[IncomparableReason] = []
     if other.is_simulated != first.is_simulated:
         reasons.append("simulated")
@@ -260,9 +261,9 @@ def incomparable_reasons(first: SessionResults, other: SessionResults) -> tuple[
 def compute_progress(
     sessions: Sequence[SessionResults], other_hand: SessionResults | None = None, keys: Sequence[MeasureKey] = ()
 ) -> Progress:
-    """Sessions of one hand, protocol and exercise over time, compared with the first one that is fair in itself.
+    """Compare sessions of one hand, protocol and exercise with the first comparable one.
 
-    ``keys`` choose what of the whole hand is followed; without them it is the wrist.
+    ``keys`` choose measures of the whole hand; without them the wrist is followed.
     """
     ordered = select_latest_versions(sessions)
     real = [figures for figures in ordered if not figures.is_simulated]
@@ -278,7 +279,7 @@ def compute_progress(
 
 
 def select_latest_versions(sessions: Sequence[SessionResults]) -> list[SessionResults]:
-    """Of every recording its newest result, in order of when the hand moved."""
+    """Return the newest result of each recording, in order of time."""
     newest: dict[str, SessionResults] = {}
     for figures in sorted(sessions, key=lambda figures: figures.created or figures.when):
         newest[figures.recording_id or figures.session_id] = figures
@@ -286,7 +287,7 @@ def select_latest_versions(sessions: Sequence[SessionResults]) -> list[SessionRe
 
 
 def find_previous(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
-    """The last earlier session of the same hand, protocol and exercise that counts."""
+    """Return the last earlier included session of the same hand, protocol and exercise."""
     alike = [
         other
         for other in select_latest_versions(history)
@@ -296,12 +297,12 @@ def find_previous(history: Sequence[SessionResults], figures: SessionResults) ->
 
 
 def error_limits(history: Sequence[SessionResults]) -> ErrorLimits:
-    """Against which the figures of a patient are judged; of nobody the default ones."""
+    """Return the error limits of a patient's results, the default ones without any."""
     return history[0].error_limits if history else DEFAULT_LIMITS
 
 
 def find_other_hand(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
-    """The last session of the other hand in the same protocol and exercise."""
+    """Return the last session of the other hand in the same protocol and exercise."""
     alike = [
         other
         for other in select_latest_versions(history)
@@ -329,20 +330,22 @@ def _is_same_recording(one: SessionResults, other: SessionResults) -> bool:
 
 
 Goals = Mapping[tuple[str, Side], tuple[float, float]]
-"""What was accepted: exercise and hand to the targets of the positive and the negative direction, signed, NaN none."""
+"""Accepted goals by exercise and hand: targets of the positive and negative direction, signed, NaN for none."""
 
 GOAL_SESSIONS = 3
-"""So many sessions back: enough that one good day is no goal, few enough that the hand is still the same."""
+"""Enough that one good day is no goal, few enough that the hand is still the same."""
 MAX_GOAL_STEP_DEG = 5.0
-"""At most so far above their mean: near enough to be reached on the same day."""
+"""Above the sessions' mean: close enough to be reached on the same day."""
 MAX_GOAL_DEG = 90.0
 
 
 @dataclass(frozen=True, slots=True)
 class GoalProposal:
-    """For one direction, degrees that way (supination is below 0
-    where thumb up was not reached): the mean of the last ``sessions``, the ``goal_deg`` proposed, whole
-    degrees, and ``detectable_from_deg``, from where on a gain exceeds measurement error; the goal is never above it."""
+    """Proposed goal for one direction, counted in that direction (supination from thumb up).
+
+    ``basis_deg`` is the mean of the last ``sessions``. A gain exceeds the measurement error from
+    ``detectable_from_deg`` on; the goal (whole degrees) is never above it.
+    """
 
     direction: int
     basis_deg: float
@@ -354,8 +357,10 @@ class GoalProposal:
 def propose_goals(
     history: Sequence[SessionResults], exercise: Exercise, side: Side, protocol: str
 ) -> tuple[GoalProposal, ...]:
-    """For both directions of the wrist, or the one of a joint, as far as sessions speak for any: of this exercise, hand
-    and discs, which compare with the newest of them."""
+    """Propose goals for both directions of the wrist, or for the one of a joint.
+
+    Uses sessions of this exercise, hand and protocol that compare with the newest of them.
+    """
     same = [one for one in history if (one.exercise.id, one.side, one.protocol) == (exercise.id, side, protocol)]
     newest_first = sorted(same, key=lambda one: one.when, reverse=True)
     sound = [one for one in newest_first if not incomparable_reasons(one, one)]
@@ -365,7 +370,7 @@ def propose_goals(
 
 
 def goal_measure(figures: SessionResults, exercise: Exercise, direction: int) -> Measure | None:
-    """The range whose end a target of a direction is, None where there is none."""
+    """Return the range whose end is a direction's target, None if there is none."""
     if exercise.angle is not None:
         return figures.find(WRIST_ANGLES[exercise.angle], DIRECTIONS[exercise.angle][0 if direction > 0 else 1])
     return figures.find(exercise.joint, "flexion") if exercise.joint and direction > 0 else None

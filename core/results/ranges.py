@@ -1,7 +1,7 @@
-"""Ranges of motion as they are shown: of an angle of the wrist, a joint of the hand, or a whole finger (TAM).
+"""Ranges of motion of a wrist angle, a joint, or a whole finger (TAM).
 
-The wrist's angles are the papers', or in the order of the ISB (clinical reference 1.3): the same turn has other angles
-in another order, and sessions read in different orders are never compared.
+Wrist angles are those of the papers, or in the order of the ISB (clinical reference 1.3). Sessions in different orders
+are never compared.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _STEP_RAD = 1e-6
 
 
 def with_angle_order(session: Session, order: AngleOrder) -> Session:
-    """The session with its wrist angles and their standard deviations in an order; its turns stay as they are."""
+    """Return the session with wrist angles and their standard deviations in an order."""
     if order == session.angle_order:
         return session
     if session.angle_order != "zyx":
@@ -51,7 +51,7 @@ def _with_isb_angles(motion: Motion, side: Side) -> Motion:
 
 
 def isb_sd_rad(rotation_w2_w0: FloatArray, angles_sd_rad: FloatArray, side: Side) -> FloatArray:
-    """Standard deviations (N, 3) of the ISB's angles, from those of the papers' angles taken as independent."""
+    """Compute standard deviations (N, 3) of ISB angles from those of the papers' angles, as independent."""
     known = np.isfinite(rotation_w2_w0).all(axis=(1, 2)) & np.isfinite(angles_sd_rad).all(axis=1)
     out = np.full(angles_sd_rad.shape, np.nan)
     turned = rotation_w2_w0[known]
@@ -64,11 +64,11 @@ def isb_sd_rad(rotation_w2_w0: FloatArray, angles_sd_rad: FloatArray, side: Side
 
 
 FREE_ORDER = (1, 0, 2)
-"""Bending first where no angle is trained."""
+"""Flexion first if no angle is trained."""
 
 
 def make_range_measure(subject: str, movement: Movement, figure: RangeStatistics, is_lower_bound: bool) -> Measure:
-    """Make the row of one movement of an angle or joint."""
+    """Make the measure of one movement of an angle or joint."""
     values = tuple(math.degrees(value) for value in figure.values)
     return Measure(
         "range", subject, movement, "deg", values, math.degrees(figure.mean), math.degrees(figure.spread_sd),
@@ -77,8 +77,10 @@ def make_range_measure(subject: str, movement: Movement, figure: RangeStatistics
 
 
 def measure_wrist_ranges(seen: MeasurableSession, repetitions: Sequence[Repetition]) -> tuple[Measure, ...]:
-    """Measure the angle that the exercise trains, else all three: over the repetitions that count, without any over the
-    whole session. A rotation that accompanies another movement is no pronation or supination: it has its arc alone."""
+    """Measure the trained wrist angle, else all three, over the repetitions or the whole session.
+
+    Rotation that accompanies another movement is not pronation or supination: only its arc is measured.
+    """
     angles = FREE_ORDER if seen.exercise.angle is None else (seen.exercise.angle,)
     smoothed = seen.session.smoothed is not None
     rows = (row for angle in angles for row in _measure_angle_ranges(angle, seen.signals[angle], repetitions, smoothed))
@@ -89,8 +91,11 @@ def measure_wrist_ranges(seen: MeasurableSession, repetitions: Sequence[Repetiti
 def _measure_angle_ranges(
     angle: int, signal: Signal, repetitions: Sequence[Repetition], smoothed: bool
 ) -> list[Measure]:
-    """Arc, positive and negative direction of one angle. A direction that was never reached is below zero: by so much
-    the other one does not come back to neutral (a deficit). Without repetitions it is left out."""
+    """Measure the arc and both directions of a wrist angle.
+
+    A direction that was never reached is negative: the other one lacks so much to neutral. Without repetitions it is
+    left out.
+    """
     if not len(signal.time_s):
         return []
     smooth = low_pass(signal, MAX_CUTOFF_HZ)
@@ -109,8 +114,10 @@ def _measure_angle_ranges(
 def measure_joint_ranges(
     tracks: Mapping[str, JointTrack], repetitions: Sequence[Repetition], exercise: Exercise
 ) -> tuple[Measure, ...]:
-    """Measure the total (TAM) of every finger, then arc, most and least bent angle of every joint: ``extension`` holds
-    the least bent one with its sign, what is missing to straight, below zero bent back."""
+    """Measure every finger's TAM, then arc, largest and smallest angle of every joint.
+
+    ``extension`` is the smallest signed angle, below zero in hyperextension.
+    """
     rows: list[Measure] = []
     for finger in FINGERS if tracks and exercise.has_total_motion else ():
         joints, inferred = flexion_joints(finger, tuple(tracks))
@@ -137,7 +144,7 @@ def _make_joint_measures(
 
 
 def flexion_joints(finger: int, names: Sequence[str]) -> tuple[tuple[str, ...], bool]:
-    """Names of the joints that bend a finger, base first, and whether its end joint is inferred, not measured."""
+    """Return the joints that flex a finger, base first, and whether its DIP joint is inferred."""
     if finger == 1:
         return ("MCP1_flexion", "IP1_flexion"), False
     end = f"DIP{finger}_flexion"
@@ -146,7 +153,7 @@ def flexion_joints(finger: int, names: Sequence[str]) -> tuple[tuple[str, ...], 
 
 
 def finger_measure_keys(finger: int) -> tuple[MeasureKey, ...]:
-    """What is followed of one finger: its total, then the arcs of its joints; of finger 0 the totals of all."""
+    """Return a finger's TAM and the arcs of its joints; of finger 0 the TAM of all."""
     if finger == 0:
         return tuple((f"TAM{k}", "arc") for k in FINGERS)
     joints, _ = flexion_joints(finger, joint_angle_names(True))
@@ -154,12 +161,12 @@ def finger_measure_keys(finger: int) -> tuple[MeasureKey, ...]:
 
 
 def abduction_measure_keys() -> tuple[MeasureKey, ...]:
-    """The arcs of spreading, thumb to little finger."""
+    """Return the arcs of finger abduction, thumb to little finger."""
     return (("CMC1_extension", "arc"), *((f"MCP{k}_abduction", "arc") for k in FINGERS[1:]))
 
 
 def thumb_measure_keys() -> tuple[MeasureKey, ...]:
-    """What is followed where the thumb's base is trained: its lift and spread first, then its bending."""
+    """Return the measures of the thumb base: palmar abduction and extension first, then flexion."""
     names = ("CMC1_abduction", "CMC1_extension", *flexion_joints(1, joint_angle_names(True))[0])
     return tuple((name, "arc") for name in names)
 
@@ -168,7 +175,7 @@ LARGEST_SIZE = "largest size"
 
 
 def measure_still_angles(seen: MeasurableSession) -> tuple[Measure, ...]:
-    """Measure how far the angles went that should stay still; none where the exercise sets no limit."""
+    """Measure angles that should stay still; none if the exercise sets no limit."""
     if not math.isfinite(seen.exercise.trick_limit_deg):
         return ()
     out = []

@@ -1,4 +1,4 @@
-"""What a session says of the camera it was measured with."""
+"""Camera that a session was measured with."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from carpus.core.platform.provenance import parameter_section
 
 @dataclass(frozen=True, slots=True)
 class RecordedCamera:
-    """``serial`` number, empty where nobody knows which camera it was; ``calibrated_at`` when with a board (ISO 8601),
-    empty for not; ``age_days`` how old the calibration was when the hand moved, NaN without one."""
+    """Camera of a session.
+
+    ``serial`` is empty if unknown. ``calibrated_at`` (ISO 8601) is when it was calibrated with a board, empty if it was
+    not; ``age_days`` is the age of that calibration at the recording, else NaN.
+    """
 
     serial: str = ""
     calibrated_at: str = ""
@@ -23,7 +26,7 @@ UNKNOWN_CAMERA = RecordedCamera()
 
 
 def parse_camera(parameters: str) -> RecordedCamera:
-    """What the parameters of a session say.
+    """Parse the camera from the parameters of a session.
 
     >>> parameters = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
     >>> parse_camera(parameters) == RecordedCamera("77", "2026-11-20T09:00+00:00", 5.0)

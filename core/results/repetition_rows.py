@@ -1,5 +1,7 @@
-"""The repetitions of a session with what each of them measures: the one account that the file, review, report and
-every export have. A person's choices (left out, moved) come on top and stay outside of the file."""
+"""Repetitions of a session and what each measures: the same for file, review, report and exports.
+
+A person's choices come on top and are not part of the file.
+"""
 
 from __future__ import annotations
 
@@ -32,23 +34,22 @@ from carpus.core.results.valid_data import MeasurableSession
 from carpus.core.session.values import RepetitionRow, Repetitions, Session
 
 HOLD_SHARE = 0.98
-"""Of the way out: who stays beyond it holds the peak, and which moment of a hold is the highest only noise says."""
+"""Share of the excursion beyond which the hand holds the peak; within a hold the maximum is noise."""
 UnmeasuredReason = Literal["", "hidden"] | CutReason
 HIDDEN: UnmeasuredReason = "hidden"
-"""Why a repetition does not count that was not seen well enough to be measured."""
+"""Reason of a repetition that was not seen well enough to be measured."""
 PASSIVE = "passive"
-"""Why a repetition counts apart: somebody else moved the hand. Also the event since which that was so."""
+"""Reason of a repetition in which somebody else moved the hand; also the event that starts that."""
 ACTIVE = "active"
-"""The event since which the hand moved by itself again."""
+"""Event from which the hand moves by itself again."""
 
 
 @dataclass(frozen=True, slots=True)
 class RepetitionChoices:
-    """A person's corrections, by the number of the repetition as found (from 0).
+    """A person's corrections, by the number of the repetition (from 0).
 
-    ``left_out`` reasons in words, :data:`PASSIVE` for one that was helped, empty for one that counts whatever was said
-    while it was measured; ``edges_s`` start and end in seconds after the first frame; ``is_session_excluded``: the
-    whole session is shown, and compared with none.
+    ``excluded``: reasons in words, :data:`PASSIVE` if the hand was moved, empty to include it. ``edges_s``: start and
+    end after the first frame. ``is_session_excluded``: the session is shown but not compared.
     """
 
     excluded: Mapping[int, str] = field(default_factory=dict)
@@ -59,9 +60,11 @@ class RepetitionChoices:
 
 @dataclass(frozen=True, slots=True)
 class TrainedAngle:
-    """The angle that an exercise trains: ``detected`` in it, ``measured`` and its sd where it may be measured,
-    ``tracked``
-    where repetitions are counted, ``measure_range`` some of them. Times after the first frame, rad."""
+    """Trained angle of a session in rad, times after the first frame.
+
+    ``detected``: its repetitions; ``measured`` and its sd: where it may be measured; ``tracked``: where repetitions are
+    counted; ``measure_range`` measures some of them.
+    """
 
     name: str
     detected: RepetitionAnalysis
@@ -71,11 +74,11 @@ class TrainedAngle:
     is_smoothed: bool
     measure_range: Callable[[Sequence[Repetition]], MotionRange]
     is_from_thumb_up: bool = False
-    """Whether it is supination as a clinician reads it; rows have it from the palm down, as every file."""
+    """It is clinical supination; rows count from palm down, as files do."""
     passive_s: tuple[tuple[float, float], ...] = ()
-    """Stretches of which was said, while they were measured, that somebody else moves the hand."""
+    """Stretches during which somebody else moved the hand."""
     counting_signal: Signal = field(init=False, repr=False, compare=False)
-    """What is tracked, as smooth as repetitions are counted in."""
+    """``tracked``, low-pass filtered as for counting."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "counting_signal", low_pass(self.tracked, COUNTING_CUTOFF_HZ))
@@ -83,8 +86,10 @@ class TrainedAngle:
 
 @dataclass(frozen=True, slots=True)
 class MeasuredRepetition:
-    """One repetition: ``window`` over which its range is measured, holds included, its strokes, and its row with times
-    after the first frame; ``unmeasured_reason`` why it cannot count, ``left_out`` why a person does not let it."""
+    """One repetition: ``window`` of its range with holds, its strokes, and its row.
+
+    ``unmeasured_reason``: why it cannot count; ``exclusion_reason``: why a person excluded it.
+    """
 
     window: Repetition
     unmeasured_reason: UnmeasuredReason
@@ -95,11 +100,10 @@ class MeasuredRepetition:
 
 @dataclass(frozen=True, slots=True)
 class RepetitionResult:
-    """One repetition, seconds after the first frame. ``exclusion_reason`` says why it is left out, empty when it
-    counts.
+    """Repetition as shown, in seconds after the first frame.
 
-    From where it left one turning place to where it reached the last, as its ``row`` with all its measures says.
-    ``unmeasured_reason`` why it cannot count, whoever wants it: too little of it was seen, or a piece alone.
+    It lasts from leaving the first turning point to reaching the last. ``exclusion_reason`` is empty if it is included;
+    ``unmeasured_reason``: too little was seen, or it was cut.
     """
 
     start_s: float
@@ -110,22 +114,22 @@ class RepetitionResult:
 
     @property
     def is_passive(self) -> bool:
-        """Whether it counts among those in which somebody else moved the hand."""
+        """True if somebody else moved the hand."""
         return self.exclusion_reason == PASSIVE and not self.unmeasured_reason
 
     @property
     def is_counted(self) -> bool:
-        """Whether the figures include it."""
+        """True if the results include it."""
         return not self.exclusion_reason and not self.unmeasured_reason
 
     @property
     def is_whole(self) -> bool:
-        """Whether the recording has all of it, seen or not."""
+        """True if the recording has all of it, seen or not."""
         return self.unmeasured_reason in ("", HIDDEN)
 
 
 def compute_repetitions(session: Session) -> Repetitions:
-    """What ``/repetitions`` of a session holds, on the clock of its frames."""
+    """Compute the content of ``/repetitions``, on the clock of the frames."""
     trained = find_trained_angle(
         MeasurableSession.from_session(session, (get_exercise(session.header.exercise).joint,))
     )
@@ -137,7 +141,7 @@ def compute_repetitions(session: Session) -> Repetitions:
 
 
 def to_repetition_results(measured: Sequence[MeasuredRepetition]) -> tuple[RepetitionResult, ...]:
-    """As review and report show them."""
+    """Return the repetitions as review and report show them."""
     return tuple(
         RepetitionResult(
             one.row.start_s if math.isfinite(one.row.start_s) else one.window.start_s,
@@ -151,7 +155,7 @@ def to_repetition_results(measured: Sequence[MeasuredRepetition]) -> tuple[Repet
 
 
 def trained_angle_name(session: Session) -> str:
-    """Name of the angle whose repetitions are counted, as in every file; empty where none is."""
+    """Return the name of the trained angle in files, empty if there is none."""
     exercise = get_exercise(session.header.exercise)
     if exercise.joint in session.header.joint_names:
         return exercise.joint
@@ -159,12 +163,12 @@ def trained_angle_name(session: Session) -> str:
 
 
 def with_time_offset(row: RepetitionRow, start_s: float) -> RepetitionRow:
-    """A row whose times count from the first frame, on the clock on which that was at ``start_s``."""
+    """Return a row with its times moved by ``start_s``."""
     return replace(row, start_s=row.start_s + start_s, peak_s=row.peak_s + start_s, end_s=row.end_s + start_s)
 
 
 def find_trained_angle(seen: MeasurableSession) -> TrainedAngle | None:
-    """None where no angle is trained, or nothing was seen of it."""
+    """Return the trained angle, None if there is none or it was never seen."""
     exercise, looked_back, passive_s = seen.exercise, seen.session.smoothed is not None, passive_stretches(seen.session)
     track = seen.tracks.get(exercise.joint)
     if track is not None and track.is_known:
@@ -190,8 +194,7 @@ def find_trained_angle(seen: MeasurableSession) -> TrainedAngle | None:
 
 
 def passive_stretches(session: Session) -> tuple[tuple[float, float], ...]:
-    """From when to when somebody else moved the hand, as was said while it was measured: seconds after the first
-    frame, the last to the end."""
+    """Return start and end of stretches in which somebody else moved the hand, after the first frame."""
     start_s = float(session.timestamp_s[0]) if len(session) else 0.0
     said = [(one.time_s - start_s, one.kind) for one in session.events if one.kind in (PASSIVE, ACTIVE)]
     ends = [*(time_s for time_s, _ in said[1:]), math.inf]
@@ -199,7 +202,7 @@ def passive_stretches(session: Session) -> tuple[tuple[float, float], ...]:
 
 
 def mask_passive(session: Session, measured: Sequence[MeasuredRepetition]) -> Session:
-    """A session in which nothing was seen while somebody else moved the hand: what is measured over all of it."""
+    """Return the session with the passive stretches marked as lost."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     helped = np.zeros(len(time_s), dtype=bool)
     for start_s, end_s in passive_stretches(session):
@@ -218,7 +221,7 @@ def mask_passive(session: Session, measured: Sequence[MeasuredRepetition]) -> Se
 
 
 def measure_repetitions(trained: TrainedAngle, choices: RepetitionChoices) -> tuple[MeasuredRepetition, ...]:
-    """Every repetition with its measures, counted or not."""
+    """Measure every repetition, included or not."""
     strokes = [
         measure_stroke(trained.measured, stroke, trained.measured_sd, smoothed=trained.is_smoothed)
         for stroke in trained.detected.strokes
@@ -237,7 +240,6 @@ def measure_repetitions(trained: TrainedAngle, choices: RepetitionChoices) -> tu
 
 
 def _movement_mode(trained: TrainedAngle, rep: Repetition) -> str:
-    """How a repetition was moved as was said while it was measured, by its middle."""
     middle_s = 0.5 * (rep.start_s + rep.end_s)
     return PASSIVE if any(start <= middle_s < end for start, end in trained.passive_s) else ""
 
@@ -294,14 +296,14 @@ def _measure_repetition(
 
 
 def _with_edges(trained: TrainedAngle, rep: Repetition, start_s: float, end_s: float) -> Repetition:
-    """With edges that a person chose: seen as well as what is between them, and whole where that leaves out the cut."""
+    """Return a repetition with edges chosen by a person; it is whole if they exclude the cut."""
     part = trained.tracked.crop(start_s, end_s).is_finite
     one = Repetition(start_s, end_s, float(part.mean()) if len(part) else 0.0)
     return replace(one, cut=rep.cut, cut_s=rep.cut_s) if start_s <= rep.cut_s <= end_s else one
 
 
 def _movement_time_s(window: Repetition, strokes: Sequence[StrokeMeasures]) -> float:
-    """How long the hand was on its way within a repetition, pauses included; NaN where that of one way is not known."""
+    """Return the time in motion within a repetition, pauses included; NaN if a stroke's is unknown."""
     within = [one for one in strokes if one.stroke.start_s < window.end_s and window.start_s < one.stroke.end_s]
     on_way_s = [min(one.offset_s, window.end_s) - max(one.onset_s, window.start_s) for one in within]
     return math.fsum(max(0.0, time_s) for time_s in on_way_s) if all(map(math.isfinite, on_way_s)) else math.nan
@@ -320,8 +322,10 @@ def _middle_s(stroke: StrokeMeasures) -> float:
 
 
 def _onset_and_offset_s(smooth: Signal, rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tuple[float, float]:
-    """When the first stroke left its turning place and the last reached its own; NaN where a gap hides that. Where
-    the repetition is cut, or begins or ends at no turning place, it has its own start and end."""
+    """Return when the first stroke left its turning point and the last reached its own.
+
+    NaN where a gap hides that. A repetition that is cut, or has no turning point there, keeps its own edge.
+    """
     start_s, end_s = rep.start_s, rep.end_s
     if strokes and abs(strokes[0].stroke.start_s - start_s) <= 1e-6 and rep.cut_s != start_s:
         first = strokes[0]
@@ -333,8 +337,10 @@ def _onset_and_offset_s(smooth: Signal, rep: Repetition, strokes: Sequence[Strok
 
 
 def _place_edge_s(smooth: Signal, stroke: Stroke, *, is_leaving: bool) -> float:
-    """When a stroke whose speed does not say it left its first turning place, or reached its last, told from the angle
-    alone; NaN where the sample beyond that edge was not seen."""
+    """Return when a stroke left or reached its turning point, from the angle alone.
+
+    NaN if the sample beyond that edge was not seen.
+    """
     part = smooth.crop(stroke.start_s, stroke.end_s)
     way = stroke.direction * part.value
     if not part.is_finite.any():
@@ -350,9 +356,11 @@ def _place_edge_s(smooth: Signal, stroke: Stroke, *, is_leaving: bool) -> float:
 
 
 def _find_peak(smooth: Signal, window: Repetition, turns_high: bool | None) -> tuple[float, bool]:
-    """When the angle was furthest on its way there, in the middle of a hold, and whether it was high there; furthest
-    from where it began where it is not known which way that was. NaN where a gap, or what cut the repetition, begins
-    or ends there: it may have been further where it was not seen."""
+    """Return the time of the peak, the middle of a hold, and whether it is a maximum.
+
+    NaN where a gap or the cut borders on it: the angle may have gone further. Without ``turns_high`` the peak is
+    furthest from the start.
+    """
     part = smooth.crop(window.start_s, window.end_s)
     known = part.value[part.is_finite]
     if not len(known):
@@ -374,7 +382,7 @@ def _find_peak(smooth: Signal, window: Repetition, turns_high: bool | None) -> t
 def _combine_strokes(
     strokes: Sequence[StrokeMeasures], name: str, combine: Callable[[Sequence[float]], float]
 ) -> float:
-    """A figure of all strokes together; not known where that of one is not."""
+    """Combine a value of all strokes; NaN if one is unknown."""
     values = [getattr(stroke, name) for stroke in strokes]
     return combine(values) if values and all(map(math.isfinite, values)) else math.nan
 

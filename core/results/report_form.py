@@ -1,4 +1,4 @@
-"""How a clinic's reports look: letterhead, paper, and the parts that are wanted."""
+"""Form of a clinic's reports: letterhead, paper and sections."""
 
 from __future__ import annotations
 
@@ -12,20 +12,18 @@ PAPERS: tuple[Paper, ...] = get_args(Paper)
 PAPER_PT: dict[Paper, tuple[float, float]] = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
 """Width and height in points."""
 LETTER_COUNTRIES = ("US", "CA")
-"""Where Letter is the usual paper."""
 SECTIONS = ("diagnosis", "table", "curves", "bars", "quality", "speed", "by_hand", "motion")
-"""Parts of a session's report that may be left out. Who and when, the sentences, warnings, method, legal sentence and
-origin always stay; so does ``quality`` where something is not as it should be."""
+"""Sections of a session report that may be excluded. Identity, sentences, warnings, method, legal sentence and origin
+always stay, and ``quality`` if something is not as it should be."""
 DEFAULT_EXCLUDED = frozenset({"diagnosis"})
-"""Left out until the clinic wants it."""
+"""Excluded until the clinic wants it."""
 MAX_SENTENCES = 60
 MAX_NAME_CHARACTERS, MAX_ADDRESS_LINES, MAX_ADDRESS_CHARACTERS = 60, 4, 80
 
 
 @dataclass(frozen=True, slots=True)
 class ReportSettings:
-    """``therapist`` initials that are printed on reports; ``angle_order`` of the wrist's angles in the window and on
-    reports: the papers' ``zyx`` or ``isb``."""
+    """Settings of reports: ``therapist`` initials, and the ``angle_order`` in window and reports."""
 
     therapist: str = ""
     angle_order: AngleOrder = "zyx"
@@ -33,7 +31,7 @@ class ReportSettings:
 
 @dataclass(frozen=True, slots=True)
 class Letterhead:
-    """The clinic's name, lines of its address and its logo, a PNG; all may be empty."""
+    """Name, address lines and logo (PNG) of the clinic; all may be empty."""
 
     name: str = ""
     address: tuple[str, ...] = ()
@@ -46,9 +44,7 @@ class Letterhead:
 
 @dataclass(frozen=True, slots=True)
 class ReportForm:
-    """What a report is printed on and with. ``excluded_sections``: of :data:`SECTIONS`; ``sentences`` the therapist's
-    own,
-    to write comments with."""
+    """Form of reports; ``sentences`` are the therapist's own for comments."""
 
     letterhead: Letterhead = field(default_factory=Letterhead)
     paper: Paper = "a4"
@@ -60,7 +56,7 @@ class ReportForm:
 
 
 def default_paper(country: str) -> Paper:
-    """The paper of a country by its two letters.
+    """Return the paper of a country by its two letters.
 
     >>> default_paper("US"), default_paper("DE")
     ('letter', 'a4')

@@ -1,11 +1,8 @@
-"""What review, progress and report say of a session, as figures; the words and the page are the screen's.
+"""Results of a session: one table of measures, quality, and what makes it comparable or doubtful.
 
-Here they are put together to one table of measures (``measure``), with how sure they are and the strokes' speed. The
-rest is made in the file of its topic, on a session as :mod:`core.results.valid_data` has it, by the bare mathematics of
-:mod:`core.measures`, which knows no session: ``ranges``, ``repetition_rows``, ``compute_task_measures``, ``norms``;
-what
-changed between sessions in ``progress`` and ``side_by_side``. Degrees, degrees per second, millimetres and seconds,
-since people read them. NaN is unknown.
+Each topic is computed in its own module on a :class:`core.results.valid_data.MeasurableSession`, with the mathematics
+of :mod:`core.measures`: ``ranges``, ``repetition_rows``, ``task_measures``, ``norms``. Changes between sessions are in
+``progress`` and ``side_by_side``. Degrees, degrees per second, millimetres and seconds; NaN is unknown.
 """
 
 from __future__ import annotations
@@ -57,12 +54,11 @@ SPEED_MEASURES: tuple[tuple[str, str, str, Best], ...] = (
     ("time to peak", "share", "time_to_peak_share", None), ("movement units", "1", "peaks", min),
     ("jerk", "LDLJ", "ldlj", max), ("pauses", "1", "pauses", min), ("pause time", "s", "pause_s", min),
 )  # fmt: skip
-"""Name, unit and attribute of what is measured of every stroke, and which is its best."""
+"""Name, unit, attribute, and choice of the best value of what is measured of every stroke."""
 
 
 def summarise_strokes(of: str, strokes: Sequence[StrokeMeasures]) -> tuple[Measure, ...]:
-    """Summarise the strokes that count; of those whose speed or smoothness the tracker's noise hides nothing is
-    known."""
+    """Summarise the included strokes; unknown if the tracker's noise hides their speed or smoothness."""
     slow: dict[str, UnknownReason] = {
         "peak speed": "too_slow" if any(one.too_slow for one in strokes) else "",
         "smoothness": "too_slow" if any(one.too_slow_to_be_smooth for one in strokes) else "",
@@ -84,7 +80,7 @@ STILLNESS_CUTOFF_HZ = 3.0
 
 @dataclass(frozen=True, slots=True)
 class RecordingQuality:
-    """How sure the figures are. Shares 0 to 1 of all frames; ``hidden_share`` of all looks at markers."""
+    """Quality of a recording; ``hidden_share`` is of all markers in all frames."""
 
     frames: int
     measured_share: float
@@ -97,21 +93,21 @@ class RecordingQuality:
     residual_mm: float
     centre_mm: tuple[float, float, float] = (math.nan,) * 3
     centre_residual_mm: float = math.nan
-    """Where the wrist turns, from the WRIST disc in the hand's axes, and how well that fits."""
+    """Centre of the wrist's rotation from the WRIST marker in the hand's axes, and its fit."""
 
     @classmethod
     def without_data(cls, frames: int) -> RecordingQuality:
-        """Of a session of which nothing of this could be computed."""
+        """Return the quality of a session if it could not be computed."""
         return cls(frames, math.nan, math.nan, 0, *(math.nan,) * 5)
 
     @property
     def has_forearm_moved(self) -> bool:
-        """Whether the wrist's centre left the ball it must stay in."""
+        """True if the wrist's centre left its tolerance."""
         return self.forearm_movement_mm > STILL_RADIUS_MM
 
 
 def assess_quality(seen: MeasurableSession, repetitions: Sequence[RepetitionResult]) -> RecordingQuality:
-    """Of a session with these repetitions."""
+    """Assess the recording of a session with these repetitions."""
     session, motion, verdict = seen.session, motion_estimate(seen.session), seen.session.calibration.verdict
     time_s = session.timestamp_s - session.timestamp_s[:1]
     centre = estimate_wrist_centre(
@@ -134,7 +130,7 @@ def assess_quality(seen: MeasurableSession, repetitions: Sequence[RepetitionResu
 
 
 def _occluded_share(session: Session, time_s: FloatArray, within: Sequence[RepetitionResult]) -> float:
-    """Share of all looks at markers in which one was hidden, within repetitions if any: rest hides none."""
+    """Return the share of hidden markers, within repetitions if there are any: a rest hides none."""
     inside = np.ones(len(time_s), dtype=bool)
     if within:
         inside = np.any([(time_s >= rep.start_s) & (time_s <= rep.end_s) for rep in within], axis=0)
@@ -143,7 +139,7 @@ def _occluded_share(session: Session, time_s: FloatArray, within: Sequence[Repet
 
 
 def _forearm_movement_mm(time_s: FloatArray, centre: WristCentre) -> float:
-    """How far the forearm went: what the centre of the wrist's turning moved, without a frame's noise."""
+    """Return the largest movement of the wrist's centre, without noise."""
     known = np.isfinite(centre.displacement_m)
     if int(known.sum()) < 2:
         return math.nan
@@ -165,7 +161,7 @@ def _median_joint_sd_deg(tracks: Mapping[str, JointTrack]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class SessionResults:
-    """What is said of one session: its ``measures``, and what makes them comparable or doubtful."""
+    """Results of a session."""
 
     session_id: str
     subject_id: str
@@ -184,35 +180,33 @@ class SessionResults:
     pain_scores: tuple[int, ...]
     notes: tuple[tuple[float, str], ...]
     findings: tuple[CalibrationFinding, ...] = ()
-    """What was doubtful at the calibration, and measured all the same."""
+    """Doubts of the calibration."""
     is_simulated: bool = False
-    """Whether a simulated hand was measured: nobody's movement."""
     is_excluded: bool = False
-    """Whether a person decided that the session shall not count."""
+    """A person excluded the session."""
     is_superseded: bool = False
-    """Whether there is a result of the same recording that was made later."""
+    """There is a newer result of the same recording."""
     targets_deg: tuple[float, float] = (math.nan, math.nan)
-    """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
+    """Targets of the trained angle in its positive and negative direction, signed; NaN for none."""
     pain_times_s: tuple[float, ...] = ()
-    """When each of ``pain_scores`` was said, after the first frame."""
+    """Time of each of ``pain_scores`` after the first frame."""
     no_repetitions_reason: NoRepetitionReason | None = None
-    """Why there is no repetition, None where there are some or none are counted."""
+    """Why there is no repetition; None if there are some or none are counted."""
     occluded_s: float = 0.0
-    """How long nothing was seen, each time for longer than can be counted across."""
+    """Time in which nothing was seen for longer than repetitions can be counted across."""
     recording_id: str = ""
     created: datetime | None = None
-    """Which recording it is a result of, and when that result was made."""
+    """When this result of the recording was computed."""
     angle_order: AngleOrder = "zyx"
     earlier_results: int = 0
-    """Results of the same recording that were made before this one: they do not count."""
+    """Number of earlier results of the same recording, which do not count."""
     error_limits: ErrorLimits = DEFAULT_LIMITS
-    """Against which its changes are judged."""
+    """Limits of changes."""
     camera: RecordedCamera = UNKNOWN_CAMERA
-    """Which camera it was measured with, and its calibration."""
     correction: CorrectionSummary | None = None
-    """Since when it stands with markers that a person put right; None as measured."""
+    """From when on markers were corrected by a person; None as measured."""
     excludes_passive: bool = False
-    """Whether ranges over the whole recording leave out stretches in which somebody else moved the hand."""
+    """Ranges over the whole recording leave out passive stretches."""
     _by_key: Mapping[MeasureKey, Measure] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -220,7 +214,7 @@ class SessionResults:
 
     @property
     def study(self) -> RetestStudy | None:
-        """The clinic's own test and retest of such sessions, None where the default limits hold."""
+        """The clinic's own test-retest study of such sessions, None for the default limits."""
         return self.error_limits.study(self.protocol, self.exercise.id, self.angle_order)
 
     @property
@@ -229,21 +223,21 @@ class SessionResults:
 
     @property
     def main_angle(self) -> str:
-        """The joint or the wrist's angle that the exercise trains; empty where it trains none."""
+        """Trained joint or wrist angle, empty if there is none."""
         exercise = self.exercise
         return exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
 
     @property
     def has_passive(self) -> bool:
-        """Whether there are repetitions in which somebody else moved the hand."""
+        """True if somebody else moved the hand in some repetitions."""
         return any(repetition.is_passive for repetition in self.repetitions)
 
     def find(self, of: str, what: str) -> Measure | None:
-        """The measure of an angle, joint or way, without what was passive."""
+        """Return the measure of an angle, joint or path, without passive ones."""
         return self._by_key.get((of, what))
 
     def measures_in_group(self, group: Group) -> tuple[Measure, ...]:
-        """All measures of a group, without what was passive."""
+        """Return all measures of a group, without passive ones."""
         return tuple(one for one in self.measures if one.group == group and not one.is_passive)
 
     @property
@@ -252,15 +246,15 @@ class SessionResults:
 
     @property
     def joint_ranges(self) -> tuple[Measure, ...]:
-        """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
+        """Arc, largest and smallest angle of every joint, and every finger's TAM."""
         return tuple(one for one in self.measures_in_group("range") if one.wrist_angle < 0)
 
     def speed_measure(self, what: str) -> Measure | None:
-        """One of :data:`SPEED_MEASURES`; None where no stroke was measured."""
+        """Return one of :data:`SPEED_MEASURES`, None if no stroke was measured."""
         return next((one for one in self.measures_in_group("speed") if one.quantity == what), None)
 
     def passive_results(self) -> SessionResults | None:
-        """The session as if the repetitions in which somebody else moved the hand were all of it; None without any."""
+        """Return the results of the passive repetitions alone, None without any."""
         if not self.has_passive:
             return None
         repetitions = (
@@ -274,7 +268,7 @@ class SessionResults:
 def compute_session_results(
     session: Session, choices: RepetitionChoices | None = None, error_limits: ErrorLimits = DEFAULT_LIMITS
 ) -> SessionResults:
-    """All figures of one session, with a person's corrections to its repetitions."""
+    """Compute all results of a session with a person's choices."""
     choices, header, attempts = choices or RepetitionChoices(), session.header, GuardedComputation()
     seen = MeasurableSession.from_session(session)
     trained = attempts.compute("repetitions", lambda: find_trained_angle(seen), None)
@@ -344,7 +338,7 @@ def compute_session_results(
 
 
 def compute_data_digest(session: Session) -> str:
-    """SHA-256 over times, status and angles as stored: two reports with the same digest show the same measurement."""
+    """Compute SHA-256 over times, status and angles: reports with the same digest show the same data."""
     digest = hashlib.sha256()
     motion = motion_estimate(session)
     for array in (
@@ -358,13 +352,13 @@ def compute_data_digest(session: Session) -> str:
 
 
 def _events_of_kind(session: Session, kind: str) -> list[tuple[float, str]]:
-    """When after the first frame something of a kind was told, and what."""
+    """Return times after the first frame and texts of events of a kind."""
     start_s = float(session.timestamp_s[0]) if len(session) else math.nan
     return [(event.time_s - start_s, event.text) for event in session.events if event.kind == kind]
 
 
 def _explain_no_repetitions(seen: MeasurableSession, trained: TrainedAngle | None) -> NoRepetitionReason | None:
-    """Why there is no repetition of an angle that is one of this session's."""
+    """Explain why there is no repetition of an angle that the session has."""
     if trained is not None:
         return explain_no_repetitions(trained.measured, trained.detected)
     return "nothing_seen" if seen.exercise.angle is not None or seen.exercise.joint in seen.tracks else None

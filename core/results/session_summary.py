@@ -1,4 +1,4 @@
-"""What a session or a recording holds, as plain lines for ``carpus info``."""
+"""Summary of a session or recording as plain lines for ``carpus info``."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ FREE_MOVEMENT = "FREE"
 
 
 def session_summary(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
-    """Everything a person asks of a session file, the identity first and the settings last."""
+    """Return all lines of a session file, identity first and settings last."""
     header, quality, figures = session.header, session.quality, compute_session_results(session, choices)
     lines = [
         _line("Session", str(session.path)),
@@ -69,7 +69,7 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
 
 
 def recording_summary(folder: Path, recording: TumFolder) -> list[str]:
-    """Frames, gaps, depth and camera of a TUM folder, from its lists and its first picture."""
+    """Return frames, gaps, depth and camera of a TUM folder."""
     times = np.array([stored.timestamp_s for stored in recording.stored_frames])
     dropped = np.array([stored.dropped_before for stored in recording.stored_frames])
     with_depth = sum(stored.depth is not None for stored in recording.stored_frames)
@@ -85,7 +85,7 @@ def recording_summary(folder: Path, recording: TumFolder) -> list[str]:
 
 
 def source_summary(path: Path, info: SourceInfo) -> list[str]:
-    """What a recording says of itself without being played: frames, rate, depth, camera, settings."""
+    """Return what is known of a recording without playing it."""
     count = "not known before it is played" if info.frame_count is None else str(info.frame_count)
     return [
         _line("Recording", str(path)),
@@ -98,7 +98,7 @@ def source_summary(path: Path, info: SourceInfo) -> list[str]:
 
 
 def duration_text(duration_s: float) -> str:
-    """Minutes and seconds.
+    """Format minutes and seconds.
 
     >>> duration_text(83.24), duration_text(59.96), duration_text(6000.04)
     ('01:23.2', '01:00.0', '100:00.0')
@@ -108,7 +108,7 @@ def duration_text(duration_s: float) -> str:
 
 
 def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
-    """Size and intrinsics, and where they come from."""
+    """Format size and intrinsics of a camera, and where they come from."""
     sources = {
         "file": "from a calibration",
         "calibration": "from the camera's own calibration",
@@ -123,7 +123,7 @@ def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
 
 
 def sensor_text(sensor: DepthSensor) -> str:
-    """Which depth sensor, and how sure one of its readings is."""
+    """Format the depth sensor and the standard deviation of its readings."""
     sd_mm = 1e3 * float(sensor.reading_sd_m(np.array(_TYPICAL_DISTANCE_M)))
     assumed = ", assumed: nobody said which" if sensor.origin == ASSUMED else ""
     within = f"a reading at {format_rounded(_TYPICAL_DISTANCE_M * 100)} cm within {format_rounded(sd_mm, 1)} mm"
@@ -135,7 +135,7 @@ def _line(title: str, text: str) -> str:
 
 
 def _calibration_age(parameters: str) -> str:
-    """When the camera was calibrated with a board and how old that was, where the session was measured with it.
+    """Format the day and age of the calibration with a board, empty without one.
 
     >>> _calibration_age('{"source": {"calibrated": "2026-11-20T08:00:00+00:00", "calibration_age_days": "2.0"}}')
     '; calibrated 2026-11-20, 2 days before'
@@ -180,8 +180,10 @@ def _status_shares(session: Session) -> str:
 
 
 def range_lines(session: Session, figures: SessionResults) -> list[str]:
-    """Range of each wrist angle, in the same figures as review, report and export: of the trained one the mean of its
-    repetitions, else over the whole recording."""
+    """Return the range of each wrist angle as in review, report and export.
+
+    Of the trained angle the mean of the repetitions, else over the whole recording.
+    """
     header = replace(session.header, exercise=FREE_MOVEMENT)
     whole = compute_session_results(replace(session, header=header)) if figures.exercise.has_repetitions else figures
     lines = []
@@ -211,7 +213,7 @@ def range_lines(session: Session, figures: SessionResults) -> list[str]:
 
 
 def repetition_lines(figures: SessionResults) -> list[str]:
-    """One line for each repetition, as the review counts it; none where nothing is counted."""
+    """Return a line for each repetition."""
     lines = []
     for number, one in enumerate(figures.repetitions, 1):
         if (row := one.row) is None:
@@ -235,7 +237,7 @@ def repetition_lines(figures: SessionResults) -> list[str]:
 
 
 def _joint_range_lines(session: Session, figures: SessionResults) -> list[str]:
-    """Of the whole hand: every joint over the frames in which it was seen, and the total of every finger."""
+    """Return ranges of every joint while it was seen, and the TAM of every finger."""
     if not session.header.joint_names:
         return []
     ends = {row.key: row.mean for row in figures.joint_ranges}
@@ -288,7 +290,7 @@ def _calibration_lines(session: Session) -> list[str]:
 
 
 def _provenance_lines(session: Session) -> list[str]:
-    """By which revision, of which recording, with which settings; what an older session does not say is left out."""
+    """Return revision, recording and settings, as far as the session states them."""
     said, source = (parameter_section(session.header.parameters, part) for part in ("provenance", "source"))
     camera = parse_camera(session.header.parameters)
     calibrated = camera.calibrated_at and f"{camera.calibrated_at}, {format_rounded(camera.age_days)} days before"

@@ -1,7 +1,6 @@
-"""Two sessions of one person beside each other: which stands first, whether they compare, what may be said, and where
-each recording is while they are played in step.
+"""Two sessions of one person side by side: order, comparison, and synchronised playback.
 
-The judgement is that of the progress: the same limits, the same reasons for none. Degrees; NaN is unknown.
+The comparison is that of the progress, with the same limits and reasons. Degrees; NaN is unknown.
 """
 
 from __future__ import annotations
@@ -31,11 +30,11 @@ Relation = Literal["hands", "dates"]
 
 @dataclass(frozen=True, slots=True)
 class SessionPair:
-    """The ``first`` session is the one in question, the ``second`` what it is held against: the healthy hand, or the
-    earlier date. ``ranges`` of the first against the second: a verdict says of two dates whether it improved, of two
-    hands only whether the difference is beyond error. ``unpaired`` what only one of the two has, with whether that is
-    the
-    first. ``reasons`` why nothing is judged; empty where the pair is fair."""
+    """Two sessions: the ``first`` is in question, the ``second`` is the healthy hand or the earlier date.
+
+    ``ranges`` compare the first with the second; for two hands a verdict only says that they differ beyond error.
+    ``unpaired``: measures of one session alone, with whether that is the first. ``reasons``: why they are not compared.
+    """
 
     first: SessionResults
     second: SessionResults
@@ -46,12 +45,12 @@ class SessionPair:
 
     @property
     def is_comparable(self) -> bool:
-        """Whether the two compare at all."""
+        """True if the two compare at all."""
         return not self.reasons
 
     @property
     def main_comparison(self) -> Comparison | None:
-        """What answers the question: the trained arc where it differs, the largest other difference, else the arc."""
+        """The trained arc if it differs, else the largest other difference, else the arc."""
         arcs = [one for one in self.ranges if one.after.quantity == "arc"]
         trained = [one for one in arcs if (one.after.subject if one.is_joint else "") == self.first.exercise.joint]
         largest = sorted((one for one in self.ranges if one.is_beyond_error), key=lambda one: -abs(one.difference_deg))
@@ -68,7 +67,7 @@ class SessionPair:
 def order_pair(
     one: SessionResults, other: SessionResults, affected: Side | Literal["both", ""] = ""
 ) -> tuple[SessionResults, SessionResults]:
-    """Which of two stands first: of two hands the affected one, else the right; of two dates the newer."""
+    """Return two sessions in order: the affected (else right) hand, or the newer date, first."""
     if one.side != other.side:
         asked = affected if affected in ("right", "left") else "right"
         return (one, other) if one.side == asked else (other, one)
@@ -76,7 +75,7 @@ def order_pair(
 
 
 def compare_pair(first: SessionResults, second: SessionResults, keys: Sequence[MeasureKey] = ()) -> SessionPair:
-    """Compare two sessions; ``keys`` choose what of the whole hand is looked at, without them it is the wrist."""
+    """Compare two sessions; ``keys`` choose measures of the whole hand, without them the wrist's."""
     relation: Relation = "hands" if first.side != second.side else "dates"
     # That it is the other hand is the question here, no obstacle to an answer.
     alike = replace(second, side=first.side)
@@ -98,7 +97,7 @@ def compare_pair(first: SessionResults, second: SessionResults, keys: Sequence[M
 
 
 def pair_incomparable_reasons(first: SessionResults, second: SessionResults) -> tuple[IncomparableReason, ...]:
-    """Why two sessions do not compare, whatever hand they are of; empty where they do."""
+    """Return why two sessions do not compare, whatever hand they are of."""
     obstacles: list[IncomparableReason] = []
     if first.protocol != second.protocol:
         obstacles.append("protocol")
@@ -112,8 +111,11 @@ def pair_incomparable_reasons(first: SessionResults, second: SessionResults) -> 
 
 
 def find_partner(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
-    """What a session is best held against: the other hand of the same day, else the last earlier session that
-    compares, else the other hand of another day, else the nearest session of the same kind; None without any."""
+    """Return the best session to compare with, None without any.
+
+    The other hand of the same day, else the last earlier comparable session, else the other hand of another day, else
+    the nearest session of the same kind.
+    """
     other = find_other_hand(history, figures)
     same_day = [
         one for one in select_latest_versions(history) if one.side != figures.side and _is_same_task(one, figures)
@@ -137,9 +139,9 @@ def _is_same_task(one: SessionResults, other: SessionResults) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class PlaybackTimeline:
-    """Knots (K,) between which time runs evenly: ``player_s`` rises strictly, ``first_s`` and ``second_s`` never fall.
+    """Knots (K,) of a piecewise linear playback: ``player_s`` rises, the recordings' times never fall.
 
-    ``starts_s`` the player's time at which each pair of repetitions begins.
+    ``starts_s``: player times at which each pair of repetitions begins.
     """
 
     player_s: FloatArray
@@ -149,21 +151,21 @@ class PlaybackTimeline:
 
     @property
     def end_s(self) -> float:
-        """How long the player runs."""
+        """Duration of the playback."""
         return float(self.player_s[-1])
 
     def recording_times(self, player_s: float) -> tuple[float, float]:
-        """Where the first and the second recording are."""
+        """Return the time in the first and in the second recording."""
         both = (np.interp(player_s, self.player_s, side) for side in (self.first_s, self.second_s))
         first, second = (float(value) for value in both)
         return first, second
 
     def player_time_of_first(self, time_s: float) -> float:
-        """The player's first moment at which the first recording has come to a time."""
+        """Return the first player time at which the first recording reaches a time."""
         return self._player_time(self.first_s, time_s)
 
     def player_time_of_second(self, time_s: float) -> float:
-        """The player's first moment at which the second recording has come to a time."""
+        """Return the first player time at which the second recording reaches a time."""
         return self._player_time(self.second_s, time_s)
 
     def _player_time(self, side_s: FloatArray, time_s: float) -> float:
@@ -178,11 +180,10 @@ class PlaybackTimeline:
 def align_playback(
     first: Sequence[RepetitionResult], second: Sequence[RepetitionResult], durations_s: tuple[float, float]
 ) -> PlaybackTimeline:
-    """The first repetition beside the first one, the second beside the second, and so on, as both were found.
+    """Align the repetitions of two recordings pair by pair.
 
-    The first recording runs at its own speed, the second so that both are in the same part of their repetition. What
-    comes before the first repetition runs so that both begin it together; what comes after the last common one, and all
-    where one has no repetition, runs at its own speed until each ends.
+    The first recording runs at its own speed, the second so that both are at the same part of their repetition. Both
+    reach the first repetition together; after the last common one, and without repetitions, each runs at its own speed.
     """
     knots = _TimelineBuilder()
     pairs = list(zip(_repetition_edges(first, durations_s[0]), _repetition_edges(second, durations_s[1])))  # noqa: B905
@@ -204,7 +205,7 @@ def align_playback(
 
 
 class _TimelineBuilder:
-    """Collects knots; time never goes back."""
+    """Builder of the knots; time never goes back."""
 
     def __init__(self) -> None:
         self._rows: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)]
@@ -223,7 +224,7 @@ class _TimelineBuilder:
         self.add(self.player_s + by_s, first_s, second_s)
 
     def advance_both(self, first_s: float, second_s: float, *, together: bool) -> None:
-        """To a place in each: evenly so that both arrive at once, or each at its own speed, waiting there."""
+        """Advance to a time in each: arriving together, or each at its own speed."""
         _, at_first, at_second = self._rows[-1]
         ways = (max(first_s - at_first, 0.0), max(second_s - at_second, 0.0))
         if not together:
@@ -238,7 +239,7 @@ class _TimelineBuilder:
 
 
 def _repetition_edges(repetitions: Sequence[RepetitionResult], duration_s: float) -> list[tuple[float, float]]:
-    """Start and end of each whole one, in order and inside the recording, whatever a person moved them to."""
+    """Return start and end of each whole repetition, in order and inside the recording."""
     out: list[tuple[float, float]] = []
     last = 0.0
     for repetition in (one for one in repetitions if one.is_whole):

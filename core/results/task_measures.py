@@ -1,4 +1,4 @@
-"""Measures of a session beside ranges and speeds: reaches, finger tips, moving together, tremor; of the whole hand."""
+"""Measures besides ranges and speeds: reaches, fingertips, coordination and tremor."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ from carpus.core.results.valid_data import MeasurableSession, motion_estimate
 from carpus.core.session.values import Motion, Session
 
 TOUCH_DISTANCE_M = 0.015
-"""Thumb and finger tip this near touch (clinical reference 8.2; both points lie under the skin)."""
+"""Thumb tip and fingertip touch (clinical reference 8.2; both points lie under the skin)."""
 RELEASE_DISTANCE_M = 0.025
-"""Beyond this they are apart again: what flickers about the limit is one touch."""
+"""Beyond this they are apart again, so that flicker about the limit is one touch."""
 CERTAIN_SDS = 2.0
-"""So many standard deviations nearer a hidden tip may be than it is tracked."""
+"""A hidden tip may be nearer than it is tracked by so many standard deviations."""
 MAX_APERTURE_SD_M = 0.015
-"""An aperture of hidden tips known worse than this is not told (looked back at, it is then 10 mm off at times)."""
+"""An aperture of hidden tips with a larger sd is not reported (smoothed it is at times 10 mm off)."""
 _THUMB_JOINTS = ("CMC1", "MCP1", "IP1")
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """What a measure is called, with ``{one}`` and ``{other}`` of two digits, its unit, and its decimals for people."""
+    """Name of a measure, with ``{one}`` and ``{other}`` for two digits, unit and decimals shown."""
 
     name: Phrase
     unit: str
@@ -84,7 +84,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     "reaches": Quantity(phrase("Reaching movements"), ""),
     "opposition": Quantity(phrase("Thumb opposition"), ""),
 }
-"""Everything that stands beside ranges, by its name in every file."""
+"""All task measures by their name in files."""
 
 
 T = TypeVar("T")
@@ -93,12 +93,12 @@ U = TypeVar("U")
 
 @dataclass(frozen=True, slots=True)
 class GuardedComputation:
-    """Computes each figure for itself: one that fails takes no other with it, and is ``failed_names`` by its name."""
+    """Computes each measure separately, so that a failing one takes no other with it."""
 
     failed_names: list[str] = field(default_factory=list)
 
     def compute(self, name: str, compute: Callable[[], T], default: U) -> T | U:
-        """What ``compute`` returns, or ``default`` where it fails, whatever the reason."""
+        """Return what ``compute`` returns, ``default`` if it raises."""
         try:
             return compute()
         except Exception:
@@ -107,7 +107,7 @@ class GuardedComputation:
             return default
 
     def to_measures(self) -> tuple[Measure, ...]:
-        """A line for each that failed."""
+        """Return a measure for each computation that failed."""
         return tuple(
             Measure("task", "session", name, "", (math.nan,), math.nan, unknown_reason="failed")
             for name in self.failed_names
@@ -119,7 +119,7 @@ def _task_measure(quantity: str, subject: str, values: Sequence[float], unknown_
 
 
 def compute_task_measures(seen: MeasurableSession) -> tuple[Measure, ...]:
-    """What an exercise has beside its ranges, a held angle's tremor last; nothing that its discs do not show."""
+    """Compute what an exercise has besides its ranges, as far as its markers show it."""
     session, wanted, attempts = seen.session, seen.exercise.task_measures, GuardedComputation()
     reaches: tuple[Reach, ...] = ()
     if "reaches" in wanted:
@@ -148,7 +148,7 @@ def compute_task_measures(seen: MeasurableSession) -> tuple[Measure, ...]:
 
 
 def find_session_reaches(session: Session, is_in_view: BoolArray) -> tuple[Reach, ...]:
-    """Ways out and back of the wrist."""
+    """Return outward and return movements of the wrist."""
     if int(np.sum(is_in_view)) < 2:
         return ()
     time_s = session.timestamp_s - session.timestamp_s[0]
@@ -157,7 +157,7 @@ def find_session_reaches(session: Session, is_in_view: BoolArray) -> tuple[Reach
 
 
 def summarise_reaches(reaches: Sequence[Reach], names: tuple[str, str] = ("reach", "return")) -> list[Measure]:
-    """Time, speed, straightness and smoothness of the ways out, and of those back."""
+    """Summarise time, speed, straightness and smoothness of outward, then of return movements."""
     out = []
     for outward, way in zip((True, False), names, strict=True):
         some = [reach for reach in reaches if reach.is_outward is outward]
@@ -185,11 +185,10 @@ def _unknown_reason(name: str, reaches: Sequence[Reach]) -> UnknownReason:
 
 
 def measure_opposition(session: Session, tips_m: FloatArray) -> list[Measure]:
-    """How near the thumb's tip (N, 5, 3) comes to each finger's and how often they touch, and its ways across the palm
-    and back, seen from the hand: what the hand itself moves is no movement of the thumb.
+    """Measure nearest distances and touches of the thumb tip, and its paths across the palm.
 
-    Tips that touch are mostly hidden from a camera above the hand: a distance counts where both were seen, and nothing
-    is said where they may have been nearer while they were not.
+    Tips (N, 5, 3) in metres. The paths are in the hand's axes. Touching tips are mostly hidden from a camera above the
+    hand: a distance counts if both were seen, and is unknown if they may have been nearer while hidden.
     """
     out = []
     for k in range(1, 5):
@@ -231,7 +230,7 @@ def _marker_index(session: Session, marker: str) -> int:
 
 
 def _fingertips_m(session: Session, motion: Motion) -> FloatArray:
-    """Tips (N, 5, 3) of thumb and fingers, NaN while lost and of digits that carry no discs."""
+    """Return tips (N, 5, 3) of thumb and fingers, NaN while lost or without markers."""
     out = np.full((len(session), len(DIGITS), 3), np.nan)
     for digit, chain in session.header.protocol.chains.items():
         out[:, digit - 1] = motion.joint_position_m[:, chain[-1]]
@@ -240,15 +239,17 @@ def _fingertips_m(session: Session, motion: Motion) -> FloatArray:
 
 
 def _is_tip_seen(session: Session, tip: int) -> BoolArray:
-    """Frames (N,) with a blob at a finger's tip, 0 the thumb's."""
+    """Return frames (N,) with a blob at a digit's tip, 0 for the thumb."""
     return np.asarray(
         np.isfinite(session.markers.measured_px[:, _marker_index(session, f"TIP{tip + 1}"), 0]), dtype=np.bool_
     )
 
 
 def _thumb_distance_sd_m(session: Session, tip: int) -> FloatArray:
-    """Standard deviation (N,) of the distance of the thumb's tip to another: that of each joint of both, times how far
-    the tip lies from it. What joints are off together is taken for their own, which is more than it is."""
+    """Return the sd (N,) of the distance between the thumb's tip and another.
+
+    Each joint's sd times the distance of the tip from it, as if all were independent, which is an upper bound.
+    """
     motion, names = motion_estimate(session), session.header.joint_names
     variance = np.zeros(len(session))
     for digit in (0, tip):
@@ -265,12 +266,10 @@ def _thumb_distance_sd_m(session: Session, tip: int) -> FloatArray:
 
 
 def measure_thumb_coherence(session: Session) -> list[Measure]:
-    """How much of the time the thumb was hidden, and whether what was said of it meanwhile holds together.
+    """Measure how long the thumb was hidden and how coherent its pose was meanwhile.
 
-    ``thumb hidden``: share of the frames without a blob at one of its outer discs; ``coherent`` and ``known though
-    hidden``: shares subject those, as :func:`core.measures.coordination.digit_coherence` has them; ``jump when seen
-    again`` of
-    its tip.
+    ``thumb hidden`` is the share of frames without a blob at an outer marker; the others are those of
+    :func:`core.measures.coordination.digit_coherence`.
     """
     motion, names = session.motion, session.header.joint_names
     columns = [k for k, name in enumerate(names) if name.split("_")[0] in _THUMB_JOINTS]
@@ -297,7 +296,7 @@ def measure_thumb_coherence(session: Session) -> list[Measure]:
 
 
 def _to_hand_axes(motion: Motion, joint: int) -> FloatArray:
-    """A joint centre (N, 3) in the axes of W2."""
+    """Return a joint centre (N, 3) in the axes of W2."""
     turned = rotation_in_w0(motion.rotation_w2_w0, motion.w0_turn_rad)
     return np.asarray(np.einsum("nji,nj->ni", turned, motion.joint_position_m[:, joint] - motion.position_m))
 
@@ -306,7 +305,7 @@ TREMOR = "tremor 3-12 Hz"
 
 
 def measure_wrist_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[Measure]:
-    """Tremor of a wrist angle that was held; nothing where none was held for six seconds."""
+    """Measure the tremor of a held wrist angle; none if none was held for six seconds."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     if len(time_s) < 2:
         return ()
@@ -320,7 +319,7 @@ def measure_wrist_tremor(session: Session, angle: int, noise_rms_rad: float) -> 
 
 
 def _measure_aperture(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[Measure]:
-    """NaN of a reach of which a part was not seen, and of an aperture that is a guess."""
+    """Measure the largest aperture of each reach; NaN if part of it was hidden or it is too uncertain."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     sure = (_is_tip_seen(session, 0) & _is_tip_seen(session, 1)) | (
         _thumb_distance_sd_m(session, 1) <= MAX_APERTURE_SD_M
@@ -344,7 +343,7 @@ def _measure_aperture(session: Session, aperture_m: FloatArray, reaches: Sequenc
 
 
 def _measure_span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> Measure:
-    """The largest distance of two tips in the frames that show both."""
+    """Measure the largest distance of two tips in frames that show both."""
     values_m = distance_m(tips_m[:, one], tips_m[:, other])
     known = values_m[np.isfinite(values_m) & _is_tip_seen(session, one) & _is_tip_seen(session, other)]
     of = f"TIP{one + 1}-TIP{other + 1}"
@@ -354,7 +353,7 @@ def _measure_span(session: Session, name: str, one: int, other: int, tips_m: Flo
 
 
 def _measure_coordination(tracks: Mapping[str, JointTrack]) -> list[Measure]:
-    """Co-flexion of neighbouring middle joints, of index and middle finger's knuckles, and their synergy."""
+    """Measure co-flexion of neighbouring PIP joints, and the synergy of all fingers."""
     out = []
     pairs = [(f"PIP{k}_flexion", f"PIP{k + 1}_flexion") for k in range(2, 5)]
     for one, other in pairs:
@@ -372,4 +371,4 @@ def _measure_coordination(tracks: Mapping[str, JointTrack]) -> list[Measure]:
 
 
 TREMOR_NOISE_RAD = math.radians(0.25)
-"""What the tracker shows between 3 and 12 Hz of a hand that lies still: the sd that moves from frame to frame."""
+"""Frame-to-frame sd of the tracker between 3 and 12 Hz for a hand at rest."""

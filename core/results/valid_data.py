@@ -1,4 +1,4 @@
-"""What of a session was seen well enough to be measured, and its angles as they are drawn."""
+"""Valid data of a session: what was seen well enough to be measured, and curves to draw."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ from carpus.core.session.values import Motion, Session
 
 
 def motion_estimate(session: Session) -> Motion:
-    """The smoother's result where there is one, else the filter's."""
+    """Return the smoother's result if there is one, else the filter's."""
     return session.motion if session.smoothed is None else session.smoothed
 
 
 def clinical_angles_rad(session: Session) -> FloatArray:
-    """The wrist's angles (N, 3) as a clinician reads them, by the smoother where there is one."""
+    """Return the wrist angles (N, 3) as a clinician reads them."""
     exercise = get_exercise(session.header.exercise)
     return to_clinical_wrist_angles(motion_estimate(session).angles_rad, exercise, session.calibration.start_angles_rad)
 
 
 @dataclass(frozen=True, slots=True)
 class WristCurves:
-    """Angles over the session as they are drawn: ``time_s`` (N,) after the first frame, the rest (N, 3).
+    """Wrist angles as drawn: ``time_s`` (N,) after the first frame, the rest (N, 3).
 
-    The wrist's are counted as :func:`core.model.hand.forearm_rotation.to_clinical_wrist_angles` says.
+    Counted as in :func:`core.model.hand.forearm_rotation.to_clinical_wrist_angles`.
     """
 
     time_s: FloatArray
@@ -47,7 +47,7 @@ class WristCurves:
 
 
 def wrist_curves(session: Session) -> WristCurves:
-    """Angles ready to draw."""
+    """Return the wrist angles as they are drawn."""
     motion = motion_estimate(session)
     time_s = session.timestamp_s - session.timestamp_s[0] if len(session) else np.empty(0)
     return WristCurves(
@@ -57,8 +57,10 @@ def wrist_curves(session: Session) -> WristCurves:
 
 @dataclass(frozen=True, slots=True)
 class JointCurves:
-    """Joint angles over the session as they are drawn: ``time_s`` (N,) after the first frame, angles and sds (N, J),
-    ``is_valid`` bool (N, J) where the angle was measured directly and counts."""
+    """Joint angles as drawn: ``time_s`` (N,) after the first frame, angles and sds (N, J).
+
+    ``is_valid`` (N, J): measured directly and possible.
+    """
 
     names: tuple[str, ...]
     time_s: FloatArray
@@ -68,7 +70,7 @@ class JointCurves:
 
 
 def joint_curves(session: Session) -> JointCurves | None:
-    """Curves of a session of the whole hand; None for the wrist alone."""
+    """Return the joint angles as they are drawn, None for the wrist alone."""
     names = session.header.joint_names
     if not names:
         return None
@@ -87,7 +89,7 @@ def joint_curves(session: Session) -> JointCurves | None:
 
 
 def joint_tracks(session: Session, names: Collection[str] | None = None) -> dict[str, JointTrack]:
-    """Every joint by its name, or ``names`` some; empty for the wrist alone."""
+    """Return all joints, or those in ``names``; empty for the wrist alone."""
     curves = joint_curves(session)
     if curves is None:
         return {}
@@ -102,7 +104,7 @@ def joint_tracks(session: Session, names: Collection[str] | None = None) -> dict
 
 
 def palm_in_view(session: Session) -> BoolArray:
-    """Frames (N,) that the camera saw well enough to measure the wrist."""
+    """Return frames (N,) in which the palm was seen well enough to measure the wrist."""
     motion, palm = motion_estimate(session), list(session.header.protocol.palm)
     view = valid_view(
         session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
@@ -111,7 +113,7 @@ def palm_in_view(session: Session) -> BoolArray:
 
 
 def wrist_signals(session: Session, is_in_view: BoolArray) -> list[Signal]:
-    """The wrist's three angles as they are read, each with its sd, with gaps where it was not seen well."""
+    """Return the three clinical wrist angles with their sd, with gaps where the palm was not in view."""
     angles_rad, sds_rad = clinical_angles_rad(session), motion_estimate(session).angles_sd_rad
     valid = valid_wrist_angles(is_in_view, angles_rad, sds_rad)
     time_s = session.timestamp_s - session.timestamp_s[:1]
@@ -120,9 +122,10 @@ def wrist_signals(session: Session, is_in_view: BoolArray) -> list[Signal]:
 
 @dataclass(frozen=True, slots=True)
 class MeasurableSession:
-    """A session with what of it may be measured: ``is_in_view`` (N,) the frames that show the palm well, ``signals``
-    the
-    wrist's three angles, ``tracks`` every joint by its name."""
+    """Session with what may be measured of it.
+
+    ``is_in_view`` (N,): frames that show the palm well; ``signals``: the wrist angles; ``tracks``: the joints.
+    """
 
     session: Session
     exercise: Exercise
@@ -132,7 +135,7 @@ class MeasurableSession:
 
     @classmethod
     def from_session(cls, session: Session, joints: Collection[str] | None = None) -> MeasurableSession:
-        """By the rules of the ranges; ``joints`` alone where no other is asked for."""
+        """Apply the validity rules; ``joints`` limits the joints."""
         view = palm_in_view(session)
         exercise = get_exercise(session.header.exercise)
         return cls(session, exercise, view, wrist_signals(session, view), joint_tracks(session, joints))

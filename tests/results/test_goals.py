@@ -38,7 +38,7 @@ def flexion(history: Sequence[SessionResults]) -> tuple[float, float, int, float
 def test_the_goal_is_a_small_step_above_the_mean_of_the_last_three_sessions_that_compare() -> None:
     history = [of_day(0, 20.0), of_day(7, 40.0), of_day(9, 44.4), of_day(14, 42.0)]
     assert flexion(history) == (47.0, 53.0, 3, pytest.approx(42.13, abs=0.01))
-    assert flexion([*history, of_day(20, 80.0, not_counted=True)]) == flexion(history)
+    assert flexion([*history, of_day(20, 80.0, is_excluded=True)]) == flexion(history)
     assert flexion([*history, of_day(20, 80.0, side="left")]) == flexion(history)
     assert flexion([of_day(0, 88.0)])[0] == 90.0
     assert not [one for one in propose_goals([of_day(0, 96.0)], FLEXION, "right", "wrist6") if one.direction == 1]
@@ -54,5 +54,5 @@ def test_it_is_never_above_what_the_clinic_own_measurement_error_can_tell() -> N
 
 def test_what_the_camera_did_not_see_to_its_end_proposes_nothing() -> None:
     one = of_day(0, 40.0)
-    hidden = with_ranges(one, lambda _: {"at_least": True})
+    hidden = with_ranges(one, lambda _: {"is_lower_bound": True})
     assert propose_goals([hidden], FLEXION, "right", "wrist6") == ()
