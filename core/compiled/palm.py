@@ -73,8 +73,6 @@ def compute_mode_transition(
     turning: double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
     fastest: double = max(turning, digits[0], digits[1])
     pace: double = 0.2 + min(turning / tissue.turning_rad_s, 3.0)
-    i: Py_ssize_t
-    j: Py_ssize_t
     between: double[:, ::1] = np.empty((count, count))
     for i in range(count):
         total: double = 0.0
@@ -148,9 +146,6 @@ def compute_palm_transition(
     push: double = noise.push
     turning: double = noise.turning
     unseen_scale: double = motion.unseen_scale
-    i: Py_ssize_t
-    j: Py_ssize_t
-    k: Py_ssize_t
 
     moving, turns = np.eye(MOVING), np.empty((5, 3, 3))
     forward: double[:, ::1] = moving
@@ -253,12 +248,6 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
     fy: double = camera.fy_px
     cx: double = camera.cx_px
     cy: double = camera.cy_px
-    a: Py_ssize_t
-    b: Py_ssize_t
-    d: Py_ssize_t
-    i: Py_ssize_t
-    j: Py_ssize_t
-    p: Py_ssize_t
     # Room to work in, few arrays cut up: to make one costs as much as to fill it.
     roots: double[:, :, ::1] = np.empty((2, 6, 6))
     root: double[:, ::1] = roots[0]
@@ -403,8 +392,6 @@ def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
     out_value: double[::1] = value
     off: double[:, :, ::1] = apart
     by: double[:, ::1] = np.empty((3, 3))
-    k: Py_ssize_t
-    i: Py_ssize_t
     x, y, z = middle[TURN], middle[TURN + 1], middle[TURN + 2]
     for k in range(modes):
         for i in range(SIZE):
@@ -467,8 +454,6 @@ def fill_right_jacobian(x: double, y: double, z: double, out: double[:, ::1]) ->
 @cython.exceptval(check=False)
 def multiply(a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]) -> cython.void:
     """``out`` = A B of matrices (3, 3)."""
-    i: Py_ssize_t
-    j: Py_ssize_t
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
@@ -481,8 +466,6 @@ def multiply_transposed(
     a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]
 ) -> cython.void:
     """``out`` = A B' of matrices (3, 3)."""
-    i: Py_ssize_t
-    j: Py_ssize_t
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[j, 0] + a[i, 1] * b[j, 1] + a[i, 2] * b[j, 2]

@@ -85,8 +85,6 @@ def read_wrist(
     half: double[:, ::1] = matrix[5]
     left: double[:, ::1] = matrix[6]
     by_turn: double[:, ::1] = matrix[7]
-    i: Py_ssize_t
-    j: Py_ssize_t
     turn_axes(known.axes, by_shape, known.shape_m, state, half, axes)
     for i in range(3):
         vector[0, i] = state[POSITION + i]
@@ -185,13 +183,6 @@ def compute_finger_base(
     place: double[:, ::1] = places
     cup: double[:, ::1] = cups
     of_pose: double[:, ::1] = pose
-    d: Py_ssize_t
-    i: Py_ssize_t
-    j: Py_ssize_t
-    a: Py_ssize_t
-    b: Py_ssize_t
-    p: Py_ssize_t
-    q: Py_ssize_t
     turn_axes(known.axes, by_shape, known.shape_m, state, half, axes)
     for i in range(3):
         for j in range(3):
@@ -251,7 +242,6 @@ def turn_axes(
     x: double = 0.0
     y: double = 0.0
     z: double = 0.0
-    i: Py_ssize_t
     for i in range(SHAPES):
         moved = state[SHAPE + i] - about[i]
         x += by_shape[0, i] * moved
@@ -272,9 +262,6 @@ def fill_turn_covariance(
     """``out`` = E P E' for a turn that is E d = ``by_turn`` d + ``by_axes`` S s, of errors d of the turn and s of the
     shape."""
     errors: double[:, ::1] = np.zeros((6, READ))
-    i: Py_ssize_t
-    j: Py_ssize_t
-    k: Py_ssize_t
     for i in range(3):
         for j in range(3):
             errors[i, j] = by_turn[i, j]

@@ -80,8 +80,6 @@ def add_sparse_product(
 def zero_times(a: cython.const[double][:, ::1]) -> double:
     """0, or NaN where any number of A is not finite: what a product that leaves out zeros must begin with, so that
     nothing unknown is passed over. Only the lower half of what is square is looked at."""
-    i: Py_ssize_t
-    j: Py_ssize_t
     # Four sums: one would wait for itself.
     w: double = 0.0
     x: double = 0.0
@@ -106,9 +104,6 @@ def zero_times(a: cython.const[double][:, ::1]) -> double:
 @cython.exceptval(check=False)
 def inverse_root(root: double[:, ::1], inverse: double[:, ::1]) -> cython.bint:
     """L^-1 of a matrix L L', whose upper triangle is changed; False where it is not positive definite (Cholesky)."""
-    i: Py_ssize_t
-    j: Py_ssize_t
-    k: Py_ssize_t
     n: Py_ssize_t = root.shape[0]
     for i in range(n):
         for j in range(n):

@@ -69,11 +69,6 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
     huber: double = settings.huber_m
     most: double = settings.most_m
 
-    i: Py_ssize_t
-    j: Py_ssize_t
-    k: Py_ssize_t
-    a: Py_ssize_t
-    b: Py_ssize_t
     # Of each reading its place in W0, height and weight, and by how much turns and shifts bring it off its plane.
     place: double[:, ::1] = np.empty((count, 3))
     height: double[:, ::1] = np.empty((count, 2))
@@ -228,8 +223,6 @@ def round_to_index(x: double, most: Py_ssize_t) -> Py_ssize_t:
 @cython.exceptval(check=True)
 def invert(matrix: double[:, ::1], inverse: double[:, ::1]) -> cython.void:
     """Inverse (3, 3) by cofactors."""
-    i: Py_ssize_t
-    j: Py_ssize_t
     for i in range(3):
         for j in range(3):
             a, b, c, d = (i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3
