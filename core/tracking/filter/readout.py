@@ -13,17 +13,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.compiled.readout import compute_finger_base, read_wrist
 from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand import clinical_angles
-from carpus.core.model.hand.clinical_angles import ZYZ_MIN_BETA_RAD, side_sign, wrist_axes_sensitivity
+from carpus.core.model.hand.clinical_angles import wrist_axes_sensitivity
 from carpus.core.model.types import Detections, FloatArray, KinematicState, TrackedFrame, TrackStatus
-from carpus.core.tracking.filter.hand_geometry import JointState, PalmGeometry
-from carpus.core.tracking.filter.palm_state import SHAPE, PalmEstimate, PalmView
+from carpus.core.tracking.filter.hand_geometry import N_DIGITS, JointState, PalmGeometry
+from carpus.core.tracking.filter.palm_state import POSE, SHAPE, SKIN, TURN, PalmEstimate, PalmView
+from carpus.core.tracking.filter.soft_tissue import CUPPING_DISCS
 
 _NONE = np.empty(0)
 _NOWHERE = np.empty((0, 3))
+_STILL = np.eye(3)
+_CUPPING_ROWS = SKIN.start + 3 * CUPPING_DISCS + 2
 _DORSAL = np.array([0.0, 0.0, 1.0])
 _TILT_RANK_TOLERANCE = 1e-3  # share of the best known direction below which depths say nothing of a turn
 
@@ -38,6 +40,19 @@ class WristAxes:
     axes: FloatArray
     sensitivity: FloatArray
     shape_m: FloatArray
+
+
+def _turned_axes(known: WristAxes, estimate: PalmEstimate) -> FloatArray:
+    """Return the axes (3, 3) as the shape has turned them since they were computed, to first order."""
+    return np.asarray(known.axes @ so3.exp(known.sensitivity @ (estimate.value[SHAPE] - known.shape_m)))
+
+
+def _turn_covariance(by_turn: FloatArray, by_shape: FloatArray, estimate: PalmEstimate) -> FloatArray:
+    """Return the covariance (3, 3) of a turn that is ``by_turn`` (3, 3) d + ``by_shape`` (3, 18) s."""
+    error = np.zeros((3, SHAPE.stop - TURN.start))
+    error[:, :3], error[:, SHAPE.start - TURN.start :] = by_turn, by_shape
+    read = slice(TURN.start, SHAPE.stop)
+    return np.asarray(error @ estimate.covariance[read, read] @ error.T)
 
 
 class Readout:
@@ -66,7 +81,10 @@ class Readout:
     def compute_base(
         self, estimate: PalmEstimate, view: PalmView
     ) -> tuple[PalmGeometry, FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Return the palm as refined, for the fingers, and its view.
+        """
+        Compute where the fingers sit on the palm as refined, and how the camera sees it.
+
+        Ring and little metacarpal flex and take their fingers along; what else a disc moves is skin.
 
         Returns
         -------
@@ -79,31 +97,45 @@ class Readout:
         turn_covariance : (3, 3)
             Of the turn of the palm's axes, in camera axes.
         """
-        sign = side_sign(self._side)
-        axes, origin_m, disc_m, cup, cup_sd, rotation, translation_m, pose, turn = compute_finger_base(
-            self._axes_near(estimate), self._disc_m, estimate, view, sign, METACARPAL_M
-        )
-        return PalmGeometry(axes, origin_m, disc_m, cup, cup_sd), rotation, translation_m, pose, turn
+        known = self._axes_near(estimate)
+        axes = _turned_axes(known, estimate)
+        disc_m = self._disc_m + estimate.shape_m
+        disc_m[CUPPING_DISCS, 1:] += estimate.skin_m[CUPPING_DISCS, 1:]
+        cup, cup_sd = np.zeros((2, N_DIGITS))
+        cup[-2:] = -estimate.skin_m[CUPPING_DISCS, 2] / METACARPAL_M
+        cup_sd[-2:] = np.sqrt(estimate.covariance[_CUPPING_ROWS, _CUPPING_ROWS]) / METACARPAL_M
+        palm = PalmGeometry.from_discs(disc_m, axes, self._side, cup, cup_sd)
+        body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
+        to_camera = np.zeros((6, 6))
+        to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
+        pose = to_camera @ estimate.covariance[POSE[:, None], POSE] @ to_camera.T
+        turn = body_cam @ _turn_covariance(_STILL, axes @ known.sensitivity, estimate) @ body_cam.T
+        return palm, *view.to_camera(estimate, palm.axes, palm.origin_m), pose, turn
 
     def read_kinematics(self, estimate: PalmEstimate) -> KinematicState:
-        """Return wrist pose, rates, angles and their standard deviations of one estimate.
-
-        The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
-        axes, shown, position, rate, angles, sd, zyz = read_wrist(
-            self._axes_near(estimate),
-            self._disc_m,
-            estimate,
-            self._start if self._has_start else None,
-            self._tilt_covariance(estimate) if self._has_stays else None,
-            side_sign(self._side),
-            ZYZ_MIN_BETA_RAD,
-        )
+        Read wrist pose, rates, angles and their standard deviations of a single estimate.
+
+        In the axes A of the wrist the rotation is Q = A' R A. Errors d of the turn and s of the shape, by which the
+        axes turn S s, make of it Q Exp(A' d + (1 - Q') S s). The origin of W2 is the WRIST disc where the skin has
+        carried it; the axes are those of the fixed unit.
+        """
+        known = self._axes_near(estimate)
+        axes = _turned_axes(known, estimate)
+        disc = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
+        rotation = axes.T @ estimate.rotation_w2_w0 @ axes
+        covariance = _turn_covariance(axes.T, known.sensitivity - rotation.T @ known.sensitivity, estimate)
+        if self._has_stays:
+            covariance = covariance + axes.T @ self._tilt_covariance(estimate) @ axes
+        shown = self._start @ rotation if self._has_start else rotation
+        angles, by_turn, zyz = clinical_angles.compute_wrist_angles(shown, self._side)
+        sd = np.sqrt(np.maximum(np.vecdot(by_turn @ covariance, by_turn), 0.0))
         # Places keep the axes of W0 as calibrated and stored, whatever is learnt of the palm; turns are read in the
         # axes as they are known by now, and what lies between the two goes with them.
         return KinematicState(
-            position, estimate.velocity_m_s, so3.log(axes @ self._start.T), shown, rate, angles, sd, zyz, _NONE, _NONE,
-            _NONE, _NOWHERE,
+            estimate.position_m + estimate.rotation_w2_w0 @ disc, estimate.velocity_m_s,
+            so3.log(axes @ self._start.T), shown, axes.T @ estimate.rate_rad_s, angles, sd, zyz, _NONE, _NONE, _NONE,
+            _NOWHERE,
         )  # fmt: skip
 
     def _tilt_covariance(self, estimate: PalmEstimate) -> FloatArray:
