@@ -4,30 +4,6 @@
 <context>
     <name></name>
     <message>
-        <source>Not held: {names}. Correct a picture soon after too.</source>
-        <translation>Nicht gehalten: {names}. Berichtigen Sie auch ein Bild kurz danach.</translation>
-    </message>
-    <message>
-        <source>Hardly seen any more: {names}. What they show has no value then.</source>
-        <translation>Kaum noch zu sehen: {names}. Was sie zeigen, hat dann keinen Wert.</translation>
-    </message>
-    <message>
-        <source>{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.</source>
-        <translation>{count} von {common} Bildern weichen um mehr als 2° ab, am meisten bei {time}: {angle}, {size}.</translation>
-    </message>
-    <message>
-        <source>No picture differs by more than 2°.</source>
-        <translation>Kein Bild weicht um mehr als 2° ab.</translation>
-    </message>
-    <message>
-        <source>{count} pictures have an angle that had none.</source>
-        <translation>{count} Bilder haben jetzt einen Winkel, die keinen hatten.</translation>
-    </message>
-    <message>
-        <source>As measured live: one of the two was not looked back at.</source>
-        <translation>Wie live gemessen: Eines der beiden ist nicht nachgerechnet.</translation>
-    </message>
-    <message>
         <source>Close Carpus</source>
         <translation>Carpus schließen</translation>
     </message>
@@ -220,20 +196,28 @@
         <translation>{name}, betroffen</translation>
     </message>
     <message>
-        <source>{name}, healthy</source>
-        <translation>{name}, gesund</translation>
-    </message>
-    <message>
         <source>{name} · mirrored</source>
         <translation>{name} · gespiegelt</translation>
     </message>
     <message>
-        <source>Shown beside each other, not judged.</source>
-        <translation>Nebeneinander gezeigt, nicht beurteilt.</translation>
+        <source>{name}, unaffected</source>
+        <translation>{name}, nicht betroffen</translation>
     </message>
     <message>
-        <source>Not judged: there is no movement that both have.</source>
-        <translation>Nicht beurteilt: Es gibt keine Bewegung, die beide haben.</translation>
+        <source>Shown side by side, without a comparison.</source>
+        <translation>Nebeneinander gezeigt, ohne Vergleich.</translation>
+    </message>
+    <message>
+        <source>Not compared: the two sessions share no movement.</source>
+        <translation>Nicht verglichen: Die beiden Sitzungen haben keine gemeinsame Bewegung.</translation>
+    </message>
+    <message>
+        <source>Not compared: {why}.</source>
+        <translation>Nicht verglichen: {why}.</translation>
+    </message>
+    <message>
+        <source>Occluded frames are not analysed.</source>
+        <translation>Verdeckte Bilder werden nicht ausgewertet.</translation>
     </message>
     <message>
         <source>No difference beyond measurement error between right and left.</source>
@@ -256,12 +240,80 @@
         <translation>{movement}: links {size} mehr als rechts.</translation>
     </message>
     <message>
-        <source>{movement} {first} against {second}: more than the measurement error of {limit}.</source>
-        <translation>{movement} {first} gegen {second}: mehr als der Messfehler von {limit}.</translation>
+        <source>{movement}: {first} versus {second}, above the measurement error of {limit}.</source>
+        <translation>{movement}: {first} gegenüber {second}, größer als der Messfehler von {limit}.</translation>
     </message>
     <message>
-        <source>{movement} {first} against {second}: within the measurement error of {limit}.</source>
-        <translation>{movement} {first} gegen {second}: im Messfehler von {limit}.</translation>
+        <source>{movement}: {first} versus {second}, within the measurement error of {limit}.</source>
+        <translation>{movement}: {first} gegenüber {second}, innerhalb des Messfehlers von {limit}.</translation>
+    </message>
+    <message>
+        <source>Not comparable: {why}. Values are shown without an assessment.</source>
+        <translation>Nicht vergleichbar: {why}. Die Werte werden ohne Beurteilung gezeigt.</translation>
+    </message>
+    <message>
+        <source>{name}, mean ± SD</source>
+        <translation>{name}, Mittel ± SD</translation>
+    </message>
+    <message>
+        <source>MDC95</source>
+        <translation>MDC95</translation>
+    </message>
+    <message>
+        <source>Assessment</source>
+        <translation>Beurteilung</translation>
+    </message>
+    <message>
+        <source>partly occluded</source>
+        <translation>teilweise verdeckt</translation>
+    </message>
+    <message>
+        <source>≥ {difference}</source>
+        <translation>≥ {difference}</translation>
+    </message>
+    <message>
+        <source>not compared: in one session only</source>
+        <translation>nicht verglichen: nur in einer Sitzung</translation>
+    </message>
+    <message>
+        <source>not compared: {why}</source>
+        <translation>nicht verglichen: {why}</translation>
+    </message>
+    <message>
+        <source>improved (above MDC)</source>
+        <translation>verbessert (größer als der Messfehler)</translation>
+    </message>
+    <message>
+        <source>worse (above MDC)</source>
+        <translation>verschlechtert (größer als der Messfehler)</translation>
+    </message>
+    <message>
+        <source>no difference beyond MDC</source>
+        <translation>kein Unterschied größer als der Messfehler</translation>
+    </message>
+    <message>
+        <source>less than left (above MDC)</source>
+        <translation>weniger als links (größer als der Messfehler)</translation>
+    </message>
+    <message>
+        <source>less than right (above MDC)</source>
+        <translation>weniger als rechts (größer als der Messfehler)</translation>
+    </message>
+    <message>
+        <source>more than left (above MDC)</source>
+        <translation>mehr als links (größer als der Messfehler)</translation>
+    </message>
+    <message>
+        <source>more than right (above MDC)</source>
+        <translation>mehr als rechts (größer als der Messfehler)</translation>
+    </message>
+    <message>
+        <source>The other hand is a comparison, not a norm: left and right differ in healthy people too.</source>
+        <translation>Die andere Hand ist ein Vergleich, keine Norm: Links und rechts unterscheiden sich auch bei Gesunden.</translation>
+    </message>
+    <message>
+        <source>PIP joints of all fingers</source>
+        <translation>PIP-Gelenke aller Finger</translation>
     </message>
     <message>
         <source>same exercise, same day, same set-up</source>
@@ -280,64 +332,12 @@
         <translation>{name}: {what}</translation>
     </message>
     <message>
-        <source>{name}, mean ± sd</source>
-        <translation>{name}, Mittel ± SD</translation>
-    </message>
-    <message>
         <source>Difference</source>
         <translation>Unterschied</translation>
     </message>
     <message>
-        <source>Error</source>
-        <translation>Fehler</translation>
-    </message>
-    <message>
-        <source>at least {difference}</source>
-        <translation>mindestens {difference}</translation>
-    </message>
-    <message>
         <source>not judged</source>
         <translation>nicht beurteilt</translation>
-    </message>
-    <message>
-        <source>not judged: only one of the two has it</source>
-        <translation>nicht beurteilt: nur eine von beiden hat es</translation>
-    </message>
-    <message>
-        <source>improved, beyond error</source>
-        <translation>verbessert, über Fehler</translation>
-    </message>
-    <message>
-        <source>worse, beyond error</source>
-        <translation>schlechter, über Fehler</translation>
-    </message>
-    <message>
-        <source>no difference beyond error</source>
-        <translation>kein Unterschied über Fehler</translation>
-    </message>
-    <message>
-        <source>less than the left, beyond error</source>
-        <translation>weniger als links, über Fehler</translation>
-    </message>
-    <message>
-        <source>less than the right, beyond error</source>
-        <translation>weniger als rechts, über Fehler</translation>
-    </message>
-    <message>
-        <source>more than the left, beyond error</source>
-        <translation>mehr als links, über Fehler</translation>
-    </message>
-    <message>
-        <source>more than the right, beyond error</source>
-        <translation>mehr als rechts, über Fehler</translation>
-    </message>
-    <message>
-        <source>The other hand is a comparison, not a norm: hands of one person differ by themselves.</source>
-        <translation>Die andere Hand ist ein Vergleich, keine Norm: Die Hände einer Person unterscheiden sich von selbst.</translation>
-    </message>
-    <message>
-        <source>Middle joints of all fingers</source>
-        <translation>Mittelgelenke aller Finger</translation>
     </message>
     <message>
         <source>improved</source>
@@ -688,6 +688,50 @@
         <translation>Innen {angle}</translation>
     </message>
     <message>
+        <source>Measurement error (MDC95)</source>
+        <translation>Messfehler (MDC95)</translation>
+    </message>
+    <message>
+        <source>On {date} with {count} people in {sessions} sessions, 95 % intervals in brackets.</source>
+        <translation>Am {date} mit {count} Personen in {sessions} Sitzungen, 95-%-Intervalle in Klammern.</translation>
+    </message>
+    <message>
+        <source>Used in progress and reports instead of the values above.</source>
+        <translation>Gilt in Verlauf und Berichten anstelle der Werte oben.</translation>
+    </message>
+    <message>
+        <source>Not used: at least {count} people are needed.</source>
+        <translation>Nicht verwendet: Mindestens {count} Personen sind nötig.</translation>
+    </message>
+    <message>
+        <source>{count} people, not used</source>
+        <translation>{count} Personen, nicht verwendet</translation>
+    </message>
+    <message>
+        <source>Flexion–extension, total arc</source>
+        <translation>Flexion–Extension, Gesamtbewegung</translation>
+    </message>
+    <message>
+        <source>Radial–ulnar deviation, total arc</source>
+        <translation>Radial-/Ulnarduktion, Gesamtbewegung</translation>
+    </message>
+    <message>
+        <source>Pronation–supination, total arc</source>
+        <translation>Pro-/Supination, Gesamtbewegung</translation>
+    </message>
+    <message>
+        <source>Range of motion of a finger’s MCP, PIP or DIP</source>
+        <translation>Bewegungsausmaß von MCP, PIP oder DIP eines Fingers</translation>
+    </message>
+    <message>
+        <source>Range of finger abduction</source>
+        <translation>Bewegungsausmaß der Fingerabduktion</translation>
+    </message>
+    <message>
+        <source>Range of motion of the thumb joints</source>
+        <translation>Bewegungsausmaß der Daumengelenke</translation>
+    </message>
+    <message>
         <source>Total active motion (TAM)</source>
         <translation>Aktive Gesamtbeweglichkeit (TAM)</translation>
     </message>
@@ -696,44 +740,12 @@
         <translation>{row}, Umfang</translation>
     </message>
     <message>
-        <source>Carpus: discs and set-up</source>
-        <translation>Carpus: Punkte und Aufbau</translation>
-    </message>
-    <message>
-        <source>Where the discs go</source>
-        <translation>Wohin die Punkte gehören</translation>
-    </message>
-    <message>
         <source>Blue matt paper, 12 mm, on clean dry skin</source>
         <translation>Blaues mattes Papier, 12 mm, auf sauberer trockener Haut</translation>
     </message>
     <message>
-        <source>1. Wrist: middle of the back of the wrist, over the crease of the lifted hand.</source>
-        <translation>1. Handgelenk: Mitte des Handgelenkrückens, über der Falte der angehobenen Hand.</translation>
-    </message>
-    <message>
-        <source>2. Thumb base: on the bony edge, a thumb&apos;s width from the wrist disc.</source>
-        <translation>2. Daumensattelgelenk: auf der Knochenkante, eine Daumenbreite vom Handgelenkpunkt.</translation>
-    </message>
-    <message>
-        <source>3. Knuckles: on the back of the hand just behind each knuckle.</source>
-        <translation>3. Grundgelenke: auf dem Handrücken, gleich hinter jedem Knöchel.</translation>
-    </message>
-    <message>
-        <source>Whole hand: also on the creases of every joint, and on the nails. Small fingers: 8 mm.</source>
-        <translation>Ganze Hand: auch auf die Falten jedes Gelenks und auf die Nägel. Kleine Finger: 8 mm.</translation>
-    </message>
-    <message>
         <source>The left hand is the mirror image.</source>
         <translation>Die linke Hand ist das Spiegelbild.</translation>
-    </message>
-    <message>
-        <source>Put them where they were last time. Never on wounds, dressings or fragile skin.</source>
-        <translation>Kleben Sie sie dorthin, wo sie letztes Mal waren. Nie auf Wunden, Verbände oder empfindliche Haut.</translation>
-    </message>
-    <message>
-        <source>Nothing else blue in the picture: no sleeve, pen, ring or nail.</source>
-        <translation>Sonst nichts Blaues im Bild: kein Ärmel, Stift, Ring oder Nagel.</translation>
     </message>
     <message>
         <source>{size} mm</source>
@@ -748,36 +760,68 @@
         <translation>Aufbau</translation>
     </message>
     <message>
-        <source>Camera, arm, light, picture</source>
+        <source>Carpus: markers and set-up</source>
+        <translation>Carpus: Marker und Aufbau</translation>
+    </message>
+    <message>
+        <source>Where the markers go</source>
+        <translation>Wohin die Marker gehören</translation>
+    </message>
+    <message>
+        <source>1. Wrist: middle of the dorsal side, over the crease of the extended wrist.</source>
+        <translation>1. Handgelenk: Mitte der Streckseite, über der Falte bei Extension.</translation>
+    </message>
+    <message>
+        <source>2. Thumb base (CMC): on the bony edge, one thumb’s width from the wrist marker.</source>
+        <translation>2. Daumensattelgelenk (CMC): auf der Knochenkante, eine Daumenbreite vom Handgelenkmarker.</translation>
+    </message>
+    <message>
+        <source>3. MCP joints: on the back of the hand, just proximal to each knuckle.</source>
+        <translation>3. MCP-Gelenke: auf dem Handrücken, knapp proximal jedes Knöchels.</translation>
+    </message>
+    <message>
+        <source>Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm.</source>
+        <translation>Ganze Hand: auch über der Falte jedes Fingergelenks und auf den Nägeln. Kleine Finger: 8 mm.</translation>
+    </message>
+    <message>
+        <source>Place them where they were last time, never on wounds, dressings or fragile skin.</source>
+        <translation>Kleben Sie sie dorthin, wo sie letztes Mal waren, nie auf Wunden, Verbände oder empfindliche Haut.</translation>
+    </message>
+    <message>
+        <source>Keep everything else blue out of view: sleeves, pens, rings, nails.</source>
+        <translation>Halten Sie alles andere Blaue aus dem Bild: Ärmel, Stifte, Ringe, Nägel.</translation>
+    </message>
+    <message>
+        <source>Camera, arm, light, image</source>
         <translation>Kamera, Arm, Licht, Bild</translation>
     </message>
     <message>
-        <source>1. Camera 70 to 80 cm above the table, straight down, tied with a cord. Plug it straight in.</source>
-        <translation>1. Kamera 70 bis 80 cm über dem Tisch, senkrecht nach unten, mit einer Schnur gesichert. Direkt anschließen.</translation>
+        <source>1. Camera 70 to 80 cm above the table, pointing straight down, secured with a cord and connected directly.</source>
+        <translation>1. Kamera 70 bis 80 cm über dem Tisch, senkrecht nach unten, mit einer Schnur gesichert und direkt angeschlossen.</translation>
     </message>
     <message>
-        <source>2. No sun on the hand; even light from the ceiling; no shadow of the camera&apos;s arm.</source>
-        <translation>2. Keine Sonne auf der Hand; gleichmäßiges Licht von der Decke; kein Schatten vom Kameraarm.</translation>
+        <source>2. Even light from the ceiling. No sun and no shadow of the camera arm on the hand.</source>
+        <translation>2. Gleichmäßiges Licht von der Decke. Keine Sonne und kein Schatten des Kameraarms auf der Hand.</translation>
     </message>
     <message>
-        <source>3. The forearm rests and stays still. A towel under it lets the hand bend down over the edge.</source>
-        <translation>3. Der Unterarm liegt auf und bleibt ruhig. Ein Handtuch darunter lässt die Hand über die Kante beugen.</translation>
+        <source>3. The forearm rests and stays still. A towel under it lets the wrist flex over the edge.</source>
+        <translation>3. Der Unterarm liegt auf und bleibt ruhig. Ein Handtuch darunter lässt das Handgelenk über die Kante beugen.</translation>
     </message>
     <message>
-        <source>4. Clear the table of everything blue. Roll up a blue sleeve.</source>
-        <translation>4. Räumen Sie alles Blaue vom Tisch. Blaue Ärmel hochkrempeln.</translation>
+        <source>4. Remove everything blue from the table. Roll up blue sleeves.</source>
+        <translation>4. Räumen Sie alles Blaue vom Tisch. Krempeln Sie blaue Ärmel hoch.</translation>
     </message>
     <message>
-        <source>5. Choose the patient, Enter. Lay the hand flat and still, Space takes the picture.</source>
-        <translation>5. Wählen Sie den Patienten, Eingabe. Hand flach und ruhig hinlegen, die Leertaste nimmt das Bild auf.</translation>
+        <source>5. Choose the patient and press Enter. Lay the hand flat and still and press Space.</source>
+        <translation>5. Wählen Sie den Patienten, und drücken Sie Eingabe. Hand flach und ruhig hinlegen, dann Leertaste.</translation>
     </message>
     <message>
-        <source>6. Click the discs in the order of the drawing; check the names of the whole hand.</source>
-        <translation>6. Klicken Sie die Punkte in der Reihenfolge der Zeichnung an; prüfen Sie die Namen der ganzen Hand.</translation>
+        <source>6. Click the markers in the order of the drawing. For the whole hand, check the labels.</source>
+        <translation>6. Klicken Sie die Marker in der Reihenfolge der Zeichnung an. Bei der ganzen Hand prüfen Sie die Bezeichnungen.</translation>
     </message>
     <message>
-        <source>7. All checks green: Enter. Space records, Space stops and opens the review.</source>
-        <translation>7. Alle Prüfungen grün: Eingabe. Die Leertaste startet die Aufnahme, beendet sie und öffnet die Auswertung.</translation>
+        <source>7. When all checks are green, press Enter. Space starts the recording, and ends it and opens the review.</source>
+        <translation>7. Sind alle Prüfungen grün, drücken Sie Eingabe. Die Leertaste startet die Aufnahme, beendet sie und öffnet die Auswertung.</translation>
     </message>
     <message>
         <source>Stop at pain of 5 or more, at 2 more than before, at numbness, swelling or dizziness.</source>
@@ -840,6 +884,182 @@
         <translation>Zurück</translation>
     </message>
     <message>
+        <source>Start recording, or stop and review</source>
+        <translation>Aufnahme starten, oder beenden und auswerten</translation>
+    </message>
+    <message>
+        <source>Pedal: continue, record, stop</source>
+        <translation>Pedal: weiter, aufnehmen, beenden</translation>
+    </message>
+    <message>
+        <source>Pause or resume</source>
+        <translation>Anhalten oder fortsetzen</translation>
+    </message>
+    <message>
+        <source>Hide or show the overlay</source>
+        <translation>Einblendungen im Bild aus- oder einschalten</translation>
+    </message>
+    <message>
+        <source>One value large, or all values</source>
+        <translation>Ein Wert groß, oder alle Werte</translation>
+    </message>
+    <message>
+        <source>Next angle as large number</source>
+        <translation>Nächster Winkel als große Zahl</translation>
+    </message>
+    <message>
+        <source>Next finger as large number</source>
+        <translation>Nächster Finger als große Zahl</translation>
+    </message>
+    <message>
+        <source>Blue spot: first answer, or yes</source>
+        <translation>Blaue Stelle: erste Antwort, oder ja</translation>
+    </message>
+    <message>
+        <source>Blue spot: second answer</source>
+        <translation>Blaue Stelle: zweite Antwort</translation>
+    </message>
+    <message>
+        <source>Blue spot: neither, or no</source>
+        <translation>Blaue Stelle: keine von beiden, oder nein</translation>
+    </message>
+    <message>
+        <source>Accept the proposed marker</source>
+        <translation>Vorgeschlagenen Marker annehmen</translation>
+    </message>
+    <message>
+        <source>Zoom magnifier in</source>
+        <translation>Lupe vergrößern</translation>
+    </message>
+    <message>
+        <source>Zoom magnifier out</source>
+        <translation>Lupe verkleinern</translation>
+    </message>
+    <message>
+        <source>New image</source>
+        <translation>Neues Bild</translation>
+    </message>
+    <message>
+        <source>Enlarge the image of the last session</source>
+        <translation>Bild der letzten Sitzung vergrößern</translation>
+    </message>
+    <message>
+        <source>Thumb cannot fully extend</source>
+        <translation>Daumen nicht vollständig streckbar</translation>
+    </message>
+    <message>
+        <source>Index finger cannot fully extend</source>
+        <translation>Zeigefinger nicht vollständig streckbar</translation>
+    </message>
+    <message>
+        <source>Middle finger cannot fully extend</source>
+        <translation>Mittelfinger nicht vollständig streckbar</translation>
+    </message>
+    <message>
+        <source>Ring finger cannot fully extend</source>
+        <translation>Ringfinger nicht vollständig streckbar</translation>
+    </message>
+    <message>
+        <source>Little finger cannot fully extend</source>
+        <translation>Kleinfinger nicht vollständig streckbar</translation>
+    </message>
+    <message>
+        <source>Play or stop</source>
+        <translation>Abspielen oder anhalten</translation>
+    </message>
+    <message>
+        <source>Previous frame</source>
+        <translation>Voriges Bild</translation>
+    </message>
+    <message>
+        <source>Next frame</source>
+        <translation>Nächstes Bild</translation>
+    </message>
+    <message>
+        <source>Exclude or include a repetition</source>
+        <translation>Wiederholung aus- oder einschließen</translation>
+    </message>
+    <message>
+        <source>Cycle: angles, path, speeds, Euler ZYZ</source>
+        <translation>Reihum: Winkel, Bahn, Geschwindigkeiten, Euler ZYZ</translation>
+    </message>
+    <message>
+        <source>Move the repetition boundary earlier</source>
+        <translation>Grenze der Wiederholung früher legen</translation>
+    </message>
+    <message>
+        <source>Move the repetition boundary later</source>
+        <translation>Grenze der Wiederholung später legen</translation>
+    </message>
+    <message>
+        <source>Zoom curves in</source>
+        <translation>Kurven vergrößern</translation>
+    </message>
+    <message>
+        <source>Zoom curves out</source>
+        <translation>Kurven verkleinern</translation>
+    </message>
+    <message>
+        <source>Show whole curves</source>
+        <translation>Kurven ganz zeigen</translation>
+    </message>
+    <message>
+        <source>Select previous session</source>
+        <translation>Vorige Sitzung auswählen</translation>
+    </message>
+    <message>
+        <source>Select next session</source>
+        <translation>Nächste Sitzung auswählen</translation>
+    </message>
+    <message>
+        <source>Open the selected session</source>
+        <translation>Ausgewählte Sitzung öffnen</translation>
+    </message>
+    <message>
+        <source>Correct a marker</source>
+        <translation>Marker korrigieren</translation>
+    </message>
+    <message>
+        <source>Previous frame to correct</source>
+        <translation>Voriges Bild zum Korrigieren</translation>
+    </message>
+    <message>
+        <source>Next frame to correct</source>
+        <translation>Nächstes Bild zum Korrigieren</translation>
+    </message>
+    <message>
+        <source>Marker not visible here</source>
+        <translation>Marker hier nicht sichtbar</translation>
+    </message>
+    <message>
+        <source>Undo a step</source>
+        <translation>Einen Schritt rückgängig machen</translation>
+    </message>
+    <message>
+        <source>Next uncertain frame</source>
+        <translation>Nächstes unsicheres Bild</translation>
+    </message>
+    <message>
+        <source>Draw the angle on the frame</source>
+        <translation>Winkel ins Bild zeichnen</translation>
+    </message>
+    <message>
+        <source>This frame with the hand only</source>
+        <translation>Dieses Bild nur mit der Hand</translation>
+    </message>
+    <message>
+        <source>Tick a session to compare</source>
+        <translation>Sitzung zum Vergleichen ankreuzen</translation>
+    </message>
+    <message>
+        <source>Compare the two ticked sessions</source>
+        <translation>Die beiden angekreuzten Sitzungen vergleichen</translation>
+    </message>
+    <message>
+        <source>Compare with the other hand or another day</source>
+        <translation>Mit der anderen Hand oder einem anderen Tag vergleichen</translation>
+    </message>
+    <message>
         <source>Ctrl</source>
         <translation>Strg</translation>
     </message>
@@ -868,10 +1088,6 @@
         <translation>Tab</translation>
     </message>
     <message>
-        <source>Record, and stop and review</source>
-        <translation>Aufnehmen; beenden und auswerten</translation>
-    </message>
-    <message>
         <source>Note</source>
         <translation>Notiz</translation>
     </message>
@@ -880,68 +1096,24 @@
         <translation>Blatt für zu Hause</translation>
     </message>
     <message>
-        <source>Go back</source>
-        <translation>Zurück</translation>
-    </message>
-    <message>
-        <source>Pedal: go on, record, stop</source>
-        <translation>Pedal: weiter, aufnehmen, beenden</translation>
-    </message>
-    <message>
         <source>Pain score</source>
         <translation>Schmerzwert</translation>
-    </message>
-    <message>
-        <source>Pause and go on</source>
-        <translation>Anhalten und fortsetzen</translation>
-    </message>
-    <message>
-        <source>Hide or show the marks on the picture</source>
-        <translation>Marken im Bild aus- oder einblenden</translation>
-    </message>
-    <message>
-        <source>Whole picture or hand area</source>
-        <translation>Ganzes Bild oder nur die Hand</translation>
     </message>
     <message>
         <source>Speeds or angles</source>
         <translation>Geschwindigkeiten oder Winkel</translation>
     </message>
     <message>
+        <source>Whole frame or hand area</source>
+        <translation>Ganzes Bild oder nur die Hand</translation>
+    </message>
+    <message>
         <source>Open and close the patient’s view</source>
         <translation>Patientenansicht öffnen und schließen</translation>
     </message>
     <message>
-        <source>One figure large, or all</source>
-        <translation>Ein Wert groß, oder alle</translation>
-    </message>
-    <message>
-        <source>Next angle as big number</source>
-        <translation>Nächster Winkel als große Zahl</translation>
-    </message>
-    <message>
-        <source>Next finger as big number</source>
-        <translation>Nächster Finger als große Zahl</translation>
-    </message>
-    <message>
         <source>One finger from the side</source>
         <translation>Ein Finger von der Seite</translation>
-    </message>
-    <message>
-        <source>Answer about a blue spot: disc 1, or yes</source>
-        <translation>Frage zu blauer Stelle: Punkt 1, oder ja</translation>
-    </message>
-    <message>
-        <source>Answer about a blue spot: spot 2</source>
-        <translation>Frage zu blauer Stelle: Stelle 2</translation>
-    </message>
-    <message>
-        <source>Answer about a blue spot: neither, or no</source>
-        <translation>Frage zu blauer Stelle: keine, oder nein</translation>
-    </message>
-    <message>
-        <source>Accept the marker found</source>
-        <translation>Gefundenen Marker annehmen</translation>
     </message>
     <message>
         <source>Undo the last marker</source>
@@ -952,14 +1124,6 @@
         <translation>Nächster Marker</translation>
     </message>
     <message>
-        <source>Larger loupe</source>
-        <translation>Lupe größer</translation>
-    </message>
-    <message>
-        <source>Smaller loupe</source>
-        <translation>Lupe kleiner</translation>
-    </message>
-    <message>
         <source>Swap two markers</source>
         <translation>Zwei Marker tauschen</translation>
     </message>
@@ -968,44 +1132,8 @@
         <translation>Neues Bild</translation>
     </message>
     <message>
-        <source>Last time&apos;s picture larger</source>
-        <translation>Bild vom letzten Mal größer</translation>
-    </message>
-    <message>
         <source>Click again</source>
         <translation>Neu anklicken</translation>
-    </message>
-    <message>
-        <source>Thumb cannot lie straight</source>
-        <translation>Daumen kann nicht gerade liegen</translation>
-    </message>
-    <message>
-        <source>Index finger cannot lie straight</source>
-        <translation>Zeigefinger kann nicht gerade liegen</translation>
-    </message>
-    <message>
-        <source>Middle finger cannot lie straight</source>
-        <translation>Mittelfinger kann nicht gerade liegen</translation>
-    </message>
-    <message>
-        <source>Ring finger cannot lie straight</source>
-        <translation>Ringfinger kann nicht gerade liegen</translation>
-    </message>
-    <message>
-        <source>Little finger cannot lie straight</source>
-        <translation>Kleinfinger kann nicht gerade liegen</translation>
-    </message>
-    <message>
-        <source>Play and stop</source>
-        <translation>Abspielen und anhalten</translation>
-    </message>
-    <message>
-        <source>Previous picture</source>
-        <translation>Voriges Bild</translation>
-    </message>
-    <message>
-        <source>Next picture</source>
-        <translation>Nächstes Bild</translation>
     </message>
     <message>
         <source>Previous repetition</source>
@@ -1014,86 +1142,6 @@
     <message>
         <source>Next repetition</source>
         <translation>Nächste Wiederholung</translation>
-    </message>
-    <message>
-        <source>Leave a repetition out, or take it back</source>
-        <translation>Wiederholung auslassen oder zurückholen</translation>
-    </message>
-    <message>
-        <source>Angles, path, speeds, ZYZ in turn</source>
-        <translation>Winkel, Weg, Geschwindigkeiten, ZYZ im Wechsel</translation>
-    </message>
-    <message>
-        <source>Move the repetition&apos;s edge back</source>
-        <translation>Rand der Wiederholung zurücksetzen</translation>
-    </message>
-    <message>
-        <source>Move the repetition&apos;s edge on</source>
-        <translation>Rand der Wiederholung vorsetzen</translation>
-    </message>
-    <message>
-        <source>Less time of the curves, larger</source>
-        <translation>Kurven: weniger Zeit, größer</translation>
-    </message>
-    <message>
-        <source>More time of the curves</source>
-        <translation>Kurven: mehr Zeit</translation>
-    </message>
-    <message>
-        <source>All of the curves</source>
-        <translation>Kurven ganz</translation>
-    </message>
-    <message>
-        <source>Point at the session before</source>
-        <translation>Auf die vorige Sitzung zeigen</translation>
-    </message>
-    <message>
-        <source>Point at the next session</source>
-        <translation>Auf die nächste Sitzung zeigen</translation>
-    </message>
-    <message>
-        <source>Open the session pointed at</source>
-        <translation>Gezeigte Sitzung öffnen</translation>
-    </message>
-    <message>
-        <source>Put a marker right</source>
-        <translation>Einen Marker berichtigen</translation>
-    </message>
-    <message>
-        <source>Previous picture to put right</source>
-        <translation>Voriges Bild zum Berichtigen</translation>
-    </message>
-    <message>
-        <source>Next picture to put right</source>
-        <translation>Nächstes Bild zum Berichtigen</translation>
-    </message>
-    <message>
-        <source>Marker not to be seen here</source>
-        <translation>Marker hier nicht zu sehen</translation>
-    </message>
-    <message>
-        <source>Take a step back</source>
-        <translation>Einen Schritt zurücknehmen</translation>
-    </message>
-    <message>
-        <source>Next doubtful picture</source>
-        <translation>Nächstes zweifelhaftes Bild</translation>
-    </message>
-    <message>
-        <source>The angle drawn on the picture</source>
-        <translation>Der Winkel ins Bild gezeichnet</translation>
-    </message>
-    <message>
-        <source>Tick a session to be compared</source>
-        <translation>Sitzung zum Vergleichen ankreuzen</translation>
-    </message>
-    <message>
-        <source>Compare the two that are ticked</source>
-        <translation>Die beiden angekreuzten vergleichen</translation>
-    </message>
-    <message>
-        <source>Beside the other hand, or another day</source>
-        <translation>Neben der anderen Hand oder einem anderen Tag</translation>
     </message>
     <message>
         <source>Mirror the left hand</source>
@@ -1344,12 +1392,12 @@
         <translation>Beide tauschen</translation>
     </message>
     <message>
-        <source>1 file was written.</source>
-        <translation>1 Datei ist geschrieben.</translation>
+        <source>1 file was saved.</source>
+        <translation>1 Datei wurde gespeichert.</translation>
     </message>
     <message>
-        <source>{count} files were written.</source>
-        <translation>{count} Dateien sind geschrieben.</translation>
+        <source>{count} files were saved.</source>
+        <translation>{count} Dateien wurden gespeichert.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
@@ -1360,16 +1408,16 @@
         <translation>Dateien: {names}</translation>
     </message>
     <message>
-        <source>Open the folder</source>
+        <source>Open folder</source>
         <translation>Ordner öffnen</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Weiter</translation>
     </message>
     <message>
         <source>Enter</source>
         <translation>Eingabe</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation>Weiter</translation>
     </message>
     <message>
         <source>Correct names</source>
@@ -1724,8 +1772,8 @@
         <translation>Alles ohne Patient ausprobieren</translation>
     </message>
     <message>
-        <source>No session counted yet</source>
-        <translation>Noch keine gezählt</translation>
+        <source>No analysed session yet</source>
+        <translation>Noch keine ausgewertete Sitzung</translation>
     </message>
     <message>
         <source>Carpus</source>
@@ -2022,10 +2070,6 @@
     <message>
         <source>Pictures</source>
         <translation>Bilder</translation>
-    </message>
-    <message>
-        <source>In words</source>
-        <translation>In Worten</translation>
     </message>
     <message>
         <source>ext.</source>
@@ -2373,7 +2417,7 @@
     </message>
     <message>
         <source>not measured</source>
-        <translation>ungemessen</translation>
+        <translation>nicht gemessen</translation>
     </message>
     <message>
         <source>not judged: {why}</source>
@@ -2984,6 +3028,18 @@
         <translation>{pain} bei {time}</translation>
     </message>
     <message>
+        <source>Values of a simulated hand are never used.</source>
+        <translation>Werte einer simulierten Hand werden nie verwendet.</translation>
+    </message>
+    <message>
+        <source>Not usable yet: at least {count} people are needed, 20 are better.</source>
+        <translation>Noch nicht verwendbar: Mindestens {count} Personen sind nötig, besser 20.</translation>
+    </message>
+    <message>
+        <source>Excluded: {sessions}.</source>
+        <translation>Ausgeschlossen: {sessions}.</translation>
+    </message>
+    <message>
         <source>more than 14 days later</source>
         <translation>mehr als 14 Tage später</translation>
     </message>
@@ -2992,84 +3048,28 @@
         <translation>fehlt</translation>
     </message>
     <message>
-        <source>does not count: simulated</source>
-        <translation>zählt nicht: simuliert</translation>
-    </message>
-    <message>
-        <source>set aside: {reason}</source>
-        <translation>beiseitegelegt: {reason}</translation>
-    </message>
-    <message>
         <source>cannot be read</source>
         <translation>nicht lesbar</translation>
-    </message>
-    <message>
-        <source>its file is not there</source>
-        <translation>ihre Datei fehlt</translation>
-    </message>
-    <message>
-        <source>What counts as a change</source>
-        <translation>Was als Änderung zählt</translation>
     </message>
     <message>
         <source>Measured by this clinic: {exercise}</source>
         <translation>Von dieser Einrichtung gemessen: {exercise}</translation>
     </message>
     <message>
-        <source>On {date} with {count} people in {sessions} sessions; 95 % intervals in brackets.</source>
-        <translation>Am {date} mit {count} Personen in {sessions} Sitzungen; 95-%-Intervalle in Klammern.</translation>
-    </message>
-    <message>
-        <source>In force in progress and reports, in place of the limits above.</source>
-        <translation>Gilt in Verlauf und Berichten anstelle der Grenzen oben.</translation>
-    </message>
-    <message>
-        <source>Not in force: {count} people are the least.</source>
-        <translation>Gilt nicht: {count} Personen sind das Mindeste.</translation>
-    </message>
-    <message>
         <source>SEM {size}</source>
         <translation>SEM {size}</translation>
-    </message>
-    <message>
-        <source>{count} people, not in force</source>
-        <translation>{count} Personen, gilt nicht</translation>
     </message>
     <message>
         <source>Flexion, extension</source>
         <translation>Flexion, Extension</translation>
     </message>
     <message>
-        <source>Flexion and extension, whole arc</source>
-        <translation>Flexion und Extension, Gesamtumfang</translation>
-    </message>
-    <message>
         <source>Radial, ulnar deviation</source>
         <translation>Radial-, Ulnarduktion</translation>
     </message>
     <message>
-        <source>Deviation, whole arc</source>
-        <translation>Radial-/Ulnarduktion, Gesamtumfang</translation>
-    </message>
-    <message>
         <source>Supination, pronation</source>
         <translation>Supination, Pronation</translation>
-    </message>
-    <message>
-        <source>Supination and pronation, whole arc</source>
-        <translation>Supination und Pronation, Gesamtumfang</translation>
-    </message>
-    <message>
-        <source>Range of a finger’s knuckle, middle or end joint</source>
-        <translation>Umfang eines Grund-, Mittel- oder Endgelenks</translation>
-    </message>
-    <message>
-        <source>Range of a finger’s spreading</source>
-        <translation>Umfang der Spreizung eines Fingers</translation>
-    </message>
-    <message>
-        <source>Range of the thumb’s joints</source>
-        <translation>Umfang der Daumengelenke</translation>
     </message>
     <message>
         <source>Set: {name}</source>
@@ -4764,10 +4764,6 @@
         <translation>Verdeckte Gelenke zählen nicht.</translation>
     </message>
     <message>
-        <source>The last back-up is of {day}.</source>
-        <translation>Letzte Sicherung: {day}.</translation>
-    </message>
-    <message>
         <source>± is the spread between repetitions.</source>
         <translation>± ist die Streuung zwischen Wiederholungen.</translation>
     </message>
@@ -4980,14 +4976,6 @@
         <translation>Seite {number} von {count}</translation>
     </message>
     <message>
-        <source>This picture is larger than 8 MB. Choose a smaller one.</source>
-        <translation>Dieses Bild ist größer als 8 MB. Wählen Sie ein kleineres.</translation>
-    </message>
-    <message>
-        <source>This picture is too small to print. Choose one of at least 32 pixels each way.</source>
-        <translation>Dieses Bild ist zu klein zum Drucken. Wählen Sie eines mit mindestens 32 Pixeln je Richtung.</translation>
-    </message>
-    <message>
         <source>Flexion {flexion}, extension {extension}.</source>
         <translation>Flexion {flexion}, Extension {extension}.</translation>
     </message>
@@ -5072,14 +5060,6 @@
         <translation>beschädigt: Ihre Kalibrierung ist nicht die einer Hand</translation>
     </message>
     <message>
-        <source>This picture cannot be read. Choose a PNG or JPEG file.</source>
-        <translation>Dieses Bild kann nicht gelesen werden. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
-    </message>
-    <message>
-        <source>This file is no picture that Carpus can read. Choose a PNG or JPEG file.</source>
-        <translation>Diese Datei ist kein Bild, das Carpus lesen kann. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
-    </message>
-    <message>
         <source>Names are right</source>
         <translation>Namen stimmen</translation>
     </message>
@@ -5152,6 +5132,10 @@
         <translation>jetzt nicht da</translation>
     </message>
     <message>
+        <source>not connected</source>
+        <translation>nicht verbunden</translation>
+    </message>
+    <message>
         <source>{free} GB free</source>
         <translation>{free} GB frei</translation>
     </message>
@@ -5160,40 +5144,40 @@
         <translation>auf derselben Platte wie die Daten</translation>
     </message>
     <message>
-        <source>There is no back-up yet.</source>
+        <source>There is no backup yet.</source>
         <translation>Es gibt noch keine Sicherung.</translation>
     </message>
     <message>
-        <source>Every session is in it.</source>
-        <translation>Jede Sitzung ist darin.</translation>
+        <source>It contains every session.</source>
+        <translation>Sie enthält jede Sitzung.</translation>
     </message>
     <message>
-        <source>1 session file is not in it.</source>
-        <translation>1 Sitzungsdatei ist nicht darin.</translation>
+        <source>1 session file is missing from it.</source>
+        <translation>1 Sitzungsdatei fehlt darin.</translation>
     </message>
     <message>
-        <source>{n} session files are not in it.</source>
-        <translation>{n} Sitzungsdateien sind nicht darin.</translation>
+        <source>{n} session files are missing from it.</source>
+        <translation>{n} Sitzungsdateien fehlen darin.</translation>
     </message>
     <message>
-        <source>{when} · {n} session files, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · {n} Sitzungsdateien, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
-    </message>
-    <message>
-        <source>{when} · 1 session file, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · 1 Sitzungsdatei, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
-    </message>
-    <message>
-        <source>The last back-up is {days} days old.</source>
+        <source>The last backup is {days} days old.</source>
         <translation>Die letzte Sicherung ist {days} Tage alt.</translation>
+    </message>
+    <message>
+        <source>{when} · {n} session files, {size} GB · verified</source>
+        <translation>{when} · {n} Sitzungsdateien, {size} GB · geprüft</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session file, {size} GB · verified</source>
+        <translation>{when} · 1 Sitzungsdatei, {size} GB · geprüft</translation>
+    </message>
+    <message>
+        <source>It is on the same disk as the data. If that disk fails, both are lost.</source>
+        <translation>Sie liegt auf demselben Datenträger wie die Daten. Fällt er aus, ist beides verloren.</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
         <translation>Erinnerung nach {days} Tagen.</translation>
-    </message>
-    <message>
-        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
-        <translation>Sie liegt auf der Platte mit den Daten: Geht diese kaputt, ist beides verloren.</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>
@@ -5448,10 +5432,6 @@
         <translation>Verlauf</translation>
     </message>
     <message>
-        <source>This picture with the hand alone</source>
-        <translation>Dieses Bild nur mit der Hand</translation>
-    </message>
-    <message>
         <source>Repetitions</source>
         <translation>Wiederholungen</translation>
     </message>
@@ -5592,10 +5572,6 @@
         <translation>drei Punkte der Handfläche werden gebraucht; geben Sie an, welche von {there} es sind</translation>
     </message>
     <message>
-        <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
-        <translation>Nicht vergleichbar: {why}. Die Werte werden gezeigt, beurteilt wird nichts.</translation>
-    </message>
-    <message>
         <source>depth in millimetres, not 5000 per metre</source>
         <translation>Tiefe in Millimetern, nicht 5000 pro Meter</translation>
     </message>
@@ -5674,18 +5650,6 @@
     <message>
         <source>People: {people}, sessions: {sessions}.</source>
         <translation>Personen: {people}, Sitzungen: {sessions}.</translation>
-    </message>
-    <message>
-        <source>Limits of a simulated hand are never used.</source>
-        <translation>Grenzen einer simulierten Hand werden nie verwendet.</translation>
-    </message>
-    <message>
-        <source>Not usable yet: {count} people are the least, 20 are better.</source>
-        <translation>Noch nicht verwendbar: {count} Personen sind das Mindeste, 20 sind besser.</translation>
-    </message>
-    <message>
-        <source>Left out: {sessions}.</source>
-        <translation>Ausgelassen: {sessions}.</translation>
     </message>
     <message>
         <source>measured once</source>
@@ -6632,6 +6596,10 @@
         <translation>„carpus track SITZUNG.h5 --output NEU.h5“ wiederholt die Glättung.</translation>
     </message>
     <message>
+        <source>Last backup: {day}.</source>
+        <translation>Letzte Sicherung: {day}.</translation>
+    </message>
+    <message>
         <source>An unexpected error occurred.</source>
         <translation>Ein unerwarteter Fehler ist aufgetreten.</translation>
     </message>
@@ -6647,76 +6615,84 @@
         <source>Program</source>
         <translation>Programm</translation>
     </message>
+    <message>
+        <source>not visible</source>
+        <translation>nicht sichtbar</translation>
+    </message>
+    <message>
+        <source>Not kept: {names}. Also correct a later frame.</source>
+        <translation>Nicht gehalten: {names}. Korrigieren Sie auch ein späteres Bild.</translation>
+    </message>
+    <message>
+        <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
+        <translation>Im neuen Ergebnis kaum sichtbar: {names}. Ihre Winkel fehlen dort.</translation>
+    </message>
+    <message>
+        <source>{count} of {common} frames differ by more than 2°. Largest difference at {time}: {angle}, {size}.</source>
+        <translation>{count} von {common} Bildern weichen um mehr als 2° ab. Größter Unterschied bei {time}: {angle}, {size}.</translation>
+    </message>
+    <message>
+        <source>No frame differs by more than 2°.</source>
+        <translation>Kein Bild weicht um mehr als 2° ab.</translation>
+    </message>
+    <message>
+        <source>{count} frames have an angle that was missing before.</source>
+        <translation>{count} Bilder haben einen Winkel, der vorher fehlte.</translation>
+    </message>
+    <message>
+        <source>Live values are compared, because one of the two results is not smoothed.</source>
+        <translation>Verglichen werden die Live-Werte, weil eines der beiden Ergebnisse nicht geglättet ist.</translation>
+    </message>
+    <message>
+        <source>excluded: simulated</source>
+        <translation>ausgeschlossen: simuliert</translation>
+    </message>
+    <message>
+        <source>excluded: {reason}</source>
+        <translation>ausgeschlossen: {reason}</translation>
+    </message>
+    <message>
+        <source>file missing</source>
+        <translation>Datei fehlt</translation>
+    </message>
+    <message>
+        <source>not readable</source>
+        <translation>nicht lesbar</translation>
+    </message>
+    <message>
+        <source>This image cannot be read. Choose a PNG or JPEG file.</source>
+        <translation>Dieses Bild kann nicht gelesen werden. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
+    </message>
+    <message>
+        <source>This image is larger than 8 MB. Choose a smaller one.</source>
+        <translation>Dieses Bild ist größer als 8 MB. Wählen Sie ein kleineres.</translation>
+    </message>
+    <message>
+        <source>Carpus cannot read this file as an image. Choose a PNG or JPEG file.</source>
+        <translation>Carpus kann diese Datei nicht als Bild lesen. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
+    </message>
+    <message>
+        <source>This image is too small to print. Choose one of at least 32 × 32 pixels.</source>
+        <translation>Dieses Bild ist zu klein zum Drucken. Wählen Sie eines mit mindestens 32 × 32 Pixeln.</translation>
+    </message>
 </context>
 <context>
-    <name>BackupController</name>
+    <name>AppointmentBox</name>
     <message>
-        <source>Plug the disk for back-ups in, and back up.</source>
-        <translation>Schließen Sie den Datenträger für Sicherungen an, und sichern Sie.</translation>
+        <source>No appointment yet</source>
+        <translation>Noch kein Termin</translation>
     </message>
     <message>
-        <source>To the settings</source>
-        <translation>Zu den Einstellungen</translation>
+        <source>When next? Day, month, year</source>
+        <translation>Wann wieder? Tag, Monat, Jahr</translation>
     </message>
     <message>
-        <source>Folder for back-ups, on another disk</source>
-        <translation>Ordner für Sicherungen, auf anderem Datenträger</translation>
-    </message>
-    <message>
-        <source>Folder that holds the back-ups</source>
-        <translation>Ordner mit den Sicherungen</translation>
-    </message>
-    <message>
-        <source>Carpus closes when it is done. Start it again then.</source>
-        <translation>Carpus schließt sich danach. Starten Sie es dann neu.</translation>
-    </message>
-    <message>
-        <source>Restore it</source>
-        <translation>Wiederherstellen</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>So lassen</translation>
-    </message>
-    <message>
-        <source>Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}.</source>
-        <translation>Sicherung vom {when} wiederherstellen? Sitzungsdateien hinzugefügt: {come}, geändert: {change}, entfernt: {go}.</translation>
-    </message>
-    <message>
-        <source>The folder of what is here now is kept beside the new one.</source>
-        <translation>Der Ordner mit dem, was jetzt hier ist, bleibt neben dem neuen erhalten.</translation>
-    </message>
-    <message>
-        <source>Which back-up is to be restored?</source>
-        <translation>Welche Sicherung soll wiederhergestellt werden?</translation>
-    </message>
-    <message>
-        <source>{when}: {n} session files</source>
-        <translation>{when}: {n} Sitzungsdateien</translation>
-    </message>
-    <message>
-        <source>Patients and sessions that were erased since then stay erased: {n}.</source>
-        <translation>Patienten und Sitzungen, die seitdem gelöscht wurden, bleiben gelöscht: {n}.</translation>
-    </message>
-    <message>
-        <source>What it changes is shown before anything is done.</source>
-        <translation>Was sie ändert, wird gezeigt, bevor etwas geschieht.</translation>
-    </message>
-    <message>
-        <source>Restore…</source>
-        <translation>Wiederherstellen…</translation>
+        <source>When next? That day is over</source>
+        <translation>Wann wieder? Der Tag ist vorbei</translation>
     </message>
 </context>
 <context>
     <name>BackupCard</name>
-    <message>
-        <source>Back-up</source>
-        <translation>Sicherung</translation>
-    </message>
-    <message>
-        <source>Everything of the data folder: patients, sessions, pictures, log. Works while you measure.</source>
-        <translation>Alles aus dem Datenordner: Patienten, Sitzungen, Bilder, Protokoll. Läuft, während Sie messen.</translation>
-    </message>
     <message>
         <source>&amp;Back up now</source>
         <translation>Jetzt &amp;sichern</translation>
@@ -6726,44 +6702,56 @@
         <translation>&amp;Wiederherstellen…</translation>
     </message>
     <message>
-        <source>then read back and compared</source>
-        <translation>dann verglichen</translation>
-    </message>
-    <message>
-        <source>shows first what changes</source>
-        <translation>zeigt erst, was kommt</translation>
-    </message>
-    <message>
         <source>Change…</source>
         <translation>Ändern…</translation>
     </message>
     <message>
-        <source>Each day at 12:00</source>
+        <source>Backup</source>
+        <translation>Sicherung</translation>
+    </message>
+    <message>
+        <source>Backs up the whole data folder: patients, sessions, images and log. You can measure meanwhile.</source>
+        <translation>Sichert den ganzen Datenordner: Patienten, Sitzungen, Bilder und Protokoll. Sie können dabei messen.</translation>
+    </message>
+    <message>
+        <source>then verified</source>
+        <translation>dann geprüft</translation>
+    </message>
+    <message>
+        <source>Daily at 12:00</source>
         <translation>Täglich um 12:00</translation>
     </message>
     <message>
-        <source>At 18:00</source>
-        <translation>Um 18:00</translation>
+        <source>Daily at 18:00</source>
+        <translation>Täglich um 18:00</translation>
     </message>
     <message>
-        <source>Only when told</source>
-        <translation>Nur auf Wunsch</translation>
+        <source>Manual only</source>
+        <translation>Nur manuell</translation>
     </message>
     <message>
-        <source>Folder for back-ups</source>
+        <source>shows the changes first</source>
+        <translation>zeigt erst die Änderungen</translation>
+    </message>
+    <message>
+        <source>the last 14, plus one per month for 2 years</source>
+        <translation>die letzten 14, dazu eine pro Monat für 2 Jahre</translation>
+    </message>
+    <message>
+        <source>Backup folder</source>
         <translation>Ordner für Sicherungen</translation>
     </message>
     <message>
-        <source>By itself</source>
-        <translation>Von selbst</translation>
-    </message>
-    <message>
-        <source>the last 14, and one of each month for 2 years</source>
-        <translation>die letzten 14, und 2 Jahre lang eine je Monat</translation>
+        <source>Automatic</source>
+        <translation>Automatisch</translation>
     </message>
     <message>
         <source>Keep</source>
         <translation>Behalten</translation>
+    </message>
+    <message>
+        <source>Anyone with the backup disk can read it. Use an encrypted disk.</source>
+        <translation>Wer den Datenträger hat, kann die Sicherungen lesen. Verwenden Sie einen verschlüsselten Datenträger.</translation>
     </message>
     <message>
         <source>none</source>
@@ -6773,250 +6761,64 @@
         <source>{percent} %</source>
         <translation>{percent} %</translation>
     </message>
-    <message>
-        <source>Whoever has the back-up disk can read it: use an encrypted disk.</source>
-        <translation>Wer den Datenträger mit den Sicherungen hat, kann sie lesen: einen verschlüsselten Datenträger verwenden.</translation>
-    </message>
 </context>
 <context>
-    <name>TopBarController</name>
+    <name>BackupController</name>
     <message>
-        <source>Exercise</source>
-        <translation>Übung</translation>
+        <source>Connect the backup disk and back up.</source>
+        <translation>Schließen Sie den Sicherungsdatenträger an, und sichern Sie.</translation>
     </message>
     <message>
-        <source>Camera</source>
-        <translation>Kamera</translation>
+        <source>Open settings</source>
+        <translation>Einstellungen öffnen</translation>
     </message>
     <message>
-        <source>Markers</source>
-        <translation>Marker</translation>
+        <source>Backup folder, on another disk</source>
+        <translation>Ordner für Sicherungen, auf anderem Datenträger</translation>
     </message>
     <message>
-        <source>Measure</source>
-        <translation>Messen</translation>
+        <source>Folder with the backups</source>
+        <translation>Ordner mit den Sicherungen</translation>
     </message>
     <message>
-        <source>Sessions</source>
-        <translation>Sitzungen</translation>
+        <source>{when}: {n} session files</source>
+        <translation>{when}: {n} Sitzungsdateien</translation>
     </message>
     <message>
-        <source>Review</source>
-        <translation>Auswertung</translation>
+        <source>Which backup should be restored?</source>
+        <translation>Welche Sicherung soll wiederhergestellt werden?</translation>
     </message>
     <message>
-        <source>Progress</source>
-        <translation>Verlauf</translation>
+        <source>Carpus shows the changes before it restores anything.</source>
+        <translation>Carpus zeigt die Änderungen, bevor es etwas wiederherstellt.</translation>
     </message>
     <message>
-        <source>Report</source>
-        <translation>Bericht</translation>
+        <source>Restore the backup of {when}? Session files added: {come}, changed: {change}, removed: {go}.</source>
+        <translation>Sicherung vom {when} wiederherstellen? Sitzungsdateien hinzugefügt: {come}, geändert: {change}, entfernt: {go}.</translation>
     </message>
     <message>
-        <source>Simulated hand: this is not {name}, and does not count.</source>
-        <translation>Simulierte Hand: Das ist nicht {name} und zählt nicht.</translation>
+        <source>Patients and sessions deleted since then stay deleted: {n}.</source>
+        <translation>Seitdem gelöschte Patienten und Sitzungen bleiben gelöscht: {n}.</translation>
     </message>
     <message>
-        <source>This session does not count.</source>
-        <translation>Diese Sitzung zählt nicht.</translation>
+        <source>The current data folder is kept next to the restored one.</source>
+        <translation>Der jetzige Datenordner bleibt neben dem wiederhergestellten erhalten.</translation>
     </message>
     <message>
-        <source>Measured although doubtful: {findings}</source>
-        <translation>Trotz Zweifel gemessen: {findings}</translation>
+        <source>Carpus closes afterwards. Start it again then.</source>
+        <translation>Carpus schließt sich danach. Starten Sie es dann neu.</translation>
     </message>
     <message>
-        <source>Saved {time}</source>
-        <translation>Gespeichert {time}</translation>
+        <source>Restore</source>
+        <translation>Wiederherstellen</translation>
     </message>
     <message>
-        <source>Simulated camera</source>
-        <translation>Simulierte Kamera</translation>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Recording {name}</source>
-        <translation>Aufnahme {name}</translation>
-    </message>
-    <message>
-        <source>Camera ready</source>
-        <translation>Kamera bereit</translation>
-    </message>
-    <message>
-        <source>No camera</source>
-        <translation>Keine Kamera</translation>
-    </message>
-    <message>
-        <source>{percent} %</source>
-        <translation>{percent} %</translation>
-    </message>
-    <message>
-        <source>Tracking again {percent}</source>
-        <translation>Neu verfolgt {percent}</translation>
-    </message>
-    <message>
-        <source>How far it is, and Stop</source>
-        <translation>Wie weit es ist, und Stopp</translation>
-    </message>
-    <message>
-        <source>New result: choose</source>
-        <translation>Neues Ergebnis: wählen</translation>
-    </message>
-    <message>
-        <source>{count} new results: choose</source>
-        <translation>{count} neue Ergebnisse: wählen</translation>
-    </message>
-    <message>
-        <source>Choose</source>
-        <translation>Wählen</translation>
-    </message>
-    <message>
-        <source>Old and new over each other</source>
-        <translation>Alt und neu übereinander</translation>
-    </message>
-    <message>
-        <source>{count} pictures/s</source>
-        <translation>{count} Bilder/s</translation>
-    </message>
-    <message>
-        <source>{count} pictures/s, under {least}</source>
-        <translation>{count} Bilder/s, unter {least}</translation>
-    </message>
-    <message>
-        <source>{words}, {lost} lost</source>
-        <translation>{words}, {lost} verloren</translation>
-    </message>
-    <message>
-        <source>Movement is being drawn</source>
-        <translation>Bewegung wird gezeichnet</translation>
-    </message>
-    <message>
-        <source>{time} of disk left</source>
-        <translation>Platz für {time}</translation>
-    </message>
-    <message>
-        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
-        <translation>Der Server der Einrichtung antwortet nicht: Bis er es tut, können Patienten und ihre Sitzungen weder gezeigt noch geändert werden. Messen geht weiter.</translation>
-    </message>
-</context>
-<context>
-    <name>ComparisonFlow</name>
-    <message>
-        <source>Simulated hand: this is not a patient’s, and does not count.</source>
-        <translation>Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
-    </message>
-</context>
-<context>
-    <name>ComparisonPlayer</name>
-    <message>
-        <source>repetition</source>
-        <translation>Wiederholung</translation>
-    </message>
-    <message>
-        <source>Time in the session: {name}</source>
-        <translation>Zeit in der Sitzung: {name}</translation>
-    </message>
-</context>
-<context>
-    <name>ComparisonScreen</name>
-    <message>
-        <source>Reading both sessions…</source>
-        <translation>Beide Sitzungen werden gelesen…</translation>
-    </message>
-    <message>
-        <source>Reading the session…</source>
-        <translation>Sitzung wird gelesen…</translation>
-    </message>
-    <message>
-        <source>Nothing is compared: one of the two sessions could not be read.</source>
-        <translation>Nichts wird verglichen: Eine der beiden Sitzungen war nicht lesbar.</translation>
-    </message>
-    <message>
-        <source>Repetition {number}</source>
-        <translation>Wiederholung {number}</translation>
-    </message>
-</context>
-<context>
-    <name>BoardSetupView</name>
-    <message>
-        <source>Chessboard</source>
-        <translation>Schachbrett</translation>
-    </message>
-    <message>
-        <source>ChArUco: may be partly hidden, takes longer</source>
-        <translation>ChArUco: darf teils verdeckt sein, dauert länger</translation>
-    </message>
-    <message>
-        <source>&amp;Print the board…</source>
-        <translation>Tafel &amp;drucken…</translation>
-    </message>
-    <message>
-        <source>The ruler on the print measures</source>
-        <translation>Das gedruckte Lineal misst</translation>
-    </message>
-    <message>
-        <source>Begin</source>
-        <translation>Beginnen</translation>
-    </message>
-    <message>
-        <source>Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once for each camera, after a knock, and when the check card says so.</source>
-        <translation>Fünf Minuten: wie das Objektiv sieht, wie weit die Tiefe daneben liegt und ob Tiefe und Farbe sich decken. Einmal je Kamera, nach einem Stoß, und wenn die Prüfkarte es sagt.</translation>
-    </message>
-    <message>
-        <source>Calibrate the camera</source>
-        <translation>Kamera kalibrieren</translation>
-    </message>
-    <message>
-        <source>1  Print the board</source>
-        <translation>1  Tafel drucken</translation>
-    </message>
-    <message>
-        <source>Print at 100 % (“actual size”) on plain paper and glue it flat onto something stiff, such as glass or a thick board. Then measure the ruler under it.</source>
-        <translation>Drucken Sie mit 100 % („Originalgröße“) auf normales Papier, und kleben Sie es flach auf etwas Steifes, etwa Glas oder eine dicke Platte. Messen Sie dann das Lineal darunter.</translation>
-    </message>
-    <message>
-        <source>2  Show it to the camera</source>
-        <translation>2  Der Kamera zeigen</translation>
-    </message>
-    <message>
-        <source>It is plugged in.</source>
-        <translation>Sie ist angeschlossen.</translation>
-    </message>
-    <message>
-        <source>No camera is plugged in.</source>
-        <translation>Keine Kamera ist angeschlossen.</translation>
-    </message>
-    <message>
-        <source>Begin · plug the camera in</source>
-        <translation>Beginnen · Kamera anschließen</translation>
-    </message>
-    <message>
-        <source>Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves when it is still, sharp and in a new place. No picture of the board is stored, and nothing is changed before you say so.</source>
-        <translation>Gleichmäßiges Licht, keine Spiegelungen. Der Bildschirm sagt, wohin die Tafel gehört; Bilder entstehen von selbst, wenn sie ruhig, scharf und an neuer Stelle ist. Kein Bild der Tafel wird gespeichert, und nichts wird geändert, bevor Sie es sagen.</translation>
-    </message>
-</context>
-<context>
-    <name>CameraCalibrationFlow</name>
-    <message>
-        <source>Camera calibration</source>
-        <translation>Kamerakalibrierung</translation>
-    </message>
-    <message>
-        <source>Save the board to print</source>
-        <translation>Tafel zum Drucken speichern</translation>
-    </message>
-    <message>
-        <source>Show it some more, tilted more and nearer: {why}.</source>
-        <translation>Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
-    </message>
-</context>
-<context>
-    <name>BoardResultView</name>
-    <message>
-        <source>Take &amp;again</source>
-        <translation>&amp;Neu aufnehmen</translation>
-    </message>
-    <message>
-        <source>Use this calibration</source>
-        <translation>Diese Kalibrierung verwenden</translation>
+        <source>Restore…</source>
+        <translation>Wiederherstellen…</translation>
     </message>
 </context>
 <context>
@@ -7030,64 +6832,134 @@
         <translation>Esc</translation>
     </message>
     <message>
-        <source>How far it is</source>
-        <translation>Wie weit es ist</translation>
+        <source>Progress</source>
+        <translation>Fortschritt</translation>
     </message>
     <message>
-        <source>Pictures are taken by themselves when the board is still, sharp and in a new place.</source>
-        <translation>Bilder entstehen von selbst, wenn die Tafel ruhig, scharf und an neuer Stelle ist.</translation>
+        <source>Images are taken automatically when the board is still, sharp and in a new position.</source>
+        <translation>Bilder werden automatisch aufgenommen, wenn die Tafel ruhig, scharf und an einer neuen Stelle ist.</translation>
     </message>
     <message>
-        <source>The camera is being opened.</source>
-        <translation>Die Kamera wird geöffnet.</translation>
+        <source>Opening the camera…</source>
+        <translation>Kamera wird geöffnet…</translation>
     </message>
     <message>
-        <source>One moment</source>
-        <translation>Einen Moment</translation>
+        <source>Please wait</source>
+        <translation>Bitte warten</translation>
     </message>
     <message>
-        <source>No picture yet</source>
+        <source>No image yet</source>
         <translation>Noch kein Bild</translation>
     </message>
     <message>
-        <source>Hold the board in the picture</source>
+        <source>Hold the board in view</source>
         <translation>Halten Sie die Tafel ins Bild</translation>
     </message>
     <message>
-        <source>All of it, flat towards the camera, about 60 cm away.</source>
-        <translation>Ganz, flach zur Kamera, etwa 60 cm entfernt.</translation>
+        <source>Show the whole board, facing the camera, about 60 cm away.</source>
+        <translation>Zeigen Sie die ganze Tafel, der Kamera zugewandt, in etwa 60 cm Abstand.</translation>
     </message>
     <message>
-        <source>No pictures from the camera</source>
+        <source>No frames from the camera</source>
         <translation>Keine Bilder von der Kamera</translation>
     </message>
     <message>
-        <source>1 picture</source>
+        <source>Enough images</source>
+        <translation>Genug Bilder</translation>
+    </message>
+    <message>
+        <source>Press “Calculate”, or add more images to improve the result.</source>
+        <translation>Drücken Sie „Berechnen“, oder verbessern Sie das Ergebnis mit weiteren Bildern.</translation>
+    </message>
+    <message>
+        <source>Then hold it still.</source>
+        <translation>Dann ruhig halten.</translation>
+    </message>
+    <message>
+        <source>1 image</source>
         <translation>1 Bild</translation>
     </message>
     <message>
-        <source>{count} pictures</source>
+        <source>{count} images</source>
         <translation>{count} Bilder</translation>
     </message>
     <message>
-        <source>Working it out</source>
-        <translation>Wird berechnet</translation>
+        <source>Calculating…</source>
+        <translation>Berechnung läuft…</translation>
     </message>
     <message>
-        <source>A few seconds; put the board down.</source>
-        <translation>Einige Sekunden; legen Sie die Tafel ab.</translation>
+        <source>This takes a few seconds. You can put the board down.</source>
+        <translation>Das dauert einige Sekunden. Sie können die Tafel ablegen.</translation>
+    </message>
+</context>
+<context>
+    <name>BoardResultView</name>
+    <message>
+        <source>&amp;Repeat</source>
+        <translation>&amp;Wiederholen</translation>
     </message>
     <message>
-        <source>That is enough</source>
-        <translation>Das genügt</translation>
+        <source>Use this calibration</source>
+        <translation>Diese Kalibrierung verwenden</translation>
+    </message>
+</context>
+<context>
+    <name>BoardSetupView</name>
+    <message>
+        <source>Chessboard</source>
+        <translation>Schachbrett</translation>
     </message>
     <message>
-        <source>Press “Work out”, or show more: it only gets better.</source>
-        <translation>Drücken Sie „Berechnen“, oder zeigen Sie mehr: Es wird nur besser.</translation>
+        <source>&amp;Print the board…</source>
+        <translation>Tafel &amp;drucken…</translation>
     </message>
     <message>
-        <source>Then hold still.</source>
-        <translation>Dann ruhig halten.</translation>
+        <source>ChArUco: may be partly covered, takes longer</source>
+        <translation>ChArUco: darf teilweise verdeckt sein, dauert länger</translation>
+    </message>
+    <message>
+        <source>Length of the printed ruler</source>
+        <translation>Länge des gedruckten Lineals</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again after a knock or when the check card asks for it.</source>
+        <translation>Die Kalibrierung dauert fünf Minuten. Sie misst das Objektiv, den Tiefenfehler und die Ausrichtung von Tiefe und Farbe. Führen Sie sie einmal je Kamera durch, und erneut nach einem Stoß oder wenn die Prüfkarte es verlangt.</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera</source>
+        <translation>Kamera kalibrieren</translation>
+    </message>
+    <message>
+        <source>1  Print the board</source>
+        <translation>1  Tafel drucken</translation>
+    </message>
+    <message>
+        <source>Print at 100 % (“actual size”) on plain paper. Glue it flat onto something stiff, such as glass or a thick board. Then measure the printed ruler.</source>
+        <translation>Drucken Sie mit 100 % („Originalgröße“) auf normales Papier. Kleben Sie es flach auf etwas Steifes, etwa Glas oder eine dicke Platte. Messen Sie dann das gedruckte Lineal.</translation>
+    </message>
+    <message>
+        <source>Use even light without reflections. The screen shows where to hold the board. Images are taken automatically when it is still, sharp and in a new position. No image is saved, and nothing changes until you confirm.</source>
+        <translation>Sorgen Sie für gleichmäßiges Licht ohne Spiegelungen. Der Bildschirm zeigt, wohin die Tafel gehört. Bilder werden automatisch aufgenommen, wenn sie ruhig, scharf und an einer neuen Stelle ist. Kein Bild wird gespeichert, und nichts ändert sich, bevor Sie bestätigen.</translation>
+    </message>
+    <message>
+        <source>The camera is connected.</source>
+        <translation>Die Kamera ist angeschlossen.</translation>
+    </message>
+    <message>
+        <source>No camera is connected.</source>
+        <translation>Keine Kamera ist angeschlossen.</translation>
+    </message>
+    <message>
+        <source>Start · connect the camera</source>
+        <translation>Starten · Kamera anschließen</translation>
+    </message>
+    <message>
+        <source>2  Show it to the camera</source>
+        <translation>2  Der Kamera zeigen</translation>
     </message>
 </context>
 <context>
@@ -7118,97 +6990,18 @@
     </message>
 </context>
 <context>
-    <name>ManualMeasurementsFlow</name>
+    <name>CameraCalibrationFlow</name>
     <message>
-        <source>Leave without saving?</source>
-        <translation>Ohne Speichern verlassen?</translation>
+        <source>Camera calibration</source>
+        <translation>Kamerakalibrierung</translation>
     </message>
     <message>
-        <source>Values are written that are not kept yet.</source>
-        <translation>Es sind Werte eingetragen, die noch nicht gespeichert sind.</translation>
+        <source>Save the board to print</source>
+        <translation>Tafel zum Drucken speichern</translation>
     </message>
     <message>
-        <source>Save them, or let them go.</source>
-        <translation>Speichern Sie sie, oder lassen Sie sie fallen.</translation>
-    </message>
-    <message>
-        <source>Back to the form</source>
-        <translation>Zurück zum Formular</translation>
-    </message>
-    <message>
-        <source>Let them go</source>
-        <translation>Fallen lassen</translation>
-    </message>
-    <message>
-        <source>Unusual: check, or keep it</source>
-        <translation>Ungewöhnlich: prüfen oder behalten</translation>
-    </message>
-    <message>
-        <source>Look at the numbers once more before they are kept.</source>
-        <translation>Sehen Sie die Zahlen noch einmal an, bevor sie gespeichert werden.</translation>
-    </message>
-    <message>
-        <source>Keep as written</source>
-        <translation>So behalten</translation>
-    </message>
-</context>
-<context>
-    <name>ManualMeasurementsScreen</name>
-    <message>
-        <source>Day of measuring</source>
-        <translation>Tag der Messung</translation>
-    </message>
-    <message>
-        <source>Other measures</source>
-        <translation>Andere Maße</translation>
-    </message>
-    <message>
-        <source>Close</source>
-        <translation>Schließen</translation>
-    </message>
-    <message>
-        <source>Save values</source>
-        <translation>Werte speichern</translation>
-    </message>
-    <message>
-        <source>Kept.</source>
-        <translation>Gespeichert.</translation>
-    </message>
-    <message>
-        <source>Measured by hand, {day}</source>
-        <translation>Von Hand gemessen, {day}</translation>
-    </message>
-    <message>
-        <source>By {initials}.</source>
-        <translation>Von {initials}.</translation>
-    </message>
-    <message>
-        <source>Empty means not measured. Nothing here changes a figure of Carpus.</source>
-        <translation>Leer heißt nicht gemessen. Nichts hier ändert einen Wert von Carpus.</translation>
-    </message>
-    <message>
-        <source>What Carpus has of this day is simulated, and no value.</source>
-        <translation>Was Carpus von diesem Tag hat, ist simuliert und kein Wert.</translation>
-    </message>
-    <message>
-        <source>Other measures…</source>
-        <translation>Andere Maße…</translation>
-    </message>
-    <message>
-        <source>By hand and by Carpus are never joined</source>
-        <translation>Von Hand und von Carpus wird nie verrechnet</translation>
-    </message>
-    <message>
-        <source>Neither averaged nor subtracted. A change is judged within one way of measuring.</source>
-        <translation>Weder gemittelt noch abgezogen. Eine Änderung wird innerhalb einer Messart beurteilt.</translation>
-    </message>
-    <message>
-        <source>Written and not kept yet: also the other hand or another day.</source>
-        <translation>Eingetragen und noch nicht gespeichert: auch andere Hand oder anderer Tag.</translation>
-    </message>
-    <message>
-        <source>Kept with initials and time; every later change stays readable.</source>
-        <translation>Mit Kürzel und Zeit gespeichert; jede spätere Änderung bleibt lesbar.</translation>
+        <source>Add more images with the board closer and more tilted: {why}.</source>
+        <translation>Nehmen Sie weitere Bilder auf, mit der Tafel näher und stärker geneigt: {why}.</translation>
     </message>
 </context>
 <context>
@@ -7216,6 +7009,10 @@
     <message>
         <source>Camera</source>
         <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether it is still within tolerance.</source>
+        <translation>Mit einer gedruckten Tafel wird die Kamera kalibriert. Eine gedruckte Karte prüft in 30 Sekunden, ob sie noch innerhalb der Toleranz misst.</translation>
     </message>
     <message>
         <source>Chec&amp;k card…</source>
@@ -7226,12 +7023,8 @@
         <translation>Kamera kali&amp;brieren…</translation>
     </message>
     <message>
-        <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right.</source>
-        <translation>Eine gedruckte Tafel zeigt, wie die Kamera sieht und wie weit ihre Tiefe daneben liegt; eine gedruckte Karte zeigt in 30 Sekunden, ob sie noch richtig misst.</translation>
-    </message>
-    <message>
-        <source>In the demo the camera is simulated: there is nothing to calibrate.</source>
-        <translation>In der Demo ist die Kamera simuliert: Es gibt nichts zu kalibrieren.</translation>
+        <source>In the demo the camera is simulated. It needs no calibration.</source>
+        <translation>In der Demo ist die Kamera simuliert. Sie braucht keine Kalibrierung.</translation>
     </message>
 </context>
 <context>
@@ -7256,19 +7049,19 @@
 <context>
     <name>CameraNameDialog</name>
     <message>
-        <source>Name of the camera</source>
-        <translation>Name der Kamera</translation>
+        <source>Camera name</source>
+        <translation>Kameraname</translation>
     </message>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Weiter</translation>
     </message>
     <message>
-        <source>Stop</source>
-        <translation>Stopp</translation>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Is this still the camera called “{name}”?</source>
+        <source>Is this still the camera “{name}”?</source>
         <translation>Ist das noch die Kamera „{name}“?</translation>
     </message>
     <message>
@@ -7276,12 +7069,12 @@
         <translation>Wie heißt diese Kamera?</translation>
     </message>
     <message>
-        <source>It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under the name, and from now on every camera of this kind without a number is taken for this one.</source>
-        <translation>Sie nennt ihre Nummer nicht. Geben Sie ihr einen Namen, und schreiben Sie ihn darauf: Kalibrierungen und Prüfungen stehen unter diesem Namen, und von jetzt an gilt jede Kamera dieser Art ohne Nummer als diese.</translation>
+        <source>This camera has no readable serial number. Name it and label it: calibrations and checks are saved under that name. Carpus takes every camera of this type without a number for this one.</source>
+        <translation>Diese Kamera meldet keine Seriennummer. Benennen und beschriften Sie sie: Kalibrierungen und Prüfungen werden unter diesem Namen gespeichert. Carpus hält jede Kamera dieses Typs ohne Nummer für diese.</translation>
     </message>
     <message>
-        <source>It does not tell its number. If it is another one, type that one’s name: calibrations and checks are kept under the name.</source>
-        <translation>Sie nennt ihre Nummer nicht. Ist es eine andere, geben Sie deren Namen ein: Kalibrierungen und Prüfungen stehen unter dem Namen.</translation>
+        <source>This camera has no readable serial number. If it is a different one, enter its name: calibrations and checks are saved under that name.</source>
+        <translation>Diese Kamera meldet keine Seriennummer. Ist es eine andere, geben Sie deren Namen ein: Kalibrierungen und Prüfungen werden unter diesem Namen gespeichert.</translation>
     </message>
 </context>
 <context>
@@ -7405,8 +7198,8 @@
         <translation>Kamera kali&amp;brieren…</translation>
     </message>
     <message>
-        <source>How far the check is</source>
-        <translation>Wie weit die Prüfung ist</translation>
+        <source>Progress of the check</source>
+        <translation>Fortschritt der Prüfung</translation>
     </message>
     <message>
         <source>Stop</source>
@@ -7417,40 +7210,40 @@
         <translation>Esc</translation>
     </message>
     <message>
+        <source>Print both pages at 100 %: each ruler must be 100 mm long. Glue the first page flat onto stiff card. Fold the wedge and glue it onto the dashed field.</source>
+        <translation>Drucken Sie beide Seiten mit 100 %: Jedes Lineal muss 100 mm lang sein. Kleben Sie die erste Seite flach auf steifen Karton. Falten Sie den Keil, und kleben Sie ihn auf das gestrichelte Feld.</translation>
+    </message>
+    <message>
+        <source>A check is valid for one week. If all lengths deviate by the same share, the depth or the print size is wrong.</source>
+        <translation>Eine Prüfung gilt eine Woche. Weichen alle Längen um denselben Anteil ab, stimmt die Tiefe oder die Druckgröße nicht.</translation>
+    </message>
+    <message>
         <source>Check now, 30 seconds</source>
         <translation>Jetzt prüfen, 30 Sekunden</translation>
     </message>
     <message>
-        <source>Check · plug the camera in</source>
+        <source>Check · connect the camera</source>
         <translation>Prüfen · Kamera anschließen</translation>
     </message>
     <message>
-        <source>The camera is being opened.</source>
-        <translation>Die Kamera wird geöffnet.</translation>
+        <source>Within tolerance</source>
+        <translation>Innerhalb der Toleranz</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>Erneut prüfen</translation>
+    </message>
+    <message>
+        <source>Out of tolerance</source>
+        <translation>Außerhalb der Toleranz</translation>
+    </message>
+    <message>
+        <source>Opening the camera…</source>
+        <translation>Kamera wird geöffnet…</translation>
     </message>
     <message>
         <source>{seconds} s</source>
         <translation>{seconds} s</translation>
-    </message>
-    <message>
-        <source>Print both pages at 100 %: each ruler must be 100 mm long. Glue the first flat onto stiff card, fold the wedge and glue it onto the dashed field.</source>
-        <translation>Drucken Sie beide Seiten mit 100 %: Jedes Lineal muss 100 mm lang sein. Kleben Sie die erste flach auf steifen Karton, falten Sie den Keil, und kleben Sie ihn auf das gestrichelte Feld.</translation>
-    </message>
-    <message>
-        <source>A check is good for a week. All lengths off by one share: the depth, or the print’s size.</source>
-        <translation>Eine Prüfung gilt eine Woche. Alle Längen um denselben Anteil daneben: die Tiefe oder die Größe des Drucks.</translation>
-    </message>
-    <message>
-        <source>Right</source>
-        <translation>Misst richtig</translation>
-    </message>
-    <message>
-        <source>Check it again</source>
-        <translation>Erneut prüfen</translation>
-    </message>
-    <message>
-        <source>Out</source>
-        <translation>Misst falsch</translation>
     </message>
     <message>
         <source>Not checked yet</source>
@@ -7479,82 +7272,83 @@
         <translation>Auswahl</translation>
     </message>
     <message>
-        <source>Leave it as it is</source>
-        <translation>So lassen</translation>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
     </message>
 </context>
 <context>
-    <name>RecordingControls</name>
+    <name>ComparisonFlow</name>
     <message>
-        <source>Note</source>
-        <translation>Notiz</translation>
+        <source>Simulated data: no patient was measured. Excluded from analysis.</source>
+        <translation>Simulierte Daten: Es wurde kein Patient gemessen. Von der Auswertung ausgeschlossen.</translation>
+    </message>
+</context>
+<context>
+    <name>ComparisonPlayer</name>
+    <message>
+        <source>repetition</source>
+        <translation>Wiederholung</translation>
     </message>
     <message>
-        <source>Pain</source>
-        <translation>Schmerz</translation>
+        <source>Time in the session: {name}</source>
+        <translation>Zeit in der Sitzung: {name}</translation>
+    </message>
+</context>
+<context>
+    <name>ComparisonScreen</name>
+    <message>
+        <source>Reading both sessions…</source>
+        <translation>Beide Sitzungen werden gelesen…</translation>
     </message>
     <message>
-        <source>Pause</source>
-        <translation>Anhalten</translation>
+        <source>Reading the session…</source>
+        <translation>Sitzung wird gelesen…</translation>
     </message>
     <message>
-        <source>Pain {score}</source>
-        <translation>Schmerz {score}</translation>
+        <source>No comparison: one of the two sessions could not be read.</source>
+        <translation>Kein Vergleich: Eine der beiden Sitzungen konnte nicht gelesen werden.</translation>
     </message>
     <message>
-        <source>Storing…</source>
-        <translation>Wird gespeichert…</translation>
+        <source>Repetition {number}</source>
+        <translation>Wiederholung {number}</translation>
+    </message>
+</context>
+<context>
+    <name>CorrectionFrameView</name>
+    <message>
+        <source>Frame with labels to correct</source>
+        <translation>Bild mit Bezeichnungen zum Korrigieren</translation>
     </message>
     <message>
-        <source>Passive</source>
-        <translation>Passiv</translation>
+        <source>{marker}, before</source>
+        <translation>{marker}, bisher</translation>
     </message>
     <message>
-        <source>Go on</source>
-        <translation>Weiter</translation>
+        <source>{marker}, occluded</source>
+        <translation>{marker}, verdeckt</translation>
     </message>
     <message>
-        <source>Play and record</source>
-        <translation>Abspielen und aufnehmen</translation>
-    </message>
-    <message>
-        <source>Record</source>
-        <translation>Aufnehmen</translation>
-    </message>
-    <message>
-        <source>Stop and go on</source>
-        <translation>Beenden und weiter</translation>
-    </message>
-    <message>
-        <source>Stop and review</source>
-        <translation>Beenden und auswerten</translation>
-    </message>
-    <message>
-        <source>Starts in {seconds}: not yet</source>
-        <translation>Beginn in {seconds}: noch nicht</translation>
-    </message>
-    <message>
-        <source>Space · pedal</source>
-        <translation>Leertaste · Pedal</translation>
+        <source>{marker}?</source>
+        <translation>{marker}?</translation>
     </message>
 </context>
 <context>
     <name>CorrectionScreen</name>
     <message>
-        <source>Track again although &amp;doubtful</source>
-        <translation>Trotz &amp;Zweifel neu verfolgen</translation>
+        <source>Re-analyse &amp;anyway (uncertain)</source>
+        <translation>&amp;Trotzdem neu analysieren (unsicher)</translation>
     </message>
     <message>
-        <source>Next doubtful picture</source>
-        <translation>Nächstes zweifelhaftes Bild</translation>
+        <source>Next uncertain frame</source>
+        <translation>Nächstes unsicheres Bild</translation>
     </message>
     <message>
-        <source>Not to be seen here</source>
-        <translation>Hier nicht zu sehen</translation>
+        <source>Not visible here</source>
+        <translation>Hier nicht sichtbar</translation>
     </message>
     <message>
-        <source>Track again from here</source>
-        <translation>Ab hier neu verfolgen</translation>
+        <source>Re-analyse from here</source>
+        <translation>Ab hier neu analysieren</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -7565,123 +7359,104 @@
         <translation>Zurück zur Auswertung (Esc)</translation>
     </message>
     <message>
+        <source>In this frame: distance to the expected position</source>
+        <translation>In diesem Bild: Abstand zur erwarteten Position</translation>
+    </message>
+    <message>
         <source>Drag</source>
         <translation>Ziehen</translation>
     </message>
     <message>
-        <source>move a name</source>
-        <translation>Namen verschieben</translation>
+        <source>move a label</source>
+        <translation>Bezeichnung verschieben</translation>
     </message>
     <message>
-        <source>not to be seen here</source>
-        <translation>nicht zu sehen</translation>
+        <source>not visible here</source>
+        <translation>hier nicht sichtbar</translation>
     </message>
     <message>
-        <source>picture</source>
+        <source>frame</source>
         <translation>Bild</translation>
     </message>
     <message>
-        <source>undo</source>
-        <translation>zurück</translation>
+        <source>next uncertain</source>
+        <translation>nächstes unsicheres</translation>
     </message>
     <message>
-        <source>next doubtful</source>
-        <translation>nächstes zweifelhaftes</translation>
-    </message>
-    <message>
-        <source>At this picture: distance to its place</source>
-        <translation>In diesem Bild: Abstand zum erwarteten Platz</translation>
-    </message>
-    <message>
-        <source>Reading the picture…</source>
+        <source>Reading the frame…</source>
         <translation>Bild wird gelesen…</translation>
     </message>
     <message>
-        <source>Doubtful at {time}</source>
-        <translation>Zweifelhaft bei {time}</translation>
+        <source>Uncertain at {time}</source>
+        <translation>Unsicher bei {time}</translation>
     </message>
     <message>
-        <source>Picture at {time}</source>
+        <source>Frame at {time}</source>
         <translation>Bild bei {time}</translation>
     </message>
     <message>
-        <source>Put “{marker}” on its disc</source>
-        <translation>Setzen Sie „{marker}“ auf seinen Punkt</translation>
+        <source>Drag “{marker}” to its marker</source>
+        <translation>Ziehen Sie „{marker}“ auf seinen Marker</translation>
     </message>
     <message>
-        <source>Which name is wrong?</source>
-        <translation>Welcher Name ist falsch?</translation>
+        <source>Which label is wrong?</source>
+        <translation>Welche Bezeichnung ist falsch?</translation>
     </message>
     <message>
-        <source>Drag a name in the picture, or choose it below and click its disc.</source>
-        <translation>Ziehen Sie einen Namen im Bild, oder wählen Sie ihn unten und klicken Sie seinen Punkt an.</translation>
+        <source>Drag a label in the frame, or select it below and click its marker.</source>
+        <translation>Ziehen Sie eine Bezeichnung im Bild, oder wählen Sie sie unten und klicken Sie ihren Marker an.</translation>
     </message>
     <message>
-        <source>No pictures stored: the {count} blue spots of this moment. Drag a name to its spot.</source>
-        <translation>Keine Bilder gespeichert: die {count} blauen Stellen dieses Moments. Ziehen Sie einen Namen auf seine Stelle.</translation>
+        <source>No video was saved. These are the {count} blue spots of this frame. Drag a label to its spot.</source>
+        <translation>Es wurde kein Video gespeichert. Dies sind die {count} blauen Stellen dieses Bildes. Ziehen Sie eine Bezeichnung auf ihre Stelle.</translation>
+    </message>
+    <message>
+        <source>Re-analyse from {time}</source>
+        <translation>Neu analysieren ab {time}</translation>
+    </message>
+    <message>
+        <source>No changes yet</source>
+        <translation>Noch keine Änderung</translation>
+    </message>
+    <message>
+        <source>Check the labels at {time}</source>
+        <translation>Prüfen Sie die Bezeichnungen bei {time}</translation>
+    </message>
+    <message>
+        <source>“{one}” and “{other}” appear swapped</source>
+        <translation>„{one}“ und „{other}“ scheinen vertauscht</translation>
+    </message>
+    <message>
+        <source>The angles would be wrong from there on. Swap the two labels?</source>
+        <translation>Die Winkel wären ab dort falsch. Die beiden Bezeichnungen tauschen?</translation>
+    </message>
+    <message>
+        <source>Swap the labels</source>
+        <translation>Bezeichnungen tauschen</translation>
+    </message>
+    <message>
+        <source>It is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
+        <translation>Die Stelle liegt {size} mm neben der Position, die zu den anderen Markern passt. Vielleicht ist es ein anderer Marker oder keiner.</translation>
+    </message>
+    <message>
+        <source>Undo the last step</source>
+        <translation>Letzten Schritt rückgängig machen</translation>
+    </message>
+    <message>
+        <source>Show that frame</source>
+        <translation>Dieses Bild zeigen</translation>
+    </message>
+    <message>
+        <source>undo</source>
+        <translation>rückgängig</translation>
     </message>
     <message>
         <source>Changed here: {markers}</source>
         <translation>Hier geändert: {markers}</translation>
     </message>
     <message>
-        <source>Track again from {time}</source>
-        <translation>Neu ab {time}</translation>
-    </message>
-    <message>
-        <source>Nothing changed yet</source>
-        <translation>Noch nichts geändert</translation>
-    </message>
-    <message>
-        <source>Look at the names at {time}</source>
-        <translation>Prüfen Sie die Namen bei {time}</translation>
-    </message>
-    <message>
-        <source>“{one}” and “{other}” look exchanged</source>
-        <translation>„{one}“ und „{other}“ scheinen vertauscht</translation>
-    </message>
-    <message>
-        <source>So the angles would be wrong from there on. Let the two change places?</source>
-        <translation>Dann wären die Winkel ab dort falsch. Sollen die beiden tauschen?</translation>
-    </message>
-    <message>
-        <source>Change the two names</source>
-        <translation>Namen tauschen</translation>
-    </message>
-    <message>
         <source>“{marker}” cannot be there</source>
         <translation>„{marker}“ kann dort nicht sein</translation>
-    </message>
-    <message>
-        <source>It lies {size} mm from where the other discs let it be. It may be another disc, or no disc.</source>
-        <translation>Die Stelle liegt {size} mm von dort, wo die anderen Punkte ihn erlauben. Vielleicht ist es ein anderer Punkt oder keiner.</translation>
-    </message>
-    <message>
-        <source>Take the last step back</source>
-        <translation>Letzten Schritt zurücknehmen</translation>
-    </message>
-    <message>
-        <source>Show that picture</source>
-        <translation>Dieses Bild zeigen</translation>
-    </message>
-</context>
-<context>
-    <name>CorrectionFrameView</name>
-    <message>
-        <source>Picture to put markers right on</source>
-        <translation>Bild zum Berichtigen der Marker</translation>
-    </message>
-    <message>
-        <source>{marker}, so far</source>
-        <translation>{marker}, bisher</translation>
-    </message>
-    <message>
-        <source>{marker}, hidden</source>
-        <translation>{marker}, verdeckt</translation>
-    </message>
-    <message>
-        <source>{marker}?</source>
-        <translation>{marker}?</translation>
     </message>
 </context>
 <context>
@@ -7692,21 +7467,6 @@
     </message>
 </context>
 <context>
-    <name>AppointmentBox</name>
-    <message>
-        <source>No appointment yet</source>
-        <translation>Noch kein Termin</translation>
-    </message>
-    <message>
-        <source>When next? Day, month, year</source>
-        <translation>Wann wieder? Tag, Monat, Jahr</translation>
-    </message>
-    <message>
-        <source>When next? That day is over</source>
-        <translation>Wann wieder? Der Tag ist vorbei</translation>
-    </message>
-</context>
-<context>
     <name>DegreesField</name>
     <message>
         <source>Up to {most}°, or empty</source>
@@ -7714,28 +7474,9 @@
     </message>
 </context>
 <context>
-    <name>DifferencesCard</name>
-    <message>
-        <source>What is compared</source>
-        <translation>Was verglichen wird</translation>
-    </message>
-    <message>
-        <source>&amp;Mirror</source>
-        <translation>S&amp;piegeln</translation>
-    </message>
-    <message>
-        <source>Show the left hand as it would look as a right one</source>
-        <translation>Die linke Hand so zeigen, wie sie als rechte aussähe</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Unterschiede</translation>
-    </message>
-</context>
-<context>
     <name>DeleteDialog</name>
     <message>
-        <source>Erase for good</source>
+        <source>Delete permanently</source>
         <translation>Endgültig löschen</translation>
     </message>
     <message>
@@ -7751,92 +7492,80 @@
         <translation>Lieber archivieren</translation>
     </message>
     <message>
-        <source>This goes</source>
-        <translation>Das wird gelöscht</translation>
+        <source>Deleted</source>
+        <translation>Wird gelöscht</translation>
     </message>
     <message>
-        <source>This stays</source>
-        <translation>Das bleibt</translation>
+        <source>Not deleted</source>
+        <translation>Wird nicht gelöscht</translation>
     </message>
     <message>
-        <source>This cannot be undone</source>
-        <translation>Das lässt sich nicht rückgängig machen</translation>
+        <source>Cannot be undone</source>
+        <translation>Nicht rückgängig zu machen</translation>
     </message>
     <message>
-        <source>Leaves all lists and counts nowhere; everything can be brought back.</source>
-        <translation>Verlässt alle Listen und zählt nirgends; alles lässt sich zurückholen.</translation>
+        <source>Removes it from all lists and results. Everything can be restored.</source>
+        <translation>Entfernt alles aus Listen und Ergebnissen. Alles lässt sich wiederherstellen.</translation>
     </message>
     <message>
-        <source>Erase this session for good?</source>
+        <source>Delete this session permanently?</source>
         <translation>Diese Sitzung endgültig löschen?</translation>
     </message>
     <message>
-        <source>Erase this patient for good?</source>
+        <source>Delete this patient permanently?</source>
         <translation>Diesen Patienten endgültig löschen?</translation>
     </message>
     <message>
-        <source>To erase, type “{name}” here</source>
+        <source>To delete, type “{name}” here</source>
         <translation>Zum Löschen geben Sie hier „{name}“ ein</translation>
     </message>
     <message>
-        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}.</source>
-        <translation>Anderswo gespeicherte Berichte und Exporte löschen Sie selbst ({n}): {path}.</translation>
+        <source>Angles, images, notes and pain scores of this session ({size} MB, files: {files}).</source>
+        <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({size} MB, Dateien: {files}).</translation>
     </message>
     <message>
-        <source>Files outside the patient’s folder, look at them yourself ({n}): {path}.</source>
-        <translation>Dateien außerhalb des Patientenordners, bitte selbst ansehen ({n}): {path}.</translation>
+        <source>The patient’s entry: real name, notes, values measured by hand. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
+        <translation>Der Eintrag des Patienten: echter Name, Notizen, von Hand gemessene Werte. Alle Sitzungen ({count}): Winkel, Bilder, Notizen ({size} MB, Dateien: {files}).</translation>
     </message>
     <message>
-        <source>Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.</source>
-        <translation>Sicherungen bis {day} und anderswohin kopierte Dateien: Carpus erreicht sie nicht.</translation>
+        <source>Backups up to {day} and copies elsewhere.</source>
+        <translation>Sicherungen bis {day} und Kopien an anderen Orten.</translation>
     </message>
     <message>
-        <source>Files copied elsewhere: Carpus cannot reach them.</source>
-        <translation>Anderswohin kopierte Dateien: Carpus erreicht sie nicht.</translation>
+        <source>Copies elsewhere.</source>
+        <translation>Kopien an anderen Orten.</translation>
     </message>
     <message>
-        <source>The log keeps that it was erased, no name.</source>
-        <translation>Das Protokoll behält, dass gelöscht wurde, ohne Namen.</translation>
+        <source>Delete yourself: reports and exports saved elsewhere ({n}): {path}.</source>
+        <translation>Selbst löschen: anderswo gespeicherte Berichte und Exporte ({n}): {path}.</translation>
     </message>
     <message>
-        <source>Nobody can bring it back.</source>
-        <translation>Niemand kann es zurückholen.</translation>
+        <source>Check yourself: files outside the patient’s folder ({n}): {path}.</source>
+        <translation>Selbst prüfen: Dateien außerhalb des Patientenordners ({n}): {path}.</translation>
     </message>
     <message>
-        <source>Carpus cannot bring it back: a restored back-up leaves it out.</source>
-        <translation>Carpus kann es nicht zurückholen: Eine wiederhergestellte Sicherung lässt es aus.</translation>
+        <source>The log records the deletion, without a name.</source>
+        <translation>Das Protokoll verzeichnet die Löschung, ohne Namen.</translation>
     </message>
     <message>
-        <source>Angles, pictures, notes and pain scores of this session ({size} MB; files: {files}).</source>
-        <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({size} MB; Dateien: {files}).</translation>
+        <source>It cannot be restored.</source>
+        <translation>Eine Wiederherstellung ist nicht möglich.</translation>
+    </message>
+    <message>
+        <source>It cannot be restored, not even from a backup.</source>
+        <translation>Eine Wiederherstellung ist nicht möglich, auch nicht aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>The retention period set in Settings ({years} years) ends on {day}. You would delete before that date.</source>
+        <translation>Die eingestellte Aufbewahrungsfrist ({years} Jahre) endet am {day}. Sie würden vor diesem Datum löschen.</translation>
     </message>
     <message>
         <source>The patient’s other sessions.</source>
         <translation>Die anderen Sitzungen des Patienten.</translation>
     </message>
-    <message>
-        <source>Your records must be kept until {day} ({years} years, as set in Settings): erasing comes before that day.</source>
-        <translation>Ihre Unterlagen sind bis {day} aufzubewahren ({years} Jahre, wie in den Einstellungen): Das Löschen käme vor diesem Tag.</translation>
-    </message>
-    <message>
-        <source>The patient’s entry with real name, notes and values measured by hand, and all sessions ({count}) with their angles, pictures and notes ({size} MB; files: {files}).</source>
-        <translation>Der Eintrag des Patienten mit echtem Namen, Notizen und von Hand gemessenen Werten und alle Sitzungen ({count}) mit ihren Winkeln, Bildern und Notizen ({size} MB; Dateien: {files}).</translation>
-    </message>
 </context>
 <context>
     <name>DeletionController</name>
-    <message>
-        <source>The session is erased.</source>
-        <translation>Die Sitzung ist gelöscht.</translation>
-    </message>
-    <message>
-        <source>The patient is erased.</source>
-        <translation>Der Patient ist gelöscht.</translation>
-    </message>
-    <message>
-        <source>The session is now one of {name}.</source>
-        <translation>Die Sitzung gehört jetzt zu {name}.</translation>
-    </message>
     <message>
         <source>The session of {day} is in the archive.</source>
         <translation>Die Sitzung vom {day} ist im Archiv.</translation>
@@ -7844,10 +7573,6 @@
     <message>
         <source>{name} is in the archive.</source>
         <translation>{name} ist im Archiv.</translation>
-    </message>
-    <message>
-        <source>Nothing is lost. It counts nowhere until it is brought back.</source>
-        <translation>Nichts ist verloren. Es zählt nirgends, bis es zurückgeholt wird.</translation>
     </message>
     <message>
         <source>&amp;Undo</source>
@@ -7858,8 +7583,144 @@
         <translation>Schließen</translation>
     </message>
     <message>
+        <source>The session was deleted.</source>
+        <translation>Die Sitzung wurde gelöscht.</translation>
+    </message>
+    <message>
+        <source>The patient was deleted.</source>
+        <translation>Der Patient wurde gelöscht.</translation>
+    </message>
+    <message>
         <source>Files deleted: {count}.</source>
         <translation>Gelöschte Dateien: {count}.</translation>
+    </message>
+    <message>
+        <source>The session now belongs to {name}.</source>
+        <translation>Die Sitzung gehört jetzt zu {name}.</translation>
+    </message>
+    <message>
+        <source>Nothing was deleted. Archived items are excluded until restored.</source>
+        <translation>Es wurde nichts gelöscht. Archiviertes ist ausgeschlossen, bis es wiederhergestellt wird.</translation>
+    </message>
+</context>
+<context>
+    <name>Dialog</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>What you typed is not kept yet. Esc once more closes without it.</source>
+        <translation>Was Sie getippt haben, ist noch nicht gespeichert. Noch einmal Esc verwirft es.</translation>
+    </message>
+</context>
+<context>
+    <name>DifferencesCard</name>
+    <message>
+        <source>Value to compare</source>
+        <translation>Verglichener Wert</translation>
+    </message>
+    <message>
+        <source>&amp;Mirror</source>
+        <translation>S&amp;piegeln</translation>
+    </message>
+    <message>
+        <source>Show the left hand as it would look as a right one</source>
+        <translation>Die linke Hand so zeigen, wie sie als rechte aussähe</translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation>Unterschiede</translation>
+    </message>
+</context>
+<context>
+    <name>ExcludeDialog</name>
+    <message>
+        <source>It stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
+        <translation>Sie bleibt in der Liste und lässt sich öffnen, wird aber nicht ausgewertet. Sie können sie wieder einschließen.</translation>
+    </message>
+    <message>
+        <source>Exclude this session?</source>
+        <translation>Diese Sitzung ausschließen?</translation>
+    </message>
+    <message>
+        <source>wrong exercise</source>
+        <translation>falsche Übung</translation>
+    </message>
+    <message>
+        <source>trial</source>
+        <translation>Probe</translation>
+    </message>
+    <message>
+        <source>Exclude</source>
+        <translation>Ausschließen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>pain</source>
+        <translation>Schmerz</translation>
+    </message>
+    <message>
+        <source>markers lost</source>
+        <translation>Marker verloren</translation>
+    </message>
+    <message>
+        <source>Another reason</source>
+        <translation>Anderer Grund</translation>
+    </message>
+</context>
+<context>
+    <name>ExclusionDialog</name>
+    <message>
+        <source>pain</source>
+        <translation>Schmerz</translation>
+    </message>
+    <message>
+        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
+        <translation>Passiv: Jemand anders hat die Hand bewegt. Sie zählt für sich, neben den aktiven.</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passiv</translation>
+    </message>
+    <message>
+        <source>Passive, and all after it</source>
+        <translation>Passiv, und alle danach</translation>
+    </message>
+    <message>
+        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
+        <translation>Weggelassen: Sie bleibt in der Aufnahme und in den Kurven und zählt nicht mehr. Der Bericht sagt es.</translation>
+    </message>
+    <message>
+        <source>other movement</source>
+        <translation>andere Bewegung</translation>
+    </message>
+    <message>
+        <source>trial</source>
+        <translation>Probe</translation>
+    </message>
+    <message>
+        <source>Another reason</source>
+        <translation>Anderer Grund</translation>
+    </message>
+    <message>
+        <source>Keep it in</source>
+        <translation>Doch behalten</translation>
+    </message>
+    <message>
+        <source>Is repetition {number} passive, or left out?</source>
+        <translation>Ist Wiederholung {number} passiv oder weggelassen?</translation>
+    </message>
+    <message>
+        <source>Leave it out</source>
+        <translation>Auslassen</translation>
     </message>
 </context>
 <context>
@@ -7950,14 +7811,21 @@
     </message>
 </context>
 <context>
+    <name>ExportController</name>
+    <message>
+        <source>Export to folder</source>
+        <translation>In Ordner exportieren</translation>
+    </message>
+</context>
+<context>
     <name>ExportDialog</name>
     <message>
-        <source>Tables (CSV): angles, joints, markers, events, measures</source>
-        <translation>Tabellen (CSV): Winkel, Gelenke, Marker, Ereignisse, Maße</translation>
+        <source>Tables (CSV): angles, joints, markers, events, values</source>
+        <translation>Tabellen (CSV): Winkel, Gelenke, Marker, Ereignisse, Werte</translation>
     </message>
     <message>
-        <source>Measures with their origin (JSON)</source>
-        <translation>Maße mit ihrer Herkunft (JSON)</translation>
+        <source>Values with their origin (JSON)</source>
+        <translation>Werte mit ihrer Herkunft (JSON)</translation>
     </message>
     <message>
         <source>Markers for motion capture programs (C3D)</source>
@@ -7976,28 +7844,20 @@
         <translation>Datensatz für die Forschung (BIDS-Motion)</translation>
     </message>
     <message>
-        <source>The session itself, for another Carpus</source>
-        <translation>Die Sitzung selbst, für ein anderes Carpus</translation>
+        <source>Session file, for another Carpus installation</source>
+        <translation>Sitzungsdatei, für eine andere Carpus-Installation</translation>
+    </message>
+    <message>
+        <source>Existing files are never overwritten.</source>
+        <translation>Vorhandene Dateien werden nie überschrieben.</translation>
+    </message>
+    <message>
+        <source>Tables of angles, repetitions and values (CSV), for any spreadsheet.</source>
+        <translation>Tabellen der Winkel, Wiederholungen und Werte (CSV), für jede Tabellenkalkulation.</translation>
     </message>
     <message>
         <source>Export this session</source>
         <translation>Diese Sitzung exportieren</translation>
-    </message>
-    <message>
-        <source>Files that are there are never overwritten.</source>
-        <translation>Vorhandene Dateien werden nie überschrieben.</translation>
-    </message>
-    <message>
-        <source>Tables of angles, repetitions and measures (CSV), for any spreadsheet.</source>
-        <translation>Tabellen der Winkel, Wiederholungen und Maße (CSV), für jede Tabellenkalkulation.</translation>
-    </message>
-    <message>
-        <source>Nobody can be found by it: random name, no dates (day 1, 2 …), no notes</source>
-        <translation>Anonym: Zufallsname, Tag 1, 2 … statt Datum, keine Notizen</translation>
-    </message>
-    <message>
-        <source>How far the export is</source>
-        <translation>Wie weit der Export ist</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -8008,39 +7868,40 @@
         <translation>Esc</translation>
     </message>
     <message>
-        <source>Choose the folder…</source>
-        <translation>Ordner wählen…</translation>
-    </message>
-    <message>
-        <source>&amp;Other formats: settings…</source>
-        <translation>&amp;Weitere Formate…</translation>
-    </message>
-    <message>
-        <source>JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on.</source>
-        <translation>JSON, C3D, TRC, MOT und BIDS werden angeboten, sobald „Für Forschung“ eingeschaltet ist.</translation>
-    </message>
-    <message>
         <source>Stop</source>
         <translation>Stopp</translation>
-    </message>
-    <message>
-        <source>programs: 1.5 and a comma, the same everywhere</source>
-        <translation>Programme: 1.5 und ein Komma, überall gleich</translation>
     </message>
     <message>
         <source>&amp;Tables for</source>
         <translation>&amp;Tabellen für</translation>
     </message>
     <message>
+        <source>De-identified: random name, relative days, no notes</source>
+        <translation>De-identifiziert: Zufallsname, relative Tage, keine Notizen</translation>
+    </message>
+    <message>
+        <source>Progress of the export</source>
+        <translation>Fortschritt des Exports</translation>
+    </message>
+    <message>
+        <source>Choose folder…</source>
+        <translation>Ordner wählen…</translation>
+    </message>
+    <message>
+        <source>&amp;Other formats…</source>
+        <translation>&amp;Weitere Formate…</translation>
+    </message>
+    <message>
+        <source>For JSON, C3D, TRC, MOT and BIDS, turn on “For research” in the settings.</source>
+        <translation>Für JSON, C3D, TRC, MOT und BIDS schalten Sie „Für Forschung“ in den Einstellungen ein.</translation>
+    </message>
+    <message>
+        <source>other programs: 1.5, separated by commas</source>
+        <translation>andere Programme: 1.5, durch Kommas getrennt</translation>
+    </message>
+    <message>
         <source>a spreadsheet in {region}: {example}</source>
         <translation>eine Tabellenkalkulation in {region}: {example}</translation>
-    </message>
-</context>
-<context>
-    <name>ExportController</name>
-    <message>
-        <source>Export into a folder</source>
-        <translation>In einen Ordner exportieren</translation>
     </message>
 </context>
 <context>
@@ -8079,6 +7940,21 @@
     <message>
         <source>Spreading</source>
         <translation>Spreizung</translation>
+    </message>
+</context>
+<context>
+    <name>FrameView</name>
+    <message>
+        <source>Camera image</source>
+        <translation>Kamerabild</translation>
+    </message>
+    <message>
+        <source>Hand area ×{scale}</source>
+        <translation>Handbereich ×{scale}</translation>
+    </message>
+    <message>
+        <source>Whole frame</source>
+        <translation>Ganzes Bild</translation>
     </message>
 </context>
 <context>
@@ -8200,50 +8076,6 @@ von oben</translation>
     </message>
 </context>
 <context>
-    <name>ManualForm</name>
-    <message>
-        <source>Active</source>
-        <translation>Aktiv</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation>Passiv</translation>
-    </message>
-    <message>
-        <source>Carpus</source>
-        <translation>Carpus</translation>
-    </message>
-    <message>
-        <source>last time</source>
-        <translation>letztes Mal</translation>
-    </message>
-</context>
-<context>
-    <name>HandMap</name>
-    <message>
-        <source>Markers</source>
-        <translation>Marker</translation>
-    </message>
-    <message>
-        <source>seen</source>
-        <translation>gesehen</translation>
-    </message>
-    <message>
-        <source>partly seen</source>
-        <translation>teils gesehen</translation>
-    </message>
-    <message>
-        <source>hidden, predicted</source>
-        <translation>verdeckt</translation>
-    </message>
-    <message>
-        <source>F2 next joint · F3 next finger
-Shift+F8 from the side</source>
-        <translation>F2 Gelenk · F3 Finger
-Umschalt+F8 von der Seite</translation>
-    </message>
-</context>
-<context>
     <name>HandImageDialog</name>
     <message>
         <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
@@ -8271,42 +8103,28 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ManualValueChart</name>
+    <name>HandMap</name>
     <message>
-        <source>{name} over the days</source>
-        <translation>{name} über die Tage</translation>
+        <source>Markers</source>
+        <translation>Marker</translation>
     </message>
     <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Noch nichts von Hand gemessen.</translation>
+        <source>seen</source>
+        <translation>gesehen</translation>
     </message>
     <message>
-        <source>by hand, active</source>
-        <translation>von Hand, aktiv</translation>
+        <source>partly seen</source>
+        <translation>teils gesehen</translation>
     </message>
     <message>
-        <source>by hand</source>
-        <translation>von Hand</translation>
+        <source>hidden, predicted</source>
+        <translation>verdeckt</translation>
     </message>
     <message>
-        <source>by hand, passive</source>
-        <translation>von Hand, passiv</translation>
-    </message>
-    <message>
-        <source>Carpus, mean</source>
-        <translation>Carpus, Mittel</translation>
-    </message>
-    <message>
-        <source>passive {value}</source>
-        <translation>passiv {value}</translation>
-    </message>
-    <message>
-        <source>Carpus {value}</source>
-        <translation>Carpus {value}</translation>
-    </message>
-    <message>
-        <source>active {value}</source>
-        <translation>aktiv {value}</translation>
+        <source>F2 next joint · F3 next finger
+Shift+F8 from the side</source>
+        <translation>F2 Gelenk · F3 Finger
+Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
@@ -8388,13 +8206,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PreviousPhoto</name>
-    <message>
-        <source>Last time, {day}</source>
-        <translation>Letztes Mal, {day}</translation>
-    </message>
-</context>
-<context>
     <name>LetterDialog</name>
     <message>
         <source>Letter to the doctor</source>
@@ -8432,12 +8243,12 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>LicencesWindow</name>
     <message>
-        <source>Parts and their licences</source>
-        <translation>Teile und ihre Lizenzen</translation>
+        <source>Components and licences</source>
+        <translation>Komponenten und Lizenzen</translation>
     </message>
     <message>
-        <source>The licences are legal texts, and stay in the language that they were written in.</source>
-        <translation>Die Lizenzen sind Rechtstexte und bleiben in der Sprache, in der sie geschrieben wurden.</translation>
+        <source>The licences are legal texts and are shown in their original language.</source>
+        <translation>Die Lizenzen sind Rechtstexte und stehen in ihrer Originalsprache.</translation>
     </message>
 </context>
 <context>
@@ -8558,6 +8369,37 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>LivePathChart</name>
+    <message>
+        <source>Path of the wrist</source>
+        <translation>Weg des Handgelenks</translation>
+    </message>
+    <message>
+        <source>15 mm</source>
+        <translation>15 mm</translation>
+    </message>
+    <message>
+        <source>Path of the wrist, last 10 s</source>
+        <translation>Weg des Handgelenks, letzte 10 s</translation>
+    </message>
+    <message>
+        <source>{span} × {span} mm, fixed</source>
+        <translation>{span} × {span} mm, fest</translation>
+    </message>
+    <message>
+        <source> · cross: where the wrist turns; it must stay in the ring</source>
+        <translation> · Kreuz: Drehpunkt des Handgelenks; er muss im Ring bleiben</translation>
+    </message>
+    <message>
+        <source>arm moved ({distance})</source>
+        <translation>Arm bewegt ({distance})</translation>
+    </message>
+    <message>
+        <source>forearm still ({distance})</source>
+        <translation>Unterarm ruhig ({distance})</translation>
+    </message>
+</context>
+<context>
     <name>LiveScreen</name>
     <message>
         <source>Speeds</source>
@@ -8615,8 +8457,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Sperre</translation>
     </message>
     <message>
-        <source>A PIN hides names and pictures from those who pass by. It protects no file: whoever has this computer’s account or disk reads them without it.</source>
-        <translation>Eine PIN verbirgt Namen und Bilder vor denen, die vorbeigehen. Sie schützt keine Datei: Wer das Konto oder den Datenträger dieses Computers hat, liest sie ohne PIN.</translation>
+        <source>A PIN only hides the screen. It does not encrypt files.</source>
+        <translation>Eine PIN verbirgt nur den Bildschirm. Sie verschlüsselt keine Dateien.</translation>
     </message>
     <message>
         <source>After 5 min</source>
@@ -8635,8 +8477,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Nie</translation>
     </message>
     <message>
-        <source>Lock by itself</source>
-        <translation>Von selbst sperren</translation>
+        <source>Lock automatically</source>
+        <translation>Automatisch sperren</translation>
     </message>
     <message>
         <source>PIN</source>
@@ -8656,6 +8498,17 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>LockController</name>
+    <message>
+        <source>The current PIN is wrong.</source>
+        <translation>Die aktuelle PIN ist falsch.</translation>
+    </message>
+    <message>
+        <source>Too many attempts. Try again in {seconds} s.</source>
+        <translation>Zu viele Versuche. Erneut versuchen in {seconds} s.</translation>
+    </message>
+</context>
+<context>
     <name>LockScreen</name>
     <message>
         <source>Locked</source>
@@ -8670,59 +8523,52 @@ Umschalt+F8 von der Seite</translation>
         <translation>Entsperren</translation>
     </message>
     <message>
-        <source>Nothing is lost. The open session is stored.</source>
-        <translation>Nichts ist verloren. Die offene Sitzung ist gespeichert.</translation>
+        <source>All data are saved, including the open session.</source>
+        <translation>Alle Daten sind gespeichert, auch die offene Sitzung.</translation>
     </message>
     <message>
-        <source>Nothing is lost.</source>
-        <translation>Nichts ist verloren.</translation>
+        <source>All data are saved.</source>
+        <translation>Alle Daten sind gespeichert.</translation>
     </message>
     <message>
-        <source>Names, pictures and figures are hidden.</source>
+        <source>Names, images and values are hidden.</source>
         <translation>Namen, Bilder und Werte sind verborgen.</translation>
     </message>
     <message>
-        <source>Locked by itself at {time}, after {minutes} minutes without a key.</source>
-        <translation>Um {time} von selbst gesperrt, nach {minutes} Minuten ohne Taste.</translation>
+        <source>Locked automatically at {time} after {minutes} minutes without input.</source>
+        <translation>Um {time} nach {minutes} Minuten ohne Eingabe automatisch gesperrt.</translation>
+    </message>
+    <message>
+        <source>Wrong PIN. 1 attempt left before a 1-minute wait.</source>
+        <translation>Falsche PIN. Noch 1 Versuch vor 1 Minute Wartezeit.</translation>
+    </message>
+    <message>
+        <source>Wrong PIN. {left} attempts left before a 1-minute wait.</source>
+        <translation>Falsche PIN. Noch {left} Versuche vor 1 Minute Wartezeit.</translation>
+    </message>
+    <message>
+        <source>Too many attempts. Try again in {seconds} s.</source>
+        <translation>Zu viele Versuche. Erneut versuchen in {seconds} s.</translation>
+    </message>
+    <message>
+        <source>Forgot the PIN? Press F1.</source>
+        <translation>PIN vergessen? Drücken Sie F1.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to remove the PIN. No data are lost.</source>
+        <translation>Bitten Sie Ihren IT-Support, die PIN zu entfernen. Es gehen keine Daten verloren.</translation>
     </message>
     <message>
         <source>Locked at {time}.</source>
         <translation>Um {time} gesperrt.</translation>
     </message>
-    <message>
-        <source>Not this PIN. 1 more try, then a pause of 1 minute.</source>
-        <translation>Nicht diese PIN. Noch 1 Versuch, dann 1 Minute Pause.</translation>
-    </message>
-    <message>
-        <source>Not this PIN. {left} more tries, then a pause of 1 minute.</source>
-        <translation>Nicht diese PIN. Noch {left} Versuche, dann 1 Minute Pause.</translation>
-    </message>
-    <message>
-        <source>Too many tries. The next one in {seconds} s.</source>
-        <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
-    </message>
-    <message>
-        <source>PIN forgotten? F1 says what can be done.</source>
-        <translation>PIN vergessen? F1 sagt, was zu tun ist.</translation>
-    </message>
-    <message>
-        <source>Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus again: nothing is lost. A PIN hides; it does not protect the files.</source>
-        <translation>Wer diesen Computer betreut, nimmt die Datei pin.json aus dem Datenordner und startet Carpus neu: Nichts ist verloren. Eine PIN verbirgt; sie schützt die Dateien nicht.</translation>
-    </message>
-</context>
-<context>
-    <name>LockController</name>
-    <message>
-        <source>Too many tries. The next one in {seconds} s.</source>
-        <translation>Zu viele Versuche. Der nächste in {seconds} s.</translation>
-    </message>
-    <message>
-        <source>The current PIN is not right.</source>
-        <translation>Die aktuelle PIN stimmt nicht.</translation>
-    </message>
 </context>
 <context>
     <name>LogDialog</name>
+    <message>
+        <source>Append-only log. It protects against mistakes, not against someone with full access to this computer. Names appear only here, while they are in the patient list.</source>
+        <translation>Das Protokoll wird nur ergänzt. Es schützt vor Versehen, nicht vor jemandem mit vollem Zugriff auf diesen Computer. Namen erscheinen nur hier, solange sie in der Patientenliste stehen.</translation>
+    </message>
     <message>
         <source>Log</source>
         <translation>Protokoll</translation>
@@ -8740,24 +8586,172 @@ Umschalt+F8 von der Seite</translation>
         <translation>Was</translation>
     </message>
     <message>
-        <source>Of whom</source>
-        <translation>Von wem</translation>
+        <source>Log: {n} entries</source>
+        <translation>Protokoll: {n} Einträge</translation>
     </message>
     <message>
         <source>Details</source>
         <translation>Details</translation>
     </message>
     <message>
+        <source>Patient</source>
+        <translation>Patient</translation>
+    </message>
+    <message>
         <source>Done</source>
         <translation>Fertig</translation>
     </message>
+</context>
+<context>
+    <name>ManualForm</name>
     <message>
-        <source>Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up kept elsewhere shows a later change. Names are put to it here, as long as they are in the list.</source>
-        <translation>Es wird nur angefügt. Das schützt vor Versehen, nicht vor dem Eigentümer des Computers: Eine anderswo aufbewahrte Sicherung zeigt eine spätere Änderung. Namen stehen nur hier dabei, solange sie in der Liste sind.</translation>
+        <source>Active</source>
+        <translation>Aktiv</translation>
     </message>
     <message>
-        <source>Log: {n} lines</source>
-        <translation>Protokoll: {n} Zeilen</translation>
+        <source>Passive</source>
+        <translation>Passiv</translation>
+    </message>
+    <message>
+        <source>Carpus</source>
+        <translation>Carpus</translation>
+    </message>
+    <message>
+        <source>previous</source>
+        <translation>zuletzt</translation>
+    </message>
+</context>
+<context>
+    <name>ManualMeasurementsFlow</name>
+    <message>
+        <source>Leave without saving?</source>
+        <translation>Ohne Speichern verlassen?</translation>
+    </message>
+    <message>
+        <source>Some values have not been saved.</source>
+        <translation>Einige Werte sind noch nicht gespeichert.</translation>
+    </message>
+    <message>
+        <source>Save or discard the values.</source>
+        <translation>Speichern oder verwerfen Sie die Werte.</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
+    </message>
+    <message>
+        <source>Check the unusual values, or save them as entered</source>
+        <translation>Ungewöhnliche Werte prüfen oder so speichern</translation>
+    </message>
+    <message>
+        <source>Check the values before you save them.</source>
+        <translation>Prüfen Sie die Werte, bevor Sie sie speichern.</translation>
+    </message>
+    <message>
+        <source>Save as entered</source>
+        <translation>So speichern</translation>
+    </message>
+    <message>
+        <source>Back to the form</source>
+        <translation>Zurück zum Formular</translation>
+    </message>
+</context>
+<context>
+    <name>ManualMeasurementsScreen</name>
+    <message>
+        <source>Date of measurement</source>
+        <translation>Messdatum</translation>
+    </message>
+    <message>
+        <source>Other measures</source>
+        <translation>Andere Maße</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Save values</source>
+        <translation>Werte speichern</translation>
+    </message>
+    <message>
+        <source>Saved.</source>
+        <translation>Gespeichert.</translation>
+    </message>
+    <message>
+        <source>Leave empty what was not measured. These entries do not change values measured by Carpus.</source>
+        <translation>Lassen Sie leer, was nicht gemessen wurde. Diese Einträge ändern keine Messwerte von Carpus.</translation>
+    </message>
+    <message>
+        <source>The Carpus session of this day is simulated and not shown.</source>
+        <translation>Die Carpus-Sitzung dieses Tages ist simuliert und wird nicht gezeigt.</translation>
+    </message>
+    <message>
+        <source>Manual and Carpus values stay separate</source>
+        <translation>Handmessung und Carpus-Werte bleiben getrennt</translation>
+    </message>
+    <message>
+        <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
+        <translation>Sie werden weder gemittelt noch voneinander abgezogen. Veränderung wird nur innerhalb einer Methode beurteilt.</translation>
+    </message>
+    <message>
+        <source>Not saved yet, including values of the other hand or another day.</source>
+        <translation>Noch nicht gespeichert, auch Werte der anderen Hand oder eines anderen Tages.</translation>
+    </message>
+    <message>
+        <source>Values are saved with initials and time. Later changes stay visible.</source>
+        <translation>Werte werden mit Kürzel und Zeit gespeichert. Spätere Änderungen bleiben sichtbar.</translation>
+    </message>
+    <message>
+        <source>Measured by hand, {day}</source>
+        <translation>Von Hand gemessen, {day}</translation>
+    </message>
+    <message>
+        <source>By {initials}.</source>
+        <translation>Von {initials}.</translation>
+    </message>
+    <message>
+        <source>Other measures…</source>
+        <translation>Andere Maße…</translation>
+    </message>
+</context>
+<context>
+    <name>ManualValueChart</name>
+    <message>
+        <source>{name} over the days</source>
+        <translation>{name} über die Tage</translation>
+    </message>
+    <message>
+        <source>Nothing measured by hand yet.</source>
+        <translation>Noch nichts von Hand gemessen.</translation>
+    </message>
+    <message>
+        <source>by hand, active</source>
+        <translation>von Hand, aktiv</translation>
+    </message>
+    <message>
+        <source>by hand</source>
+        <translation>von Hand</translation>
+    </message>
+    <message>
+        <source>by hand, passive</source>
+        <translation>von Hand, passiv</translation>
+    </message>
+    <message>
+        <source>Carpus, mean</source>
+        <translation>Carpus, Mittel</translation>
+    </message>
+    <message>
+        <source>passive {value}</source>
+        <translation>passiv {value}</translation>
+    </message>
+    <message>
+        <source>Carpus {value}</source>
+        <translation>Carpus {value}</translation>
+    </message>
+    <message>
+        <source>active {value}</source>
+        <translation>aktiv {value}</translation>
     </message>
 </context>
 <context>
@@ -8784,13 +8778,44 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>MarkerQuestion</name>
+    <message>
+        <source>Is this blue spot the {marker}?</source>
+        <translation>Ist diese blaue Stelle: {marker}?</translation>
+    </message>
+    <message>
+        <source>Yes</source>
+        <translation>Ja</translation>
+    </message>
+    <message>
+        <source>No</source>
+        <translation>Nein</translation>
+    </message>
+    <message>
+        <source>Which one is the {marker}?</source>
+        <translation>Welche ist: {marker}?</translation>
+    </message>
+    <message>
+        <source>Disc 1</source>
+        <translation>Punkt 1</translation>
+    </message>
+    <message>
+        <source>Spot 2</source>
+        <translation>Stelle 2</translation>
+    </message>
+    <message>
+        <source>Neither</source>
+        <translation>Keine</translation>
+    </message>
+</context>
+<context>
     <name>MarkerRow</name>
     <message>
         <source>{size} mm</source>
         <translation>{size} mm</translation>
     </message>
     <message>
-        <source>hidden</source>
+        <source>occluded</source>
         <translation>verdeckt</translation>
     </message>
     <message>
@@ -8931,28 +8956,28 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>MeasureRow</name>
     <message>
-        <source>where</source>
-        <translation>wo</translation>
+        <source>location</source>
+        <translation>Messort</translation>
     </message>
     <message>
-        <source>{name}: where it was taken</source>
-        <translation>{name}: wo gemessen wurde</translation>
+        <source>{name}: location of the measurement</source>
+        <translation>{name}: Messort</translation>
     </message>
     <message>
         <source>{side} {value}</source>
         <translation>{side} {value}</translation>
     </message>
     <message>
-        <source>taken back</source>
-        <translation>zurückgenommen</translation>
+        <source>removed</source>
+        <translation>entfernt</translation>
+    </message>
+    <message>
+        <source>Previous entries for this day:</source>
+        <translation>Frühere Einträge für diesen Tag:</translation>
     </message>
     <message>
         <source>changed</source>
         <translation>geändert</translation>
-    </message>
-    <message>
-        <source>Entered before for this day:</source>
-        <translation>Für diesen Tag schon eingetragen:</translation>
     </message>
     <message>
         <source>mean {value}</source>
@@ -8962,24 +8987,35 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>Messages</name>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Weiter</translation>
     </message>
     <message>
-        <source>A session of {name} was cut short on {day} at {time}. It has been recovered.</source>
-        <translation>Eine Sitzung von {name} brach am {day} um {time} ab. Sie ist wiederhergestellt.</translation>
+        <source>A session of {name} was interrupted on {day} at {time}. It has been recovered.</source>
+        <translation>Eine Sitzung von {name} wurde am {day} um {time} unterbrochen. Sie wurde wiederhergestellt.</translation>
     </message>
     <message>
-        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
-        <translation>Alle Daten bis {kept} sind sicher; höchstens die letzte Sekunde fehlt; mehr nur, wo die Werte später kamen.</translation>
+        <source>All data up to {kept} are safe. At most the last second is missing, or more where results were delayed.</source>
+        <translation>Alle Daten bis {kept} sind sicher. Höchstens die letzte Sekunde fehlt, mehr nur bei verzögerten Ergebnissen.</translation>
     </message>
     <message>
-        <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>
-        <translation>Sehen Sie sie jetzt an, oder lassen Sie sie für später: Sie bleibt in der Liste.</translation>
+        <source>Review it now or later. It stays in the patient’s session list.</source>
+        <translation>Sehen Sie sie jetzt oder später an. Sie bleibt in der Sitzungsliste.</translation>
     </message>
     <message>
         <source>Waiting for the camera … {seconds} s</source>
         <translation>Warten auf die Kamera … {seconds} s</translation>
+    </message>
+</context>
+<context>
+    <name>NavigationButton</name>
+    <message>
+        <source>{name}, you are here</source>
+        <translation>{name}, hier sind Sie</translation>
+    </message>
+    <message>
+        <source>{name}, done</source>
+        <translation>{name}, erledigt</translation>
     </message>
 </context>
 <context>
@@ -9150,34 +9186,10 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>LivePathChart</name>
+    <name>PathsChart</name>
     <message>
-        <source>Path of the wrist</source>
-        <translation>Weg des Handgelenks</translation>
-    </message>
-    <message>
-        <source>15 mm</source>
-        <translation>15 mm</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, last 10 s</source>
-        <translation>Weg des Handgelenks, letzte 10 s</translation>
-    </message>
-    <message>
-        <source>{span} × {span} mm, fixed</source>
-        <translation>{span} × {span} mm, fest</translation>
-    </message>
-    <message>
-        <source> · cross: where the wrist turns; it must stay in the ring</source>
-        <translation> · Kreuz: Drehpunkt des Handgelenks; er muss im Ring bleiben</translation>
-    </message>
-    <message>
-        <source>arm moved ({distance})</source>
-        <translation>Arm bewegt ({distance})</translation>
-    </message>
-    <message>
-        <source>forearm still ({distance})</source>
-        <translation>Unterarm ruhig ({distance})</translation>
+        <source>Ways in three planes</source>
+        <translation>Wege in drei Ebenen</translation>
     </message>
 </context>
 <context>
@@ -9211,20 +9223,28 @@ Umschalt+F8 von der Seite</translation>
         <translation>Name: {name}</translation>
     </message>
     <message>
-        <source>Simulated: nothing counts</source>
-        <translation>Simuliert: Nichts zählt</translation>
+        <source>Simulated: excluded from analysis</source>
+        <translation>Simuliert: von der Auswertung ausgeschlossen</translation>
     </message>
     <message>
-        <source>Markers as on {day}</source>
-        <translation>Marker wie am {day}</translation>
+        <source>Place markers as on {day}</source>
+        <translation>Marker kleben wie am {day}</translation>
+    </message>
+    <message>
+        <source>No analysed session yet</source>
+        <translation>Noch keine ausgewertete Sitzung</translation>
+    </message>
+    <message>
+        <source>Only simulated sessions so far (excluded).</source>
+        <translation>Bisher nur simulierte Sitzungen (ausgeschlossen).</translation>
+    </message>
+    <message>
+        <source>Attach the markers, then start.</source>
+        <translation>Kleben Sie die Marker auf, dann starten Sie.</translation>
     </message>
     <message>
         <source>No session yet</source>
         <translation>Noch keine Sitzung</translation>
-    </message>
-    <message>
-        <source>No session counted yet</source>
-        <translation>Noch keine Sitzung gezählt</translation>
     </message>
     <message>
         <source>Note of {day}</source>
@@ -9245,14 +9265,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>A simulated patient moves in front of a simulated camera. Try every step without a patient.</source>
         <translation>Ein simulierter Patient bewegt sich vor einer simulierten Kamera. Probieren Sie jeden Schritt ohne Patient aus.</translation>
-    </message>
-    <message>
-        <source>Only simulated sessions so far: they count nowhere.</source>
-        <translation>Bisher nur simulierte Sitzungen: Sie zählen nirgends.</translation>
-    </message>
-    <message>
-        <source>Put the markers on, then start.</source>
-        <translation>Kleben Sie die Marker auf, dann starten Sie.</translation>
     </message>
     <message>
         <source>{ordinal} session</source>
@@ -9282,6 +9294,26 @@ Umschalt+F8 von der Seite</translation>
         <translation>In der &amp;Liste der Klinik</translation>
     </message>
     <message>
+        <source>Name: {count} characters too long</source>
+        <translation>Name: {count} Zeichen zu lang</translation>
+    </message>
+    <message>
+        <source>&amp;Real name, optional (stays in this list, never in a session or report)</source>
+        <translation>&amp;Echter Name, optional (nur in dieser Liste)</translation>
+    </message>
+    <message>
+        <source>Real name: {count} characters too long</source>
+        <translation>Echter Name: {count} Zeichen zu lang</translation>
+    </message>
+    <message>
+        <source>&amp;Diagnosis or operation (stays in this list, never in a session)</source>
+        <translation>&amp;Diagnose oder Operation (nur in dieser Liste, in keiner Sitzung)</translation>
+    </message>
+    <message>
+        <source>Diagnosis: {count} characters too long</source>
+        <translation>Diagnose: {count} Zeichen zu lang</translation>
+    </message>
+    <message>
         <source>day month year</source>
         <translation>Tag Monat Jahr</translation>
     </message>
@@ -9306,12 +9338,32 @@ Umschalt+F8 von der Seite</translation>
         <translation>Ein erfundener Name, den man laut sagen kann. Kein echter Name, keine Anfangsbuchstaben, kein Geburtsdatum.</translation>
     </message>
     <message>
-        <source>&amp;Name in Carpus</source>
-        <translation>&amp;Name in Carpus</translation>
+        <source>Edit patient</source>
+        <translation>Patient bearbeiten</translation>
     </message>
     <message>
-        <source>&amp;Real name, if wanted (stays in this list, never in a session or report)</source>
-        <translation>&amp;Echter Name, falls gewünscht (nur in dieser Liste)</translation>
+        <source>Save changes</source>
+        <translation>Änderungen speichern</translation>
+    </message>
+    <message>
+        <source>Since when? The date is in the future</source>
+        <translation>Seit wann? Das Datum liegt in der Zukunft</translation>
+    </message>
+    <message>
+        <source>Since when? This date does not exist</source>
+        <translation>Seit wann? Dieses Datum gibt es nicht</translation>
+    </message>
+    <message>
+        <source>Enter a name.</source>
+        <translation>Geben Sie einen Namen ein.</translation>
+    </message>
+    <message>
+        <source>“{name}” is already in use. Choose another name.</source>
+        <translation>„{name}“ ist schon vergeben. Wählen Sie einen anderen Namen.</translation>
+    </message>
+    <message>
+        <source>&amp;Name in Carpus</source>
+        <translation>&amp;Name in Carpus</translation>
     </message>
     <message>
         <source>Affected hand</source>
@@ -9322,28 +9374,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Schreibt mit</translation>
     </message>
     <message>
-        <source>&amp;Diagnosis or operation (stays in this list, in no session)</source>
-        <translation>&amp;Diagnose oder Operation (nur in dieser Liste, in keiner Sitzung)</translation>
-    </message>
-    <message>
         <source>&amp;Since</source>
         <translation>&amp;Seit</translation>
     </message>
     <message>
         <source>N&amp;ote (no names)</source>
         <translation>N&amp;otiz (keine Namen)</translation>
-    </message>
-    <message>
-        <source>Name: {count} letters too many</source>
-        <translation>Name: {count} Zeichen zu viel</translation>
-    </message>
-    <message>
-        <source>Real name: {count} letters too many</source>
-        <translation>Echter Name: {count} Zeichen zu viel</translation>
-    </message>
-    <message>
-        <source>Diagnosis: {count} letters too many</source>
-        <translation>Diagnose: {count} Zeichen zu viel</translation>
     </message>
     <message>
         <source>Archi&amp;ve or delete…</source>
@@ -9354,16 +9390,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Neuer Patient</translation>
     </message>
     <message>
-        <source>Change patient</source>
-        <translation>Patient ändern</translation>
-    </message>
-    <message>
         <source>Add patient</source>
         <translation>Patient anlegen</translation>
-    </message>
-    <message>
-        <source>Keep changes</source>
-        <translation>Änderungen behalten</translation>
     </message>
     <message>
         <source>Which hand is affected?</source>
@@ -9374,28 +9402,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Welche Hand schreibt?</translation>
     </message>
     <message>
-        <source>Since when? There is no such day</source>
-        <translation>Seit wann? Diesen Tag gibt es nicht</translation>
-    </message>
-    <message>
         <source>Since when? Day, month, year</source>
         <translation>Seit wann? Tag, Monat, Jahr</translation>
     </message>
     <message>
-        <source>Since when? It is yet to come</source>
-        <translation>Seit wann? Der Tag kommt erst</translation>
-    </message>
-    <message>
         <source>Operation or injury?</source>
         <translation>Operation oder Verletzung?</translation>
-    </message>
-    <message>
-        <source>Give the patient a name.</source>
-        <translation>Geben Sie dem Patienten einen Namen.</translation>
-    </message>
-    <message>
-        <source>“{name}” is taken. Choose another name.</source>
-        <translation>„{name}“ ist vergeben. Wählen Sie einen anderen Namen.</translation>
     </message>
 </context>
 <context>
@@ -9479,26 +9491,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>FrameView</name>
-    <message>
-        <source>Camera picture</source>
-        <translation>Kamerabild</translation>
-    </message>
-    <message>
-        <source>Hand area ×{scale}</source>
-        <translation>Handbereich ×{scale}</translation>
-    </message>
-    <message>
-        <source>Whole picture</source>
-        <translation>Ganzes Bild</translation>
-    </message>
-</context>
-<context>
     <name>PinDialog</name>
-    <message>
-        <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
-        <translation>Mindestens vier Zeichen, Ziffern oder Buchstaben. Sie verbirgt Namen und Bilder vor Vorbeigehenden; Dateien bleiben lesbar für alle, die das Konto dieses Computers oder den Datenträger haben.</translation>
-    </message>
     <message>
         <source>&amp;New PIN</source>
         <translation>&amp;Neue PIN</translation>
@@ -9512,12 +9505,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>PIN festlegen</translation>
     </message>
     <message>
-        <source>A PIN has four signs or more.</source>
-        <translation>Eine PIN hat mindestens vier Zeichen.</translation>
-    </message>
-    <message>
-        <source>The two are not the same.</source>
-        <translation>Die beiden sind nicht gleich.</translation>
+        <source>At least four characters, digits or letters. A PIN only hides the screen. It does not encrypt files.</source>
+        <translation>Mindestens vier Zeichen, Ziffern oder Buchstaben. Eine PIN verbirgt nur den Bildschirm. Sie verschlüsselt keine Dateien.</translation>
     </message>
     <message>
         <source>&amp;Current PIN</source>
@@ -9534,6 +9523,41 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Repeat new &amp;PIN</source>
         <translation>Neue PIN &amp;wiederholen</translation>
+    </message>
+    <message>
+        <source>A PIN needs at least four characters.</source>
+        <translation>Eine PIN braucht mindestens vier Zeichen.</translation>
+    </message>
+    <message>
+        <source>The two PINs differ.</source>
+        <translation>Die beiden PINs sind verschieden.</translation>
+    </message>
+</context>
+<context>
+    <name>PlaybackControls</name>
+    <message>
+        <source>Previous picture (←)</source>
+        <translation>Voriges Bild (←)</translation>
+    </message>
+    <message>
+        <source>Next picture (→)</source>
+        <translation>Nächstes Bild (→)</translation>
+    </message>
+    <message>
+        <source>Play (Space)</source>
+        <translation>Abspielen (Leertaste)</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>{factor}× speed</source>
+        <translation>{factor}× Tempo</translation>
     </message>
 </context>
 <context>
@@ -9616,6 +9640,13 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Save</source>
         <translation>Speichern</translation>
+    </message>
+</context>
+<context>
+    <name>PreviousPhoto</name>
+    <message>
+        <source>Last time, {day}</source>
+        <translation>Letztes Mal, {day}</translation>
     </message>
 </context>
 <context>
@@ -9732,78 +9763,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ExclusionDialog</name>
-    <message>
-        <source>pain</source>
-        <translation>Schmerz</translation>
-    </message>
-    <message>
-        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
-        <translation>Passiv: Jemand anders hat die Hand bewegt. Sie zählt für sich, neben den aktiven.</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation>Passiv</translation>
-    </message>
-    <message>
-        <source>Passive, and all after it</source>
-        <translation>Passiv, und alle danach</translation>
-    </message>
-    <message>
-        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
-        <translation>Weggelassen: Sie bleibt in der Aufnahme und in den Kurven und zählt nicht mehr. Der Bericht sagt es.</translation>
-    </message>
-    <message>
-        <source>other movement</source>
-        <translation>andere Bewegung</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>Probe</translation>
-    </message>
-    <message>
-        <source>Another reason</source>
-        <translation>Anderer Grund</translation>
-    </message>
-    <message>
-        <source>Keep it in</source>
-        <translation>Doch behalten</translation>
-    </message>
-    <message>
-        <source>Is repetition {number} passive, or left out?</source>
-        <translation>Ist Wiederholung {number} passiv oder weggelassen?</translation>
-    </message>
-    <message>
-        <source>Leave it out</source>
-        <translation>Auslassen</translation>
-    </message>
-</context>
-<context>
     <name>RecordListsController</name>
-    <message>
-        <source>Nothing is due: no patient’s last session is so old.</source>
-        <translation>Nichts ist fällig: Keine letzte Sitzung ist so alt.</translation>
-    </message>
-    <message>
-        <source>Say first how many years records must be kept.</source>
-        <translation>Legen Sie zuerst fest, wie viele Jahre Unterlagen aufzubewahren sind.</translation>
-    </message>
-    <message>
-        <source>Their last session is more than {n} years ago. Nothing goes by itself.</source>
-        <translation>Ihre letzte Sitzung ist mehr als {n} Jahre her. Nichts geht von selbst.</translation>
-    </message>
-    <message>
-        <source>1 session, on {last}; had to be kept until {until}</source>
-        <translation>1 Sitzung, am {last}; war bis {until} aufzubewahren</translation>
-    </message>
-    <message>
-        <source>{n} sessions, the last on {last}; had to be kept until {until}</source>
-        <translation>{n} Sitzungen, die letzte am {last}; aufzubewahren bis {until}</translation>
-    </message>
-    <message>
-        <source>What is due</source>
-        <translation>Was fällig ist</translation>
-    </message>
     <message>
         <source>{n} sessions</source>
         <translation>{n} Sitzungen</translation>
@@ -9817,20 +9777,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>archiviert am {day}</translation>
     </message>
     <message>
-        <source>In no list and no count. Everything can be brought back.</source>
-        <translation>In keiner Liste und keiner Zählung. Alles lässt sich zurückholen.</translation>
-    </message>
-    <message>
         <source>Archive</source>
         <translation>Archiv</translation>
     </message>
     <message>
         <source>The archive is empty.</source>
         <translation>Das Archiv ist leer.</translation>
-    </message>
-    <message>
-        <source>by command</source>
-        <translation>auf Befehl</translation>
     </message>
     <message>
         <source>1 file</source>
@@ -9849,14 +9801,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>{n} Werte</translation>
     </message>
     <message>
-        <source>1 left</source>
-        <translation>noch 1 übrig</translation>
-    </message>
-    <message>
-        <source>{n} left</source>
-        <translation>noch {n} übrig</translation>
-    </message>
-    <message>
         <source>1 study</source>
         <translation>1 Studie</translation>
     </message>
@@ -9865,12 +9809,52 @@ Umschalt+F8 von der Seite</translation>
         <translation>{n} Studien</translation>
     </message>
     <message>
-        <source>nobody was there</source>
-        <translation>niemand war da</translation>
+        <source>No record is past its retention period.</source>
+        <translation>Keine Unterlagen sind fällig.</translation>
     </message>
     <message>
-        <source>without what identifies</source>
-        <translation>ohne Identifizierendes</translation>
+        <source>Set the retention period first.</source>
+        <translation>Legen Sie zuerst die Aufbewahrungsfrist fest.</translation>
+    </message>
+    <message>
+        <source>The last session was more than {n} years ago. Nothing is deleted automatically.</source>
+        <translation>Die letzte Sitzung ist mehr als {n} Jahre her. Nichts wird automatisch gelöscht.</translation>
+    </message>
+    <message>
+        <source>1 session on {last}, retention until {until}</source>
+        <translation>1 Sitzung am {last}, Aufbewahrung bis {until}</translation>
+    </message>
+    <message>
+        <source>{n} sessions, the last on {last}, retention until {until}</source>
+        <translation>{n} Sitzungen, die letzte am {last}, Aufbewahrung bis {until}</translation>
+    </message>
+    <message>
+        <source>Records past retention</source>
+        <translation>Fällige Unterlagen</translation>
+    </message>
+    <message>
+        <source>Excluded from all lists and results. Everything can be restored.</source>
+        <translation>Von allen Listen und Ergebnissen ausgeschlossen. Alles lässt sich wiederherstellen.</translation>
+    </message>
+    <message>
+        <source>by command line</source>
+        <translation>über Befehlszeile</translation>
+    </message>
+    <message>
+        <source>1 remaining</source>
+        <translation>noch 1 übrig</translation>
+    </message>
+    <message>
+        <source>{n} remaining</source>
+        <translation>noch {n} übrig</translation>
+    </message>
+    <message>
+        <source>automatic</source>
+        <translation>automatisch</translation>
+    </message>
+    <message>
+        <source>de-identified</source>
+        <translation>de-identifiziert</translation>
     </message>
     <message>
         <source>finished later</source>
@@ -9905,24 +9889,52 @@ Umschalt+F8 von der Seite</translation>
         <translation>Bericht gespeichert</translation>
     </message>
     <message>
-        <source>set aside</source>
-        <translation>beiseitegelegt</translation>
+        <source>re-analysed</source>
+        <translation>neu analysiert</translation>
     </message>
     <message>
-        <source>taken back</source>
-        <translation>zurückgeholt</translation>
+        <source>restored from archive</source>
+        <translation>aus dem Archiv geholt</translation>
+    </message>
+    <message>
+        <source>deletion started</source>
+        <translation>Löschen begonnen</translation>
+    </message>
+    <message>
+        <source>deleted</source>
+        <translation>gelöscht</translation>
+    </message>
+    <message>
+        <source>backup verified</source>
+        <translation>Sicherung geprüft</translation>
+    </message>
+    <message>
+        <source>backup restored</source>
+        <translation>Sicherung eingespielt</translation>
+    </message>
+    <message>
+        <source>wrong PIN</source>
+        <translation>falsche PIN</translation>
+    </message>
+    <message>
+        <source>manual values entered</source>
+        <translation>Handmesswerte eingetragen</translation>
     </message>
     <message>
         <source>moved</source>
         <translation>verschoben</translation>
     </message>
     <message>
-        <source>exercise changed</source>
-        <translation>Übung geändert</translation>
+        <source>excluded</source>
+        <translation>ausgeschlossen</translation>
     </message>
     <message>
-        <source>tracked again</source>
-        <translation>neu verfolgt</translation>
+        <source>included again</source>
+        <translation>wieder eingeschlossen</translation>
+    </message>
+    <message>
+        <source>exercise changed</source>
+        <translation>Übung geändert</translation>
     </message>
     <message>
         <source>recovered</source>
@@ -9933,28 +9945,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>archiviert</translation>
     </message>
     <message>
-        <source>brought back</source>
-        <translation>aus dem Archiv geholt</translation>
-    </message>
-    <message>
-        <source>erasing begun</source>
-        <translation>Löschen begonnen</translation>
-    </message>
-    <message>
-        <source>erased</source>
-        <translation>gelöscht</translation>
-    </message>
-    <message>
         <source>backed up</source>
         <translation>gesichert</translation>
-    </message>
-    <message>
-        <source>back-up compared</source>
-        <translation>Sicherung verglichen</translation>
-    </message>
-    <message>
-        <source>restored</source>
-        <translation>Sicherung eingespielt</translation>
     </message>
     <message>
         <source>locked</source>
@@ -9965,10 +9957,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>entsperrt</translation>
     </message>
     <message>
-        <source>PIN refused</source>
-        <translation>PIN abgelehnt</translation>
-    </message>
-    <message>
         <source>PIN changed</source>
         <translation>PIN geändert</translation>
     </message>
@@ -9977,12 +9965,63 @@ Umschalt+F8 von der Seite</translation>
         <translation>Protokoll gelesen</translation>
     </message>
     <message>
-        <source>values by hand entered</source>
-        <translation>Werte von Hand eingetragen</translation>
-    </message>
-    <message>
         <source>1 session</source>
         <translation>1 Sitzung</translation>
+    </message>
+</context>
+<context>
+    <name>RecordingControls</name>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>Pain</source>
+        <translation>Schmerz</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>Pain {score}</source>
+        <translation>Schmerz {score}</translation>
+    </message>
+    <message>
+        <source>Storing…</source>
+        <translation>Wird gespeichert…</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passiv</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Play and record</source>
+        <translation>Abspielen und aufnehmen</translation>
+    </message>
+    <message>
+        <source>Record</source>
+        <translation>Aufnehmen</translation>
+    </message>
+    <message>
+        <source>Stop and go on</source>
+        <translation>Beenden und weiter</translation>
+    </message>
+    <message>
+        <source>Stop and review</source>
+        <translation>Beenden und auswerten</translation>
+    </message>
+    <message>
+        <source>Starts in {seconds}: not yet</source>
+        <translation>Beginn in {seconds}: noch nicht</translation>
+    </message>
+    <message>
+        <source>Space · pedal</source>
+        <translation>Leertaste · Pedal</translation>
     </message>
 </context>
 <context>
@@ -10003,8 +10042,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Aufbewahrung</translation>
     </message>
     <message>
-        <source>How long records must be kept after the last session: your law says it, Carpus does not know.</source>
-        <translation>Wie lange Unterlagen nach der letzten Sitzung aufzubewahren sind: Das sagt Ihr Recht, Carpus weiß es nicht.</translation>
+        <source>Enter the retention period that the law requires after the last session.</source>
+        <translation>Geben Sie die gesetzliche Aufbewahrungsfrist nach der letzten Sitzung ein.</translation>
     </message>
     <message>
         <source>Not set</source>
@@ -10015,8 +10054,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>{n} Jahre</translation>
     </message>
     <message>
-        <source>What is d&amp;ue…</source>
-        <translation>Was &amp;fällig ist…</translation>
+        <source>Records past r&amp;etention…</source>
+        <translation>&amp;Fällige Unterlagen…</translation>
     </message>
     <message>
         <source>&amp;Archive…</source>
@@ -10034,16 +10073,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Fertig</translation>
     </message>
     <message>
-        <source>Bring back</source>
-        <translation>Zurückholen</translation>
+        <source>Restore</source>
+        <translation>Wiederherstellen</translation>
+    </message>
+    <message>
+        <source>Delete…</source>
+        <translation>Löschen…</translation>
     </message>
     <message>
         <source>Archive</source>
         <translation>Archivieren</translation>
-    </message>
-    <message>
-        <source>Erase…</source>
-        <translation>Löschen…</translation>
     </message>
 </context>
 <context>
@@ -10053,11 +10092,11 @@ Umschalt+F8 von der Seite</translation>
         <translation>Bericht</translation>
     </message>
     <message>
-        <source>Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.</source>
-        <translation>Name, Anschrift und Logo der Einrichtung stehen über jeder Seite. Was leer bleibt, wird nicht gedruckt.</translation>
+        <source>Name, address and logo of the clinic appear at the top of every page. Empty fields are not printed.</source>
+        <translation>Name, Anschrift und Logo der Einrichtung stehen über jeder Seite. Leere Felder werden nicht gedruckt.</translation>
     </message>
     <message>
-        <source>Name of the clinic</source>
+        <source>Clinic name</source>
         <translation>Name der Einrichtung</translation>
     </message>
     <message>
@@ -10073,7 +10112,7 @@ Umschalt+F8 von der Seite</translation>
         <translation>Logo wählen…</translation>
     </message>
     <message>
-        <source>Remove the logo</source>
+        <source>Remove logo</source>
         <translation>Logo entfernen</translation>
     </message>
     <message>
@@ -10085,12 +10124,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>US Letter</translation>
     </message>
     <message>
-        <source>Choose a logo</source>
-        <translation>Logo wählen</translation>
+        <source>Images (*.png *.jpg *.jpeg)</source>
+        <translation>Bilder (*.png *.jpg *.jpeg)</translation>
     </message>
     <message>
-        <source>Pictures (*.png *.jpg *.jpeg)</source>
-        <translation>Bilder (*.png *.jpg *.jpeg)</translation>
+        <source>Choose a logo</source>
+        <translation>Logo wählen</translation>
     </message>
 </context>
 <context>
@@ -10248,25 +10287,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>VersionChoice</name>
-    <message>
-        <source>Results of this recording</source>
-        <translation>Ergebnisse dieser Aufnahme</translation>
-    </message>
-    <message>
-        <source>{number} · {day}</source>
-        <translation>{number} · {day}</translation>
-    </message>
-    <message>
-        <source>{result}, counts</source>
-        <translation>{result}, zählt</translation>
-    </message>
-    <message>
-        <source>Let this one count</source>
-        <translation>Dieses zählen lassen</translation>
-    </message>
-</context>
-<context>
     <name>ResultTables</name>
     <message>
         <source>Notes: {notes}</source>
@@ -10280,10 +10300,6 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>ResultsDialog</name>
     <message>
-        <source>How far the tracking is</source>
-        <translation>Wie weit die Verfolgung ist</translation>
-    </message>
-    <message>
         <source>Wrist</source>
         <translation>Handgelenk</translation>
     </message>
@@ -10292,23 +10308,27 @@ Umschalt+F8 von der Seite</translation>
         <translation>&amp;Stopp</translation>
     </message>
     <message>
-        <source>&amp;Keep the old one</source>
+        <source>Progress of the re-analysis</source>
+        <translation>Fortschritt der neuen Analyse</translation>
+    </message>
+    <message>
+        <source>&amp;Keep old result</source>
         <translation>Altes &amp;behalten</translation>
     </message>
     <message>
-        <source>&amp;Use the new result</source>
+        <source>&amp;Use new result</source>
         <translation>&amp;Neues verwenden</translation>
     </message>
     <message>
-        <source>Tracking again: {percent} %</source>
-        <translation>Wird neu verfolgt: {percent} %</translation>
+        <source>Re-analysing: {percent} %</source>
+        <translation>Neue Analyse: {percent} %</translation>
     </message>
     <message>
-        <source>Go on working meanwhile. Nothing replaces the old result until you choose; Stop keeps it.</source>
-        <translation>Arbeiten Sie derweil weiter. Nichts ersetzt das alte Ergebnis, bevor Sie wählen; Stopp behält es.</translation>
+        <source>You can continue working. The old result stays until you choose the new one. Stop keeps the old result.</source>
+        <translation>Sie können weiterarbeiten. Das alte Ergebnis bleibt, bis Sie das neue wählen. Stopp behält das alte Ergebnis.</translation>
     </message>
     <message>
-        <source>Go on working</source>
+        <source>Continue working</source>
         <translation>Weiterarbeiten</translation>
     </message>
     <message>
@@ -10327,24 +10347,24 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>RetestDialog</name>
     <message>
-        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
-        <translation>Von Personen, die mehr als einmal gemessen wurden, dazwischen alle Punkte ab und neu geklebt: Standardmessfehler (SEM) und kleinste nachweisbare Veränderung (MDC95), mit 95-%-Intervallen.</translation>
+        <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % intervals.</source>
+        <translation>Von mehrfach gemessenen Personen, deren Marker dazwischen alle entfernt und neu geklebt wurden. Zeigt den Standardmessfehler (SEM) und MDC95 mit 95-%-Intervallen.</translation>
     </message>
     <message>
-        <source>Limits from test-retest sessions</source>
-        <translation>Grenzen aus Test-Retest-Sitzungen</translation>
+        <source>MDC95 from test–retest sessions</source>
+        <translation>MDC95 aus Test-Retest-Sitzungen</translation>
     </message>
     <message>
-        <source>&amp;Use these limits</source>
-        <translation>&amp;Diese Grenzen verwenden</translation>
+        <source>&amp;Use these values</source>
+        <translation>&amp;Diese Werte verwenden</translation>
     </message>
     <message>
-        <source>Leave it as it is</source>
-        <translation>So lassen</translation>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Sessions that cannot be read: {count}</source>
-        <translation>Sitzungen, die nicht gelesen werden können: {count}</translation>
+        <source>Unreadable sessions: {count}</source>
+        <translation>Nicht lesbare Sitzungen: {count}</translation>
     </message>
 </context>
 <context>
@@ -10499,13 +10519,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>TimeSlider</name>
-    <message>
-        <source>Time in the session</source>
-        <translation>Zeit in der Sitzung</translation>
-    </message>
-</context>
-<context>
     <name>SessionChart</name>
     <message>
         <source>Curves of the session</source>
@@ -10573,12 +10586,32 @@ Umschalt+F8 von der Seite</translation>
         <translation>Wird gelesen…</translation>
     </message>
     <message>
-        <source>&amp;Take back: let it count</source>
-        <translation>Z&amp;urückholen: zählt wieder</translation>
+        <source>&amp;Include again</source>
+        <translation>Wieder &amp;einschließen</translation>
     </message>
     <message>
-        <source>&amp;Set aside…</source>
-        <translation>&amp;Beiseitelegen…</translation>
+        <source>E&amp;xclude…</source>
+        <translation>Au&amp;sschließen…</translation>
+    </message>
+    <message>
+        <source>It will move from {name}’s progress to the other patient’s.</source>
+        <translation>Sie wechselt vom Verlauf von {name} in den des anderen Patienten.</translation>
+    </message>
+    <message>
+        <source>Which patient does this session belong to?</source>
+        <translation>Zu welchem Patienten gehört diese Sitzung?</translation>
+    </message>
+    <message>
+        <source>Move</source>
+        <translation>Verschieben</translation>
+    </message>
+    <message>
+        <source>Repetitions and values are calculated again. The recording itself is not changed.</source>
+        <translation>Wiederholungen und Werte werden neu berechnet. Die Aufnahme selbst ändert sich nicht.</translation>
+    </message>
+    <message>
+        <source>Change exercise</source>
+        <translation>Übung ändern</translation>
     </message>
     <message>
         <source>Tick two to compare them</source>
@@ -10593,71 +10626,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die 2 angekreuzten vergleichen</translation>
     </message>
     <message>
-        <source>It then counts in the other patient’s progress, and no more in that of {name}.</source>
-        <translation>Sie zählt dann im Verlauf des anderen Patienten und nicht mehr in dem von {name}.</translation>
-    </message>
-    <message>
-        <source>To whom does this session belong?</source>
-        <translation>Zu wem gehört diese Sitzung?</translation>
-    </message>
-    <message>
-        <source>Move it there</source>
-        <translation>Dorthin verschieben</translation>
-    </message>
-    <message>
         <source>Which exercise was it?</source>
         <translation>Welche Übung war es?</translation>
     </message>
     <message>
-        <source>Repetitions and figures are worked out anew. The recording itself is not changed.</source>
-        <translation>Wiederholungen und Werte werden neu berechnet. Die Aufnahme selbst ändert sich nicht.</translation>
-    </message>
-    <message>
-        <source>It was this one</source>
-        <translation>Diese war es</translation>
-    </message>
-    <message>
         <source>In the archi&amp;ve: {n}</source>
         <translation>&amp;Im Archiv: {n}</translation>
-    </message>
-</context>
-<context>
-    <name>ExcludeDialog</name>
-    <message>
-        <source>Set this session aside?</source>
-        <translation>Diese Sitzung beiseitelegen?</translation>
-    </message>
-    <message>
-        <source>It stays in the list and can be opened, but counts nowhere. It can be taken back.</source>
-        <translation>Sie bleibt in der Liste und lässt sich öffnen, zählt aber nirgends. Das lässt sich zurücknehmen.</translation>
-    </message>
-    <message>
-        <source>wrong exercise</source>
-        <translation>falsche Übung</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>Probe</translation>
-    </message>
-    <message>
-        <source>discs lost</source>
-        <translation>Punkte verloren</translation>
-    </message>
-    <message>
-        <source>pain</source>
-        <translation>Schmerz</translation>
-    </message>
-    <message>
-        <source>Another reason</source>
-        <translation>Anderer Grund</translation>
-    </message>
-    <message>
-        <source>Let it count</source>
-        <translation>Zählen lassen</translation>
-    </message>
-    <message>
-        <source>Set it aside</source>
-        <translation>Beiseitelegen</translation>
     </message>
 </context>
 <context>
@@ -10734,8 +10708,8 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>SettingsFlow</name>
     <message>
-        <source>Folder of the test-retest sessions</source>
-        <translation>Ordner der Test-Retest-Sitzungen</translation>
+        <source>Folder with the test–retest sessions</source>
+        <translation>Ordner mit den Test-Retest-Sitzungen</translation>
     </message>
 </context>
 <context>
@@ -10749,12 +10723,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Dunkel</translation>
     </message>
     <message>
-        <source>As the computer</source>
-        <translation>Wie der Computer</translation>
-    </message>
-    <message>
         <source>Change…</source>
         <translation>Ändern…</translation>
+    </message>
+    <message>
+        <source>Hands-free start: use a pedal or a presentation remote (Page Down). An automatic start is counted down, and Space cancels it.</source>
+        <translation>Start ohne Hände: Verwenden Sie ein Pedal oder einen Presenter (Bild ab). Ein automatischer Start wird heruntergezählt, und die Leertaste bricht ihn ab.</translation>
+    </message>
+    <message>
+        <source>A second screen or window shows the patient what to do. Open it while measuring. Choose with the exercise whether it addresses a child or an adult.</source>
+        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
     </message>
     <message>
         <source>Initials on reports</source>
@@ -10762,11 +10740,35 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>As in the papers: deviation first</source>
-        <translation>Wie in den Arbeiten: Deviation zuerst</translation>
+        <translation>Wie in den Veröffentlichungen: Radial-/Ulnarduktion zuerst</translation>
+    </message>
+    <message>
+        <source>Calculate from test–retest sessions…</source>
+        <translation>Aus Test-Retest-Sitzungen berechnen…</translation>
+    </message>
+    <message>
+        <source>Match system</source>
+        <translation>Wie das System</translation>
     </message>
     <message>
         <source>ISB: flexion first</source>
         <translation>ISB: Flexion zuerst</translation>
+    </message>
+    <message>
+        <source>On key press</source>
+        <translation>Mit Tastendruck</translation>
+    </message>
+    <message>
+        <source>3 s after key press</source>
+        <translation>3 s nach Tastendruck</translation>
+    </message>
+    <message>
+        <source>When the hand is still</source>
+        <translation>Wenn die Hand ruhig ist</translation>
+    </message>
+    <message>
+        <source>Beep at the goal</source>
+        <translation>Ton am Ziel</translation>
     </message>
     <message>
         <source>Off</source>
@@ -10777,24 +10779,40 @@ Umschalt+F8 von der Seite</translation>
         <translation>Live-Werte senden</translation>
     </message>
     <message>
+        <source>Appearance</source>
+        <translation>Darstellung</translation>
+    </message>
+    <message>
+        <source>Demo: settings apply until it is closed.</source>
+        <translation>Demo: Einstellungen gelten, bis sie geschlossen wird.</translation>
+    </message>
+    <message>
+        <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
+        <translation>Carpus sucht nie online nach Aktualisierungen. Vergleichen Sie diese Version mit der neuesten dort, woher Sie Carpus haben. Sichern Sie, und installieren Sie sie über diese. Patienten, Sitzungen und Einstellungen bleiben.</translation>
+    </message>
+    <message>
+        <source>Components and licences</source>
+        <translation>Komponenten und Lizenzen</translation>
+    </message>
+    <message>
+        <source>Appearance and language</source>
+        <translation>Darstellung, Sprache</translation>
+    </message>
+    <message>
+        <source>The update folder cannot be read: {folder}.</source>
+        <translation>Der Ordner für Aktualisierungen ist nicht lesbar: {folder}.</translation>
+    </message>
+    <message>
+        <source>Version {newest} is available in {folder}. Back up, then install it over this one. Patients, sessions and settings stay.</source>
+        <translation>Version {newest} liegt in {folder} bereit. Sichern Sie, und installieren Sie sie über diese. Patienten, Sitzungen und Einstellungen bleiben.</translation>
+    </message>
+    <message>
+        <source>There is no newer version in {folder}.</source>
+        <translation>In {folder} liegt keine neuere Version.</translation>
+    </message>
+    <message>
         <source>No sound</source>
         <translation>Kein Ton</translation>
-    </message>
-    <message>
-        <source>One beep at the goal</source>
-        <translation>Ein Ton am Ziel</translation>
-    </message>
-    <message>
-        <source>At the key</source>
-        <translation>Mit der Taste</translation>
-    </message>
-    <message>
-        <source>3 s after the key</source>
-        <translation>3 s nach der Taste</translation>
-    </message>
-    <message>
-        <source>When the hand lies still</source>
-        <translation>Wenn die Hand ruhig liegt</translation>
     </message>
     <message>
         <source>For research</source>
@@ -10809,10 +10827,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Esc</translation>
     </message>
     <message>
-        <source>Looks</source>
-        <translation>Aussehen</translation>
-    </message>
-    <message>
         <source>Colours</source>
         <translation>Farben</translation>
     </message>
@@ -10825,32 +10839,36 @@ Umschalt+F8 von der Seite</translation>
         <translation>Sprache</translation>
     </message>
     <message>
-        <source>Data</source>
-        <translation>Daten</translation>
+        <source>Shows path and axes, speeds, the movement page in reports, all export formats, angle order and streaming. It changes no values.</source>
+        <translation>Zeigt Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Exportformate, Winkelreihenfolge und Streaming. Werte ändern sich nicht.</translation>
     </message>
     <message>
-        <source>Sessions and the list of patients. Private to you; nothing leaves this computer.</source>
-        <translation>Sitzungen und die Liste der Patienten. Nur für Sie; nichts verlässt diesen Computer.</translation>
+        <source>Angle order</source>
+        <translation>Winkelreihenfolge</translation>
+    </message>
+    <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the order of the papers. Sessions with different orders are not compared.</source>
+        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die der Veröffentlichungen. Sitzungen mit verschiedener Reihenfolge werden nicht verglichen.</translation>
+    </message>
+    <message>
+        <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>
+        <translation>Sendet Winkel, Positionen und Ereignisse über Lab Streaming Layer (LSL). Jeder Computer im Netz kann sie lesen. Namen und Bilder sind nicht enthalten. Gilt ab dem nächsten Aufbau.</translation>
+    </message>
+    <message>
+        <source>Sessions and patient list. Private to your user account. Nothing leaves this computer.</source>
+        <translation>Sitzungen und Patientenliste. Nur für Ihr Benutzerkonto. Nichts verlässt diesen Computer.</translation>
+    </message>
+    <message>
+        <source>Data</source>
+        <translation>Daten</translation>
     </message>
     <message>
         <source>Research</source>
         <translation>Forschung</translation>
     </message>
     <message>
-        <source>Order of the angles</source>
-        <translation>Reihenfolge der Winkel</translation>
-    </message>
-    <message>
-        <source>Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; sessions in different orders are never compared.</source>
-        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die der Arbeiten; Sitzungen in verschiedener Reihenfolge werden nie verglichen.</translation>
-    </message>
-    <message>
         <source>Other programs</source>
         <translation>Andere Programme</translation>
-    </message>
-    <message>
-        <source>While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer in the same network can read them; no name and no picture is in them. From the next set-up on.</source>
-        <translation>Während eine Hand gemessen wird, können ihre Winkel, Orte und Ereignisse über Lab Streaming Layer hinausgehen. Jeder Computer im selben Netz kann sie lesen; kein Name und kein Bild ist dabei. Gilt ab dem nächsten Aufbau.</translation>
     </message>
     <message>
         <source>Start of a recording</source>
@@ -10861,24 +10879,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die Patientenansicht</translation>
     </message>
     <message>
-        <source>A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one measures on; whether it speaks to a child or an adult is chosen with the exercise.</source>
-        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster, das der Person zeigt, was zu tun ist. Sie öffnet sich vom Messbildschirm aus; ob sie für ein Kind oder für Erwachsene spricht, wird mit der Übung gewählt.</translation>
-    </message>
-    <message>
         <source>About Carpus</source>
         <translation>Über Carpus</translation>
     </message>
     <message>
         <source>Version {version}, MIT licence.</source>
         <translation>Version {version}, MIT-Lizenz.</translation>
-    </message>
-    <message>
-        <source>Carpus asks nobody whether there is a newer version, and sends nothing. To look yourself, compare this version with the newest one where you got Carpus from; its list of changes says what is new. Install it over this one: patients, sessions and settings stay. Make a back-up before.</source>
-        <translation>Carpus fragt niemanden nach einer neueren Version und sendet nichts. Um selbst nachzusehen, vergleichen Sie diese Version mit der neuesten dort, woher Sie Carpus haben; die Liste der Änderungen sagt, was neu ist. Installieren Sie darüber: Patienten, Sitzungen und Einstellungen bleiben. Machen Sie vorher eine Sicherung.</translation>
-    </message>
-    <message>
-        <source>Parts and their licences</source>
-        <translation>Teile und ihre Lizenzen</translation>
     </message>
     <message>
         <source>Camera</source>
@@ -10897,94 +10903,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Sicherheit</translation>
     </message>
     <message>
-        <source>Looks and language</source>
-        <translation>Aussehen, Sprache</translation>
-    </message>
-    <message>
         <source>Settings</source>
         <translation>Einstellungen</translation>
-    </message>
-    <message>
-        <source>The folder of the clinic’s packages cannot be read: {folder}.</source>
-        <translation>Der Ordner mit den Paketen der Klinik ist nicht lesbar: {folder}.</translation>
-    </message>
-    <message>
-        <source>Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions and settings stay. Make a back-up before.</source>
-        <translation>Version {newest} liegt zum Installieren bereit, in {folder}. Installieren Sie sie über diese: Patienten, Sitzungen und Einstellungen bleiben. Machen Sie vorher eine Sicherung.</translation>
-    </message>
-    <message>
-        <source>The clinic’s packages in {folder} are not newer than this version.</source>
-        <translation>Die Pakete der Klinik in {folder} sind nicht neuer als diese Version.</translation>
     </message>
     <message>
         <source>Data folder</source>
         <translation>Datenordner</translation>
     </message>
     <message>
-        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming. No value changes by it.</source>
-        <translation>Zeigt, was der Alltag einer Klinik nicht braucht: Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Formate eines Exports, die Reihenfolge der Winkel, Streaming. Kein Wert ändert sich dadurch.</translation>
-    </message>
-    <message>
-        <source>Compute from test-retest sessions…</source>
-        <translation>Aus Test-Retest-Sitzungen berechnen…</translation>
-    </message>
-    <message>
         <source>Reading the sessions…</source>
         <translation>Sitzungen werden gelesen…</translation>
-    </message>
-    <message>
-        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is counted down, and Space takes it back.</source>
-        <translation>Für Hände, die den Arm des Patienten halten. Die Taste darf weit weg sein: Ein Pedal oder ein Presenter ist eine Tastatur mit wenigen Tasten. Bild ab geht weiter, nimmt auf und beendet. Vor einem Start von selbst wird gezählt, und die Leertaste nimmt ihn zurück.</translation>
-    </message>
-    <message>
-        <source>A demo: what is chosen here holds until it is closed.</source>
-        <translation>Demo: Was hier gewählt wird, gilt, bis sie geschlossen wird.</translation>
-    </message>
-</context>
-<context>
-    <name>Dialog</name>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
-        <source>What you typed is not kept yet. Esc once more closes without it.</source>
-        <translation>Was Sie getippt haben, ist noch nicht gespeichert. Noch einmal Esc verwirft es.</translation>
-    </message>
-</context>
-<context>
-    <name>MarkerQuestion</name>
-    <message>
-        <source>Is this blue spot the {marker}?</source>
-        <translation>Ist diese blaue Stelle: {marker}?</translation>
-    </message>
-    <message>
-        <source>Yes</source>
-        <translation>Ja</translation>
-    </message>
-    <message>
-        <source>No</source>
-        <translation>Nein</translation>
-    </message>
-    <message>
-        <source>Which one is the {marker}?</source>
-        <translation>Welche ist: {marker}?</translation>
-    </message>
-    <message>
-        <source>Disc 1</source>
-        <translation>Punkt 1</translation>
-    </message>
-    <message>
-        <source>Spot 2</source>
-        <translation>Stelle 2</translation>
-    </message>
-    <message>
-        <source>Neither</source>
-        <translation>Keine</translation>
     </message>
 </context>
 <context>
@@ -11026,6 +10954,13 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>TimeSlider</name>
+    <message>
+        <source>Time in the session</source>
+        <translation>Zeit in der Sitzung</translation>
+    </message>
+</context>
+<context>
     <name>TopBar</name>
     <message>
         <source>Back (Esc)</source>
@@ -11045,41 +10980,133 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PlaybackControls</name>
+    <name>TopBarController</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Voriges Bild (←)</translation>
+        <source>Exercise</source>
+        <translation>Übung</translation>
     </message>
     <message>
-        <source>Next picture (→)</source>
-        <translation>Nächstes Bild (→)</translation>
+        <source>Camera</source>
+        <translation>Kamera</translation>
     </message>
     <message>
-        <source>Play (Space)</source>
-        <translation>Abspielen (Leertaste)</translation>
+        <source>Markers</source>
+        <translation>Marker</translation>
     </message>
     <message>
-        <source>Stop</source>
-        <translation>Stopp</translation>
+        <source>Measure</source>
+        <translation>Messen</translation>
     </message>
     <message>
-        <source>Play</source>
-        <translation>Abspielen</translation>
+        <source>Sessions</source>
+        <translation>Sitzungen</translation>
     </message>
     <message>
-        <source>{factor}× speed</source>
-        <translation>{factor}× Tempo</translation>
+        <source>Review</source>
+        <translation>Auswertung</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>Verlauf</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>Simulated hand: this is not {name}, and does not count.</source>
+        <translation>Simulierte Hand: Das ist nicht {name} und zählt nicht.</translation>
+    </message>
+    <message>
+        <source>This session does not count.</source>
+        <translation>Diese Sitzung zählt nicht.</translation>
+    </message>
+    <message>
+        <source>Measured although doubtful: {findings}</source>
+        <translation>Trotz Zweifel gemessen: {findings}</translation>
+    </message>
+    <message>
+        <source>Saved {time}</source>
+        <translation>Gespeichert {time}</translation>
+    </message>
+    <message>
+        <source>Simulated camera</source>
+        <translation>Simulierte Kamera</translation>
+    </message>
+    <message>
+        <source>Recording {name}</source>
+        <translation>Aufnahme {name}</translation>
+    </message>
+    <message>
+        <source>Camera ready</source>
+        <translation>Kamera bereit</translation>
+    </message>
+    <message>
+        <source>No camera</source>
+        <translation>Keine Kamera</translation>
+    </message>
+    <message>
+        <source>{percent} %</source>
+        <translation>{percent} %</translation>
+    </message>
+    <message>
+        <source>Tracking again {percent}</source>
+        <translation>Neu verfolgt {percent}</translation>
+    </message>
+    <message>
+        <source>How far it is, and Stop</source>
+        <translation>Wie weit es ist, und Stopp</translation>
+    </message>
+    <message>
+        <source>New result: choose</source>
+        <translation>Neues Ergebnis: wählen</translation>
+    </message>
+    <message>
+        <source>{count} new results: choose</source>
+        <translation>{count} neue Ergebnisse: wählen</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>Wählen</translation>
+    </message>
+    <message>
+        <source>Old and new over each other</source>
+        <translation>Alt und neu übereinander</translation>
+    </message>
+    <message>
+        <source>{count} pictures/s</source>
+        <translation>{count} Bilder/s</translation>
+    </message>
+    <message>
+        <source>{count} pictures/s, under {least}</source>
+        <translation>{count} Bilder/s, unter {least}</translation>
+    </message>
+    <message>
+        <source>{words}, {lost} lost</source>
+        <translation>{words}, {lost} verloren</translation>
+    </message>
+    <message>
+        <source>Movement is being drawn</source>
+        <translation>Bewegung wird gezeichnet</translation>
+    </message>
+    <message>
+        <source>{time} of disk left</source>
+        <translation>Platz für {time}</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
+        <translation>Der Server der Einrichtung antwortet nicht: Bis er es tut, können Patienten und ihre Sitzungen weder gezeigt noch geändert werden. Messen geht weiter.</translation>
     </message>
 </context>
 <context>
     <name>ValueField</name>
     <message>
-        <source>A number from {least} to {most}, or empty</source>
-        <translation>Eine Zahl von {least} bis {most}, oder leer</translation>
+        <source>Enter a number from {least} to {most}, or leave it empty</source>
+        <translation>Geben Sie eine Zahl von {least} bis {most} ein, oder lassen Sie das Feld leer</translation>
     </message>
     <message>
-        <source>{value}? Usual is {low} to {high}</source>
-        <translation>{value}? Üblich ist {low} bis {high}</translation>
+        <source>{value}? Typical range: {low} to {high}</source>
+        <translation>{value}? Typischer Bereich: {low} bis {high}</translation>
     </message>
 </context>
 <context>
@@ -11102,21 +11129,22 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>NavigationButton</name>
+    <name>VersionChoice</name>
     <message>
-        <source>{name}, you are here</source>
-        <translation>{name}, hier sind Sie</translation>
+        <source>Results of this recording</source>
+        <translation>Ergebnisse dieser Aufnahme</translation>
     </message>
     <message>
-        <source>{name}, done</source>
-        <translation>{name}, erledigt</translation>
+        <source>{number} · {day}</source>
+        <translation>{number} · {day}</translation>
     </message>
-</context>
-<context>
-    <name>PathsChart</name>
     <message>
-        <source>Ways in three planes</source>
-        <translation>Wege in drei Ebenen</translation>
+        <source>{result}, counts</source>
+        <translation>{result}, zählt</translation>
+    </message>
+    <message>
+        <source>Let this one count</source>
+        <translation>Dieses zählen lassen</translation>
     </message>
 </context>
 <context>
@@ -11233,21 +11261,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>_OfflineView</name>
-    <message>
-        <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
-        <translation>Die Liste der Patienten kommt von selbst zurück. Um jetzt zu messen, geben Sie oben den erfundenen Namen ein: Die Sitzung bleibt erhalten und steht in der Liste, sobald der Server antwortet.</translation>
-    </message>
-    <message>
-        <source>Measure “{name}”</source>
-        <translation>„{name}“ messen</translation>
-    </message>
-    <message>
-        <source>Measure without the list</source>
-        <translation>Ohne die Liste messen</translation>
-    </message>
-</context>
-<context>
     <name>_EmptyView</name>
     <message>
         <source>No patient “{name}”.</source>
@@ -11260,6 +11273,21 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
+    </message>
+</context>
+<context>
+    <name>_OfflineView</name>
+    <message>
+        <source>The patient list returns when the server answers. To measure now, enter the patient’s made-up name above. The session is saved and appears in the list later.</source>
+        <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben den erfundenen Namen ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
+    </message>
+    <message>
+        <source>Measure “{name}”</source>
+        <translation>„{name}“ messen</translation>
+    </message>
+    <message>
+        <source>Measure without the list</source>
+        <translation>Ohne die Liste messen</translation>
     </message>
 </context>
 </TS>

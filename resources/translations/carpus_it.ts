@@ -4,30 +4,6 @@
 <context>
     <name></name>
     <message>
-        <source>Not held: {names}. Correct a picture soon after too.</source>
-        <translation>Non mantenuti: {names}. Correggere anche un’immagine poco dopo.</translation>
-    </message>
-    <message>
-        <source>Hardly seen any more: {names}. What they show has no value then.</source>
-        <translation>Quasi più visibili: {names}. Ciò che mostrano resta senza valore.</translation>
-    </message>
-    <message>
-        <source>{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.</source>
-        <translation>{count} immagini su {common} differiscono di più di 2°, al massimo a {time}: {angle}, {size}.</translation>
-    </message>
-    <message>
-        <source>No picture differs by more than 2°.</source>
-        <translation>Nessuna immagine differisce di più di 2°.</translation>
-    </message>
-    <message>
-        <source>{count} pictures have an angle that had none.</source>
-        <translation>{count} immagini hanno un angolo che prima mancava.</translation>
-    </message>
-    <message>
-        <source>As measured live: one of the two was not looked back at.</source>
-        <translation>Come misurato dal vivo: uno dei due non è stato ricalcolato a posteriori.</translation>
-    </message>
-    <message>
         <source>Close Carpus</source>
         <translation>Chiudi Carpus</translation>
     </message>
@@ -220,20 +196,28 @@
         <translation>{name}, colpita</translation>
     </message>
     <message>
-        <source>{name}, healthy</source>
-        <translation>{name}, sana</translation>
-    </message>
-    <message>
         <source>{name} · mirrored</source>
         <translation>{name} · speculare</translation>
     </message>
     <message>
-        <source>Shown beside each other, not judged.</source>
-        <translation>Mostrate una accanto all’altra, non valutate.</translation>
+        <source>{name}, unaffected</source>
+        <translation>{name}, non colpita</translation>
     </message>
     <message>
-        <source>Not judged: there is no movement that both have.</source>
-        <translation>Non valutato: nessun movimento è presente in entrambe.</translation>
+        <source>Shown side by side, without a comparison.</source>
+        <translation>Mostrate affiancate, senza confronto.</translation>
+    </message>
+    <message>
+        <source>Not compared: the two sessions share no movement.</source>
+        <translation>Non confrontate: le due sedute non hanno movimenti in comune.</translation>
+    </message>
+    <message>
+        <source>Not compared: {why}.</source>
+        <translation>Non confrontate: {why}.</translation>
+    </message>
+    <message>
+        <source>Occluded frames are not analysed.</source>
+        <translation>Le immagini in cui è coperto non vengono analizzate.</translation>
     </message>
     <message>
         <source>No difference beyond measurement error between right and left.</source>
@@ -256,12 +240,80 @@
         <translation>{movement}: a sinistra {size} più che a destra.</translation>
     </message>
     <message>
-        <source>{movement} {first} against {second}: more than the measurement error of {limit}.</source>
-        <translation>{movement} {first} contro {second}: più dell’errore di misura di {limit}.</translation>
+        <source>{movement}: {first} versus {second}, above the measurement error of {limit}.</source>
+        <translation>{movement}: {first} contro {second}, oltre l’errore di misura di {limit}.</translation>
     </message>
     <message>
-        <source>{movement} {first} against {second}: within the measurement error of {limit}.</source>
-        <translation>{movement} {first} contro {second}: entro l’errore di misura di {limit}.</translation>
+        <source>{movement}: {first} versus {second}, within the measurement error of {limit}.</source>
+        <translation>{movement}: {first} contro {second}, entro l’errore di misura di {limit}.</translation>
+    </message>
+    <message>
+        <source>Not comparable: {why}. Values are shown without an assessment.</source>
+        <translation>Non confrontabili: {why}. I valori sono mostrati senza valutazione.</translation>
+    </message>
+    <message>
+        <source>{name}, mean ± SD</source>
+        <translation>{name}, media ± DS</translation>
+    </message>
+    <message>
+        <source>MDC95</source>
+        <translation>MDC95</translation>
+    </message>
+    <message>
+        <source>Assessment</source>
+        <translation>Valutazione</translation>
+    </message>
+    <message>
+        <source>partly occluded</source>
+        <translation>in parte coperto</translation>
+    </message>
+    <message>
+        <source>≥ {difference}</source>
+        <translation>≥ {difference}</translation>
+    </message>
+    <message>
+        <source>not compared: in one session only</source>
+        <translation>non confrontato: solo in una seduta</translation>
+    </message>
+    <message>
+        <source>not compared: {why}</source>
+        <translation>non confrontato: {why}</translation>
+    </message>
+    <message>
+        <source>improved (above MDC)</source>
+        <translation>migliorato (oltre l’errore di misura)</translation>
+    </message>
+    <message>
+        <source>worse (above MDC)</source>
+        <translation>peggiorato (oltre l’errore di misura)</translation>
+    </message>
+    <message>
+        <source>no difference beyond MDC</source>
+        <translation>nessuna differenza oltre l’errore di misura</translation>
+    </message>
+    <message>
+        <source>less than left (above MDC)</source>
+        <translation>meno della sinistra (oltre l’errore di misura)</translation>
+    </message>
+    <message>
+        <source>less than right (above MDC)</source>
+        <translation>meno della destra (oltre l’errore di misura)</translation>
+    </message>
+    <message>
+        <source>more than left (above MDC)</source>
+        <translation>più della sinistra (oltre l’errore di misura)</translation>
+    </message>
+    <message>
+        <source>more than right (above MDC)</source>
+        <translation>più della destra (oltre l’errore di misura)</translation>
+    </message>
+    <message>
+        <source>The other hand is a comparison, not a norm: left and right differ in healthy people too.</source>
+        <translation>L’altra mano è un confronto, non una norma: destra e sinistra differiscono anche nelle persone sane.</translation>
+    </message>
+    <message>
+        <source>PIP joints of all fingers</source>
+        <translation>Articolazioni IFP di tutte le dita</translation>
     </message>
     <message>
         <source>same exercise, same day, same set-up</source>
@@ -280,64 +332,12 @@
         <translation>{name}: {what}</translation>
     </message>
     <message>
-        <source>{name}, mean ± sd</source>
-        <translation>{name}, ± DS</translation>
-    </message>
-    <message>
         <source>Difference</source>
         <translation>Differenza</translation>
     </message>
     <message>
-        <source>Error</source>
-        <translation>Errore</translation>
-    </message>
-    <message>
-        <source>at least {difference}</source>
-        <translation>almeno {difference}</translation>
-    </message>
-    <message>
         <source>not judged</source>
         <translation>non valutato</translation>
-    </message>
-    <message>
-        <source>not judged: only one of the two has it</source>
-        <translation>non valutato: c’è solo in una delle due</translation>
-    </message>
-    <message>
-        <source>improved, beyond error</source>
-        <translation>miglioramento, oltre l’errore</translation>
-    </message>
-    <message>
-        <source>worse, beyond error</source>
-        <translation>peggioramento, oltre l’errore</translation>
-    </message>
-    <message>
-        <source>no difference beyond error</source>
-        <translation>nessuna differenza oltre l’errore</translation>
-    </message>
-    <message>
-        <source>less than the left, beyond error</source>
-        <translation>meno della sinistra, oltre l’errore</translation>
-    </message>
-    <message>
-        <source>less than the right, beyond error</source>
-        <translation>meno della destra, oltre l’errore</translation>
-    </message>
-    <message>
-        <source>more than the left, beyond error</source>
-        <translation>più della sinistra, oltre l’errore</translation>
-    </message>
-    <message>
-        <source>more than the right, beyond error</source>
-        <translation>più della destra, oltre l’errore</translation>
-    </message>
-    <message>
-        <source>The other hand is a comparison, not a norm: hands of one person differ by themselves.</source>
-        <translation>L’altra mano è un confronto, non una norma: le mani di una persona differiscono già di per sé.</translation>
-    </message>
-    <message>
-        <source>Middle joints of all fingers</source>
-        <translation>Articolazioni medie di tutte le dita</translation>
     </message>
     <message>
         <source>improved</source>
@@ -688,6 +688,50 @@
         <translation>Dentro {angle}</translation>
     </message>
     <message>
+        <source>Measurement error (MDC95)</source>
+        <translation>Errore di misura (MDC95)</translation>
+    </message>
+    <message>
+        <source>On {date} with {count} people in {sessions} sessions, 95 % intervals in brackets.</source>
+        <translation>In data {date} con {count} persone in {sessions} sedute, fra parentesi gli intervalli al 95 %.</translation>
+    </message>
+    <message>
+        <source>Used in progress and reports instead of the values above.</source>
+        <translation>Usato in andamento e relazioni al posto dei valori sopra.</translation>
+    </message>
+    <message>
+        <source>Not used: at least {count} people are needed.</source>
+        <translation>Non usato: servono almeno {count} persone.</translation>
+    </message>
+    <message>
+        <source>{count} people, not used</source>
+        <translation>{count} persone, non usato</translation>
+    </message>
+    <message>
+        <source>Flexion–extension, total arc</source>
+        <translation>Flesso-estensione, arco totale</translation>
+    </message>
+    <message>
+        <source>Radial–ulnar deviation, total arc</source>
+        <translation>Deviazione radio-ulnare, arco totale</translation>
+    </message>
+    <message>
+        <source>Pronation–supination, total arc</source>
+        <translation>Prono-supinazione, arco totale</translation>
+    </message>
+    <message>
+        <source>Range of motion of a finger’s MCP, PIP or DIP</source>
+        <translation>Escursione di MCF, IFP o IFD di un dito</translation>
+    </message>
+    <message>
+        <source>Range of finger abduction</source>
+        <translation>Escursione dell’abduzione di un dito</translation>
+    </message>
+    <message>
+        <source>Range of motion of the thumb joints</source>
+        <translation>Escursione delle articolazioni del pollice</translation>
+    </message>
+    <message>
         <source>Total active motion (TAM)</source>
         <translation>Movimento attivo totale (TAM)</translation>
     </message>
@@ -696,44 +740,12 @@
         <translation>{row}, escursione</translation>
     </message>
     <message>
-        <source>Carpus: discs and set-up</source>
-        <translation>Carpus: dischetti e preparazione</translation>
-    </message>
-    <message>
-        <source>Where the discs go</source>
-        <translation>Dove vanno i dischetti</translation>
-    </message>
-    <message>
         <source>Blue matt paper, 12 mm, on clean dry skin</source>
         <translation>Carta blu opaca, 12 mm, su pelle pulita e asciutta</translation>
     </message>
     <message>
-        <source>1. Wrist: middle of the back of the wrist, over the crease of the lifted hand.</source>
-        <translation>1. Polso: al centro del dorso, sopra la piega della mano sollevata.</translation>
-    </message>
-    <message>
-        <source>2. Thumb base: on the bony edge, a thumb&apos;s width from the wrist disc.</source>
-        <translation>2. Base del pollice: sul bordo osseo, a un pollice di distanza dal dischetto del polso.</translation>
-    </message>
-    <message>
-        <source>3. Knuckles: on the back of the hand just behind each knuckle.</source>
-        <translation>3. Nocche: sul dorso della mano, subito dietro ogni nocca.</translation>
-    </message>
-    <message>
-        <source>Whole hand: also on the creases of every joint, and on the nails. Small fingers: 8 mm.</source>
-        <translation>Mano intera: anche sulle pieghe di ogni articolazione e sulle unghie. Dita piccole: 8 mm.</translation>
-    </message>
-    <message>
         <source>The left hand is the mirror image.</source>
         <translation>La mano sinistra è speculare.</translation>
-    </message>
-    <message>
-        <source>Put them where they were last time. Never on wounds, dressings or fragile skin.</source>
-        <translation>Metterli dov’erano l’ultima volta. Mai su ferite, medicazioni o pelle fragile.</translation>
-    </message>
-    <message>
-        <source>Nothing else blue in the picture: no sleeve, pen, ring or nail.</source>
-        <translation>Nient’altro di blu nell’immagine: né maniche, penne, anelli, unghie.</translation>
     </message>
     <message>
         <source>{size} mm</source>
@@ -748,36 +760,68 @@
         <translation>Preparazione</translation>
     </message>
     <message>
-        <source>Camera, arm, light, picture</source>
+        <source>Carpus: markers and set-up</source>
+        <translation>Carpus: marcatori e preparazione</translation>
+    </message>
+    <message>
+        <source>Where the markers go</source>
+        <translation>Dove vanno i marcatori</translation>
+    </message>
+    <message>
+        <source>1. Wrist: middle of the dorsal side, over the crease of the extended wrist.</source>
+        <translation>1. Polso: al centro del dorso, sopra la piega del polso esteso.</translation>
+    </message>
+    <message>
+        <source>2. Thumb base (CMC): on the bony edge, one thumb’s width from the wrist marker.</source>
+        <translation>2. Base del pollice (CMC): sul bordo osseo, a un pollice dal marcatore del polso.</translation>
+    </message>
+    <message>
+        <source>3. MCP joints: on the back of the hand, just proximal to each knuckle.</source>
+        <translation>3. Articolazioni MCF: sul dorso della mano, subito prossimali a ogni nocca.</translation>
+    </message>
+    <message>
+        <source>Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm.</source>
+        <translation>Mano intera: anche sulla piega di ogni articolazione delle dita e sulle unghie. Dita piccole: 8 mm.</translation>
+    </message>
+    <message>
+        <source>Place them where they were last time, never on wounds, dressings or fragile skin.</source>
+        <translation>Metterli dov’erano l’ultima volta, mai su ferite, medicazioni o pelle fragile.</translation>
+    </message>
+    <message>
+        <source>Keep everything else blue out of view: sleeves, pens, rings, nails.</source>
+        <translation>Togliere dall’inquadratura ogni altra cosa blu: maniche, penne, anelli, unghie.</translation>
+    </message>
+    <message>
+        <source>Camera, arm, light, image</source>
         <translation>Telecamera, braccio, luce, immagine</translation>
     </message>
     <message>
-        <source>1. Camera 70 to 80 cm above the table, straight down, tied with a cord. Plug it straight in.</source>
-        <translation>1. Telecamera 70–80 cm sopra il tavolo, a piombo, assicurata con un cordino. Collegarla direttamente al computer.</translation>
+        <source>1. Camera 70 to 80 cm above the table, pointing straight down, secured with a cord and connected directly.</source>
+        <translation>1. Telecamera 70–80 cm sopra il tavolo, a piombo, assicurata con un cordino e collegata direttamente al computer.</translation>
     </message>
     <message>
-        <source>2. No sun on the hand; even light from the ceiling; no shadow of the camera&apos;s arm.</source>
-        <translation>2. Niente sole sulla mano; luce uniforme dal soffitto; nessuna ombra del braccio della telecamera.</translation>
+        <source>2. Even light from the ceiling. No sun and no shadow of the camera arm on the hand.</source>
+        <translation>2. Luce uniforme dal soffitto. Né sole né ombra del braccio della telecamera sulla mano.</translation>
     </message>
     <message>
-        <source>3. The forearm rests and stays still. A towel under it lets the hand bend down over the edge.</source>
-        <translation>3. L’avambraccio è appoggiato e fermo. Un asciugamano sotto permette alla mano di piegarsi oltre il bordo.</translation>
+        <source>3. The forearm rests and stays still. A towel under it lets the wrist flex over the edge.</source>
+        <translation>3. L’avambraccio è appoggiato e fermo. Un asciugamano sotto permette al polso di flettersi oltre il bordo.</translation>
     </message>
     <message>
-        <source>4. Clear the table of everything blue. Roll up a blue sleeve.</source>
+        <source>4. Remove everything blue from the table. Roll up blue sleeves.</source>
         <translation>4. Togliere dal tavolo tutto ciò che è blu. Arrotolare le maniche blu.</translation>
     </message>
     <message>
-        <source>5. Choose the patient, Enter. Lay the hand flat and still, Space takes the picture.</source>
-        <translation>5. Scegliere il paziente, Invio. Mano piatta e ferma, la barra spaziatrice scatta l’immagine.</translation>
+        <source>5. Choose the patient and press Enter. Lay the hand flat and still and press Space.</source>
+        <translation>5. Scegliere il paziente e premere Invio. Con la mano piatta e ferma premere la barra spaziatrice.</translation>
     </message>
     <message>
-        <source>6. Click the discs in the order of the drawing; check the names of the whole hand.</source>
-        <translation>6. Fare clic sui dischetti nell’ordine del disegno; con la mano intera controllare i nomi.</translation>
+        <source>6. Click the markers in the order of the drawing. For the whole hand, check the labels.</source>
+        <translation>6. Fare clic sui marcatori nell’ordine del disegno. Con la mano intera controllare le etichette.</translation>
     </message>
     <message>
-        <source>7. All checks green: Enter. Space records, Space stops and opens the review.</source>
-        <translation>7. Tutti i controlli verdi: Invio. La barra spaziatrice registra, poi ferma e apre la revisione.</translation>
+        <source>7. When all checks are green, press Enter. Space starts the recording, and ends it and opens the review.</source>
+        <translation>7. Quando tutti i controlli sono verdi, premere Invio. La barra spaziatrice avvia la registrazione, poi la termina e apre la revisione.</translation>
     </message>
     <message>
         <source>Stop at pain of 5 or more, at 2 more than before, at numbness, swelling or dizziness.</source>
@@ -840,6 +884,182 @@
         <translation>Indietro</translation>
     </message>
     <message>
+        <source>Start recording, or stop and review</source>
+        <translation>Avvia la registrazione, o termina e rivedi</translation>
+    </message>
+    <message>
+        <source>Pedal: continue, record, stop</source>
+        <translation>Pedale: avanti, registra, termina</translation>
+    </message>
+    <message>
+        <source>Pause or resume</source>
+        <translation>Pausa o ripresa</translation>
+    </message>
+    <message>
+        <source>Hide or show the overlay</source>
+        <translation>Nascondi o mostra i segni sull’immagine</translation>
+    </message>
+    <message>
+        <source>One value large, or all values</source>
+        <translation>Un valore in grande, o tutti</translation>
+    </message>
+    <message>
+        <source>Next angle as large number</source>
+        <translation>Angolo seguente come numero grande</translation>
+    </message>
+    <message>
+        <source>Next finger as large number</source>
+        <translation>Dito seguente come numero grande</translation>
+    </message>
+    <message>
+        <source>Blue spot: first answer, or yes</source>
+        <translation>Punto blu: prima risposta, o sì</translation>
+    </message>
+    <message>
+        <source>Blue spot: second answer</source>
+        <translation>Punto blu: seconda risposta</translation>
+    </message>
+    <message>
+        <source>Blue spot: neither, or no</source>
+        <translation>Punto blu: nessuna delle due, o no</translation>
+    </message>
+    <message>
+        <source>Accept the proposed marker</source>
+        <translation>Accetta il marcatore proposto</translation>
+    </message>
+    <message>
+        <source>Zoom magnifier in</source>
+        <translation>Ingrandisci la lente</translation>
+    </message>
+    <message>
+        <source>Zoom magnifier out</source>
+        <translation>Riduci la lente</translation>
+    </message>
+    <message>
+        <source>New image</source>
+        <translation>Nuova immagine</translation>
+    </message>
+    <message>
+        <source>Enlarge the image of the last session</source>
+        <translation>Ingrandisci l’immagine dell’ultima seduta</translation>
+    </message>
+    <message>
+        <source>Thumb cannot fully extend</source>
+        <translation>Il pollice non si estende del tutto</translation>
+    </message>
+    <message>
+        <source>Index finger cannot fully extend</source>
+        <translation>L’indice non si estende del tutto</translation>
+    </message>
+    <message>
+        <source>Middle finger cannot fully extend</source>
+        <translation>Il medio non si estende del tutto</translation>
+    </message>
+    <message>
+        <source>Ring finger cannot fully extend</source>
+        <translation>L’anulare non si estende del tutto</translation>
+    </message>
+    <message>
+        <source>Little finger cannot fully extend</source>
+        <translation>Il mignolo non si estende del tutto</translation>
+    </message>
+    <message>
+        <source>Play or stop</source>
+        <translation>Riproduci o interrompi</translation>
+    </message>
+    <message>
+        <source>Previous frame</source>
+        <translation>Immagine precedente</translation>
+    </message>
+    <message>
+        <source>Next frame</source>
+        <translation>Immagine seguente</translation>
+    </message>
+    <message>
+        <source>Exclude or include a repetition</source>
+        <translation>Escludi o includi una ripetizione</translation>
+    </message>
+    <message>
+        <source>Cycle: angles, path, speeds, Euler ZYZ</source>
+        <translation>A turno: angoli, percorso, velocità, Eulero ZYZ</translation>
+    </message>
+    <message>
+        <source>Move the repetition boundary earlier</source>
+        <translation>Anticipa il limite della ripetizione</translation>
+    </message>
+    <message>
+        <source>Move the repetition boundary later</source>
+        <translation>Posticipa il limite della ripetizione</translation>
+    </message>
+    <message>
+        <source>Zoom curves in</source>
+        <translation>Ingrandisci le curve</translation>
+    </message>
+    <message>
+        <source>Zoom curves out</source>
+        <translation>Riduci le curve</translation>
+    </message>
+    <message>
+        <source>Show whole curves</source>
+        <translation>Mostra le curve intere</translation>
+    </message>
+    <message>
+        <source>Select previous session</source>
+        <translation>Seleziona la seduta precedente</translation>
+    </message>
+    <message>
+        <source>Select next session</source>
+        <translation>Seleziona la seduta seguente</translation>
+    </message>
+    <message>
+        <source>Open the selected session</source>
+        <translation>Apri la seduta selezionata</translation>
+    </message>
+    <message>
+        <source>Correct a marker</source>
+        <translation>Correggi un marcatore</translation>
+    </message>
+    <message>
+        <source>Previous frame to correct</source>
+        <translation>Immagine precedente da correggere</translation>
+    </message>
+    <message>
+        <source>Next frame to correct</source>
+        <translation>Immagine seguente da correggere</translation>
+    </message>
+    <message>
+        <source>Marker not visible here</source>
+        <translation>Marcatore qui non visibile</translation>
+    </message>
+    <message>
+        <source>Undo a step</source>
+        <translation>Annulla un passo</translation>
+    </message>
+    <message>
+        <source>Next uncertain frame</source>
+        <translation>Immagine incerta seguente</translation>
+    </message>
+    <message>
+        <source>Draw the angle on the frame</source>
+        <translation>Disegna l’angolo sull’immagine</translation>
+    </message>
+    <message>
+        <source>This frame with the hand only</source>
+        <translation>Questa immagine con la sola mano</translation>
+    </message>
+    <message>
+        <source>Tick a session to compare</source>
+        <translation>Seleziona una seduta da confrontare</translation>
+    </message>
+    <message>
+        <source>Compare the two ticked sessions</source>
+        <translation>Confronta le due sedute selezionate</translation>
+    </message>
+    <message>
+        <source>Compare with the other hand or another day</source>
+        <translation>Confronta con l’altra mano o con un altro giorno</translation>
+    </message>
+    <message>
         <source>Ctrl</source>
         <translation>Ctrl</translation>
     </message>
@@ -868,10 +1088,6 @@
         <translation>Tab</translation>
     </message>
     <message>
-        <source>Record, and stop and review</source>
-        <translation>Registra, poi ferma e rivedi</translation>
-    </message>
-    <message>
         <source>Note</source>
         <translation>Nota</translation>
     </message>
@@ -880,68 +1096,24 @@
         <translation>Foglio per casa</translation>
     </message>
     <message>
-        <source>Go back</source>
-        <translation>Indietro</translation>
-    </message>
-    <message>
-        <source>Pedal: go on, record, stop</source>
-        <translation>Pedale: avanti, registra, ferma</translation>
-    </message>
-    <message>
         <source>Pain score</source>
         <translation>Punteggio del dolore</translation>
-    </message>
-    <message>
-        <source>Pause and go on</source>
-        <translation>Pausa e ripresa</translation>
-    </message>
-    <message>
-        <source>Hide or show the marks on the picture</source>
-        <translation>Nascondi o mostra i segni sull’immagine</translation>
-    </message>
-    <message>
-        <source>Whole picture or hand area</source>
-        <translation>Immagine intera o area della mano</translation>
     </message>
     <message>
         <source>Speeds or angles</source>
         <translation>Velocità o angoli</translation>
     </message>
     <message>
+        <source>Whole frame or hand area</source>
+        <translation>Immagine intera o area della mano</translation>
+    </message>
+    <message>
         <source>Open and close the patient’s view</source>
         <translation>Apri e chiudi la vista del paziente</translation>
     </message>
     <message>
-        <source>One figure large, or all</source>
-        <translation>Un valore in grande, o tutti</translation>
-    </message>
-    <message>
-        <source>Next angle as big number</source>
-        <translation>Angolo seguente come numero grande</translation>
-    </message>
-    <message>
-        <source>Next finger as big number</source>
-        <translation>Dito seguente come numero grande</translation>
-    </message>
-    <message>
         <source>One finger from the side</source>
         <translation>Un dito di lato</translation>
-    </message>
-    <message>
-        <source>Answer about a blue spot: disc 1, or yes</source>
-        <translation>Rispondi su un punto blu: dischetto 1, o sì</translation>
-    </message>
-    <message>
-        <source>Answer about a blue spot: spot 2</source>
-        <translation>Rispondi su un punto blu: punto 2</translation>
-    </message>
-    <message>
-        <source>Answer about a blue spot: neither, or no</source>
-        <translation>Rispondi su un punto blu: nessuno dei due, o no</translation>
-    </message>
-    <message>
-        <source>Accept the marker found</source>
-        <translation>Accetta il marcatore trovato</translation>
     </message>
     <message>
         <source>Undo the last marker</source>
@@ -952,14 +1124,6 @@
         <translation>Marcatore seguente</translation>
     </message>
     <message>
-        <source>Larger loupe</source>
-        <translation>Lente più grande</translation>
-    </message>
-    <message>
-        <source>Smaller loupe</source>
-        <translation>Lente più piccola</translation>
-    </message>
-    <message>
         <source>Swap two markers</source>
         <translation>Scambia due marcatori</translation>
     </message>
@@ -968,44 +1132,8 @@
         <translation>Nuova immagine</translation>
     </message>
     <message>
-        <source>Last time&apos;s picture larger</source>
-        <translation>Immagine dell’ultima volta più grande</translation>
-    </message>
-    <message>
         <source>Click again</source>
         <translation>Rifai il clic</translation>
-    </message>
-    <message>
-        <source>Thumb cannot lie straight</source>
-        <translation>Il pollice non può stare dritto</translation>
-    </message>
-    <message>
-        <source>Index finger cannot lie straight</source>
-        <translation>L’indice non può stare dritto</translation>
-    </message>
-    <message>
-        <source>Middle finger cannot lie straight</source>
-        <translation>Il medio non può stare dritto</translation>
-    </message>
-    <message>
-        <source>Ring finger cannot lie straight</source>
-        <translation>L’anulare non può stare dritto</translation>
-    </message>
-    <message>
-        <source>Little finger cannot lie straight</source>
-        <translation>Il mignolo non può stare dritto</translation>
-    </message>
-    <message>
-        <source>Play and stop</source>
-        <translation>Riproduci e ferma</translation>
-    </message>
-    <message>
-        <source>Previous picture</source>
-        <translation>Immagine precedente</translation>
-    </message>
-    <message>
-        <source>Next picture</source>
-        <translation>Immagine seguente</translation>
     </message>
     <message>
         <source>Previous repetition</source>
@@ -1014,86 +1142,6 @@
     <message>
         <source>Next repetition</source>
         <translation>Ripetizione seguente</translation>
-    </message>
-    <message>
-        <source>Leave a repetition out, or take it back</source>
-        <translation>Escludi una ripetizione, o riprendila</translation>
-    </message>
-    <message>
-        <source>Angles, path, speeds, ZYZ in turn</source>
-        <translation>Angoli, percorso, velocità, ZYZ a turno</translation>
-    </message>
-    <message>
-        <source>Move the repetition&apos;s edge back</source>
-        <translation>Sposta indietro il bordo della ripetizione</translation>
-    </message>
-    <message>
-        <source>Move the repetition&apos;s edge on</source>
-        <translation>Sposta avanti il bordo della ripetizione</translation>
-    </message>
-    <message>
-        <source>Less time of the curves, larger</source>
-        <translation>Meno tempo delle curve, più grande</translation>
-    </message>
-    <message>
-        <source>More time of the curves</source>
-        <translation>Più tempo delle curve</translation>
-    </message>
-    <message>
-        <source>All of the curves</source>
-        <translation>Tutte le curve</translation>
-    </message>
-    <message>
-        <source>Point at the session before</source>
-        <translation>Indica la seduta precedente</translation>
-    </message>
-    <message>
-        <source>Point at the next session</source>
-        <translation>Indica la seduta seguente</translation>
-    </message>
-    <message>
-        <source>Open the session pointed at</source>
-        <translation>Apri la seduta indicata</translation>
-    </message>
-    <message>
-        <source>Put a marker right</source>
-        <translation>Correggi un marcatore</translation>
-    </message>
-    <message>
-        <source>Previous picture to put right</source>
-        <translation>Immagine precedente da correggere</translation>
-    </message>
-    <message>
-        <source>Next picture to put right</source>
-        <translation>Immagine seguente da correggere</translation>
-    </message>
-    <message>
-        <source>Marker not to be seen here</source>
-        <translation>Marcatore qui non visibile</translation>
-    </message>
-    <message>
-        <source>Take a step back</source>
-        <translation>Annulla un passo</translation>
-    </message>
-    <message>
-        <source>Next doubtful picture</source>
-        <translation>Immagine dubbia seguente</translation>
-    </message>
-    <message>
-        <source>The angle drawn on the picture</source>
-        <translation>L’angolo disegnato sull’immagine</translation>
-    </message>
-    <message>
-        <source>Tick a session to be compared</source>
-        <translation>Seleziona una seduta da confrontare</translation>
-    </message>
-    <message>
-        <source>Compare the two that are ticked</source>
-        <translation>Confronta le due selezionate</translation>
-    </message>
-    <message>
-        <source>Beside the other hand, or another day</source>
-        <translation>Accanto all’altra mano, o a un altro giorno</translation>
     </message>
     <message>
         <source>Mirror the left hand</source>
@@ -1344,12 +1392,12 @@
         <translation>Scambia i due</translation>
     </message>
     <message>
-        <source>1 file was written.</source>
-        <translation>È stato scritto 1 file.</translation>
+        <source>1 file was saved.</source>
+        <translation>È stato salvato 1 file.</translation>
     </message>
     <message>
-        <source>{count} files were written.</source>
-        <translation>Sono stati scritti {count} file.</translation>
+        <source>{count} files were saved.</source>
+        <translation>Sono stati salvati {count} file.</translation>
     </message>
     <message>
         <source>Folder: {folder}</source>
@@ -1360,16 +1408,16 @@
         <translation>File: {names}</translation>
     </message>
     <message>
-        <source>Open the folder</source>
+        <source>Open folder</source>
         <translation>Apri la cartella</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Continua</translation>
     </message>
     <message>
         <source>Enter</source>
         <translation>Invio</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation>Continua</translation>
     </message>
     <message>
         <source>Correct names</source>
@@ -1724,8 +1772,8 @@
         <translation>Provare tutto senza un paziente</translation>
     </message>
     <message>
-        <source>No session counted yet</source>
-        <translation>Nessuna ancora contata</translation>
+        <source>No analysed session yet</source>
+        <translation>Nessuna seduta ancora analizzata</translation>
     </message>
     <message>
         <source>Carpus</source>
@@ -1809,7 +1857,7 @@
     </message>
     <message>
         <source>not compared</source>
-        <translation>non confrontata</translation>
+        <translation>non confrontato</translation>
     </message>
     <message>
         <source>at least: hidden in part</source>
@@ -2022,10 +2070,6 @@
     <message>
         <source>Pictures</source>
         <translation>Immagini</translation>
-    </message>
-    <message>
-        <source>In words</source>
-        <translation>In parole</translation>
     </message>
     <message>
         <source>ext.</source>
@@ -2984,6 +3028,18 @@
         <translation>{pain} a {time}</translation>
     </message>
     <message>
+        <source>Values of a simulated hand are never used.</source>
+        <translation>I valori di una mano simulata non vengono mai usati.</translation>
+    </message>
+    <message>
+        <source>Not usable yet: at least {count} people are needed, 20 are better.</source>
+        <translation>Non ancora utilizzabile: servono almeno {count} persone, meglio 20.</translation>
+    </message>
+    <message>
+        <source>Excluded: {sessions}.</source>
+        <translation>Escluse: {sessions}.</translation>
+    </message>
+    <message>
         <source>more than 14 days later</source>
         <translation>dopo più di 14 giorni</translation>
     </message>
@@ -2992,84 +3048,28 @@
         <translation>manca</translation>
     </message>
     <message>
-        <source>does not count: simulated</source>
-        <translation>non conta: simulata</translation>
-    </message>
-    <message>
-        <source>set aside: {reason}</source>
-        <translation>messa da parte: {reason}</translation>
-    </message>
-    <message>
         <source>cannot be read</source>
         <translation>non si può leggere</translation>
-    </message>
-    <message>
-        <source>its file is not there</source>
-        <translation>il suo file non c’è</translation>
-    </message>
-    <message>
-        <source>What counts as a change</source>
-        <translation>Che cosa vale come cambiamento</translation>
     </message>
     <message>
         <source>Measured by this clinic: {exercise}</source>
         <translation>Misurato da questo centro: {exercise}</translation>
     </message>
     <message>
-        <source>On {date} with {count} people in {sessions} sessions; 95 % intervals in brackets.</source>
-        <translation>In data {date} con {count} persone in {sessions} sedute; fra parentesi gli intervalli al 95 %.</translation>
-    </message>
-    <message>
-        <source>In force in progress and reports, in place of the limits above.</source>
-        <translation>In vigore in andamento e relazioni, al posto dei limiti sopra.</translation>
-    </message>
-    <message>
-        <source>Not in force: {count} people are the least.</source>
-        <translation>Non in vigore: servono almeno {count} persone.</translation>
-    </message>
-    <message>
         <source>SEM {size}</source>
         <translation>SEM {size}</translation>
-    </message>
-    <message>
-        <source>{count} people, not in force</source>
-        <translation>{count} persone, non in vigore</translation>
     </message>
     <message>
         <source>Flexion, extension</source>
         <translation>Flessione, estensione</translation>
     </message>
     <message>
-        <source>Flexion and extension, whole arc</source>
-        <translation>Flessione ed estensione, arco totale</translation>
-    </message>
-    <message>
         <source>Radial, ulnar deviation</source>
         <translation>Deviazione radiale, ulnare</translation>
     </message>
     <message>
-        <source>Deviation, whole arc</source>
-        <translation>Deviazione, arco totale</translation>
-    </message>
-    <message>
         <source>Supination, pronation</source>
         <translation>Supinazione, pronazione</translation>
-    </message>
-    <message>
-        <source>Supination and pronation, whole arc</source>
-        <translation>Supinazione e pronazione, arco totale</translation>
-    </message>
-    <message>
-        <source>Range of a finger’s knuckle, middle or end joint</source>
-        <translation>Escursione di nocca, articolazione media o distale di un dito</translation>
-    </message>
-    <message>
-        <source>Range of a finger’s spreading</source>
-        <translation>Escursione della divaricazione di un dito</translation>
-    </message>
-    <message>
-        <source>Range of the thumb’s joints</source>
-        <translation>Escursione delle articolazioni del pollice</translation>
     </message>
     <message>
         <source>Set: {name}</source>
@@ -4764,10 +4764,6 @@
         <translation>Le articolazioni nascoste non contano.</translation>
     </message>
     <message>
-        <source>The last back-up is of {day}.</source>
-        <translation>L’ultima copia è del {day}.</translation>
-    </message>
-    <message>
         <source>± is the spread between repetitions.</source>
         <translation>± è la dispersione fra ripetizioni.</translation>
     </message>
@@ -4980,14 +4976,6 @@
         <translation>pagina {number} di {count}</translation>
     </message>
     <message>
-        <source>This picture is larger than 8 MB. Choose a smaller one.</source>
-        <translation>Questa immagine supera 8 MB. Sceglierne una più piccola.</translation>
-    </message>
-    <message>
-        <source>This picture is too small to print. Choose one of at least 32 pixels each way.</source>
-        <translation>Questa immagine è troppo piccola per la stampa. Sceglierne una di almeno 32 pixel per lato.</translation>
-    </message>
-    <message>
         <source>Flexion {flexion}, extension {extension}.</source>
         <translation>Flessione {flexion}, estensione {extension}.</translation>
     </message>
@@ -5072,14 +5060,6 @@
         <translation>danneggiata: la sua calibrazione non è quella di una mano</translation>
     </message>
     <message>
-        <source>This picture cannot be read. Choose a PNG or JPEG file.</source>
-        <translation>Questa immagine non si può leggere. Scelga un file PNG o JPEG.</translation>
-    </message>
-    <message>
-        <source>This file is no picture that Carpus can read. Choose a PNG or JPEG file.</source>
-        <translation>Questo file non è un’immagine che Carpus sappia leggere. Scelga un file PNG o JPEG.</translation>
-    </message>
-    <message>
         <source>Names are right</source>
         <translation>I nomi sono giusti</translation>
     </message>
@@ -5152,6 +5132,10 @@
         <translation>ora non c’è</translation>
     </message>
     <message>
+        <source>not connected</source>
+        <translation>non collegata</translation>
+    </message>
+    <message>
         <source>{free} GB free</source>
         <translation>{free} GB liberi</translation>
     </message>
@@ -5160,40 +5144,40 @@
         <translation>sullo stesso disco dei dati</translation>
     </message>
     <message>
-        <source>There is no back-up yet.</source>
+        <source>There is no backup yet.</source>
         <translation>Non c’è ancora nessuna copia.</translation>
     </message>
     <message>
-        <source>Every session is in it.</source>
-        <translation>Ogni seduta è compresa.</translation>
+        <source>It contains every session.</source>
+        <translation>Contiene ogni seduta.</translation>
     </message>
     <message>
-        <source>1 session file is not in it.</source>
-        <translation>1 file di seduta non è compreso.</translation>
+        <source>1 session file is missing from it.</source>
+        <translation>Manca 1 file di seduta.</translation>
     </message>
     <message>
-        <source>{n} session files are not in it.</source>
-        <translation>{n} file di sedute non sono compresi.</translation>
+        <source>{n} session files are missing from it.</source>
+        <translation>Mancano {n} file di sedute.</translation>
     </message>
     <message>
-        <source>{when} · {n} session files, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · {n} file di sedute, {size} GB · riletti e confrontati: tutto uguale</translation>
-    </message>
-    <message>
-        <source>{when} · 1 session file, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · 1 file di seduta, {size} GB · riletto e confrontato: tutto uguale</translation>
-    </message>
-    <message>
-        <source>The last back-up is {days} days old.</source>
+        <source>The last backup is {days} days old.</source>
         <translation>L’ultima copia è di {days} giorni fa.</translation>
+    </message>
+    <message>
+        <source>{when} · {n} session files, {size} GB · verified</source>
+        <translation>{when} · {n} file di sedute, {size} GB · verificati</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session file, {size} GB · verified</source>
+        <translation>{when} · 1 file di seduta, {size} GB · verificato</translation>
+    </message>
+    <message>
+        <source>It is on the same disk as the data. If that disk fails, both are lost.</source>
+        <translation>È sullo stesso disco dei dati. Se il disco si guasta, si perdono entrambi.</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
         <translation>Promemoria dopo {days} giorni.</translation>
-    </message>
-    <message>
-        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
-        <translation>Si trova sul disco che contiene i dati: se si rompe, si perdono entrambi.</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>
@@ -5448,10 +5432,6 @@
         <translation>andamento</translation>
     </message>
     <message>
-        <source>This picture with the hand alone</source>
-        <translation>Questa immagine con la sola mano</translation>
-    </message>
-    <message>
         <source>Repetitions</source>
         <translation>Ripetizioni</translation>
     </message>
@@ -5592,10 +5572,6 @@
         <translation>servono tre dischi del palmo; indicare quali sono tra {there}</translation>
     </message>
     <message>
-        <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
-        <translation>Coppia non confrontabile: {why}. I valori sono mostrati, nulla è valutato.</translation>
-    </message>
-    <message>
         <source>depth in millimetres, not 5000 per metre</source>
         <translation>profondità in millimetri, non 5000 per metro</translation>
     </message>
@@ -5674,18 +5650,6 @@
     <message>
         <source>People: {people}, sessions: {sessions}.</source>
         <translation>Persone: {people}, sedute: {sessions}.</translation>
-    </message>
-    <message>
-        <source>Limits of a simulated hand are never used.</source>
-        <translation>I limiti di una mano simulata non vengono mai usati.</translation>
-    </message>
-    <message>
-        <source>Not usable yet: {count} people are the least, 20 are better.</source>
-        <translation>Non ancora utilizzabile: servono almeno {count} persone, meglio 20.</translation>
-    </message>
-    <message>
-        <source>Left out: {sessions}.</source>
-        <translation>Tralasciate: {sessions}.</translation>
     </message>
     <message>
         <source>measured once</source>
@@ -6632,6 +6596,10 @@
         <translation>“carpus track SEDUTA.h5 --output NUOVA.h5” ripete la lisciatura.</translation>
     </message>
     <message>
+        <source>Last backup: {day}.</source>
+        <translation>Ultima copia: {day}.</translation>
+    </message>
+    <message>
         <source>An unexpected error occurred.</source>
         <translation>Si è verificato un errore imprevisto.</translation>
     </message>
@@ -6647,76 +6615,84 @@
         <source>Program</source>
         <translation>Programma</translation>
     </message>
+    <message>
+        <source>not visible</source>
+        <translation>non visibile</translation>
+    </message>
+    <message>
+        <source>Not kept: {names}. Also correct a later frame.</source>
+        <translation>Non mantenute: {names}. Correggere anche un’immagine successiva.</translation>
+    </message>
+    <message>
+        <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
+        <translation>Quasi mai visibili nel nuovo risultato: {names}. Lì mancano i loro angoli.</translation>
+    </message>
+    <message>
+        <source>{count} of {common} frames differ by more than 2°. Largest difference at {time}: {angle}, {size}.</source>
+        <translation>{count} immagini su {common} differiscono di più di 2°. Differenza massima a {time}: {angle}, {size}.</translation>
+    </message>
+    <message>
+        <source>No frame differs by more than 2°.</source>
+        <translation>Nessuna immagine differisce di più di 2°.</translation>
+    </message>
+    <message>
+        <source>{count} frames have an angle that was missing before.</source>
+        <translation>{count} immagini hanno un angolo che prima mancava.</translation>
+    </message>
+    <message>
+        <source>Live values are compared, because one of the two results is not smoothed.</source>
+        <translation>Si confrontano i valori dal vivo, perché uno dei due risultati non è ricalcolato a posteriori.</translation>
+    </message>
+    <message>
+        <source>excluded: simulated</source>
+        <translation>esclusa: simulata</translation>
+    </message>
+    <message>
+        <source>excluded: {reason}</source>
+        <translation>esclusa: {reason}</translation>
+    </message>
+    <message>
+        <source>file missing</source>
+        <translation>file mancante</translation>
+    </message>
+    <message>
+        <source>not readable</source>
+        <translation>non leggibile</translation>
+    </message>
+    <message>
+        <source>This image cannot be read. Choose a PNG or JPEG file.</source>
+        <translation>Questa immagine non si può leggere. Scegliere un file PNG o JPEG.</translation>
+    </message>
+    <message>
+        <source>This image is larger than 8 MB. Choose a smaller one.</source>
+        <translation>Questa immagine supera 8 MB. Sceglierne una più piccola.</translation>
+    </message>
+    <message>
+        <source>Carpus cannot read this file as an image. Choose a PNG or JPEG file.</source>
+        <translation>Carpus non può leggere questo file come immagine. Scegliere un file PNG o JPEG.</translation>
+    </message>
+    <message>
+        <source>This image is too small to print. Choose one of at least 32 × 32 pixels.</source>
+        <translation>Questa immagine è troppo piccola per la stampa. Sceglierne una di almeno 32 × 32 pixel.</translation>
+    </message>
 </context>
 <context>
-    <name>BackupController</name>
+    <name>AppointmentBox</name>
     <message>
-        <source>Plug the disk for back-ups in, and back up.</source>
-        <translation>Collegare il disco delle copie e fare la copia.</translation>
+        <source>No appointment yet</source>
+        <translation>Ancora nessun appuntamento</translation>
     </message>
     <message>
-        <source>To the settings</source>
-        <translation>Alle impostazioni</translation>
+        <source>When next? Day, month, year</source>
+        <translation>Quando? Giorno, mese, anno</translation>
     </message>
     <message>
-        <source>Folder for back-ups, on another disk</source>
-        <translation>Cartella per le copie di sicurezza, su un altro disco</translation>
-    </message>
-    <message>
-        <source>Folder that holds the back-ups</source>
-        <translation>Cartella che contiene le copie</translation>
-    </message>
-    <message>
-        <source>Carpus closes when it is done. Start it again then.</source>
-        <translation>Alla fine Carpus si chiude. Poi avviarlo di nuovo.</translation>
-    </message>
-    <message>
-        <source>Restore it</source>
-        <translation>Ripristina</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
-    </message>
-    <message>
-        <source>Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}.</source>
-        <translation>Ripristinare la copia del {when}? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
-    </message>
-    <message>
-        <source>The folder of what is here now is kept beside the new one.</source>
-        <translation>La cartella con ciò che c’è ora resta accanto a quella nuova.</translation>
-    </message>
-    <message>
-        <source>Which back-up is to be restored?</source>
-        <translation>Quale copia di sicurezza va ripristinata?</translation>
-    </message>
-    <message>
-        <source>{when}: {n} session files</source>
-        <translation>{when}: {n} file di sedute</translation>
-    </message>
-    <message>
-        <source>Patients and sessions that were erased since then stay erased: {n}.</source>
-        <translation>I pazienti e le sedute cancellati da allora restano cancellati: {n}.</translation>
-    </message>
-    <message>
-        <source>What it changes is shown before anything is done.</source>
-        <translation>Ciò che cambia viene mostrato prima di procedere.</translation>
-    </message>
-    <message>
-        <source>Restore…</source>
-        <translation>Ripristina…</translation>
+        <source>When next? That day is over</source>
+        <translation>Quando? Quel giorno è passato</translation>
     </message>
 </context>
 <context>
     <name>BackupCard</name>
-    <message>
-        <source>Back-up</source>
-        <translation>Copia di sicurezza</translation>
-    </message>
-    <message>
-        <source>Everything of the data folder: patients, sessions, pictures, log. Works while you measure.</source>
-        <translation>Tutta la cartella dei dati: pazienti, sedute, immagini, registro. Funziona anche mentre si misura.</translation>
-    </message>
     <message>
         <source>&amp;Back up now</source>
         <translation>&amp;Copia ora</translation>
@@ -6726,44 +6702,56 @@
         <translation>&amp;Ripristina…</translation>
     </message>
     <message>
-        <source>then read back and compared</source>
-        <translation>poi riletta e confrontata</translation>
-    </message>
-    <message>
-        <source>shows first what changes</source>
-        <translation>mostra che cosa cambia</translation>
-    </message>
-    <message>
         <source>Change…</source>
         <translation>Cambia…</translation>
     </message>
     <message>
-        <source>Each day at 12:00</source>
+        <source>Backup</source>
+        <translation>Copia di sicurezza</translation>
+    </message>
+    <message>
+        <source>Backs up the whole data folder: patients, sessions, images and log. You can measure meanwhile.</source>
+        <translation>Copia tutta la cartella dei dati: pazienti, sedute, immagini e registro. Intanto si può misurare.</translation>
+    </message>
+    <message>
+        <source>then verified</source>
+        <translation>poi verificata</translation>
+    </message>
+    <message>
+        <source>Daily at 12:00</source>
         <translation>Ogni giorno alle 12:00</translation>
     </message>
     <message>
-        <source>At 18:00</source>
-        <translation>Alle 18:00</translation>
+        <source>Daily at 18:00</source>
+        <translation>Ogni giorno alle 18:00</translation>
     </message>
     <message>
-        <source>Only when told</source>
-        <translation>Solo a comando</translation>
+        <source>Manual only</source>
+        <translation>Solo manuale</translation>
     </message>
     <message>
-        <source>Folder for back-ups</source>
+        <source>shows the changes first</source>
+        <translation>mostra prima le modifiche</translation>
+    </message>
+    <message>
+        <source>the last 14, plus one per month for 2 years</source>
+        <translation>le ultime 14, più una al mese per 2 anni</translation>
+    </message>
+    <message>
+        <source>Backup folder</source>
         <translation>Cartella delle copie</translation>
     </message>
     <message>
-        <source>By itself</source>
+        <source>Automatic</source>
         <translation>Automatica</translation>
-    </message>
-    <message>
-        <source>the last 14, and one of each month for 2 years</source>
-        <translation>le ultime 14, e una al mese per 2 anni</translation>
     </message>
     <message>
         <source>Keep</source>
         <translation>Conservare</translation>
+    </message>
+    <message>
+        <source>Anyone with the backup disk can read it. Use an encrypted disk.</source>
+        <translation>Chi ha il disco può leggere le copie di sicurezza. Usare un disco cifrato.</translation>
     </message>
     <message>
         <source>none</source>
@@ -6773,165 +6761,146 @@
         <source>{percent} %</source>
         <translation>{percent} %</translation>
     </message>
+</context>
+<context>
+    <name>BackupController</name>
     <message>
-        <source>Whoever has the back-up disk can read it: use an encrypted disk.</source>
-        <translation>Chi ha il disco con le copie di sicurezza può leggerle: usare un disco cifrato.</translation>
+        <source>Connect the backup disk and back up.</source>
+        <translation>Collegare il disco delle copie e fare la copia.</translation>
+    </message>
+    <message>
+        <source>Open settings</source>
+        <translation>Apri le impostazioni</translation>
+    </message>
+    <message>
+        <source>Backup folder, on another disk</source>
+        <translation>Cartella per le copie di sicurezza, su un altro disco</translation>
+    </message>
+    <message>
+        <source>Folder with the backups</source>
+        <translation>Cartella con le copie di sicurezza</translation>
+    </message>
+    <message>
+        <source>{when}: {n} session files</source>
+        <translation>{when}: {n} file di sedute</translation>
+    </message>
+    <message>
+        <source>Which backup should be restored?</source>
+        <translation>Quale copia di sicurezza va ripristinata?</translation>
+    </message>
+    <message>
+        <source>Carpus shows the changes before it restores anything.</source>
+        <translation>Carpus mostra le modifiche prima di ripristinare.</translation>
+    </message>
+    <message>
+        <source>Restore the backup of {when}? Session files added: {come}, changed: {change}, removed: {go}.</source>
+        <translation>Ripristinare la copia del {when}? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
+    </message>
+    <message>
+        <source>Patients and sessions deleted since then stay deleted: {n}.</source>
+        <translation>I pazienti e le sedute eliminati da allora restano eliminati: {n}.</translation>
+    </message>
+    <message>
+        <source>The current data folder is kept next to the restored one.</source>
+        <translation>La cartella dei dati attuale resta accanto a quella ripristinata.</translation>
+    </message>
+    <message>
+        <source>Carpus closes afterwards. Start it again then.</source>
+        <translation>Alla fine Carpus si chiude. Poi avviarlo di nuovo.</translation>
+    </message>
+    <message>
+        <source>Restore</source>
+        <translation>Ripristina</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Restore…</source>
+        <translation>Ripristina…</translation>
     </message>
 </context>
 <context>
-    <name>TopBarController</name>
+    <name>BoardCaptureView</name>
     <message>
-        <source>Exercise</source>
-        <translation>Esercizio</translation>
+        <source>Stop</source>
+        <translation>Interrompi</translation>
     </message>
     <message>
-        <source>Camera</source>
-        <translation>Telecamera</translation>
-    </message>
-    <message>
-        <source>Markers</source>
-        <translation>Marcatori</translation>
-    </message>
-    <message>
-        <source>Measure</source>
-        <translation>Misura</translation>
-    </message>
-    <message>
-        <source>Sessions</source>
-        <translation>Sedute</translation>
-    </message>
-    <message>
-        <source>Review</source>
-        <translation>Revisione</translation>
+        <source>Esc</source>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Progress</source>
-        <translation>Andamento</translation>
+        <translation>Avanzamento</translation>
     </message>
     <message>
-        <source>Report</source>
-        <translation>Relazione</translation>
+        <source>Images are taken automatically when the board is still, sharp and in a new position.</source>
+        <translation>Le immagini vengono riprese automaticamente quando la tavola è ferma, nitida e in una nuova posizione.</translation>
     </message>
     <message>
-        <source>Simulated hand: this is not {name}, and does not count.</source>
-        <translation>Mano simulata: non è di {name}, e non conta.</translation>
+        <source>Opening the camera…</source>
+        <translation>Apertura della telecamera…</translation>
     </message>
     <message>
-        <source>This session does not count.</source>
-        <translation>Questa seduta non conta.</translation>
+        <source>Please wait</source>
+        <translation>Attendere</translation>
     </message>
     <message>
-        <source>Measured although doubtful: {findings}</source>
-        <translation>Misurata benché dubbia: {findings}</translation>
+        <source>No image yet</source>
+        <translation>Ancora nessuna immagine</translation>
     </message>
     <message>
-        <source>Saved {time}</source>
-        <translation>Salvata {time}</translation>
+        <source>Hold the board in view</source>
+        <translation>Tenere la tavola nell’inquadratura</translation>
     </message>
     <message>
-        <source>Simulated camera</source>
-        <translation>Telecamera simulata</translation>
+        <source>Show the whole board, facing the camera, about 60 cm away.</source>
+        <translation>Mostrare tutta la tavola, rivolta verso la telecamera, a circa 60 cm.</translation>
     </message>
     <message>
-        <source>Recording {name}</source>
-        <translation>Registrazione {name}</translation>
+        <source>No frames from the camera</source>
+        <translation>Nessuna immagine dalla telecamera</translation>
     </message>
     <message>
-        <source>Camera ready</source>
-        <translation>Telecamera pronta</translation>
+        <source>Enough images</source>
+        <translation>Immagini sufficienti</translation>
     </message>
     <message>
-        <source>No camera</source>
-        <translation>Nessuna telecamera</translation>
+        <source>Press “Calculate”, or add more images to improve the result.</source>
+        <translation>Premere “Calcola”, o aggiungere immagini per migliorare il risultato.</translation>
     </message>
     <message>
-        <source>{percent} %</source>
-        <translation>{percent} %</translation>
+        <source>Then hold it still.</source>
+        <translation>Poi tenerla ferma.</translation>
     </message>
     <message>
-        <source>Tracking again {percent}</source>
-        <translation>Nuovo tracciamento {percent}</translation>
+        <source>1 image</source>
+        <translation>1 immagine</translation>
     </message>
     <message>
-        <source>How far it is, and Stop</source>
-        <translation>Avanzamento, e Ferma</translation>
+        <source>{count} images</source>
+        <translation>{count} immagini</translation>
     </message>
     <message>
-        <source>New result: choose</source>
-        <translation>Nuovo risultato: scegliere</translation>
+        <source>Calculating…</source>
+        <translation>Calcolo in corso…</translation>
     </message>
     <message>
-        <source>{count} new results: choose</source>
-        <translation>{count} nuovi risultati: scegliere</translation>
-    </message>
-    <message>
-        <source>Choose</source>
-        <translation>Scegli</translation>
-    </message>
-    <message>
-        <source>Old and new over each other</source>
-        <translation>Vecchio e nuovo sovrapposti</translation>
-    </message>
-    <message>
-        <source>{count} pictures/s</source>
-        <translation>{count} immagini/s</translation>
-    </message>
-    <message>
-        <source>{count} pictures/s, under {least}</source>
-        <translation>{count} immagini/s, meno di {least}</translation>
-    </message>
-    <message>
-        <source>{words}, {lost} lost</source>
-        <translation>{words}, {lost} perse</translation>
-    </message>
-    <message>
-        <source>Movement is being drawn</source>
-        <translation>Movimento in disegno</translation>
-    </message>
-    <message>
-        <source>{time} of disk left</source>
-        <translation>spazio per {time}</translation>
-    </message>
-    <message>
-        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
-        <translation>Il server del centro non risponde: finché non risponde, i pazienti e le loro sedute non si possono né mostrare né modificare. Si può continuare a misurare.</translation>
+        <source>This takes a few seconds. You can put the board down.</source>
+        <translation>Richiede alcuni secondi. La tavola si può posare.</translation>
     </message>
 </context>
 <context>
-    <name>ComparisonFlow</name>
+    <name>BoardResultView</name>
     <message>
-        <source>Simulated hand: this is not a patient’s, and does not count.</source>
-        <translation>Mano simulata: non è di un paziente, e non conta.</translation>
-    </message>
-</context>
-<context>
-    <name>ComparisonPlayer</name>
-    <message>
-        <source>repetition</source>
-        <translation>ripetizione</translation>
+        <source>&amp;Repeat</source>
+        <translation>&amp;Ripeti</translation>
     </message>
     <message>
-        <source>Time in the session: {name}</source>
-        <translation>Tempo nella seduta: {name}</translation>
-    </message>
-</context>
-<context>
-    <name>ComparisonScreen</name>
-    <message>
-        <source>Reading both sessions…</source>
-        <translation>Lettura delle due sedute…</translation>
-    </message>
-    <message>
-        <source>Reading the session…</source>
-        <translation>Lettura della seduta…</translation>
-    </message>
-    <message>
-        <source>Nothing is compared: one of the two sessions could not be read.</source>
-        <translation>Nulla da confrontare: una delle due sedute non si è potuta leggere.</translation>
-    </message>
-    <message>
-        <source>Repetition {number}</source>
-        <translation>Ripetizione {number}</translation>
+        <source>Use this calibration</source>
+        <translation>Usa questa calibrazione</translation>
     </message>
 </context>
 <context>
@@ -6941,24 +6910,24 @@
         <translation>Scacchiera</translation>
     </message>
     <message>
-        <source>ChArUco: may be partly hidden, takes longer</source>
-        <translation>ChArUco: può essere in parte coperta, richiede più tempo</translation>
-    </message>
-    <message>
         <source>&amp;Print the board…</source>
         <translation>&amp;Stampa la tavola…</translation>
     </message>
     <message>
-        <source>The ruler on the print measures</source>
-        <translation>Il righello stampato misura</translation>
+        <source>ChArUco: may be partly covered, takes longer</source>
+        <translation>ChArUco: può essere in parte coperta, richiede più tempo</translation>
     </message>
     <message>
-        <source>Begin</source>
+        <source>Length of the printed ruler</source>
+        <translation>Lunghezza del righello stampato</translation>
+    </message>
+    <message>
+        <source>Start</source>
         <translation>Inizia</translation>
     </message>
     <message>
-        <source>Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once for each camera, after a knock, and when the check card says so.</source>
-        <translation>Cinque minuti: come vede l’obiettivo, di quanto sbaglia la profondità, e se la profondità combacia con il colore. Farlo una volta per ogni telecamera, dopo un urto e quando lo dice il cartoncino di controllo.</translation>
+        <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again after a knock or when the check card asks for it.</source>
+        <translation>La calibrazione richiede cinque minuti. Misura l’obiettivo, l’errore di profondità e l’allineamento fra profondità e colore. Eseguirla una volta per telecamera, e di nuovo dopo un urto o se lo chiede il cartoncino di controllo.</translation>
     </message>
     <message>
         <source>Calibrate the camera</source>
@@ -6969,125 +6938,28 @@
         <translation>1  Stampare la tavola</translation>
     </message>
     <message>
-        <source>Print at 100 % (“actual size”) on plain paper and glue it flat onto something stiff, such as glass or a thick board. Then measure the ruler under it.</source>
-        <translation>Stampare al 100 % (“dimensioni effettive”) su carta comune e incollare ben piano su qualcosa di rigido, come vetro o cartone spesso. Poi misurare il righello in basso.</translation>
+        <source>Print at 100 % (“actual size”) on plain paper. Glue it flat onto something stiff, such as glass or a thick board. Then measure the printed ruler.</source>
+        <translation>Stampare al 100 % (“dimensioni effettive”) su carta comune. Incollare ben piano su qualcosa di rigido, come vetro o cartone spesso. Poi misurare il righello stampato.</translation>
+    </message>
+    <message>
+        <source>Use even light without reflections. The screen shows where to hold the board. Images are taken automatically when it is still, sharp and in a new position. No image is saved, and nothing changes until you confirm.</source>
+        <translation>Usare luce uniforme, senza riflessi. Lo schermo indica dove tenere la tavola. Le immagini vengono riprese automaticamente quando è ferma, nitida e in una nuova posizione. Nessuna immagine viene salvata e nulla cambia prima della conferma.</translation>
+    </message>
+    <message>
+        <source>The camera is connected.</source>
+        <translation>La telecamera è collegata.</translation>
+    </message>
+    <message>
+        <source>No camera is connected.</source>
+        <translation>Nessuna telecamera è collegata.</translation>
+    </message>
+    <message>
+        <source>Start · connect the camera</source>
+        <translation>Inizia · collegare la telecamera</translation>
     </message>
     <message>
         <source>2  Show it to the camera</source>
         <translation>2  Mostrarla alla telecamera</translation>
-    </message>
-    <message>
-        <source>It is plugged in.</source>
-        <translation>È collegata.</translation>
-    </message>
-    <message>
-        <source>No camera is plugged in.</source>
-        <translation>Nessuna telecamera è collegata.</translation>
-    </message>
-    <message>
-        <source>Begin · plug the camera in</source>
-        <translation>Inizia · collegare la telecamera</translation>
-    </message>
-    <message>
-        <source>Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves when it is still, sharp and in a new place. No picture of the board is stored, and nothing is changed before you say so.</source>
-        <translation>Luce uniforme, nessun riflesso. Lo schermo dice dove tenere la tavola; le immagini si scattano da sole quando è ferma, nitida e in un posto nuovo. Nessuna immagine della tavola viene conservata, e nulla cambia prima che lo si dica.</translation>
-    </message>
-</context>
-<context>
-    <name>CameraCalibrationFlow</name>
-    <message>
-        <source>Camera calibration</source>
-        <translation>Calibrazione della telecamera</translation>
-    </message>
-    <message>
-        <source>Save the board to print</source>
-        <translation>Salva la tavola da stampare</translation>
-    </message>
-    <message>
-        <source>Show it some more, tilted more and nearer: {why}.</source>
-        <translation>Mostrarla ancora, più inclinata e più vicina: {why}.</translation>
-    </message>
-</context>
-<context>
-    <name>BoardResultView</name>
-    <message>
-        <source>Take &amp;again</source>
-        <translation>&amp;Rifai</translation>
-    </message>
-    <message>
-        <source>Use this calibration</source>
-        <translation>Usa questa calibrazione</translation>
-    </message>
-</context>
-<context>
-    <name>BoardCaptureView</name>
-    <message>
-        <source>Stop</source>
-        <translation>Ferma</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
-        <source>How far it is</source>
-        <translation>Avanzamento</translation>
-    </message>
-    <message>
-        <source>Pictures are taken by themselves when the board is still, sharp and in a new place.</source>
-        <translation>Le immagini si scattano da sole quando la tavola è ferma, nitida e in un posto nuovo.</translation>
-    </message>
-    <message>
-        <source>The camera is being opened.</source>
-        <translation>Apertura della telecamera.</translation>
-    </message>
-    <message>
-        <source>One moment</source>
-        <translation>Un momento</translation>
-    </message>
-    <message>
-        <source>No picture yet</source>
-        <translation>Ancora nessuna immagine</translation>
-    </message>
-    <message>
-        <source>Hold the board in the picture</source>
-        <translation>Tenere la tavola nell’immagine</translation>
-    </message>
-    <message>
-        <source>All of it, flat towards the camera, about 60 cm away.</source>
-        <translation>Tutta, piatta verso la telecamera, a circa 60 cm.</translation>
-    </message>
-    <message>
-        <source>No pictures from the camera</source>
-        <translation>Nessuna immagine dalla telecamera</translation>
-    </message>
-    <message>
-        <source>1 picture</source>
-        <translation>1 immagine</translation>
-    </message>
-    <message>
-        <source>{count} pictures</source>
-        <translation>{count} immagini</translation>
-    </message>
-    <message>
-        <source>Working it out</source>
-        <translation>Calcolo in corso</translation>
-    </message>
-    <message>
-        <source>A few seconds; put the board down.</source>
-        <translation>Alcuni secondi; posare la tavola.</translation>
-    </message>
-    <message>
-        <source>That is enough</source>
-        <translation>Basta così</translation>
-    </message>
-    <message>
-        <source>Press “Work out”, or show more: it only gets better.</source>
-        <translation>Premere “Calcola”, o mostrarne altre: può solo migliorare.</translation>
-    </message>
-    <message>
-        <source>Then hold still.</source>
-        <translation>Poi tenere ferma.</translation>
     </message>
 </context>
 <context>
@@ -7118,97 +6990,18 @@
     </message>
 </context>
 <context>
-    <name>ManualMeasurementsFlow</name>
+    <name>CameraCalibrationFlow</name>
     <message>
-        <source>Leave without saving?</source>
-        <translation>Uscire senza salvare?</translation>
+        <source>Camera calibration</source>
+        <translation>Calibrazione della telecamera</translation>
     </message>
     <message>
-        <source>Values are written that are not kept yet.</source>
-        <translation>Ci sono valori scritti e non ancora salvati.</translation>
+        <source>Save the board to print</source>
+        <translation>Salva la tavola da stampare</translation>
     </message>
     <message>
-        <source>Save them, or let them go.</source>
-        <translation>Salvarli, o lasciarli andare.</translation>
-    </message>
-    <message>
-        <source>Back to the form</source>
-        <translation>Torna al modulo</translation>
-    </message>
-    <message>
-        <source>Let them go</source>
-        <translation>Non salvare</translation>
-    </message>
-    <message>
-        <source>Unusual: check, or keep it</source>
-        <translation>Insolito: controllare o tenere</translation>
-    </message>
-    <message>
-        <source>Look at the numbers once more before they are kept.</source>
-        <translation>Rileggere i numeri prima di salvarli.</translation>
-    </message>
-    <message>
-        <source>Keep as written</source>
-        <translation>Salva come scritto</translation>
-    </message>
-</context>
-<context>
-    <name>ManualMeasurementsScreen</name>
-    <message>
-        <source>Day of measuring</source>
-        <translation>Giorno della misura</translation>
-    </message>
-    <message>
-        <source>Other measures</source>
-        <translation>Altre misure</translation>
-    </message>
-    <message>
-        <source>Close</source>
-        <translation>Chiudi</translation>
-    </message>
-    <message>
-        <source>Save values</source>
-        <translation>Salva i valori</translation>
-    </message>
-    <message>
-        <source>Kept.</source>
-        <translation>Salvato.</translation>
-    </message>
-    <message>
-        <source>Measured by hand, {day}</source>
-        <translation>Misurato a mano, {day}</translation>
-    </message>
-    <message>
-        <source>By {initials}.</source>
-        <translation>Di {initials}.</translation>
-    </message>
-    <message>
-        <source>Empty means not measured. Nothing here changes a figure of Carpus.</source>
-        <translation>Vuoto significa non misurato. Nulla qui cambia un valore di Carpus.</translation>
-    </message>
-    <message>
-        <source>What Carpus has of this day is simulated, and no value.</source>
-        <translation>Ciò che Carpus ha di questo giorno è simulato e non è un valore.</translation>
-    </message>
-    <message>
-        <source>Other measures…</source>
-        <translation>Altre misure…</translation>
-    </message>
-    <message>
-        <source>By hand and by Carpus are never joined</source>
-        <translation>I valori a mano e quelli di Carpus non si uniscono mai</translation>
-    </message>
-    <message>
-        <source>Neither averaged nor subtracted. A change is judged within one way of measuring.</source>
-        <translation>Né mediati né sottratti. Un cambiamento si valuta con un solo modo di misurare.</translation>
-    </message>
-    <message>
-        <source>Written and not kept yet: also the other hand or another day.</source>
-        <translation>Scritti e non ancora salvati: anche dell’altra mano o di un altro giorno.</translation>
-    </message>
-    <message>
-        <source>Kept with initials and time; every later change stays readable.</source>
-        <translation>Salvati con iniziali e ora; ogni modifica successiva resta leggibile.</translation>
+        <source>Add more images with the board closer and more tilted: {why}.</source>
+        <translation>Aggiungere immagini con la tavola più vicina e più inclinata: {why}.</translation>
     </message>
 </context>
 <context>
@@ -7216,6 +7009,10 @@
     <message>
         <source>Camera</source>
         <translation>Telecamera</translation>
+    </message>
+    <message>
+        <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether it is still within tolerance.</source>
+        <translation>Una tavola stampata calibra la telecamera. Un cartoncino stampato controlla in 30 secondi se misura ancora entro la tolleranza.</translation>
     </message>
     <message>
         <source>Chec&amp;k card…</source>
@@ -7226,12 +7023,8 @@
         <translation>Cali&amp;bra la telecamera…</translation>
     </message>
     <message>
-        <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right.</source>
-        <translation>Una tavola stampata mostra come vede la telecamera e di quanto sbaglia la profondità; un cartoncino stampato mostra in 30 secondi se misura ancora bene.</translation>
-    </message>
-    <message>
-        <source>In the demo the camera is simulated: there is nothing to calibrate.</source>
-        <translation>Nella demo la telecamera è simulata: non c’è nulla da calibrare.</translation>
+        <source>In the demo the camera is simulated. It needs no calibration.</source>
+        <translation>Nella demo la telecamera è simulata. Non serve calibrarla.</translation>
     </message>
 </context>
 <context>
@@ -7256,32 +7049,32 @@
 <context>
     <name>CameraNameDialog</name>
     <message>
-        <source>Name of the camera</source>
+        <source>Camera name</source>
         <translation>Nome della telecamera</translation>
     </message>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Continua</translation>
     </message>
     <message>
-        <source>Stop</source>
-        <translation>Ferma</translation>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
     </message>
     <message>
-        <source>Is this still the camera called “{name}”?</source>
-        <translation>È ancora la telecamera chiamata “{name}”?</translation>
+        <source>Is this still the camera “{name}”?</source>
+        <translation>È ancora la telecamera “{name}”?</translation>
     </message>
     <message>
         <source>What is this camera called?</source>
         <translation>Come si chiama questa telecamera?</translation>
     </message>
     <message>
-        <source>It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under the name, and from now on every camera of this kind without a number is taken for this one.</source>
-        <translation>Non comunica il suo numero. Darle un nome e scriverlo su di essa: calibrazioni e controlli si conservano sotto il nome, e d’ora in poi ogni telecamera di questo tipo senza numero è presa per questa.</translation>
+        <source>This camera has no readable serial number. Name it and label it: calibrations and checks are saved under that name. Carpus takes every camera of this type without a number for this one.</source>
+        <translation>Questa telecamera non comunica il numero di serie. Darle un nome e scriverlo su di essa: calibrazioni e controlli si salvano con quel nome. Carpus prende ogni telecamera di questo tipo senza numero per questa.</translation>
     </message>
     <message>
-        <source>It does not tell its number. If it is another one, type that one’s name: calibrations and checks are kept under the name.</source>
-        <translation>Non comunica il suo numero. Se è un’altra, scrivere il nome di quella: calibrazioni e controlli si conservano sotto il nome.</translation>
+        <source>This camera has no readable serial number. If it is a different one, enter its name: calibrations and checks are saved under that name.</source>
+        <translation>Questa telecamera non comunica il numero di serie. Se è un’altra, inserire il suo nome: calibrazioni e controlli si salvano con quel nome.</translation>
     </message>
 </context>
 <context>
@@ -7405,52 +7198,52 @@
         <translation>Cali&amp;bra la telecamera…</translation>
     </message>
     <message>
-        <source>How far the check is</source>
+        <source>Progress of the check</source>
         <translation>Avanzamento del controllo</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation>Ferma</translation>
+        <translation>Interrompi</translation>
     </message>
     <message>
         <source>Esc</source>
         <translation>Esc</translation>
     </message>
     <message>
+        <source>Print both pages at 100 %: each ruler must be 100 mm long. Glue the first page flat onto stiff card. Fold the wedge and glue it onto the dashed field.</source>
+        <translation>Stampare le due pagine al 100 %: ogni righello deve misurare 100 mm. Incollare la prima pagina ben piana su cartone rigido. Piegare il cuneo e incollarlo sul campo tratteggiato.</translation>
+    </message>
+    <message>
+        <source>A check is valid for one week. If all lengths deviate by the same share, the depth or the print size is wrong.</source>
+        <translation>Un controllo vale una settimana. Se tutte le lunghezze deviano della stessa quota, è errata la profondità o la dimensione della stampa.</translation>
+    </message>
+    <message>
         <source>Check now, 30 seconds</source>
         <translation>Controlla ora, 30 secondi</translation>
     </message>
     <message>
-        <source>Check · plug the camera in</source>
+        <source>Check · connect the camera</source>
         <translation>Controlla · collegare la telecamera</translation>
     </message>
     <message>
-        <source>The camera is being opened.</source>
-        <translation>Apertura della telecamera.</translation>
+        <source>Within tolerance</source>
+        <translation>Entro la tolleranza</translation>
+    </message>
+    <message>
+        <source>Check again</source>
+        <translation>Controllare di nuovo</translation>
+    </message>
+    <message>
+        <source>Out of tolerance</source>
+        <translation>Fuori tolleranza</translation>
+    </message>
+    <message>
+        <source>Opening the camera…</source>
+        <translation>Apertura della telecamera…</translation>
     </message>
     <message>
         <source>{seconds} s</source>
         <translation>{seconds} s</translation>
-    </message>
-    <message>
-        <source>Print both pages at 100 %: each ruler must be 100 mm long. Glue the first flat onto stiff card, fold the wedge and glue it onto the dashed field.</source>
-        <translation>Stampare le due pagine al 100 %: ogni righello deve misurare 100 mm. Incollare la prima ben piana su cartone rigido, piegare il cuneo e incollarlo sul campo tratteggiato.</translation>
-    </message>
-    <message>
-        <source>A check is good for a week. All lengths off by one share: the depth, or the print’s size.</source>
-        <translation>Un controllo vale una settimana. Tutte le lunghezze sbagliate della stessa quota: la profondità, o la dimensione della stampa.</translation>
-    </message>
-    <message>
-        <source>Right</source>
-        <translation>Misura bene</translation>
-    </message>
-    <message>
-        <source>Check it again</source>
-        <translation>Controllare di nuovo</translation>
-    </message>
-    <message>
-        <source>Out</source>
-        <translation>Fuori limite</translation>
     </message>
     <message>
         <source>Not checked yet</source>
@@ -7479,82 +7272,83 @@
         <translation>Scelta</translation>
     </message>
     <message>
-        <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
     </message>
 </context>
 <context>
-    <name>RecordingControls</name>
+    <name>ComparisonFlow</name>
     <message>
-        <source>Note</source>
-        <translation>Nota</translation>
+        <source>Simulated data: no patient was measured. Excluded from analysis.</source>
+        <translation>Dati simulati: nessun paziente è stato misurato. Esclusi dall’analisi.</translation>
+    </message>
+</context>
+<context>
+    <name>ComparisonPlayer</name>
+    <message>
+        <source>repetition</source>
+        <translation>ripetizione</translation>
     </message>
     <message>
-        <source>Pain</source>
-        <translation>Dolore</translation>
+        <source>Time in the session: {name}</source>
+        <translation>Tempo nella seduta: {name}</translation>
+    </message>
+</context>
+<context>
+    <name>ComparisonScreen</name>
+    <message>
+        <source>Reading both sessions…</source>
+        <translation>Lettura delle due sedute…</translation>
     </message>
     <message>
-        <source>Pause</source>
-        <translation>Pausa</translation>
+        <source>Reading the session…</source>
+        <translation>Lettura della seduta…</translation>
     </message>
     <message>
-        <source>Pain {score}</source>
-        <translation>Dolore {score}</translation>
+        <source>No comparison: one of the two sessions could not be read.</source>
+        <translation>Nessun confronto: una delle due sedute non è leggibile.</translation>
     </message>
     <message>
-        <source>Storing…</source>
-        <translation>Salvataggio…</translation>
+        <source>Repetition {number}</source>
+        <translation>Ripetizione {number}</translation>
+    </message>
+</context>
+<context>
+    <name>CorrectionFrameView</name>
+    <message>
+        <source>Frame with labels to correct</source>
+        <translation>Immagine con le etichette da correggere</translation>
     </message>
     <message>
-        <source>Passive</source>
-        <translation>Passivo</translation>
+        <source>{marker}, before</source>
+        <translation>{marker}, prima</translation>
     </message>
     <message>
-        <source>Go on</source>
-        <translation>Continua</translation>
+        <source>{marker}, occluded</source>
+        <translation>{marker}, coperto</translation>
     </message>
     <message>
-        <source>Play and record</source>
-        <translation>Riproduci e registra</translation>
-    </message>
-    <message>
-        <source>Record</source>
-        <translation>Registra</translation>
-    </message>
-    <message>
-        <source>Stop and go on</source>
-        <translation>Ferma e continua</translation>
-    </message>
-    <message>
-        <source>Stop and review</source>
-        <translation>Ferma e rivedi</translation>
-    </message>
-    <message>
-        <source>Starts in {seconds}: not yet</source>
-        <translation>Inizio tra {seconds}: non ancora</translation>
-    </message>
-    <message>
-        <source>Space · pedal</source>
-        <translation>Spazio · pedale</translation>
+        <source>{marker}?</source>
+        <translation>{marker}?</translation>
     </message>
 </context>
 <context>
     <name>CorrectionScreen</name>
     <message>
-        <source>Track again although &amp;doubtful</source>
-        <translation>Rifai benché &amp;dubbio</translation>
+        <source>Re-analyse &amp;anyway (uncertain)</source>
+        <translation>Rianali&amp;zza comunque (incerto)</translation>
     </message>
     <message>
-        <source>Next doubtful picture</source>
-        <translation>Immagine dubbia seguente</translation>
+        <source>Next uncertain frame</source>
+        <translation>Immagine incerta seguente</translation>
     </message>
     <message>
-        <source>Not to be seen here</source>
+        <source>Not visible here</source>
         <translation>Qui non visibile</translation>
     </message>
     <message>
-        <source>Track again from here</source>
-        <translation>Rifai da qui</translation>
+        <source>Re-analyse from here</source>
+        <translation>Rianalizza da qui</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -7565,123 +7359,104 @@
         <translation>Torna alla revisione (Esc)</translation>
     </message>
     <message>
+        <source>In this frame: distance to the expected position</source>
+        <translation>In questa immagine: distanza dalla posizione attesa</translation>
+    </message>
+    <message>
         <source>Drag</source>
         <translation>Trascina</translation>
     </message>
     <message>
-        <source>move a name</source>
-        <translation>sposta un nome</translation>
+        <source>move a label</source>
+        <translation>sposta un’etichetta</translation>
     </message>
     <message>
-        <source>not to be seen here</source>
+        <source>not visible here</source>
         <translation>qui non visibile</translation>
     </message>
     <message>
-        <source>picture</source>
+        <source>frame</source>
         <translation>immagine</translation>
+    </message>
+    <message>
+        <source>next uncertain</source>
+        <translation>incerta seguente</translation>
+    </message>
+    <message>
+        <source>Reading the frame…</source>
+        <translation>Lettura dell’immagine…</translation>
+    </message>
+    <message>
+        <source>Uncertain at {time}</source>
+        <translation>Incerta a {time}</translation>
+    </message>
+    <message>
+        <source>Frame at {time}</source>
+        <translation>Immagine a {time}</translation>
+    </message>
+    <message>
+        <source>Drag “{marker}” to its marker</source>
+        <translation>Trascinare “{marker}” sul suo marcatore</translation>
+    </message>
+    <message>
+        <source>Which label is wrong?</source>
+        <translation>Quale etichetta è sbagliata?</translation>
+    </message>
+    <message>
+        <source>Drag a label in the frame, or select it below and click its marker.</source>
+        <translation>Trascinare un’etichetta nell’immagine, o selezionarla sotto e fare clic sul suo marcatore.</translation>
+    </message>
+    <message>
+        <source>No video was saved. These are the {count} blue spots of this frame. Drag a label to its spot.</source>
+        <translation>Nessun video salvato. Questi sono i {count} punti blu di questa immagine. Trascinare un’etichetta sul suo punto.</translation>
+    </message>
+    <message>
+        <source>Re-analyse from {time}</source>
+        <translation>Rianalizza da {time}</translation>
+    </message>
+    <message>
+        <source>No changes yet</source>
+        <translation>Ancora nessuna modifica</translation>
+    </message>
+    <message>
+        <source>Check the labels at {time}</source>
+        <translation>Controllare le etichette a {time}</translation>
+    </message>
+    <message>
+        <source>“{one}” and “{other}” appear swapped</source>
+        <translation>“{one}” e “{other}” sembrano scambiati</translation>
+    </message>
+    <message>
+        <source>The angles would be wrong from there on. Swap the two labels?</source>
+        <translation>Gli angoli sarebbero errati da lì in poi. Scambiare le due etichette?</translation>
+    </message>
+    <message>
+        <source>Swap the labels</source>
+        <translation>Scambia le etichette</translation>
+    </message>
+    <message>
+        <source>It is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
+        <translation>È a {size} mm dalla posizione compatibile con gli altri marcatori. Può essere un altro marcatore, o nessuno.</translation>
+    </message>
+    <message>
+        <source>Undo the last step</source>
+        <translation>Annulla l’ultimo passo</translation>
+    </message>
+    <message>
+        <source>Show that frame</source>
+        <translation>Mostra quell’immagine</translation>
     </message>
     <message>
         <source>undo</source>
         <translation>annulla</translation>
     </message>
     <message>
-        <source>next doubtful</source>
-        <translation>dubbia seguente</translation>
-    </message>
-    <message>
-        <source>At this picture: distance to its place</source>
-        <translation>In questa immagine: distanza dal suo posto</translation>
-    </message>
-    <message>
-        <source>Reading the picture…</source>
-        <translation>Lettura dell’immagine…</translation>
-    </message>
-    <message>
-        <source>Doubtful at {time}</source>
-        <translation>Dubbia a {time}</translation>
-    </message>
-    <message>
-        <source>Picture at {time}</source>
-        <translation>Immagine a {time}</translation>
-    </message>
-    <message>
-        <source>Put “{marker}” on its disc</source>
-        <translation>Mettere “{marker}” sul suo dischetto</translation>
-    </message>
-    <message>
-        <source>Which name is wrong?</source>
-        <translation>Quale nome è sbagliato?</translation>
-    </message>
-    <message>
-        <source>Drag a name in the picture, or choose it below and click its disc.</source>
-        <translation>Trascinare un nome nell’immagine, o sceglierlo sotto e fare clic sul suo dischetto.</translation>
-    </message>
-    <message>
-        <source>No pictures stored: the {count} blue spots of this moment. Drag a name to its spot.</source>
-        <translation>Nessuna immagine salvata: i {count} punti blu di questo momento. Trascinare un nome sul suo punto.</translation>
-    </message>
-    <message>
         <source>Changed here: {markers}</source>
         <translation>Cambiati qui: {markers}</translation>
     </message>
     <message>
-        <source>Track again from {time}</source>
-        <translation>Rifai da {time}</translation>
-    </message>
-    <message>
-        <source>Nothing changed yet</source>
-        <translation>Ancora nessun cambiamento</translation>
-    </message>
-    <message>
-        <source>Look at the names at {time}</source>
-        <translation>Guardare i nomi a {time}</translation>
-    </message>
-    <message>
-        <source>“{one}” and “{other}” look exchanged</source>
-        <translation>“{one}” e “{other}” sembrano scambiati</translation>
-    </message>
-    <message>
-        <source>So the angles would be wrong from there on. Let the two change places?</source>
-        <translation>Così gli angoli sarebbero sbagliati da lì in poi. Scambiare i due posti?</translation>
-    </message>
-    <message>
-        <source>Change the two names</source>
-        <translation>Scambia i due nomi</translation>
-    </message>
-    <message>
         <source>“{marker}” cannot be there</source>
         <translation>“{marker}” non può essere lì</translation>
-    </message>
-    <message>
-        <source>It lies {size} mm from where the other discs let it be. It may be another disc, or no disc.</source>
-        <translation>È a {size} mm da dove gli altri dischetti lo permettono. Può essere un altro dischetto, o nessuno.</translation>
-    </message>
-    <message>
-        <source>Take the last step back</source>
-        <translation>Annulla l’ultimo passo</translation>
-    </message>
-    <message>
-        <source>Show that picture</source>
-        <translation>Mostra quell’immagine</translation>
-    </message>
-</context>
-<context>
-    <name>CorrectionFrameView</name>
-    <message>
-        <source>Picture to put markers right on</source>
-        <translation>Immagine su cui correggere i marcatori</translation>
-    </message>
-    <message>
-        <source>{marker}, so far</source>
-        <translation>{marker}, finora</translation>
-    </message>
-    <message>
-        <source>{marker}, hidden</source>
-        <translation>{marker}, nascosto</translation>
-    </message>
-    <message>
-        <source>{marker}?</source>
-        <translation>{marker}?</translation>
     </message>
 </context>
 <context>
@@ -7692,21 +7467,6 @@
     </message>
 </context>
 <context>
-    <name>AppointmentBox</name>
-    <message>
-        <source>No appointment yet</source>
-        <translation>Ancora nessun appuntamento</translation>
-    </message>
-    <message>
-        <source>When next? Day, month, year</source>
-        <translation>Quando? Giorno, mese, anno</translation>
-    </message>
-    <message>
-        <source>When next? That day is over</source>
-        <translation>Quando? Quel giorno è passato</translation>
-    </message>
-</context>
-<context>
     <name>DegreesField</name>
     <message>
         <source>Up to {most}°, or empty</source>
@@ -7714,10 +7474,155 @@
     </message>
 </context>
 <context>
+    <name>DeleteDialog</name>
+    <message>
+        <source>Delete permanently</source>
+        <translation>Elimina definitivamente</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Archive instead</source>
+        <translation>Archivia invece</translation>
+    </message>
+    <message>
+        <source>Deleted</source>
+        <translation>Viene eliminato</translation>
+    </message>
+    <message>
+        <source>Not deleted</source>
+        <translation>Non viene eliminato</translation>
+    </message>
+    <message>
+        <source>Cannot be undone</source>
+        <translation>Non si può annullare</translation>
+    </message>
+    <message>
+        <source>Removes it from all lists and results. Everything can be restored.</source>
+        <translation>Toglie tutto da elenchi e risultati. Tutto si può ripristinare.</translation>
+    </message>
+    <message>
+        <source>Delete this session permanently?</source>
+        <translation>Eliminare definitivamente questa seduta?</translation>
+    </message>
+    <message>
+        <source>Delete this patient permanently?</source>
+        <translation>Eliminare definitivamente questo paziente?</translation>
+    </message>
+    <message>
+        <source>To delete, type “{name}” here</source>
+        <translation>Per eliminare, scrivere qui “{name}”</translation>
+    </message>
+    <message>
+        <source>Angles, images, notes and pain scores of this session ({size} MB, files: {files}).</source>
+        <translation>Angoli, immagini, note e punteggi del dolore di questa seduta ({size} MB, file: {files}).</translation>
+    </message>
+    <message>
+        <source>The patient’s entry: real name, notes, values measured by hand. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
+        <translation>La scheda del paziente: nome vero, note, valori misurati a mano. Tutte le sedute ({count}): angoli, immagini, note ({size} MB, file: {files}).</translation>
+    </message>
+    <message>
+        <source>Backups up to {day} and copies elsewhere.</source>
+        <translation>Copie di sicurezza fino al {day} e copie altrove.</translation>
+    </message>
+    <message>
+        <source>Copies elsewhere.</source>
+        <translation>Copie altrove.</translation>
+    </message>
+    <message>
+        <source>Delete yourself: reports and exports saved elsewhere ({n}): {path}.</source>
+        <translation>Da eliminare di persona: relazioni ed esportazioni salvate altrove ({n}): {path}.</translation>
+    </message>
+    <message>
+        <source>Check yourself: files outside the patient’s folder ({n}): {path}.</source>
+        <translation>Da controllare di persona: file fuori dalla cartella del paziente ({n}): {path}.</translation>
+    </message>
+    <message>
+        <source>The log records the deletion, without a name.</source>
+        <translation>Il registro annota l’eliminazione, senza nome.</translation>
+    </message>
+    <message>
+        <source>It cannot be restored.</source>
+        <translation>Non si può ripristinare.</translation>
+    </message>
+    <message>
+        <source>It cannot be restored, not even from a backup.</source>
+        <translation>Non si può ripristinare, nemmeno da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>The retention period set in Settings ({years} years) ends on {day}. You would delete before that date.</source>
+        <translation>Il periodo di conservazione impostato ({years} anni) termina il {day}. L’eliminazione avverrebbe prima.</translation>
+    </message>
+    <message>
+        <source>The patient’s other sessions.</source>
+        <translation>Le altre sedute del paziente.</translation>
+    </message>
+</context>
+<context>
+    <name>DeletionController</name>
+    <message>
+        <source>The session of {day} is in the archive.</source>
+        <translation>La seduta del {day} è nell’archivio.</translation>
+    </message>
+    <message>
+        <source>{name} is in the archive.</source>
+        <translation>{name} è nell’archivio.</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Annulla</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>The session was deleted.</source>
+        <translation>La seduta è stata eliminata.</translation>
+    </message>
+    <message>
+        <source>The patient was deleted.</source>
+        <translation>Il paziente è stato eliminato.</translation>
+    </message>
+    <message>
+        <source>Files deleted: {count}.</source>
+        <translation>File eliminati: {count}.</translation>
+    </message>
+    <message>
+        <source>The session now belongs to {name}.</source>
+        <translation>La seduta ora appartiene a {name}.</translation>
+    </message>
+    <message>
+        <source>Nothing was deleted. Archived items are excluded until restored.</source>
+        <translation>Nulla è stato eliminato. Ciò che è archiviato resta escluso finché non viene ripristinato.</translation>
+    </message>
+</context>
+<context>
+    <name>Dialog</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>What you typed is not kept yet. Esc once more closes without it.</source>
+        <translation>Ciò che è stato scritto non è ancora salvato. Esc un’altra volta chiude senza.</translation>
+    </message>
+</context>
+<context>
     <name>DifferencesCard</name>
     <message>
-        <source>What is compared</source>
-        <translation>Che cosa si confronta</translation>
+        <source>Value to compare</source>
+        <translation>Valore da confrontare</translation>
     </message>
     <message>
         <source>&amp;Mirror</source>
@@ -7733,133 +7638,89 @@
     </message>
 </context>
 <context>
-    <name>DeleteDialog</name>
+    <name>ExcludeDialog</name>
     <message>
-        <source>Erase for good</source>
-        <translation>Cancella per sempre</translation>
+        <source>It stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
+        <translation>Resta nell’elenco e si può aprire, ma è esclusa dall’analisi. Si può includere di nuovo.</translation>
+    </message>
+    <message>
+        <source>Exclude this session?</source>
+        <translation>Escludere questa seduta?</translation>
+    </message>
+    <message>
+        <source>wrong exercise</source>
+        <translation>esercizio sbagliato</translation>
+    </message>
+    <message>
+        <source>trial</source>
+        <translation>prova</translation>
+    </message>
+    <message>
+        <source>Exclude</source>
+        <translation>Escludi</translation>
     </message>
     <message>
         <source>Cancel</source>
         <translation>Annulla</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
+        <source>pain</source>
+        <translation>dolore</translation>
     </message>
     <message>
-        <source>Archive instead</source>
-        <translation>Archivia invece</translation>
+        <source>markers lost</source>
+        <translation>marcatori persi</translation>
     </message>
     <message>
-        <source>This goes</source>
-        <translation>Questo va via</translation>
-    </message>
-    <message>
-        <source>This stays</source>
-        <translation>Questo resta</translation>
-    </message>
-    <message>
-        <source>This cannot be undone</source>
-        <translation>Non si può annullare</translation>
-    </message>
-    <message>
-        <source>Leaves all lists and counts nowhere; everything can be brought back.</source>
-        <translation>Sparisce da ogni elenco e non conta più; tutto si può riportare indietro.</translation>
-    </message>
-    <message>
-        <source>Erase this session for good?</source>
-        <translation>Cancellare per sempre questa seduta?</translation>
-    </message>
-    <message>
-        <source>Erase this patient for good?</source>
-        <translation>Cancellare per sempre questo paziente?</translation>
-    </message>
-    <message>
-        <source>To erase, type “{name}” here</source>
-        <translation>Per cancellare, scrivere qui “{name}”</translation>
-    </message>
-    <message>
-        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}.</source>
-        <translation>Relazioni ed esportazioni salvate altrove, da cancellare di persona ({n}): {path}.</translation>
-    </message>
-    <message>
-        <source>Files outside the patient’s folder, look at them yourself ({n}): {path}.</source>
-        <translation>File fuori dalla cartella del paziente, da controllare di persona ({n}): {path}.</translation>
-    </message>
-    <message>
-        <source>Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.</source>
-        <translation>Copie di sicurezza fino al {day} e file copiati altrove: Carpus non può raggiungerli.</translation>
-    </message>
-    <message>
-        <source>Files copied elsewhere: Carpus cannot reach them.</source>
-        <translation>File copiati altrove: Carpus non può raggiungerli.</translation>
-    </message>
-    <message>
-        <source>The log keeps that it was erased, no name.</source>
-        <translation>Il registro conserva il fatto della cancellazione, senza nome.</translation>
-    </message>
-    <message>
-        <source>Nobody can bring it back.</source>
-        <translation>Nessuno può riportarla indietro.</translation>
-    </message>
-    <message>
-        <source>Carpus cannot bring it back: a restored back-up leaves it out.</source>
-        <translation>Carpus non può recuperarlo: il ripristino di una copia di sicurezza lo tralascia.</translation>
-    </message>
-    <message>
-        <source>Angles, pictures, notes and pain scores of this session ({size} MB; files: {files}).</source>
-        <translation>Angoli, immagini, note e punteggi del dolore di questa seduta ({size} MB; file: {files}).</translation>
-    </message>
-    <message>
-        <source>The patient’s other sessions.</source>
-        <translation>Le altre sedute del paziente.</translation>
-    </message>
-    <message>
-        <source>Your records must be kept until {day} ({years} years, as set in Settings): erasing comes before that day.</source>
-        <translation>La documentazione va conservata fino al {day} ({years} anni, come nelle Impostazioni): la cancellazione avviene prima di quel giorno.</translation>
-    </message>
-    <message>
-        <source>The patient’s entry with real name, notes and values measured by hand, and all sessions ({count}) with their angles, pictures and notes ({size} MB; files: {files}).</source>
-        <translation>La scheda del paziente con nome vero, note e valori misurati a mano, e tutte le sedute ({count}) con angoli, immagini e note ({size} MB; file: {files}).</translation>
+        <source>Another reason</source>
+        <translation>Un altro motivo</translation>
     </message>
 </context>
 <context>
-    <name>DeletionController</name>
+    <name>ExclusionDialog</name>
     <message>
-        <source>The session is erased.</source>
-        <translation>La seduta è cancellata.</translation>
+        <source>pain</source>
+        <translation>dolore</translation>
     </message>
     <message>
-        <source>The patient is erased.</source>
-        <translation>Il paziente è cancellato.</translation>
+        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
+        <translation>Passiva: la mano è stata mossa da un’altra persona. Conta a parte, accanto a quelle attive.</translation>
     </message>
     <message>
-        <source>The session is now one of {name}.</source>
-        <translation>La seduta ora è di {name}.</translation>
+        <source>Passive</source>
+        <translation>Passiva</translation>
     </message>
     <message>
-        <source>The session of {day} is in the archive.</source>
-        <translation>La seduta del {day} è nell’archivio.</translation>
+        <source>Passive, and all after it</source>
+        <translation>Passiva, e tutte le seguenti</translation>
     </message>
     <message>
-        <source>{name} is in the archive.</source>
-        <translation>{name} è nell’archivio.</translation>
+        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
+        <translation>Esclusa: resta nella registrazione e nelle curve e non conta più. La relazione lo dice.</translation>
     </message>
     <message>
-        <source>Nothing is lost. It counts nowhere until it is brought back.</source>
-        <translation>Niente è perduto. Non conta da nessuna parte finché non viene ripreso.</translation>
+        <source>other movement</source>
+        <translation>altro movimento</translation>
     </message>
     <message>
-        <source>&amp;Undo</source>
-        <translation>&amp;Annulla</translation>
+        <source>trial</source>
+        <translation>prova</translation>
     </message>
     <message>
-        <source>Close</source>
-        <translation>Chiudi</translation>
+        <source>Another reason</source>
+        <translation>Un altro motivo</translation>
     </message>
     <message>
-        <source>Files deleted: {count}.</source>
-        <translation>File cancellati: {count}.</translation>
+        <source>Keep it in</source>
+        <translation>Tienila</translation>
+    </message>
+    <message>
+        <source>Is repetition {number} passive, or left out?</source>
+        <translation>La ripetizione {number} è passiva o esclusa?</translation>
+    </message>
+    <message>
+        <source>Leave it out</source>
+        <translation>Escludi</translation>
     </message>
 </context>
 <context>
@@ -7950,14 +7811,21 @@
     </message>
 </context>
 <context>
+    <name>ExportController</name>
+    <message>
+        <source>Export to folder</source>
+        <translation>Esporta in una cartella</translation>
+    </message>
+</context>
+<context>
     <name>ExportDialog</name>
     <message>
-        <source>Tables (CSV): angles, joints, markers, events, measures</source>
-        <translation>Tabelle (CSV): angoli, articolazioni, marcatori, eventi, misure</translation>
+        <source>Tables (CSV): angles, joints, markers, events, values</source>
+        <translation>Tabelle (CSV): angoli, articolazioni, marcatori, eventi, valori</translation>
     </message>
     <message>
-        <source>Measures with their origin (JSON)</source>
-        <translation>Misure con la loro origine (JSON)</translation>
+        <source>Values with their origin (JSON)</source>
+        <translation>Valori con la loro origine (JSON)</translation>
     </message>
     <message>
         <source>Markers for motion capture programs (C3D)</source>
@@ -7976,28 +7844,20 @@
         <translation>Dati per la ricerca (BIDS-Motion)</translation>
     </message>
     <message>
-        <source>The session itself, for another Carpus</source>
-        <translation>La seduta stessa, per un altro Carpus</translation>
+        <source>Session file, for another Carpus installation</source>
+        <translation>File della seduta, per un’altra installazione di Carpus</translation>
+    </message>
+    <message>
+        <source>Existing files are never overwritten.</source>
+        <translation>I file già presenti non vengono mai sovrascritti.</translation>
+    </message>
+    <message>
+        <source>Tables of angles, repetitions and values (CSV), for any spreadsheet.</source>
+        <translation>Tabelle di angoli, ripetizioni e valori (CSV), per qualsiasi foglio di calcolo.</translation>
     </message>
     <message>
         <source>Export this session</source>
         <translation>Esportare questa seduta</translation>
-    </message>
-    <message>
-        <source>Files that are there are never overwritten.</source>
-        <translation>I file già presenti non vengono mai sovrascritti.</translation>
-    </message>
-    <message>
-        <source>Tables of angles, repetitions and measures (CSV), for any spreadsheet.</source>
-        <translation>Tabelle di angoli, ripetizioni e misure (CSV), per qualsiasi foglio di calcolo.</translation>
-    </message>
-    <message>
-        <source>Nobody can be found by it: random name, no dates (day 1, 2 …), no notes</source>
-        <translation>Anonima: nome casuale, giorno 1, 2 … al posto della data, senza note</translation>
-    </message>
-    <message>
-        <source>How far the export is</source>
-        <translation>Avanzamento dell’esportazione</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -8008,39 +7868,40 @@
         <translation>Esc</translation>
     </message>
     <message>
-        <source>Choose the folder…</source>
-        <translation>Scegli la cartella…</translation>
-    </message>
-    <message>
-        <source>&amp;Other formats: settings…</source>
-        <translation>&amp;Altri formati…</translation>
-    </message>
-    <message>
-        <source>JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on.</source>
-        <translation>JSON, C3D, TRC, MOT e BIDS vengono offerti quando “Per la ricerca” è attivo.</translation>
-    </message>
-    <message>
         <source>Stop</source>
-        <translation>Ferma</translation>
-    </message>
-    <message>
-        <source>programs: 1.5 and a comma, the same everywhere</source>
-        <translation>programmi: 1.5 e una virgola, ovunque uguale</translation>
+        <translation>Interrompi</translation>
     </message>
     <message>
         <source>&amp;Tables for</source>
         <translation>&amp;Tabelle per</translation>
     </message>
     <message>
+        <source>De-identified: random name, relative days, no notes</source>
+        <translation>De-identificata: nome casuale, giorni relativi, senza note</translation>
+    </message>
+    <message>
+        <source>Progress of the export</source>
+        <translation>Avanzamento dell’esportazione</translation>
+    </message>
+    <message>
+        <source>Choose folder…</source>
+        <translation>Scegli la cartella…</translation>
+    </message>
+    <message>
+        <source>&amp;Other formats…</source>
+        <translation>&amp;Altri formati…</translation>
+    </message>
+    <message>
+        <source>For JSON, C3D, TRC, MOT and BIDS, turn on “For research” in the settings.</source>
+        <translation>Per JSON, C3D, TRC, MOT e BIDS attivare “Per la ricerca” nelle impostazioni.</translation>
+    </message>
+    <message>
+        <source>other programs: 1.5, separated by commas</source>
+        <translation>altri programmi: 1.5, separati da virgole</translation>
+    </message>
+    <message>
         <source>a spreadsheet in {region}: {example}</source>
         <translation>un foglio di calcolo in {region}: {example}</translation>
-    </message>
-</context>
-<context>
-    <name>ExportController</name>
-    <message>
-        <source>Export into a folder</source>
-        <translation>Esporta in una cartella</translation>
     </message>
 </context>
 <context>
@@ -8079,6 +7940,21 @@
     <message>
         <source>Spreading</source>
         <translation>Divaricazione</translation>
+    </message>
+</context>
+<context>
+    <name>FrameView</name>
+    <message>
+        <source>Camera image</source>
+        <translation>Immagine della telecamera</translation>
+    </message>
+    <message>
+        <source>Hand area ×{scale}</source>
+        <translation>Mano ×{scale}</translation>
+    </message>
+    <message>
+        <source>Whole frame</source>
+        <translation>Immagine intera</translation>
     </message>
 </context>
 <context>
@@ -8200,50 +8076,6 @@ dall’alto</translation>
     </message>
 </context>
 <context>
-    <name>ManualForm</name>
-    <message>
-        <source>Active</source>
-        <translation>Attivo</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation>Passivo</translation>
-    </message>
-    <message>
-        <source>Carpus</source>
-        <translation>Carpus</translation>
-    </message>
-    <message>
-        <source>last time</source>
-        <translation>l’ultima volta</translation>
-    </message>
-</context>
-<context>
-    <name>HandMap</name>
-    <message>
-        <source>Markers</source>
-        <translation>Marcatori</translation>
-    </message>
-    <message>
-        <source>seen</source>
-        <translation>visto</translation>
-    </message>
-    <message>
-        <source>partly seen</source>
-        <translation>visto in parte</translation>
-    </message>
-    <message>
-        <source>hidden, predicted</source>
-        <translation>nascosto, stimato</translation>
-    </message>
-    <message>
-        <source>F2 next joint · F3 next finger
-Shift+F8 from the side</source>
-        <translation>F2 articolazione · F3 dito
-Maiusc+F8 di lato</translation>
-    </message>
-</context>
-<context>
     <name>HandImageDialog</name>
     <message>
         <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
@@ -8271,42 +8103,28 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ManualValueChart</name>
+    <name>HandMap</name>
     <message>
-        <source>{name} over the days</source>
-        <translation>{name} nei giorni</translation>
+        <source>Markers</source>
+        <translation>Marcatori</translation>
     </message>
     <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Ancora nulla misurato a mano.</translation>
+        <source>seen</source>
+        <translation>visto</translation>
     </message>
     <message>
-        <source>by hand, active</source>
-        <translation>a mano, attivo</translation>
+        <source>partly seen</source>
+        <translation>visto in parte</translation>
     </message>
     <message>
-        <source>by hand</source>
-        <translation>a mano</translation>
+        <source>hidden, predicted</source>
+        <translation>nascosto, stimato</translation>
     </message>
     <message>
-        <source>by hand, passive</source>
-        <translation>a mano, passivo</translation>
-    </message>
-    <message>
-        <source>Carpus, mean</source>
-        <translation>Carpus, media</translation>
-    </message>
-    <message>
-        <source>passive {value}</source>
-        <translation>passivo {value}</translation>
-    </message>
-    <message>
-        <source>Carpus {value}</source>
-        <translation>Carpus {value}</translation>
-    </message>
-    <message>
-        <source>active {value}</source>
-        <translation>attivo {value}</translation>
+        <source>F2 next joint · F3 next finger
+Shift+F8 from the side</source>
+        <translation>F2 articolazione · F3 dito
+Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
@@ -8388,13 +8206,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PreviousPhoto</name>
-    <message>
-        <source>Last time, {day}</source>
-        <translation>Ultima volta, {day}</translation>
-    </message>
-</context>
-<context>
     <name>LetterDialog</name>
     <message>
         <source>Letter to the doctor</source>
@@ -8432,12 +8243,12 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>LicencesWindow</name>
     <message>
-        <source>Parts and their licences</source>
+        <source>Components and licences</source>
         <translation>Componenti e licenze</translation>
     </message>
     <message>
-        <source>The licences are legal texts, and stay in the language that they were written in.</source>
-        <translation>Le licenze sono testi legali e restano nella lingua in cui furono scritte.</translation>
+        <source>The licences are legal texts and are shown in their original language.</source>
+        <translation>Le licenze sono testi legali e restano nella lingua originale.</translation>
     </message>
 </context>
 <context>
@@ -8558,6 +8369,37 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>LivePathChart</name>
+    <message>
+        <source>Path of the wrist</source>
+        <translation>Percorso del polso</translation>
+    </message>
+    <message>
+        <source>15 mm</source>
+        <translation>15 mm</translation>
+    </message>
+    <message>
+        <source>Path of the wrist, last 10 s</source>
+        <translation>Percorso del polso, ultimi 10 s</translation>
+    </message>
+    <message>
+        <source>{span} × {span} mm, fixed</source>
+        <translation>{span} × {span} mm, fisso</translation>
+    </message>
+    <message>
+        <source> · cross: where the wrist turns; it must stay in the ring</source>
+        <translation> · croce: centro di rotazione del polso; deve restare nell’anello</translation>
+    </message>
+    <message>
+        <source>arm moved ({distance})</source>
+        <translation>braccio spostato ({distance})</translation>
+    </message>
+    <message>
+        <source>forearm still ({distance})</source>
+        <translation>avambraccio fermo ({distance})</translation>
+    </message>
+</context>
+<context>
     <name>LiveScreen</name>
     <message>
         <source>Speeds</source>
@@ -8615,8 +8457,8 @@ Maiusc+F8 di lato</translation>
         <translation>Blocco</translation>
     </message>
     <message>
-        <source>A PIN hides names and pictures from those who pass by. It protects no file: whoever has this computer’s account or disk reads them without it.</source>
-        <translation>Un PIN nasconde nomi e immagini a chi passa. Non protegge alcun file: chi ha l’account o il disco di questo computer li legge senza PIN.</translation>
+        <source>A PIN only hides the screen. It does not encrypt files.</source>
+        <translation>Un PIN nasconde solo lo schermo. Non cifra i file.</translation>
     </message>
     <message>
         <source>After 5 min</source>
@@ -8635,7 +8477,7 @@ Maiusc+F8 di lato</translation>
         <translation>Mai</translation>
     </message>
     <message>
-        <source>Lock by itself</source>
+        <source>Lock automatically</source>
         <translation>Blocco automatico</translation>
     </message>
     <message>
@@ -8656,6 +8498,17 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>LockController</name>
+    <message>
+        <source>The current PIN is wrong.</source>
+        <translation>Il PIN attuale è sbagliato.</translation>
+    </message>
+    <message>
+        <source>Too many attempts. Try again in {seconds} s.</source>
+        <translation>Troppi tentativi. Riprovare fra {seconds} s.</translation>
+    </message>
+</context>
+<context>
     <name>LockScreen</name>
     <message>
         <source>Locked</source>
@@ -8670,59 +8523,52 @@ Maiusc+F8 di lato</translation>
         <translation>Sblocca</translation>
     </message>
     <message>
-        <source>Nothing is lost. The open session is stored.</source>
-        <translation>Nulla è perso. La seduta aperta è salvata.</translation>
+        <source>All data are saved, including the open session.</source>
+        <translation>Tutti i dati sono salvati, anche la seduta aperta.</translation>
     </message>
     <message>
-        <source>Nothing is lost.</source>
-        <translation>Nulla è perso.</translation>
+        <source>All data are saved.</source>
+        <translation>Tutti i dati sono salvati.</translation>
     </message>
     <message>
-        <source>Names, pictures and figures are hidden.</source>
+        <source>Names, images and values are hidden.</source>
         <translation>Nomi, immagini e valori sono nascosti.</translation>
     </message>
     <message>
-        <source>Locked by itself at {time}, after {minutes} minutes without a key.</source>
-        <translation>Bloccato da solo alle {time}, dopo {minutes} minuti senza un tasto.</translation>
+        <source>Locked automatically at {time} after {minutes} minutes without input.</source>
+        <translation>Bloccato automaticamente alle {time} dopo {minutes} minuti di inattività.</translation>
+    </message>
+    <message>
+        <source>Wrong PIN. 1 attempt left before a 1-minute wait.</source>
+        <translation>PIN sbagliato. Ancora 1 tentativo prima di 1 minuto di attesa.</translation>
+    </message>
+    <message>
+        <source>Wrong PIN. {left} attempts left before a 1-minute wait.</source>
+        <translation>PIN sbagliato. Ancora {left} tentativi prima di 1 minuto di attesa.</translation>
+    </message>
+    <message>
+        <source>Too many attempts. Try again in {seconds} s.</source>
+        <translation>Troppi tentativi. Riprovare fra {seconds} s.</translation>
+    </message>
+    <message>
+        <source>Forgot the PIN? Press F1.</source>
+        <translation>PIN dimenticato? Premere F1.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to remove the PIN. No data are lost.</source>
+        <translation>Chiedere all’assistenza informatica di rimuovere il PIN. Nessun dato va perso.</translation>
     </message>
     <message>
         <source>Locked at {time}.</source>
         <translation>Bloccato alle {time}.</translation>
     </message>
-    <message>
-        <source>Not this PIN. 1 more try, then a pause of 1 minute.</source>
-        <translation>PIN sbagliato. Ancora 1 tentativo, poi una pausa di 1 minuto.</translation>
-    </message>
-    <message>
-        <source>Not this PIN. {left} more tries, then a pause of 1 minute.</source>
-        <translation>PIN sbagliato. Ancora {left} tentativi, poi una pausa di 1 minuto.</translation>
-    </message>
-    <message>
-        <source>Too many tries. The next one in {seconds} s.</source>
-        <translation>Troppi tentativi. Il prossimo fra {seconds} s.</translation>
-    </message>
-    <message>
-        <source>PIN forgotten? F1 says what can be done.</source>
-        <translation>PIN dimenticato? F1 dice che cosa si può fare.</translation>
-    </message>
-    <message>
-        <source>Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus again: nothing is lost. A PIN hides; it does not protect the files.</source>
-        <translation>Chi si occupa di questo computer toglie il file pin.json dalla cartella dei dati e riavvia Carpus: nulla è perso. Un PIN nasconde; non protegge i file.</translation>
-    </message>
-</context>
-<context>
-    <name>LockController</name>
-    <message>
-        <source>Too many tries. The next one in {seconds} s.</source>
-        <translation>Troppi tentativi. Il prossimo fra {seconds} s.</translation>
-    </message>
-    <message>
-        <source>The current PIN is not right.</source>
-        <translation>Il PIN attuale non è giusto.</translation>
-    </message>
 </context>
 <context>
     <name>LogDialog</name>
+    <message>
+        <source>Append-only log. It protects against mistakes, not against someone with full access to this computer. Names appear only here, while they are in the patient list.</source>
+        <translation>Il registro si può solo estendere. Protegge dagli errori, non da chi ha pieno accesso a questo computer. I nomi compaiono solo qui, finché sono nell’elenco dei pazienti.</translation>
+    </message>
     <message>
         <source>Log</source>
         <translation>Registro</translation>
@@ -8740,24 +8586,172 @@ Maiusc+F8 di lato</translation>
         <translation>Che cosa</translation>
     </message>
     <message>
-        <source>Of whom</source>
-        <translation>Di chi</translation>
+        <source>Log: {n} entries</source>
+        <translation>Registro: {n} voci</translation>
     </message>
     <message>
         <source>Details</source>
         <translation>Dettagli</translation>
     </message>
     <message>
+        <source>Patient</source>
+        <translation>Paziente</translation>
+    </message>
+    <message>
         <source>Done</source>
         <translation>Fine</translation>
     </message>
+</context>
+<context>
+    <name>ManualForm</name>
     <message>
-        <source>Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up kept elsewhere shows a later change. Names are put to it here, as long as they are in the list.</source>
-        <translation>Si può solo aggiungere. Questo protegge dagli errori, non dal proprietario del computer: una copia di sicurezza tenuta altrove mostra una modifica successiva. I nomi compaiono solo qui, finché sono nell’elenco.</translation>
+        <source>Active</source>
+        <translation>Attivo</translation>
     </message>
     <message>
-        <source>Log: {n} lines</source>
-        <translation>Registro: {n} righe</translation>
+        <source>Passive</source>
+        <translation>Passivo</translation>
+    </message>
+    <message>
+        <source>Carpus</source>
+        <translation>Carpus</translation>
+    </message>
+    <message>
+        <source>previous</source>
+        <translation>precedente</translation>
+    </message>
+</context>
+<context>
+    <name>ManualMeasurementsFlow</name>
+    <message>
+        <source>Leave without saving?</source>
+        <translation>Uscire senza salvare?</translation>
+    </message>
+    <message>
+        <source>Some values have not been saved.</source>
+        <translation>Alcuni valori non sono ancora salvati.</translation>
+    </message>
+    <message>
+        <source>Save or discard the values.</source>
+        <translation>Salvare o scartare i valori.</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Scarta</translation>
+    </message>
+    <message>
+        <source>Check the unusual values, or save them as entered</source>
+        <translation>Controllare i valori insoliti, o salvarli così</translation>
+    </message>
+    <message>
+        <source>Check the values before you save them.</source>
+        <translation>Controllare i valori prima di salvarli.</translation>
+    </message>
+    <message>
+        <source>Save as entered</source>
+        <translation>Salva così</translation>
+    </message>
+    <message>
+        <source>Back to the form</source>
+        <translation>Torna al modulo</translation>
+    </message>
+</context>
+<context>
+    <name>ManualMeasurementsScreen</name>
+    <message>
+        <source>Date of measurement</source>
+        <translation>Data della misura</translation>
+    </message>
+    <message>
+        <source>Other measures</source>
+        <translation>Altre misure</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>Save values</source>
+        <translation>Salva i valori</translation>
+    </message>
+    <message>
+        <source>Saved.</source>
+        <translation>Salvato.</translation>
+    </message>
+    <message>
+        <source>Leave empty what was not measured. These entries do not change values measured by Carpus.</source>
+        <translation>Lasciare vuoto ciò che non è stato misurato. Questi valori non modificano quelli misurati da Carpus.</translation>
+    </message>
+    <message>
+        <source>The Carpus session of this day is simulated and not shown.</source>
+        <translation>La seduta Carpus di questo giorno è simulata e non viene mostrata.</translation>
+    </message>
+    <message>
+        <source>Manual and Carpus values stay separate</source>
+        <translation>Misure manuali e misure Carpus restano separate</translation>
+    </message>
+    <message>
+        <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
+        <translation>Non vengono mediate né sottratte. Il cambiamento si valuta solo entro lo stesso metodo.</translation>
+    </message>
+    <message>
+        <source>Not saved yet, including values of the other hand or another day.</source>
+        <translation>Non ancora salvati, compresi valori dell’altra mano o di un altro giorno.</translation>
+    </message>
+    <message>
+        <source>Values are saved with initials and time. Later changes stay visible.</source>
+        <translation>I valori si salvano con iniziali e ora. Le modifiche successive restano visibili.</translation>
+    </message>
+    <message>
+        <source>Measured by hand, {day}</source>
+        <translation>Misurato a mano, {day}</translation>
+    </message>
+    <message>
+        <source>By {initials}.</source>
+        <translation>Di {initials}.</translation>
+    </message>
+    <message>
+        <source>Other measures…</source>
+        <translation>Altre misure…</translation>
+    </message>
+</context>
+<context>
+    <name>ManualValueChart</name>
+    <message>
+        <source>{name} over the days</source>
+        <translation>{name} nei giorni</translation>
+    </message>
+    <message>
+        <source>Nothing measured by hand yet.</source>
+        <translation>Ancora nulla misurato a mano.</translation>
+    </message>
+    <message>
+        <source>by hand, active</source>
+        <translation>a mano, attivo</translation>
+    </message>
+    <message>
+        <source>by hand</source>
+        <translation>a mano</translation>
+    </message>
+    <message>
+        <source>by hand, passive</source>
+        <translation>a mano, passivo</translation>
+    </message>
+    <message>
+        <source>Carpus, mean</source>
+        <translation>Carpus, media</translation>
+    </message>
+    <message>
+        <source>passive {value}</source>
+        <translation>passivo {value}</translation>
+    </message>
+    <message>
+        <source>Carpus {value}</source>
+        <translation>Carpus {value}</translation>
+    </message>
+    <message>
+        <source>active {value}</source>
+        <translation>attivo {value}</translation>
     </message>
 </context>
 <context>
@@ -8784,14 +8778,45 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>MarkerQuestion</name>
+    <message>
+        <source>Is this blue spot the {marker}?</source>
+        <translation>Questo punto blu è: {marker}?</translation>
+    </message>
+    <message>
+        <source>Yes</source>
+        <translation>Sì</translation>
+    </message>
+    <message>
+        <source>No</source>
+        <translation>No</translation>
+    </message>
+    <message>
+        <source>Which one is the {marker}?</source>
+        <translation>Qual è: {marker}?</translation>
+    </message>
+    <message>
+        <source>Disc 1</source>
+        <translation>Dischetto 1</translation>
+    </message>
+    <message>
+        <source>Spot 2</source>
+        <translation>Punto 2</translation>
+    </message>
+    <message>
+        <source>Neither</source>
+        <translation>Nessuno dei due</translation>
+    </message>
+</context>
+<context>
     <name>MarkerRow</name>
     <message>
         <source>{size} mm</source>
         <translation>{size} mm</translation>
     </message>
     <message>
-        <source>hidden</source>
-        <translation>nascosto</translation>
+        <source>occluded</source>
+        <translation>coperto</translation>
     </message>
     <message>
         <source>{now}, was {size} mm</source>
@@ -8931,28 +8956,28 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>MeasureRow</name>
     <message>
-        <source>where</source>
-        <translation>dove</translation>
+        <source>location</source>
+        <translation>sede</translation>
     </message>
     <message>
-        <source>{name}: where it was taken</source>
-        <translation>{name}: dove è stata presa</translation>
+        <source>{name}: location of the measurement</source>
+        <translation>{name}: sede della misura</translation>
     </message>
     <message>
         <source>{side} {value}</source>
         <translation>{side} {value}</translation>
     </message>
     <message>
-        <source>taken back</source>
-        <translation>ritirato</translation>
+        <source>removed</source>
+        <translation>rimosso</translation>
+    </message>
+    <message>
+        <source>Previous entries for this day:</source>
+        <translation>Inserimenti precedenti per questo giorno:</translation>
     </message>
     <message>
         <source>changed</source>
         <translation>modificato</translation>
-    </message>
-    <message>
-        <source>Entered before for this day:</source>
-        <translation>Inseriti prima per questo giorno:</translation>
     </message>
     <message>
         <source>mean {value}</source>
@@ -8962,24 +8987,35 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>Messages</name>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Continua</translation>
     </message>
     <message>
-        <source>A session of {name} was cut short on {day} at {time}. It has been recovered.</source>
+        <source>A session of {name} was interrupted on {day} at {time}. It has been recovered.</source>
         <translation>Una seduta di {name} si è interrotta il {day} alle {time}. È stata recuperata.</translation>
     </message>
     <message>
-        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
-        <translation>Tutti i dati fino a {kept} sono al sicuro; manca al massimo l’ultimo secondo; di più solo se i valori arrivavano in ritardo.</translation>
+        <source>All data up to {kept} are safe. At most the last second is missing, or more where results were delayed.</source>
+        <translation>Tutti i dati fino a {kept} sono al sicuro. Manca al massimo l’ultimo secondo, di più solo se i risultati erano in ritardo.</translation>
     </message>
     <message>
-        <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>
-        <translation>Rivederla ora, o lasciarla per dopo: resta nell’elenco del paziente.</translation>
+        <source>Review it now or later. It stays in the patient’s session list.</source>
+        <translation>Rivederla ora o più tardi. Resta nell’elenco delle sedute del paziente.</translation>
     </message>
     <message>
         <source>Waiting for the camera … {seconds} s</source>
         <translation>In attesa della telecamera … {seconds} s</translation>
+    </message>
+</context>
+<context>
+    <name>NavigationButton</name>
+    <message>
+        <source>{name}, you are here</source>
+        <translation>{name}, passo attuale</translation>
+    </message>
+    <message>
+        <source>{name}, done</source>
+        <translation>{name}, fatto</translation>
     </message>
 </context>
 <context>
@@ -9150,34 +9186,10 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>LivePathChart</name>
+    <name>PathsChart</name>
     <message>
-        <source>Path of the wrist</source>
-        <translation>Percorso del polso</translation>
-    </message>
-    <message>
-        <source>15 mm</source>
-        <translation>15 mm</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, last 10 s</source>
-        <translation>Percorso del polso, ultimi 10 s</translation>
-    </message>
-    <message>
-        <source>{span} × {span} mm, fixed</source>
-        <translation>{span} × {span} mm, fisso</translation>
-    </message>
-    <message>
-        <source> · cross: where the wrist turns; it must stay in the ring</source>
-        <translation> · croce: centro di rotazione del polso; deve restare nell’anello</translation>
-    </message>
-    <message>
-        <source>arm moved ({distance})</source>
-        <translation>braccio spostato ({distance})</translation>
-    </message>
-    <message>
-        <source>forearm still ({distance})</source>
-        <translation>avambraccio fermo ({distance})</translation>
+        <source>Ways in three planes</source>
+        <translation>Percorsi in tre piani</translation>
     </message>
 </context>
 <context>
@@ -9211,20 +9223,28 @@ Maiusc+F8 di lato</translation>
         <translation>Nome: {name}</translation>
     </message>
     <message>
-        <source>Simulated: nothing counts</source>
-        <translation>Simulato: non conta nulla</translation>
+        <source>Simulated: excluded from analysis</source>
+        <translation>Simulato: escluso dall’analisi</translation>
     </message>
     <message>
-        <source>Markers as on {day}</source>
-        <translation>Marcatori come nella seduta del {day}</translation>
+        <source>Place markers as on {day}</source>
+        <translation>Posizionare i marcatori come il {day}</translation>
+    </message>
+    <message>
+        <source>No analysed session yet</source>
+        <translation>Nessuna seduta ancora analizzata</translation>
+    </message>
+    <message>
+        <source>Only simulated sessions so far (excluded).</source>
+        <translation>Finora solo sedute simulate (escluse).</translation>
+    </message>
+    <message>
+        <source>Attach the markers, then start.</source>
+        <translation>Applicare i marcatori, poi iniziare.</translation>
     </message>
     <message>
         <source>No session yet</source>
         <translation>Ancora nessuna seduta</translation>
-    </message>
-    <message>
-        <source>No session counted yet</source>
-        <translation>Nessuna seduta ancora contata</translation>
     </message>
     <message>
         <source>Note of {day}</source>
@@ -9245,14 +9265,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>A simulated patient moves in front of a simulated camera. Try every step without a patient.</source>
         <translation>Un paziente simulato si muove davanti a una telecamera simulata. Provare ogni passo senza un paziente.</translation>
-    </message>
-    <message>
-        <source>Only simulated sessions so far: they count nowhere.</source>
-        <translation>Finora solo sedute simulate: non contano da nessuna parte.</translation>
-    </message>
-    <message>
-        <source>Put the markers on, then start.</source>
-        <translation>Mettere i marcatori, poi iniziare.</translation>
     </message>
     <message>
         <source>{ordinal} session</source>
@@ -9282,6 +9294,26 @@ Maiusc+F8 di lato</translation>
         <translation>Nell’elen&amp;co della clinica</translation>
     </message>
     <message>
+        <source>Name: {count} characters too long</source>
+        <translation>Nome: {count} caratteri di troppo</translation>
+    </message>
+    <message>
+        <source>&amp;Real name, optional (stays in this list, never in a session or report)</source>
+        <translation>Nome &amp;vero, facoltativo (resta in questo elenco, mai in una seduta o relazione)</translation>
+    </message>
+    <message>
+        <source>Real name: {count} characters too long</source>
+        <translation>Nome vero: {count} caratteri di troppo</translation>
+    </message>
+    <message>
+        <source>&amp;Diagnosis or operation (stays in this list, never in a session)</source>
+        <translation>&amp;Diagnosi o intervento (resta in questo elenco, in nessuna seduta)</translation>
+    </message>
+    <message>
+        <source>Diagnosis: {count} characters too long</source>
+        <translation>Diagnosi: {count} caratteri di troppo</translation>
+    </message>
+    <message>
         <source>day month year</source>
         <translation>giorno mese anno</translation>
     </message>
@@ -9306,12 +9338,32 @@ Maiusc+F8 di lato</translation>
         <translation>Un nome inventato che si possa dire ad alta voce. Né nome vero, né iniziali, né data di nascita.</translation>
     </message>
     <message>
-        <source>&amp;Name in Carpus</source>
-        <translation>&amp;Nome in Carpus</translation>
+        <source>Edit patient</source>
+        <translation>Modificare il paziente</translation>
     </message>
     <message>
-        <source>&amp;Real name, if wanted (stays in this list, never in a session or report)</source>
-        <translation>Nome &amp;vero, se voluto (resta in questo elenco, mai in una seduta o relazione)</translation>
+        <source>Save changes</source>
+        <translation>Salva le modifiche</translation>
+    </message>
+    <message>
+        <source>Since when? The date is in the future</source>
+        <translation>Da quando? La data è nel futuro</translation>
+    </message>
+    <message>
+        <source>Since when? This date does not exist</source>
+        <translation>Da quando? Questa data non esiste</translation>
+    </message>
+    <message>
+        <source>Enter a name.</source>
+        <translation>Inserire un nome.</translation>
+    </message>
+    <message>
+        <source>“{name}” is already in use. Choose another name.</source>
+        <translation>“{name}” è già usato. Scegliere un altro nome.</translation>
+    </message>
+    <message>
+        <source>&amp;Name in Carpus</source>
+        <translation>&amp;Nome in Carpus</translation>
     </message>
     <message>
         <source>Affected hand</source>
@@ -9322,28 +9374,12 @@ Maiusc+F8 di lato</translation>
         <translation>Scrive con</translation>
     </message>
     <message>
-        <source>&amp;Diagnosis or operation (stays in this list, in no session)</source>
-        <translation>&amp;Diagnosi o intervento (resta in questo elenco, in nessuna seduta)</translation>
-    </message>
-    <message>
         <source>&amp;Since</source>
         <translation>Da&amp;l</translation>
     </message>
     <message>
         <source>N&amp;ote (no names)</source>
         <translation>N&amp;ota (nessun nome)</translation>
-    </message>
-    <message>
-        <source>Name: {count} letters too many</source>
-        <translation>Nome: {count} lettere di troppo</translation>
-    </message>
-    <message>
-        <source>Real name: {count} letters too many</source>
-        <translation>Nome vero: {count} lettere di troppo</translation>
-    </message>
-    <message>
-        <source>Diagnosis: {count} letters too many</source>
-        <translation>Diagnosi: {count} lettere di troppo</translation>
     </message>
     <message>
         <source>Archi&amp;ve or delete…</source>
@@ -9354,16 +9390,8 @@ Maiusc+F8 di lato</translation>
         <translation>Nuovo paziente</translation>
     </message>
     <message>
-        <source>Change patient</source>
-        <translation>Modificare il paziente</translation>
-    </message>
-    <message>
         <source>Add patient</source>
         <translation>Aggiungi paziente</translation>
-    </message>
-    <message>
-        <source>Keep changes</source>
-        <translation>Salva le modifiche</translation>
     </message>
     <message>
         <source>Which hand is affected?</source>
@@ -9374,28 +9402,12 @@ Maiusc+F8 di lato</translation>
         <translation>Con quale mano scrive?</translation>
     </message>
     <message>
-        <source>Since when? There is no such day</source>
-        <translation>Da quando? Questo giorno non esiste</translation>
-    </message>
-    <message>
         <source>Since when? Day, month, year</source>
         <translation>Da quando? Giorno, mese, anno</translation>
     </message>
     <message>
-        <source>Since when? It is yet to come</source>
-        <translation>Da quando? Il giorno deve venire</translation>
-    </message>
-    <message>
         <source>Operation or injury?</source>
         <translation>Intervento o lesione?</translation>
-    </message>
-    <message>
-        <source>Give the patient a name.</source>
-        <translation>Dare un nome al paziente.</translation>
-    </message>
-    <message>
-        <source>“{name}” is taken. Choose another name.</source>
-        <translation>“{name}” è già usato. Scegliere un altro nome.</translation>
     </message>
 </context>
 <context>
@@ -9479,26 +9491,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>FrameView</name>
-    <message>
-        <source>Camera picture</source>
-        <translation>Immagine della telecamera</translation>
-    </message>
-    <message>
-        <source>Hand area ×{scale}</source>
-        <translation>Mano ×{scale}</translation>
-    </message>
-    <message>
-        <source>Whole picture</source>
-        <translation>Immagine intera</translation>
-    </message>
-</context>
-<context>
     <name>PinDialog</name>
-    <message>
-        <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
-        <translation>Quattro segni o più, cifre o lettere. Nasconde nomi e immagini a chi passa; i file restano leggibili per chi ha l’account o il disco di questo computer.</translation>
-    </message>
     <message>
         <source>&amp;New PIN</source>
         <translation>&amp;Nuovo PIN</translation>
@@ -9512,12 +9505,8 @@ Maiusc+F8 di lato</translation>
         <translation>Impostare un PIN</translation>
     </message>
     <message>
-        <source>A PIN has four signs or more.</source>
-        <translation>Un PIN ha quattro segni o più.</translation>
-    </message>
-    <message>
-        <source>The two are not the same.</source>
-        <translation>I due non sono uguali.</translation>
+        <source>At least four characters, digits or letters. A PIN only hides the screen. It does not encrypt files.</source>
+        <translation>Almeno quattro caratteri, cifre o lettere. Un PIN nasconde solo lo schermo. Non cifra i file.</translation>
     </message>
     <message>
         <source>&amp;Current PIN</source>
@@ -9534,6 +9523,41 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Repeat new &amp;PIN</source>
         <translation>Ripetere il nuovo &amp;PIN</translation>
+    </message>
+    <message>
+        <source>A PIN needs at least four characters.</source>
+        <translation>Un PIN richiede almeno quattro caratteri.</translation>
+    </message>
+    <message>
+        <source>The two PINs differ.</source>
+        <translation>I due PIN sono diversi.</translation>
+    </message>
+</context>
+<context>
+    <name>PlaybackControls</name>
+    <message>
+        <source>Previous picture (←)</source>
+        <translation>Immagine precedente (←)</translation>
+    </message>
+    <message>
+        <source>Next picture (→)</source>
+        <translation>Immagine seguente (→)</translation>
+    </message>
+    <message>
+        <source>Play (Space)</source>
+        <translation>Riproduci (Spazio)</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Ferma</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Riproduci</translation>
+    </message>
+    <message>
+        <source>{factor}× speed</source>
+        <translation>velocità {factor}×</translation>
     </message>
 </context>
 <context>
@@ -9616,6 +9640,13 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Save</source>
         <translation>Salva</translation>
+    </message>
+</context>
+<context>
+    <name>PreviousPhoto</name>
+    <message>
+        <source>Last time, {day}</source>
+        <translation>Ultima volta, {day}</translation>
     </message>
 </context>
 <context>
@@ -9732,78 +9763,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ExclusionDialog</name>
-    <message>
-        <source>pain</source>
-        <translation>dolore</translation>
-    </message>
-    <message>
-        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
-        <translation>Passiva: la mano è stata mossa da un’altra persona. Conta a parte, accanto a quelle attive.</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation>Passiva</translation>
-    </message>
-    <message>
-        <source>Passive, and all after it</source>
-        <translation>Passiva, e tutte le seguenti</translation>
-    </message>
-    <message>
-        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
-        <translation>Esclusa: resta nella registrazione e nelle curve e non conta più. La relazione lo dice.</translation>
-    </message>
-    <message>
-        <source>other movement</source>
-        <translation>altro movimento</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>prova</translation>
-    </message>
-    <message>
-        <source>Another reason</source>
-        <translation>Un altro motivo</translation>
-    </message>
-    <message>
-        <source>Keep it in</source>
-        <translation>Tienila</translation>
-    </message>
-    <message>
-        <source>Is repetition {number} passive, or left out?</source>
-        <translation>La ripetizione {number} è passiva o esclusa?</translation>
-    </message>
-    <message>
-        <source>Leave it out</source>
-        <translation>Escludi</translation>
-    </message>
-</context>
-<context>
     <name>RecordListsController</name>
-    <message>
-        <source>Nothing is due: no patient’s last session is so old.</source>
-        <translation>Nessuna scadenza: nessun paziente ha un’ultima seduta così vecchia.</translation>
-    </message>
-    <message>
-        <source>Say first how many years records must be kept.</source>
-        <translation>Indicare prima per quanti anni va conservata la documentazione.</translation>
-    </message>
-    <message>
-        <source>Their last session is more than {n} years ago. Nothing goes by itself.</source>
-        <translation>La loro ultima seduta risale a più di {n} anni fa. Nulla va via da solo.</translation>
-    </message>
-    <message>
-        <source>1 session, on {last}; had to be kept until {until}</source>
-        <translation>1 seduta, il {last}; da conservare fino al {until}</translation>
-    </message>
-    <message>
-        <source>{n} sessions, the last on {last}; had to be kept until {until}</source>
-        <translation>{n} sedute, l’ultima: {last}; da conservare fino al {until}</translation>
-    </message>
-    <message>
-        <source>What is due</source>
-        <translation>Scadenze</translation>
-    </message>
     <message>
         <source>{n} sessions</source>
         <translation>{n} sedute</translation>
@@ -9817,20 +9777,12 @@ Maiusc+F8 di lato</translation>
         <translation>archiviato il {day}</translation>
     </message>
     <message>
-        <source>In no list and no count. Everything can be brought back.</source>
-        <translation>In nessun elenco e in nessun conteggio. Tutto si può riportare indietro.</translation>
-    </message>
-    <message>
         <source>Archive</source>
         <translation>Archivio</translation>
     </message>
     <message>
         <source>The archive is empty.</source>
         <translation>L’archivio è vuoto.</translation>
-    </message>
-    <message>
-        <source>by command</source>
-        <translation>da riga di comando</translation>
     </message>
     <message>
         <source>1 file</source>
@@ -9849,14 +9801,6 @@ Maiusc+F8 di lato</translation>
         <translation>{n} valori</translation>
     </message>
     <message>
-        <source>1 left</source>
-        <translation>1 rimasto</translation>
-    </message>
-    <message>
-        <source>{n} left</source>
-        <translation>{n} rimasti</translation>
-    </message>
-    <message>
         <source>1 study</source>
         <translation>1 studio</translation>
     </message>
@@ -9865,12 +9809,52 @@ Maiusc+F8 di lato</translation>
         <translation>{n} studi</translation>
     </message>
     <message>
-        <source>nobody was there</source>
-        <translation>nessuno era presente</translation>
+        <source>No record is past its retention period.</source>
+        <translation>Nessuna documentazione è scaduta.</translation>
     </message>
     <message>
-        <source>without what identifies</source>
-        <translation>senza dati identificativi</translation>
+        <source>Set the retention period first.</source>
+        <translation>Indicare prima il periodo di conservazione.</translation>
+    </message>
+    <message>
+        <source>The last session was more than {n} years ago. Nothing is deleted automatically.</source>
+        <translation>L’ultima seduta risale a più di {n} anni fa. Nulla viene eliminato automaticamente.</translation>
+    </message>
+    <message>
+        <source>1 session on {last}, retention until {until}</source>
+        <translation>1 seduta il {last}, conservazione fino al {until}</translation>
+    </message>
+    <message>
+        <source>{n} sessions, the last on {last}, retention until {until}</source>
+        <translation>{n} sedute, l’ultima il {last}, conservazione fino al {until}</translation>
+    </message>
+    <message>
+        <source>Records past retention</source>
+        <translation>Scadenze</translation>
+    </message>
+    <message>
+        <source>Excluded from all lists and results. Everything can be restored.</source>
+        <translation>Escluso da elenchi e risultati. Tutto si può ripristinare.</translation>
+    </message>
+    <message>
+        <source>by command line</source>
+        <translation>da riga di comando</translation>
+    </message>
+    <message>
+        <source>1 remaining</source>
+        <translation>1 rimasto</translation>
+    </message>
+    <message>
+        <source>{n} remaining</source>
+        <translation>{n} rimasti</translation>
+    </message>
+    <message>
+        <source>automatic</source>
+        <translation>automatico</translation>
+    </message>
+    <message>
+        <source>de-identified</source>
+        <translation>de-identificato</translation>
     </message>
     <message>
         <source>finished later</source>
@@ -9905,24 +9889,52 @@ Maiusc+F8 di lato</translation>
         <translation>relazione salvata</translation>
     </message>
     <message>
-        <source>set aside</source>
-        <translation>messo da parte</translation>
+        <source>re-analysed</source>
+        <translation>rianalizzato</translation>
     </message>
     <message>
-        <source>taken back</source>
-        <translation>ripreso</translation>
+        <source>restored from archive</source>
+        <translation>ripreso dall’archivio</translation>
+    </message>
+    <message>
+        <source>deletion started</source>
+        <translation>eliminazione iniziata</translation>
+    </message>
+    <message>
+        <source>deleted</source>
+        <translation>eliminato</translation>
+    </message>
+    <message>
+        <source>backup verified</source>
+        <translation>copia verificata</translation>
+    </message>
+    <message>
+        <source>backup restored</source>
+        <translation>copia ripristinata</translation>
+    </message>
+    <message>
+        <source>wrong PIN</source>
+        <translation>PIN sbagliato</translation>
+    </message>
+    <message>
+        <source>manual values entered</source>
+        <translation>valori manuali inseriti</translation>
     </message>
     <message>
         <source>moved</source>
         <translation>spostato</translation>
     </message>
     <message>
-        <source>exercise changed</source>
-        <translation>esercizio cambiato</translation>
+        <source>excluded</source>
+        <translation>escluso</translation>
     </message>
     <message>
-        <source>tracked again</source>
-        <translation>rifatto il tracciamento</translation>
+        <source>included again</source>
+        <translation>incluso di nuovo</translation>
+    </message>
+    <message>
+        <source>exercise changed</source>
+        <translation>esercizio cambiato</translation>
     </message>
     <message>
         <source>recovered</source>
@@ -9933,28 +9945,8 @@ Maiusc+F8 di lato</translation>
         <translation>archiviato</translation>
     </message>
     <message>
-        <source>brought back</source>
-        <translation>riportato indietro</translation>
-    </message>
-    <message>
-        <source>erasing begun</source>
-        <translation>cancellazione iniziata</translation>
-    </message>
-    <message>
-        <source>erased</source>
-        <translation>cancellato</translation>
-    </message>
-    <message>
         <source>backed up</source>
         <translation>copia fatta</translation>
-    </message>
-    <message>
-        <source>back-up compared</source>
-        <translation>copia confrontata</translation>
-    </message>
-    <message>
-        <source>restored</source>
-        <translation>ripristinato</translation>
     </message>
     <message>
         <source>locked</source>
@@ -9965,10 +9957,6 @@ Maiusc+F8 di lato</translation>
         <translation>sbloccato</translation>
     </message>
     <message>
-        <source>PIN refused</source>
-        <translation>PIN rifiutato</translation>
-    </message>
-    <message>
         <source>PIN changed</source>
         <translation>PIN cambiato</translation>
     </message>
@@ -9977,12 +9965,63 @@ Maiusc+F8 di lato</translation>
         <translation>registro letto</translation>
     </message>
     <message>
-        <source>values by hand entered</source>
-        <translation>valori a mano inseriti</translation>
-    </message>
-    <message>
         <source>1 session</source>
         <translation>1 seduta</translation>
+    </message>
+</context>
+<context>
+    <name>RecordingControls</name>
+    <message>
+        <source>Note</source>
+        <translation>Nota</translation>
+    </message>
+    <message>
+        <source>Pain</source>
+        <translation>Dolore</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pausa</translation>
+    </message>
+    <message>
+        <source>Pain {score}</source>
+        <translation>Dolore {score}</translation>
+    </message>
+    <message>
+        <source>Storing…</source>
+        <translation>Salvataggio…</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passivo</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Continua</translation>
+    </message>
+    <message>
+        <source>Play and record</source>
+        <translation>Riproduci e registra</translation>
+    </message>
+    <message>
+        <source>Record</source>
+        <translation>Registra</translation>
+    </message>
+    <message>
+        <source>Stop and go on</source>
+        <translation>Ferma e continua</translation>
+    </message>
+    <message>
+        <source>Stop and review</source>
+        <translation>Ferma e rivedi</translation>
+    </message>
+    <message>
+        <source>Starts in {seconds}: not yet</source>
+        <translation>Inizio tra {seconds}: non ancora</translation>
+    </message>
+    <message>
+        <source>Space · pedal</source>
+        <translation>Spazio · pedale</translation>
     </message>
 </context>
 <context>
@@ -10003,8 +10042,8 @@ Maiusc+F8 di lato</translation>
         <translation>Documentazione</translation>
     </message>
     <message>
-        <source>How long records must be kept after the last session: your law says it, Carpus does not know.</source>
-        <translation>Per quanto tempo va conservata la documentazione dopo l’ultima seduta: lo dice la legge, Carpus non lo sa.</translation>
+        <source>Enter the retention period that the law requires after the last session.</source>
+        <translation>Indicare il periodo di conservazione previsto dalla legge dopo l’ultima seduta.</translation>
     </message>
     <message>
         <source>Not set</source>
@@ -10015,7 +10054,7 @@ Maiusc+F8 di lato</translation>
         <translation>{n} anni</translation>
     </message>
     <message>
-        <source>What is d&amp;ue…</source>
+        <source>Records past r&amp;etention…</source>
         <translation>Scaden&amp;ze…</translation>
     </message>
     <message>
@@ -10034,16 +10073,16 @@ Maiusc+F8 di lato</translation>
         <translation>Fine</translation>
     </message>
     <message>
-        <source>Bring back</source>
-        <translation>Riporta indietro</translation>
+        <source>Restore</source>
+        <translation>Ripristina</translation>
+    </message>
+    <message>
+        <source>Delete…</source>
+        <translation>Elimina…</translation>
     </message>
     <message>
         <source>Archive</source>
         <translation>Archivia</translation>
-    </message>
-    <message>
-        <source>Erase…</source>
-        <translation>Cancella…</translation>
     </message>
 </context>
 <context>
@@ -10053,11 +10092,11 @@ Maiusc+F8 di lato</translation>
         <translation>Relazione</translation>
     </message>
     <message>
-        <source>Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.</source>
-        <translation>Nome, indirizzo e logo del centro stanno in testa a ogni pagina. Se vuoti, non si stampa nulla.</translation>
+        <source>Name, address and logo of the clinic appear at the top of every page. Empty fields are not printed.</source>
+        <translation>Nome, indirizzo e logo del centro stanno in testa a ogni pagina. I campi vuoti non si stampano.</translation>
     </message>
     <message>
-        <source>Name of the clinic</source>
+        <source>Clinic name</source>
         <translation>Nome del centro</translation>
     </message>
     <message>
@@ -10073,7 +10112,7 @@ Maiusc+F8 di lato</translation>
         <translation>Scegli un logo…</translation>
     </message>
     <message>
-        <source>Remove the logo</source>
+        <source>Remove logo</source>
         <translation>Togli il logo</translation>
     </message>
     <message>
@@ -10085,12 +10124,12 @@ Maiusc+F8 di lato</translation>
         <translation>US Letter</translation>
     </message>
     <message>
-        <source>Choose a logo</source>
-        <translation>Scegliere un logo</translation>
+        <source>Images (*.png *.jpg *.jpeg)</source>
+        <translation>Immagini (*.png *.jpg *.jpeg)</translation>
     </message>
     <message>
-        <source>Pictures (*.png *.jpg *.jpeg)</source>
-        <translation>Immagini (*.png *.jpg *.jpeg)</translation>
+        <source>Choose a logo</source>
+        <translation>Scegliere un logo</translation>
     </message>
 </context>
 <context>
@@ -10248,25 +10287,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>VersionChoice</name>
-    <message>
-        <source>Results of this recording</source>
-        <translation>Risultati di questa registrazione</translation>
-    </message>
-    <message>
-        <source>{number} · {day}</source>
-        <translation>{number} · {day}</translation>
-    </message>
-    <message>
-        <source>{result}, counts</source>
-        <translation>{result}, conta</translation>
-    </message>
-    <message>
-        <source>Let this one count</source>
-        <translation>Far contare questo</translation>
-    </message>
-</context>
-<context>
     <name>ResultTables</name>
     <message>
         <source>Notes: {notes}</source>
@@ -10280,35 +10300,35 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>ResultsDialog</name>
     <message>
-        <source>How far the tracking is</source>
-        <translation>Avanzamento del tracciamento</translation>
-    </message>
-    <message>
         <source>Wrist</source>
         <translation>Polso</translation>
     </message>
     <message>
         <source>&amp;Stop</source>
-        <translation>&amp;Ferma</translation>
+        <translation>&amp;Interrompi</translation>
     </message>
     <message>
-        <source>&amp;Keep the old one</source>
+        <source>Progress of the re-analysis</source>
+        <translation>Avanzamento della rianalisi</translation>
+    </message>
+    <message>
+        <source>&amp;Keep old result</source>
         <translation>&amp;Tieni il vecchio</translation>
     </message>
     <message>
-        <source>&amp;Use the new result</source>
+        <source>&amp;Use new result</source>
         <translation>&amp;Usa il nuovo risultato</translation>
     </message>
     <message>
-        <source>Tracking again: {percent} %</source>
-        <translation>Nuovo tracciamento: {percent} %</translation>
+        <source>Re-analysing: {percent} %</source>
+        <translation>Rianalisi: {percent} %</translation>
     </message>
     <message>
-        <source>Go on working meanwhile. Nothing replaces the old result until you choose; Stop keeps it.</source>
-        <translation>Intanto si può continuare a lavorare. Nulla sostituisce il vecchio risultato finché non si sceglie; Ferma lo mantiene.</translation>
+        <source>You can continue working. The old result stays until you choose the new one. Stop keeps the old result.</source>
+        <translation>Si può continuare a lavorare. Il vecchio risultato resta finché non si sceglie il nuovo. Interrompi mantiene il vecchio.</translation>
     </message>
     <message>
-        <source>Go on working</source>
+        <source>Continue working</source>
         <translation>Continua a lavorare</translation>
     </message>
     <message>
@@ -10327,24 +10347,24 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>RetestDialog</name>
     <message>
-        <source>From people who were measured more than once, all discs taken off and put on again in between: standard error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals.</source>
-        <translation>Da persone misurate più di una volta, togliendo e rimettendo fra l’una e l’altra tutti i dischetti: errore standard di misura (SEM) e minima differenza rilevabile (MDC95), con intervalli al 95 %.</translation>
+        <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % intervals.</source>
+        <translation>Da persone misurate più di una volta, con tutti i marcatori tolti e riapplicati nel frattempo. Mostra l’errore standard di misura (SEM) e l’MDC95 con intervalli al 95 %.</translation>
     </message>
     <message>
-        <source>Limits from test-retest sessions</source>
-        <translation>Limiti da sedute di test e retest</translation>
+        <source>MDC95 from test–retest sessions</source>
+        <translation>MDC95 da sedute di test e retest</translation>
     </message>
     <message>
-        <source>&amp;Use these limits</source>
-        <translation>&amp;Usa questi limiti</translation>
+        <source>&amp;Use these values</source>
+        <translation>&amp;Usa questi valori</translation>
     </message>
     <message>
-        <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
     </message>
     <message>
-        <source>Sessions that cannot be read: {count}</source>
-        <translation>Sedute che non si possono leggere: {count}</translation>
+        <source>Unreadable sessions: {count}</source>
+        <translation>Sedute non leggibili: {count}</translation>
     </message>
 </context>
 <context>
@@ -10499,13 +10519,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>TimeSlider</name>
-    <message>
-        <source>Time in the session</source>
-        <translation>Tempo nella seduta</translation>
-    </message>
-</context>
-<context>
     <name>SessionChart</name>
     <message>
         <source>Curves of the session</source>
@@ -10573,12 +10586,32 @@ Maiusc+F8 di lato</translation>
         <translation>Lettura…</translation>
     </message>
     <message>
-        <source>&amp;Take back: let it count</source>
-        <translation>R&amp;iprendi: conta di nuovo</translation>
+        <source>&amp;Include again</source>
+        <translation>&amp;Includi di nuovo</translation>
     </message>
     <message>
-        <source>&amp;Set aside…</source>
-        <translation>&amp;Metti da parte…</translation>
+        <source>E&amp;xclude…</source>
+        <translation>Es&amp;cludi…</translation>
+    </message>
+    <message>
+        <source>It will move from {name}’s progress to the other patient’s.</source>
+        <translation>Passa dall’andamento di {name} a quello dell’altro paziente.</translation>
+    </message>
+    <message>
+        <source>Which patient does this session belong to?</source>
+        <translation>A quale paziente appartiene questa seduta?</translation>
+    </message>
+    <message>
+        <source>Move</source>
+        <translation>Sposta</translation>
+    </message>
+    <message>
+        <source>Repetitions and values are calculated again. The recording itself is not changed.</source>
+        <translation>Ripetizioni e valori vengono ricalcolati. La registrazione stessa non cambia.</translation>
+    </message>
+    <message>
+        <source>Change exercise</source>
+        <translation>Cambia esercizio</translation>
     </message>
     <message>
         <source>Tick two to compare them</source>
@@ -10593,71 +10626,12 @@ Maiusc+F8 di lato</translation>
         <translation>Confronta le 2 selezionate</translation>
     </message>
     <message>
-        <source>It then counts in the other patient’s progress, and no more in that of {name}.</source>
-        <translation>Poi conta nell’andamento dell’altro paziente, e non più in quello di {name}.</translation>
-    </message>
-    <message>
-        <source>To whom does this session belong?</source>
-        <translation>A chi appartiene questa seduta?</translation>
-    </message>
-    <message>
-        <source>Move it there</source>
-        <translation>Sposta lì</translation>
-    </message>
-    <message>
         <source>Which exercise was it?</source>
         <translation>Quale esercizio era?</translation>
     </message>
     <message>
-        <source>Repetitions and figures are worked out anew. The recording itself is not changed.</source>
-        <translation>Ripetizioni e valori vengono ricalcolati. La registrazione stessa non cambia.</translation>
-    </message>
-    <message>
-        <source>It was this one</source>
-        <translation>Era questo</translation>
-    </message>
-    <message>
         <source>In the archi&amp;ve: {n}</source>
         <translation>Nell’archi&amp;vio: {n}</translation>
-    </message>
-</context>
-<context>
-    <name>ExcludeDialog</name>
-    <message>
-        <source>Set this session aside?</source>
-        <translation>Mettere da parte questa seduta?</translation>
-    </message>
-    <message>
-        <source>It stays in the list and can be opened, but counts nowhere. It can be taken back.</source>
-        <translation>Resta nell’elenco e si può aprire, ma non conta da nessuna parte. Si può riprendere.</translation>
-    </message>
-    <message>
-        <source>wrong exercise</source>
-        <translation>esercizio sbagliato</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>prova</translation>
-    </message>
-    <message>
-        <source>discs lost</source>
-        <translation>dischetti persi</translation>
-    </message>
-    <message>
-        <source>pain</source>
-        <translation>dolore</translation>
-    </message>
-    <message>
-        <source>Another reason</source>
-        <translation>Un altro motivo</translation>
-    </message>
-    <message>
-        <source>Let it count</source>
-        <translation>Lasciala contare</translation>
-    </message>
-    <message>
-        <source>Set it aside</source>
-        <translation>Metti da parte</translation>
     </message>
 </context>
 <context>
@@ -10734,8 +10708,8 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>SettingsFlow</name>
     <message>
-        <source>Folder of the test-retest sessions</source>
-        <translation>Cartella delle sedute di test e retest</translation>
+        <source>Folder with the test–retest sessions</source>
+        <translation>Cartella con le sedute di test e retest</translation>
     </message>
 </context>
 <context>
@@ -10749,12 +10723,16 @@ Maiusc+F8 di lato</translation>
         <translation>Scuro</translation>
     </message>
     <message>
-        <source>As the computer</source>
-        <translation>Come il computer</translation>
-    </message>
-    <message>
         <source>Change…</source>
         <translation>Cambia…</translation>
+    </message>
+    <message>
+        <source>Hands-free start: use a pedal or a presentation remote (Page Down). An automatic start is counted down, and Space cancels it.</source>
+        <translation>Avvio a mani libere: usare un pedale o un telecomando per presentazioni (Pag giù). L’avvio automatico ha un conto alla rovescia, e la barra spaziatrice lo annulla.</translation>
+    </message>
+    <message>
+        <source>A second screen or window shows the patient what to do. Open it while measuring. Choose with the exercise whether it addresses a child or an adult.</source>
+        <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misura. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
     </message>
     <message>
         <source>Initials on reports</source>
@@ -10765,8 +10743,32 @@ Maiusc+F8 di lato</translation>
         <translation>Come negli articoli: prima la deviazione</translation>
     </message>
     <message>
+        <source>Calculate from test–retest sessions…</source>
+        <translation>Calcola da sedute di test e retest…</translation>
+    </message>
+    <message>
+        <source>Match system</source>
+        <translation>Come il sistema</translation>
+    </message>
+    <message>
         <source>ISB: flexion first</source>
         <translation>ISB: prima la flessione</translation>
+    </message>
+    <message>
+        <source>On key press</source>
+        <translation>Alla pressione del tasto</translation>
+    </message>
+    <message>
+        <source>3 s after key press</source>
+        <translation>3 s dopo la pressione</translation>
+    </message>
+    <message>
+        <source>When the hand is still</source>
+        <translation>Con la mano ferma</translation>
+    </message>
+    <message>
+        <source>Beep at the goal</source>
+        <translation>Segnale all’obiettivo</translation>
     </message>
     <message>
         <source>Off</source>
@@ -10777,24 +10779,40 @@ Maiusc+F8 di lato</translation>
         <translation>Trasmetti i valori dal vivo</translation>
     </message>
     <message>
+        <source>Appearance</source>
+        <translation>Aspetto</translation>
+    </message>
+    <message>
+        <source>Demo: settings apply until it is closed.</source>
+        <translation>Demo: le impostazioni valgono fino alla chiusura.</translation>
+    </message>
+    <message>
+        <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
+        <translation>Carpus non cerca mai aggiornamenti in rete. Confrontare questa versione con l’ultima nel luogo da cui proviene Carpus. Fare una copia di sicurezza, poi installarla sopra questa. Pazienti, sedute e impostazioni restano.</translation>
+    </message>
+    <message>
+        <source>Components and licences</source>
+        <translation>Componenti e licenze</translation>
+    </message>
+    <message>
+        <source>Appearance and language</source>
+        <translation>Aspetto e lingua</translation>
+    </message>
+    <message>
+        <source>The update folder cannot be read: {folder}.</source>
+        <translation>La cartella degli aggiornamenti non è leggibile: {folder}.</translation>
+    </message>
+    <message>
+        <source>Version {newest} is available in {folder}. Back up, then install it over this one. Patients, sessions and settings stay.</source>
+        <translation>La versione {newest} è disponibile in {folder}. Fare una copia di sicurezza, poi installarla sopra questa. Pazienti, sedute e impostazioni restano.</translation>
+    </message>
+    <message>
+        <source>There is no newer version in {folder}.</source>
+        <translation>In {folder} non c’è una versione più recente.</translation>
+    </message>
+    <message>
         <source>No sound</source>
         <translation>Nessun suono</translation>
-    </message>
-    <message>
-        <source>One beep at the goal</source>
-        <translation>Un segnale all’obiettivo</translation>
-    </message>
-    <message>
-        <source>At the key</source>
-        <translation>Al tasto</translation>
-    </message>
-    <message>
-        <source>3 s after the key</source>
-        <translation>3 s dopo il tasto</translation>
-    </message>
-    <message>
-        <source>When the hand lies still</source>
-        <translation>Con la mano ferma</translation>
     </message>
     <message>
         <source>For research</source>
@@ -10809,10 +10827,6 @@ Maiusc+F8 di lato</translation>
         <translation>Esc</translation>
     </message>
     <message>
-        <source>Looks</source>
-        <translation>Aspetto</translation>
-    </message>
-    <message>
         <source>Colours</source>
         <translation>Colori</translation>
     </message>
@@ -10825,32 +10839,36 @@ Maiusc+F8 di lato</translation>
         <translation>Lingua</translation>
     </message>
     <message>
-        <source>Data</source>
-        <translation>Dati</translation>
+        <source>Shows path and axes, speeds, the movement page in reports, all export formats, angle order and streaming. It changes no values.</source>
+        <translation>Mostra percorso e assi, velocità, la pagina del movimento nelle relazioni, tutti i formati di esportazione, ordine degli angoli e streaming. I valori non cambiano.</translation>
     </message>
     <message>
-        <source>Sessions and the list of patients. Private to you; nothing leaves this computer.</source>
-        <translation>Sedute ed elenco dei pazienti. Dati riservati; nulla lascia questo computer.</translation>
+        <source>Angle order</source>
+        <translation>Ordine degli angoli</translation>
+    </message>
+    <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the order of the papers. Sessions with different orders are not compared.</source>
+        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono quello degli articoli. Sedute con ordini diversi non si confrontano.</translation>
+    </message>
+    <message>
+        <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>
+        <translation>Trasmette angoli, posizioni ed eventi con Lab Streaming Layer (LSL). Ogni computer della rete può leggerli. Nomi e immagini non sono inclusi. Vale dalla prossima preparazione.</translation>
+    </message>
+    <message>
+        <source>Sessions and patient list. Private to your user account. Nothing leaves this computer.</source>
+        <translation>Sedute ed elenco dei pazienti. Riservati all’account utente. Nulla lascia questo computer.</translation>
+    </message>
+    <message>
+        <source>Data</source>
+        <translation>Dati</translation>
     </message>
     <message>
         <source>Research</source>
         <translation>Ricerca</translation>
     </message>
     <message>
-        <source>Order of the angles</source>
-        <translation>Ordine degli angoli</translation>
-    </message>
-    <message>
-        <source>Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; sessions in different orders are never compared.</source>
-        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono l’ordine degli articoli; sedute con ordini diversi non si confrontano mai.</translation>
-    </message>
-    <message>
         <source>Other programs</source>
         <translation>Altri programmi</translation>
-    </message>
-    <message>
-        <source>While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer in the same network can read them; no name and no picture is in them. From the next set-up on.</source>
-        <translation>Mentre si misura una mano, i suoi angoli, posizioni ed eventi possono uscire con Lab Streaming Layer. Ogni computer della stessa rete può leggerli; non contengono né nomi né immagini. Dalla prossima preparazione in poi.</translation>
     </message>
     <message>
         <source>Start of a recording</source>
@@ -10861,24 +10879,12 @@ Maiusc+F8 di lato</translation>
         <translation>La vista del paziente</translation>
     </message>
     <message>
-        <source>A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one measures on; whether it speaks to a child or an adult is chosen with the exercise.</source>
-        <translation>Un secondo schermo, o una finestra propria, che mostra al paziente che cosa fare. Si apre dallo schermo di misura; se parla a un bambino o a un adulto si sceglie con l’esercizio.</translation>
-    </message>
-    <message>
         <source>About Carpus</source>
         <translation>Informazioni su Carpus</translation>
     </message>
     <message>
         <source>Version {version}, MIT licence.</source>
         <translation>Versione {version}, licenza MIT.</translation>
-    </message>
-    <message>
-        <source>Carpus asks nobody whether there is a newer version, and sends nothing. To look yourself, compare this version with the newest one where you got Carpus from; its list of changes says what is new. Install it over this one: patients, sessions and settings stay. Make a back-up before.</source>
-        <translation>Carpus non chiede a nessuno se c’è una versione più recente, e non invia nulla. Per verificarlo, confrontare questa versione con l’ultima nel luogo da cui proviene Carpus; il suo elenco delle modifiche dice che cosa c’è di nuovo. Installarla sopra questa: pazienti, sedute e impostazioni restano. Prima fare una copia di sicurezza.</translation>
-    </message>
-    <message>
-        <source>Parts and their licences</source>
-        <translation>Componenti e licenze</translation>
     </message>
     <message>
         <source>Camera</source>
@@ -10897,94 +10903,16 @@ Maiusc+F8 di lato</translation>
         <translation>Sicurezza</translation>
     </message>
     <message>
-        <source>Looks and language</source>
-        <translation>Aspetto e lingua</translation>
-    </message>
-    <message>
         <source>Settings</source>
         <translation>Impostazioni</translation>
-    </message>
-    <message>
-        <source>The folder of the clinic’s packages cannot be read: {folder}.</source>
-        <translation>La cartella dei pacchetti della clinica non è leggibile: {folder}.</translation>
-    </message>
-    <message>
-        <source>Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions and settings stay. Make a back-up before.</source>
-        <translation>La versione {newest} è pronta da installare, in {folder}. La installi sopra questa: pazienti, sedute e impostazioni restano. Faccia prima una copia di sicurezza.</translation>
-    </message>
-    <message>
-        <source>The clinic’s packages in {folder} are not newer than this version.</source>
-        <translation>I pacchetti della clinica in {folder} non sono più recenti di questa versione.</translation>
     </message>
     <message>
         <source>Data folder</source>
         <translation>Cartella dei dati</translation>
     </message>
     <message>
-        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming. No value changes by it.</source>
-        <translation>Mostra ciò che la giornata di uno studio non richiede: percorso e assi, velocità, la pagina del movimento nei referti, tutti i formati di esportazione, l’ordine degli angoli, lo streaming. Nessun valore cambia per questo.</translation>
-    </message>
-    <message>
-        <source>Compute from test-retest sessions…</source>
-        <translation>Calcola da sedute di test e retest…</translation>
-    </message>
-    <message>
         <source>Reading the sessions…</source>
         <translation>Lettura delle sedute…</translation>
-    </message>
-    <message>
-        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by itself is counted down, and Space takes it back.</source>
-        <translation>Per mani che tengono il braccio del paziente. Il tasto può essere lontano: un pedale o un telecomando per presentazioni è una tastiera con pochi tasti. Pag giù prosegue, registra e ferma. Prima di un inizio da solo si conta, e lo Spazio lo annulla.</translation>
-    </message>
-    <message>
-        <source>A demo: what is chosen here holds until it is closed.</source>
-        <translation>Dimostrazione: ciò che si sceglie qui vale finché non viene chiusa.</translation>
-    </message>
-</context>
-<context>
-    <name>Dialog</name>
-    <message>
-        <source>Cancel</source>
-        <translation>Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation>Esc</translation>
-    </message>
-    <message>
-        <source>What you typed is not kept yet. Esc once more closes without it.</source>
-        <translation>Ciò che è stato scritto non è ancora salvato. Esc un’altra volta chiude senza.</translation>
-    </message>
-</context>
-<context>
-    <name>MarkerQuestion</name>
-    <message>
-        <source>Is this blue spot the {marker}?</source>
-        <translation>Questo punto blu è: {marker}?</translation>
-    </message>
-    <message>
-        <source>Yes</source>
-        <translation>Sì</translation>
-    </message>
-    <message>
-        <source>No</source>
-        <translation>No</translation>
-    </message>
-    <message>
-        <source>Which one is the {marker}?</source>
-        <translation>Qual è: {marker}?</translation>
-    </message>
-    <message>
-        <source>Disc 1</source>
-        <translation>Dischetto 1</translation>
-    </message>
-    <message>
-        <source>Spot 2</source>
-        <translation>Punto 2</translation>
-    </message>
-    <message>
-        <source>Neither</source>
-        <translation>Nessuno dei due</translation>
     </message>
 </context>
 <context>
@@ -11026,6 +10954,13 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>TimeSlider</name>
+    <message>
+        <source>Time in the session</source>
+        <translation>Tempo nella seduta</translation>
+    </message>
+</context>
+<context>
     <name>TopBar</name>
     <message>
         <source>Back (Esc)</source>
@@ -11045,41 +10980,133 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PlaybackControls</name>
+    <name>TopBarController</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Immagine precedente (←)</translation>
+        <source>Exercise</source>
+        <translation>Esercizio</translation>
     </message>
     <message>
-        <source>Next picture (→)</source>
-        <translation>Immagine seguente (→)</translation>
+        <source>Camera</source>
+        <translation>Telecamera</translation>
     </message>
     <message>
-        <source>Play (Space)</source>
-        <translation>Riproduci (Spazio)</translation>
+        <source>Markers</source>
+        <translation>Marcatori</translation>
     </message>
     <message>
-        <source>Stop</source>
-        <translation>Ferma</translation>
+        <source>Measure</source>
+        <translation>Misura</translation>
     </message>
     <message>
-        <source>Play</source>
-        <translation>Riproduci</translation>
+        <source>Sessions</source>
+        <translation>Sedute</translation>
     </message>
     <message>
-        <source>{factor}× speed</source>
-        <translation>velocità {factor}×</translation>
+        <source>Review</source>
+        <translation>Revisione</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>Andamento</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Relazione</translation>
+    </message>
+    <message>
+        <source>Simulated hand: this is not {name}, and does not count.</source>
+        <translation>Mano simulata: non è di {name}, e non conta.</translation>
+    </message>
+    <message>
+        <source>This session does not count.</source>
+        <translation>Questa seduta non conta.</translation>
+    </message>
+    <message>
+        <source>Measured although doubtful: {findings}</source>
+        <translation>Misurata benché dubbia: {findings}</translation>
+    </message>
+    <message>
+        <source>Saved {time}</source>
+        <translation>Salvata {time}</translation>
+    </message>
+    <message>
+        <source>Simulated camera</source>
+        <translation>Telecamera simulata</translation>
+    </message>
+    <message>
+        <source>Recording {name}</source>
+        <translation>Registrazione {name}</translation>
+    </message>
+    <message>
+        <source>Camera ready</source>
+        <translation>Telecamera pronta</translation>
+    </message>
+    <message>
+        <source>No camera</source>
+        <translation>Nessuna telecamera</translation>
+    </message>
+    <message>
+        <source>{percent} %</source>
+        <translation>{percent} %</translation>
+    </message>
+    <message>
+        <source>Tracking again {percent}</source>
+        <translation>Nuovo tracciamento {percent}</translation>
+    </message>
+    <message>
+        <source>How far it is, and Stop</source>
+        <translation>Avanzamento, e Ferma</translation>
+    </message>
+    <message>
+        <source>New result: choose</source>
+        <translation>Nuovo risultato: scegliere</translation>
+    </message>
+    <message>
+        <source>{count} new results: choose</source>
+        <translation>{count} nuovi risultati: scegliere</translation>
+    </message>
+    <message>
+        <source>Choose</source>
+        <translation>Scegli</translation>
+    </message>
+    <message>
+        <source>Old and new over each other</source>
+        <translation>Vecchio e nuovo sovrapposti</translation>
+    </message>
+    <message>
+        <source>{count} pictures/s</source>
+        <translation>{count} immagini/s</translation>
+    </message>
+    <message>
+        <source>{count} pictures/s, under {least}</source>
+        <translation>{count} immagini/s, meno di {least}</translation>
+    </message>
+    <message>
+        <source>{words}, {lost} lost</source>
+        <translation>{words}, {lost} perse</translation>
+    </message>
+    <message>
+        <source>Movement is being drawn</source>
+        <translation>Movimento in disegno</translation>
+    </message>
+    <message>
+        <source>{time} of disk left</source>
+        <translation>spazio per {time}</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
+        <translation>Il server del centro non risponde: finché non risponde, i pazienti e le loro sedute non si possono né mostrare né modificare. Si può continuare a misurare.</translation>
     </message>
 </context>
 <context>
     <name>ValueField</name>
     <message>
-        <source>A number from {least} to {most}, or empty</source>
-        <translation>Un numero da {least} a {most}, o vuoto</translation>
+        <source>Enter a number from {least} to {most}, or leave it empty</source>
+        <translation>Inserire un numero da {least} a {most}, o lasciare vuoto</translation>
     </message>
     <message>
-        <source>{value}? Usual is {low} to {high}</source>
-        <translation>{value}? Di solito da {low} a {high}</translation>
+        <source>{value}? Typical range: {low} to {high}</source>
+        <translation>{value}? Valori tipici: da {low} a {high}</translation>
     </message>
 </context>
 <context>
@@ -11102,21 +11129,22 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>NavigationButton</name>
+    <name>VersionChoice</name>
     <message>
-        <source>{name}, you are here</source>
-        <translation>{name}, passo attuale</translation>
+        <source>Results of this recording</source>
+        <translation>Risultati di questa registrazione</translation>
     </message>
     <message>
-        <source>{name}, done</source>
-        <translation>{name}, fatto</translation>
+        <source>{number} · {day}</source>
+        <translation>{number} · {day}</translation>
     </message>
-</context>
-<context>
-    <name>PathsChart</name>
     <message>
-        <source>Ways in three planes</source>
-        <translation>Percorsi in tre piani</translation>
+        <source>{result}, counts</source>
+        <translation>{result}, conta</translation>
+    </message>
+    <message>
+        <source>Let this one count</source>
+        <translation>Far contare questo</translation>
     </message>
 </context>
 <context>
@@ -11233,21 +11261,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>_OfflineView</name>
-    <message>
-        <source>The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the session is kept, and is in the list when the server answers.</source>
-        <translation>L’elenco dei pazienti torna da solo. Per misurare ora, scrivere qui sopra il nome inventato: la seduta resta salvata e compare nell’elenco quando il server risponde.</translation>
-    </message>
-    <message>
-        <source>Measure “{name}”</source>
-        <translation>Misurare “{name}”</translation>
-    </message>
-    <message>
-        <source>Measure without the list</source>
-        <translation>Misurare senza l’elenco</translation>
-    </message>
-</context>
-<context>
     <name>_EmptyView</name>
     <message>
         <source>No patient “{name}”.</source>
@@ -11260,6 +11273,21 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
+    </message>
+</context>
+<context>
+    <name>_OfflineView</name>
+    <message>
+        <source>The patient list returns when the server answers. To measure now, enter the patient’s made-up name above. The session is saved and appears in the list later.</source>
+        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra il nome inventato. La seduta viene salvata e compare più tardi nell’elenco.</translation>
+    </message>
+    <message>
+        <source>Measure “{name}”</source>
+        <translation>Misurare “{name}”</translation>
+    </message>
+    <message>
+        <source>Measure without the list</source>
+        <translation>Misurare senza l’elenco</translation>
     </message>
 </context>
 </TS>

@@ -273,7 +273,7 @@ def test_a_wanted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
     library, session_id, old = kept.library, kept.session_id, kept.path
     old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
     library.save_choices(
-        session_id, RepetitionChoices({0: "pain"}, is_session_excluded=True, session_exclusion_reason="discs lost")
+        session_id, RepetitionChoices({0: "pain"}, is_session_excluded=True, session_exclusion_reason="markers lost")
     )
     library.session_list.set_exercise(session_id, "WRIST_RUD")
     new = kept.corrections.accept(session_id, kept.trial())
@@ -283,7 +283,7 @@ def test_a_wanted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
     assert old.exists()
     assert library.entry(new).exercise == "WRIST_RUD"
     assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"
-    assert library.choices(new) == RepetitionChoices(is_session_excluded=True, session_exclusion_reason="discs lost")
+    assert library.choices(new) == RepetitionChoices(is_session_excluded=True, session_exclusion_reason="markers lost")
 
 
 @pytest.mark.parametrize(

@@ -156,9 +156,9 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     one = store(library, set_up(linden, "Linden 42"))
     two = store(library, set_up(linden, "Linden 42"), after=timedelta(hours=1))
     path = library.entry(one).path
-    stored.exclude(one, "discs lost")
+    stored.exclude(one, "markers lost")
     assert {line.entry.session_id: line.exclusion_reason for line in stored.list_sessions(linden)} == {
-        one: "discs lost",
+        one: "markers lost",
         two: "",
     }
     assert library.results(library.entry(one)).is_excluded
@@ -192,7 +192,7 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     library.entry(two).path.unlink()
     library.drop_cached_results(two)
     (line,) = [stored.with_figures(line) for line in stored.list_sessions(linden)]
-    assert remark(line) == "its file is not there"
+    assert remark(line) == "file missing"
     with pytest.raises(SessionUnreadable):
         records.plan_session(one)
 

@@ -95,7 +95,7 @@ def test_a_session_is_looked_at_given_away_archived_and_erased_from_the_list(qtb
     heron = patient(desktop, "Heron 17")
     journey.sessions.open(linden(desktop))
     journey.sessions.screen.move_dialog.chosen.emit(heron)
-    said = "The session is now one of Heron 17."
+    said = "The session now belongs to Heron 17."
     qtbot.waitUntil(lambda: said in visible_words(desktop.shell))
     assert len(desktop.library.sessions(heron)) == 1
     journey.navigator.switch_screen("patients")
@@ -185,7 +185,7 @@ def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Pat
     qtbot.waitUntil(lambda: names(desktop) == ["Heron 17"])
     qtbot.waitUntil(lambda: desktop.controller.place == "patients" and not desktop.controller.background.is_busy)
     assert traces(data, "Linden", "Mustermann") == []
-    qtbot.waitUntil(lambda: "The patient is erased." in visible_words(desktop.shell), timeout=60_000)
+    qtbot.waitUntil(lambda: "The patient was deleted." in visible_words(desktop.shell), timeout=60_000)
     patients.new_patient()
     assert not patients.form.remove_button.isVisible()
 
@@ -304,11 +304,11 @@ def test_back_up_now_reminder_and_restore(
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk))))
     backing, journey = desktop.data_protection.backing_up, desktop.controller
     strips = journey.patients.screen.findChildren(NoticeStrip)
-    assert ["There is no back-up yet." in strip.words.summary for strip in strips] == [True]
+    assert ["There is no backup yet." in strip.words.summary for strip in strips] == [True]
     disk.mkdir()
     backing.start_backup()
     qtbot.waitUntil(lambda: backing.last_backup is not None and backing.card.now_button.isEnabled())
-    assert "Every session is in it." in backing.card.headline.text()
+    assert "It contains every session." in backing.card.headline.text()
     assert read_log(desktop.library.store)[-1].action == "backed_up"
     erased = linden(desktop)
     desktop.data_protection.erasing._records.erase(desktop.data_protection.erasing._records.plan_patient(erased))
@@ -318,7 +318,7 @@ def test_back_up_now_reminder_and_restore(
     asked = " ".join(visible_words(desktop.shell))
     assert "Session files added: 0, changed: 0, taken away: 0" in asked
     assert "erased since then stay erased: 1" in asked
-    button = next(one for one in journey.messages.dialog.findChildren(QPushButton) if "Restore it" in one.text())
+    button = next(one for one in journey.messages.dialog.findChildren(QPushButton) if "Restore" in one.text())
     with monkeypatch.context() as patched:
         patched.setattr(journey.navigator, "is_recording", lambda: True)
         button.click()
@@ -390,7 +390,7 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
         "Erase… Linden 42",
     ]
     lists.records_dialog.buttons[0].click()
-    qtbot.waitUntil(lambda: [one.text() for one in lists.records_dialog.buttons] == ["Bring back", "Erase…"])
+    qtbot.waitUntil(lambda: [one.text() for one in lists.records_dialog.buttons] == ["Restore", "Delete…"])
     lists.records_dialog.close_dialog()
     lists.card.archive_button.click()
     qtbot.waitUntil(lists.records_dialog.isVisible)
@@ -400,7 +400,7 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
     lists.card.log_button.click()
     qtbot.waitUntil(lists.log_dialog.isVisible)
     table = lists.log_dialog.table
-    assert [table.item(row, 2).text() for row in range(2)] == ["brought back", "archived"]
+    assert [table.item(row, 2).text() for row in range(2)] == ["restored from archive", "archived"]
     assert table.item(0, 3).text() == "Linden 42"
     assert lists.log_dialog.title.text() == f"Log: {table.rowCount()} lines"
 

@@ -114,10 +114,10 @@ LOST = MessageText(
     ("Xtion 1206", "no frame for 2 s"),
 )
 RECOVERED = MessageText(
-    "A session of Heron 17 was cut short yesterday at 16:42. It has been recovered.",
-    "All data up to 04:12 are safe; at most the last second is missing; more only where the figures came late."
+    "A session of Heron 17 was interrupted yesterday at 16:42. It has been recovered.",
+    "All data up to 04:12 are safe. At most the last second is missing, or more where results were delayed."
     " The file is marked “recovered”.",
-    "Review it now, or leave it for later: it stays in the patient’s list.",
+    "Review it now or later. It stays in the patient’s session list.",
 )
 ERASED_DAY = datetime(2026, 10, 9, 9, 51)
 ERASED_SESSION = ErasurePlan(
@@ -131,7 +131,7 @@ ERASED_PATIENT = replace(
     output_files=(Path("/home/clinic/Reports/L.pdf"), Path("/home/clinic/Reports/L.csv")),
 )  # fmt: skip
 LAST_BACKUP = datetime(2026, 11, 15, 18, 4)
-KEPT = "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025"
+KEPT = "9 sessions, the last on 3 Nov 2015, retention until 3 Nov 2025"
 DEEDS = [
     (numbers.format_date_time(datetime(2026, 11, 20, 9, number)), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
     for number, (what, detail) in enumerate(
@@ -141,8 +141,8 @@ DEEDS = [
 CORRECTED = "Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand"
 DOCTOR = "Dr Anna Doctor\nVienna"
 OLD_BACKUP = BackupFacts(
-    "warn", "The last back-up is 5 days old. 7 session files are not in it.",
-    "15 Nov 2026, 18:04 · 49 session files, 2.04 GB · read back and compared: all equal", "Reminder after 3 days.",
+    "warn", "The last backup is 5 days old. 7 session files are missing from it.",
+    "15 Nov 2026, 18:04 · 49 session files, 2.04 GB · verified", "Reminder after 3 days.",
     "/media/clinic-disk/carpus-backup", "good", "412 GB free", True,
 )  # fmt: skip
 CHECKS = (
@@ -369,7 +369,7 @@ class Gallery(GalleryWindow):
 
     def sessions_list(self) -> None:
         sessions = FakeStoredSessions()
-        sessions.set_aside("s2", "discs lost")
+        sessions.exclude("s2", "markers lost")
         self.show(SessionsScreen(self.theme, self.background, sessions), tab=0).show_patient(
             "linden", "Linden 42", "s1"
         )
@@ -735,8 +735,8 @@ class Gallery(GalleryWindow):
 
     pin_change = _under("patients", PinDialog, PinDialog.request_pin, is_set=True)
     records_due = _under(
-        "patients", RecordsDialog, RecordsDialog.show_records, "What is due",
-        "Their last session is more than 10 years ago. Nothing goes by itself.",
+        "patients", RecordsDialog, RecordsDialog.show_records, "Records past retention",
+        "The last session was more than 10 years ago. Nothing is deleted automatically.",
         [ListedRecord(name, name, KEPT, name[0] < "G") for name in ("Linden 42", "Heron 17", "Fir 12")],
     )  # fmt: skip
     records_log = _under("patients", LogDialog, LogDialog.show_entries, DEEDS)

@@ -52,8 +52,8 @@ def test_the_sentence_names_the_hand_that_moves_less(right: SessionResults, left
     assert "within the measurement error of 14°" in basis
     both = compare_pair(right, left)
     words = {name: row[-1] for name, row in lines_of(both).items()}
-    assert words["Whole arc"] == "less than the left, beyond error"
-    assert words["Extension"] == "less than the left, beyond error"
+    assert words["Whole arc"] == "less than left (above MDC)"
+    assert words["Extension"] == "less than left (above MDC)"
     assert facts_words(both) == (
         "same exercise, same day, same set-up; "
         "Right: mean of 8 repetitions; number 7 left out: pain; number 10 left out: the recording ended in it; "
@@ -68,8 +68,8 @@ def test_of_fingers_a_lower_bound_is_said_to_be_one() -> None:
     assert headline(both)[0].endswith("less on the right than on the left.")
     rows = lines_of(both)
     assert rows["Middle finger, TAM"][2].startswith("≥")
-    assert rows["Middle finger, TAM"][3].startswith("at least")
-    assert rows["Index finger, TAM"][5] == "not judged: hidden in part"
+    assert rows["Middle finger, TAM"][3].startswith("≥")
+    assert rows["Index finger, TAM"][5] == "not compared: hidden in part"
     assert rows["Index finger, TAM"][3] == "–"
 
 
@@ -86,10 +86,10 @@ def test_of_a_hook_the_middle_joints_of_all_fingers_come_first() -> None:
 
 def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionResults, left: SessionResults) -> None:
     both = compare_pair(right, replace(left, quality=replace(left.quality, distance_m=0.95)))
-    assert headline(both) == ("Shown beside each other, not judged.", "")
+    assert headline(both) == ("Shown side by side, without a comparison.", "")
     assert "the camera was at another distance" in unfair_words(both)
     rows = lines_of(both)
-    assert {row[5] for row in rows.values()} == {"not judged"}
+    assert {row[5] for row in rows.values()} == {"not compared"}
     assert not any(one.is_beyond_error for one in both.ranges)
     assert rows["Whole arc"][3] == "23° less", "the values are shown"
 
@@ -104,7 +104,7 @@ def test_the_left_hand_is_mirrored_and_says_so_until_m(
     qtbot.waitUntil(lambda: all(picture.image is not None for picture in screen.frame_views))
     first, second = screen.frame_views
     assert (first.is_mirrored, second.is_mirrored) == (False, True)
-    assert second.session_name.endswith("healthy · mirrored")
+    assert second.session_name.endswith("unaffected · mirrored")
     qtbot.keyClick(screen, Qt.Key.Key_M)
     assert not second.is_mirrored
     assert "mirrored" not in second.session_name

@@ -166,7 +166,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     assert screen.side == "left"
     typed(screen, "FLEXION", "170")
     screen.save_button.click()
-    qtbot.waitUntil(lambda: screen.status_text.text() == "Kept.")
+    qtbot.waitUntil(lambda: screen.status_text.text() == "Saved.")
     (kept,) = library.manual_measurements(patient)
     assert (kept.value, kept.rater, kept.side, kept.day) == (170.0, "MK", "left", TODAY)
     typed(screen, "FLEXION", "71")
@@ -174,7 +174,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     qtbot.waitUntil(lambda: len(library.manual_measurements(patient)) == 2 and not background.is_busy)
     assert screen.form.rows["FLEXION"].last_text.text() == "changed"
     assert "170° active · MK" in screen.form.rows["FLEXION"].last_text.toolTip()
-    assert told.asked == ["Unusual: check, or keep it"]
+    assert told.asked == ["Check the unusual values, or save them as entered"]
     flow.navigate_back()
     assert told.shown == [("progress", patient)]
     typed(screen, "FLEXION", "70")

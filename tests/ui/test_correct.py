@@ -86,7 +86,7 @@ def test_names_dragged_onto_each_other_swap_are_told_before_and_enter_mends_them
     before = screen.edits.original_px(ROW).copy()
     drag(qtbot, screen, before[2], before[4])
     np.testing.assert_allclose(screen.edits.current_px(ROW)[[2, 4]], before[[4, 2]])
-    assert screen.title.text() == "“Index knuckle” and “Ring knuckle” look exchanged"
+    assert screen.title.text() == "“Index knuckle” and “Ring knuckle” appear swapped"
     assert screen.anyway_button.isVisible()
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert asked == []
@@ -247,7 +247,7 @@ def test_old_and_new_curves_differ_in_width_also_where_both_are_predicted() -> N
 def test_each_picture_is_corrected_by_itself_and_a_shorter_session_is_shown(
     qtbot: QtBot, screen: CorrectionScreen, background: Background
 ) -> None:
-    assert "No pictures stored" in screen.hint.text()
+    assert "No video was saved" in screen.hint.text()
     assert len(screen.frame_view.blob_px) == 7
     screen.place_marker("MCP3", screen.edits.original_px(ROW)[3])
     screen.step_frames(5)

@@ -90,7 +90,7 @@ def _home(host: QWidget, theme: Theme) -> Opened:
 
 def _card(host: QWidget, theme: Theme) -> Opened:
     card = MessageDialog(host, theme)
-    answers = (Answer("Let them go", lambda: None, "L", is_risky=True), Answer("Back to the form", lambda: None))
+    answers = (Answer("Discard", lambda: None, "L", is_risky=True), Answer("Back to the form", lambda: None))
     card.show_words(MessageText("Leave without saving?", "", ""), answers, is_alarm=False)
     return card, "Back to the form"
 
@@ -98,9 +98,9 @@ def _card(host: QWidget, theme: Theme) -> Opened:
 SHEETS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     MessageDialog: _card,
     PatientForm: _patient,
-    CameraNameDialog: _opened(CameraNameDialog, CameraNameDialog.request_name, "Go on", "Window"),
+    CameraNameDialog: _opened(CameraNameDialog, CameraNameDialog.request_name, "Continue", "Window"),
     ResultsDialog: _opened(ResultsDialog, ResultsDialog.open, ""),
-    ExportDialog: _opened(ExportDialog, ExportDialog.request_formats, "Choose the folder…"),
+    ExportDialog: _opened(ExportDialog, ExportDialog.request_formats, "Choose folder…"),
     NoteDialog: _opened(NoteDialog, NoteDialog.open_note, "Keep note"),
     PainDialog: _opened(PainDialog, PainDialog.open_pain, "Close"),
     StartAngleDialog: _opened(StartAngleDialog, StartAngleDialog.open_angles, "Use these angles", np.zeros(3)),
@@ -120,19 +120,17 @@ SHEETS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     PinDialog: _opened(PinDialog, PinDialog.request_pin, "Set PIN", is_set=True),
     HomeDialog: _home,
     LetterDialog: _opened(LetterDialog, LetterDialog.open_form, "Show the letter", ["Dr A"], has_name=True),
-    RetestDialog: _opened(
-        RetestDialog, RetestDialog.show_studies, "Leave it as it is", retest_studies(), 0, date(2026, 11, 27)
-    ),
+    RetestDialog: _opened(RetestDialog, RetestDialog.show_studies, "Cancel", retest_studies(), 0, date(2026, 11, 27)),
     HandImageDialog: _opened(HandImageDialog, HandImageDialog.open_form, "Cancel"),
     ExclusionDialog: _opened(ExclusionDialog, ExclusionDialog.open_form, "Keep it in", 3),
-    ExcludeDialog: _opened(ExcludeDialog, ExcludeDialog.request_reason, "Let it count"),
+    ExcludeDialog: _opened(ExcludeDialog, ExcludeDialog.request_reason, "Cancel"),
     ChoiceDialog: _opened(
         ChoiceDialog,
         ChoiceDialog.request_choice,
-        "Leave it as it is",
+        "Cancel",
         "To whom?",
         "",
-        "Move it there",
+        "Move",
         [("a", "Heron 17")],
     ),
     SetDialog: _opened(SetDialog, SetDialog.open_sets, "Keep the set", DEFAULT_SETS, "wrist6"),
@@ -230,8 +228,8 @@ def test_esc_goes_on_where_nothing_went_wrong(
     qtbot: QtBot, theme: Theme, host: QWidget, alarm: bool, pressed: list[str]
 ) -> None:
     card, found = MessageDialog(host, theme), []
-    answers = [Answer(name, lambda name=name: found.append(name)) for name in ("Open the folder", "Go on")]
-    card.show_words(MessageText("2 files were written.", "", ""), answers, is_alarm=alarm)
+    answers = [Answer(name, lambda name=name: found.append(name)) for name in ("Open folder", "Go on")]
+    card.show_words(MessageText("2 files were saved.", "", ""), answers, is_alarm=alarm)
     qtbot.keyClick(card, Qt.Key.Key_Escape)
     assert found == pressed
 
@@ -257,7 +255,8 @@ def _cards() -> Iterator[tuple[str, list[ast.Call]]]:
 
 
 HARMLESS = {
-    "Go on", "Go on measuring", "Leave it as it is", "Back to the form", "Choose the source again", "Open it again",
+    "Continue", "Go on", "Leave it as it is", "Go on measuring", "Cancel", "Back to the form",
+    "Choose the source again", "Open it again",
     "Stay here", "Choose another folder", "Close Carpus",
 }  # fmt: skip
 """Last answers of cards: each leaves everything as it is, or only reads something again."""
@@ -277,5 +276,5 @@ def test_the_last_answer_of_every_card_loses_nothing() -> None:
         for other in calls[:-1]:
             risky = any(one.arg == "is_risky" for one in other.keywords)
             text = [node.value for node in ast.walk(other.args[0]) if isinstance(node, ast.Constant)]
-            assert risky or not text or text[0] in HARMLESS | {"Open the folder"}, f"{place}: {text}"
+            assert risky or not text or text[0] in HARMLESS | {"Open folder"}, f"{place}: {text}"
     assert seen >= 8

@@ -77,21 +77,23 @@ def test_esc_does_nothing(qtbot: QtBot, sheet: DeleteDialog, done: list[str]) ->
 
 
 def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: DeleteDialog) -> None:
-    assert "38 MB; files: 4" in sheet.deleted_text.text()
-    assert "delete them yourself (1): /home/clinic/Reports/L.pdf" in sheet.kept_text.text()
+    assert "38 MB, files: 4" in sheet.deleted_text.text()
+    assert (
+        "Delete yourself: reports and exports saved elsewhere (1): /home/clinic/Reports/L.pdf" in sheet.kept_text.text()
+    )
     assert "The patient’s other sessions." in sheet.kept_text.text()
     assert "15 Nov" in sheet.kept_text.text()
-    assert "before that day" in sheet.consequence_text.text()
+    assert "before that date" in sheet.consequence_text.text()
     many = replace(ERASED_SESSION, output_files=tuple(Path(str(number)) for number in range(5)))
     sheet.show_plan(many, 10, LAST_BACKUP, date(2036, 10, 10))
-    assert sheet.consequence_text.text() == "Carpus cannot bring it back: a restored back-up leaves it out."
+    assert sheet.consequence_text.text() == "It cannot be restored, not even from a backup."
     assert "(5): 0, 1, 2, …" in sheet.kept_text.text()
     sheet.show_plan(ERASED_PATIENT, 0, None, TODAY)
-    assert "notes (412 MB; files: 31)" in sheet.deleted_text.text()
+    assert "notes (412 MB, files: 31)" in sheet.deleted_text.text()
     assert "real name" in sheet.deleted_text.text()
-    assert "all sessions (9)" in sheet.deleted_text.text()
+    assert "All sessions (9)" in sheet.deleted_text.text()
     assert "other sessions" not in sheet.kept_text.text()
-    assert sheet.consequence_text.text() == "Nobody can bring it back."
+    assert sheet.consequence_text.text() == "It cannot be restored."
 
 
 @pytest.mark.parametrize(

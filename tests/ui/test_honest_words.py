@@ -244,7 +244,7 @@ def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_large
     assert words in said(SettingsScreen(theme, Preferences()))
     limits = dict(limit_rows())
     assert limits["Flexion, extension"] == "10°"
-    assert limits["Flexion and extension, whole arc"] == "14°"
+    assert limits["Flexion–extension, total arc"] == "14°"
     assert limits["Total active motion (TAM)"] == "22°"
 
 

@@ -300,7 +300,7 @@ def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given
         form.edit_patient(given[0], frozenset())
         line.setText(too_long)
         assert (line.text(), form.save_button.isEnabled()) == (too_long, False), "nothing is cut"
-        assert form.save_button.text().endswith("5 letters too many")
+        assert form.save_button.text().endswith("5 characters too long")
     form.close_dialog()
 
 
@@ -337,7 +337,11 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     assert store.listed[-1] == "Mallet finger"
     form.listed_tick.click()
     assert (form.listed_tick.isChecked(), "Mallet finger" in store.listed) == (False, False)
-    for typed, asked in (("21.8.", "Since"), ("20.12.2026", "Since when? It"), ("21.8.2026", "Operation or injury?")):
+    for typed, asked in (
+        ("21.8.", "Since"),
+        ("20.12.2026", "Since when? The date"),
+        ("21.8.2026", "Operation or injury?"),
+    ):
         form.fields["onset_day"].setText(typed)
         assert form.save_button.text().startswith(asked), typed
         assert not form.save_button.isEnabled()
@@ -361,10 +365,10 @@ def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_o
     qtbot.keyClicks(form.fields["diagnosis"], "Mallet finger")
     form.focusNextPrevChild(True)
     assert (form.listed_tick.isVisible(), host.focusWidget()) == (True, form.fields["onset_day"])
-    none = "Since when? There is no such day"
+    none = "Since when? This date does not exist"
     order = "Since when? Day, month, year"
     for typed, told in (
-        ("31.2.2026", none), ("20.12.2026", "yet to come"), ("2026-02-31", none), ("12/20/2026", order),
+        ("31.2.2026", none), ("20.12.2026", "in the future"), ("2026-02-31", none), ("12/20/2026", order),
         ("13/20/2026", none),
     ):  # fmt: skip
         form.fields["onset_day"].setFocus()

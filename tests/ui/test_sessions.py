@@ -60,7 +60,7 @@ def test_a_session_is_set_aside_with_a_reason_and_taken_back(
     qtbot.keyClick(screen.exclude_dialog.reason_field, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: sessions.done == [("aside", "s1", "splint on")])
     qtbot.waitUntil(lambda: "splint on" in screen.remark_text.text())
-    assert row_cells(screen.list.session_model.lines[1])[4] == "set aside: splint on"
+    assert row_cells(screen.list.session_model.lines[1])[4] == "excluded: splint on"
     assert chosen(screen) == "s1"
     screen.exclude_button.click()
     qtbot.waitUntil(lambda: sessions.done[-1] == ("aside", "s1", ""))
@@ -103,7 +103,7 @@ def test_a_patient_without_a_session_is_told_so(
 def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: QtBot) -> None:
     rooms = session_list._cell_boxes(QRectF(0, 0, 846, session_list.ROW_PX), theme, has_remark=True)
     metrics = QFontMetricsF(font(14, MEDIUM))
-    for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "does not count: simulated")):
+    for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "excluded: simulated")):
         assert metrics.elidedText(text, Qt.TextElideMode.ElideRight, rooms[number].width()) == text
 
 

@@ -34,7 +34,7 @@ class FrameView(QWidget):
         self.overlay: Overlay | None = None
         self.empty_text = ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setAccessibleName(self.tr("Camera picture"))
+        self.setAccessibleName(self.tr("Camera image"))
         theme.changed.connect(self.update)
 
     def show_frame(self, color_rgb: ByteImage) -> None:
@@ -174,4 +174,4 @@ class FrameView(QWidget):
     def paint_area_label(self, painter: QPainter) -> None:
         """Draw the zoom of the hand area, or that the whole frame is shown."""
         words = self.tr("Hand area ×{scale}").format(scale=numbers.format_fixed(self._scale, 1))
-        paint_label(painter, self._theme, self.tr("Whole picture") if self._is_whole else words, 12, 12)
+        paint_label(painter, self._theme, self.tr("Whole frame") if self._is_whole else words, 12, 12)

@@ -25,12 +25,12 @@ class CameraNameDialog(Dialog):
         super().__init__(host, theme, 600)
         self._is_dismissed = False
         self.add_heading()
-        self.name_field = QLineEdit(maxLength=MAX_NAME_LENGTH, placeholderText=self.tr("Name of the camera"))
-        self.name_field.setAccessibleName(self.tr("Name of the camera"))
+        self.name_field = QLineEdit(maxLength=MAX_NAME_LENGTH, placeholderText=self.tr("Camera name"))
+        self.name_field.setAccessibleName(self.tr("Camera name"))
         self.name_field.setMinimumHeight(theme.px(44))
-        self.accept_button = Button(theme, self.tr("Go on"), "primary", height_px=44)
+        self.accept_button = Button(theme, self.tr("Continue"), "primary", height_px=44)
         self.card.body.addWidget(self.name_field)
-        self.cancel_button = self.add_buttons(self.accept_button, cancel_text=self.tr("Stop"), gap=None)
+        self.cancel_button = self.add_buttons(self.accept_button, cancel_text=self.tr("Cancel"), gap=None)
         self.name_field.textChanged.connect(lambda text: self.accept_button.setEnabled(bool(text.strip())))
         self.accept_button.clicked.connect(self._accept)
         self.closed.connect(self._on_closed)
@@ -38,18 +38,18 @@ class CameraNameDialog(Dialog):
     def request_name(self, previous_name: str) -> None:
         """Open with the name of the last such camera, empty if there was none."""
         self.title.setText(
-            self.tr("Is this still the camera called “{name}”?").format(name=previous_name)
+            self.tr("Is this still the camera “{name}”?").format(name=previous_name)
             if previous_name
             else self.tr("What is this camera called?")
         )
         words = self.tr(
-            "It does not tell its number. Give it a name and write that on it: calibrations and checks are kept under "
-            "the name, and from now on every camera of this kind without a number is taken for this one."
+            "This camera has no readable serial number. Name it and label it: calibrations and checks are saved "
+            "under that name. Carpus takes every camera of this type without a number for this one."
         )
         if previous_name:
             words = self.tr(
-                "It does not tell its number. If it is another one, type that one’s name: calibrations and checks are "
-                "kept under the name."
+                "This camera has no readable serial number. If it is a different one, enter its name: calibrations "
+                "and checks are saved under that name."
             )
         self.words.setText(words)
         self.name_field.setText(previous_name)

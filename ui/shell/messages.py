@@ -88,7 +88,7 @@ class Messages(QObject):
         log.warning("%s %s", words.code, type(fault).__name__, exc_info=fault)
         self.fault_shown.emit(fault)
         icon = "unplug" if isinstance(fault, CameraLost) else ""
-        answers = answers or (Answer(self.tr("Go on"), lambda: None),)
+        answers = answers or (Answer(self.tr("Continue"), lambda: None),)
         message = _Message(words, tuple(answers), icon, detail, safe_detail)
         known = [self._current, *self._queue]
         if any(other is not None and other.words == message.words for other in known):
@@ -154,16 +154,16 @@ class Messages(QObject):
         return strip
 
     def recovery_words(self, found: RecoveredSession) -> MessageText:
-        what = self.tr("A session of {name} was cut short on {day} at {time}. It has been recovered.")
+        what = self.tr("A session of {name} was interrupted on {day} at {time}. It has been recovered.")
         safe = self.tr(
-            "All data up to {kept} are safe; at most the last second is missing; more only where the figures came late."
+            "All data up to {kept} are safe. At most the last second is missing, or more where results were delayed."
         )
         name = practice_patient_name() if found.patient_id == PRACTICE_PATIENT else found.pseudonym
         day, at = numbers.format_short_date(found.when), f"{found.when:%H:%M}"
         return MessageText(
             what.format(name=name, day=day, time=at),
             safe.format(kept=numbers.format_clock(found.duration_s)),
-            self.tr("Review it now, or leave it for later: it stays in the patient's list."),
+            self.tr("Review it now or later. It stays in the patient’s session list."),
         )
 
     def _show_next(self) -> None:
@@ -248,7 +248,7 @@ def format_file_names(names: Sequence[str]) -> str:
 def show_files_written(messages: Messages, folder: str, names: Sequence[str]) -> None:
     """Show which files were saved, and offer to open the folder."""
     count = len(names)
-    what = tr("1 file was written.") if count == 1 else tr("{count} files were written.")
+    what = tr("1 file was saved.") if count == 1 else tr("{count} files were saved.")
     messages.show_question(
         MessageText(
             what.format(count=count),
@@ -256,8 +256,8 @@ def show_files_written(messages: Messages, folder: str, names: Sequence[str]) ->
             tr("Files: {names}").format(names=format_file_names(names)),
         ),
         (
-            Answer(tr("Open the folder"), lambda: open_folder(folder), "O"),
-            Answer(tr("Go on"), lambda: None),
+            Answer(tr("Open folder"), lambda: open_folder(folder), "O"),
+            Answer(tr("Continue"), lambda: None),
         ),
         icon="download",
     )

@@ -28,7 +28,7 @@ class DifferencesCard(Card):
         self._theme = theme
         self._facts = ElidedText(theme, "", 14, REGULAR, "text2")
         self.measure_choice = Combo()
-        self.measure_choice.setAccessibleName(self.tr("What is compared"))
+        self.measure_choice.setAccessibleName(self.tr("Value to compare"))
         self.measure_choice.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
         self.mirror_button = Button(theme, self.tr("&Mirror"), "quiet", hint=KEYS["mirror"])
         self.mirror_button.setCheckable(True)

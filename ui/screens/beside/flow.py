@@ -44,4 +44,4 @@ class ComparisonFlow(Flow):
     def banner_lines(self) -> list[str]:
         both = None if self.context.current.is_practice else self.screen.comparison
         simulated = both is not None and (both.first.is_simulated or both.second.is_simulated)
-        return [self.tr("Simulated hand: this is not a patient’s, and does not count.")] if simulated else []
+        return [self.tr("Simulated data: no patient was measured. Excluded from analysis.")] if simulated else []

@@ -106,7 +106,7 @@ def value_words(watched: ComparedSession, row: int) -> str:
     of = watched.figures.main_angle or WRIST_ANGLES[FLEXION]
     value = float(watched.value_deg[row]) if 0 <= row < len(watched.value_deg) else math.nan
     if not math.isfinite(value):
-        return tr("not seen")
+        return tr("not visible")
     angle = wrist_angle_index(of)
     if angle < 0:
         figure = find_finger_angle(of)

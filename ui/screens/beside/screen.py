@@ -118,7 +118,7 @@ class ComparisonScreen(FittedWidget):
 
         def on_failed(fault: Exception) -> None:
             if asked == self._request_number:
-                self._show_answer(self.tr("Nothing is compared: one of the two sessions could not be read."))
+                self._show_answer(self.tr("No comparison: one of the two sessions could not be read."))
                 self._show_sections(reading=False)
                 self.fault_raised.emit(fault)
 

@@ -50,7 +50,7 @@ def picture_words(figures: SessionResults, other: SessionResults, affected: str,
     """Return the label over a frame, such as ``Left, unaffected · mirrored`` or ``20 Nov``."""
     name = session_name(figures, other)
     if figures.side != other.side and affected in ("right", "left"):
-        pattern = tr("{name}, affected") if figures.side == affected else tr("{name}, healthy")
+        pattern = tr("{name}, affected") if figures.side == affected else tr("{name}, unaffected")
         name = pattern.format(name=name)
     return tr("{name} · mirrored").format(name=name) if mirrored else name
 
@@ -59,14 +59,14 @@ def headline(comparison: SessionPair) -> tuple[str, str]:
     """Return the result in one sentence, and the values behind it."""
     main = comparison.main_comparison
     if not comparison.is_comparable:
-        return tr("Shown beside each other, not judged."), ""
+        return tr("Shown side by side, without a comparison."), ""
     if main is None:
-        return tr("Not judged: there is no movement that both have."), ""
+        return tr("Not compared: the two sessions share no movement."), ""
     if comparison.relation == "dates":
         return progress_headline(_to_progress(comparison))
     if main.verdict == "not_judged":
         why = reason_words(main.reasons) or tr("not measured")
-        return tr("Not judged: {why}.").format(why=why), tr("What is hidden does not count.")
+        return tr("Not compared: {why}.").format(why=why), tr("Occluded frames are not analysed.")
     if not main.is_beyond_error:
         return tr("No difference beyond measurement error between right and left."), _basis(main)
     size = numbers.format_degrees(main.display_difference_deg)
@@ -83,9 +83,9 @@ def headline(comparison: SessionPair) -> tuple[str, str]:
 
 def _basis(one: Comparison) -> str:
     pattern = (
-        tr("{movement} {first} against {second}: more than the measurement error of {limit}.")
+        tr("{movement}: {first} versus {second}, above the measurement error of {limit}.")
         if one.is_beyond_error
-        else tr("{movement} {first} against {second}: within the measurement error of {limit}.")
+        else tr("{movement}: {first} versus {second}, within the measurement error of {limit}.")
     )
     return pattern.format(
         movement=comparison_name(one), first=_format_end(one.after), second=_format_end(one.before),
@@ -108,7 +108,7 @@ def unfair_words(comparison: SessionPair) -> str:
     """Return why the sessions are not comparable; empty if they are."""
     if comparison.is_comparable:
         return ""
-    return tr("Not a fair pair: {why}. Figures are shown, nothing is judged.").format(
+    return tr("Not comparable: {why}. Values are shown without an assessment.").format(
         why=reason_words(comparison.reasons)
     )
 
@@ -147,11 +147,11 @@ def facts_words(comparison: SessionPair) -> str:
 
 def difference_table(comparison: SessionPair) -> TableContent:
     """Return the measures that both share, then those of one session only."""
-    pattern = tr("{name}, mean ± sd")
+    pattern = tr("{name}, mean ± SD")
     first, second = session_name(comparison.first, comparison.second), session_name(comparison.second, comparison.first)
     heads = (
-        tr("Movement"), pattern.format(name=first), pattern.format(name=second), tr("Difference"), tr("Error"),
-        Cell(tr("In words"), MEDIUM, "text2", state="none"),  # as far in as the words below it
+        tr("Movement"), pattern.format(name=first), pattern.format(name=second), tr("Difference"), tr("MDC95"),
+        Cell(tr("Assessment"), MEDIUM, "text2", state="none"),  # as far in as the words below it
     )  # fmt: skip
     rows = [_make_shared_row(one, comparison) for one in comparison.ranges]
     rows += [_make_single_row(row, comparison, is_first=is_first) for row, is_first in comparison.unpaired if row.count]
@@ -161,7 +161,7 @@ def difference_table(comparison: SessionPair) -> TableContent:
 def value_words(row: Measure) -> str:
     """Return a measure: ``57° ± 2°``, ``≥ 57°`` if partly occluded, ``5° deficit`` if an end was not reached."""
     if not row.count:
-        return tr("not seen")
+        return tr("not visible")
     if row.is_lower_bound and row.wrist_angle < 0:
         return f"{LOWER_BOUND}{numbers.NARROW_GAP}{numbers.format_degrees(row.mean)}"
     return terms.deficit_words(mean_words(negate_measure(row))) if is_deficit(row) else mean_words(row)
@@ -170,11 +170,11 @@ def value_words(row: Measure) -> str:
 def _make_shared_row(one: Comparison, both: SessionPair) -> TableRow:
     known = math.isfinite(one.difference_deg) and (one.is_beyond_error or not any(one.lower_bounds))
     in_part = not one.is_joint and (one.after.is_lower_bound or one.before.is_lower_bound)
-    limited = tr("limited by the camera's view") if in_part else ""
+    limited = tr("partly occluded") if in_part else ""
     words = "; ".join(part for part in (_judgement(one, both), limited) if part)
     said = difference_words(one.display_difference_deg) if known else numbers.UNKNOWN
     if _is_bound(one):
-        said = tr("at least {difference}").format(difference=said)
+        said = tr("≥ {difference}").format(difference=said)
     look = (SEMIBOLD, "text") if one.is_beyond_error else (REGULAR, "text2")
     sign: State = "none" if one.verdict == "not_judged" else _state(one, both)
     return (
@@ -186,7 +186,7 @@ def _make_shared_row(one: Comparison, both: SessionPair) -> TableRow:
 
 def _make_single_row(row: Measure, both: SessionPair, *, is_first: bool) -> TableRow:
     cells = [value_words(row), numbers.UNKNOWN]
-    words = tr("not judged: only one of the two has it") if both.is_comparable else tr("not judged")
+    words = tr("not compared: in one session only") if both.is_comparable else tr("not compared")
     return (
         _name_cell(row, range_name(row, names_arc=True)), *(cells if is_first else cells[::-1]),
         Cell(numbers.UNKNOWN, REGULAR, "text2"), numbers.UNKNOWN, Cell(words, REGULAR, "text2", state="none"),
@@ -213,26 +213,26 @@ def _state(one: Comparison, both: SessionPair) -> State:
 def _judgement(one: Comparison, both: SessionPair) -> str:
     if one.verdict == "not_judged":
         if not both.is_comparable:  # the strip says why
-            return tr("not judged")
-        return tr("not judged: {why}").format(why=reason_words(one.reasons) or tr("not measured"))
+            return tr("not compared")
+        return tr("not compared: {why}").format(why=reason_words(one.reasons) or tr("not measured"))
     if both.relation == "dates":
         if not one.is_beyond_error:
             return verdict_word("no_change")
-        return tr("improved, beyond error") if one.verdict == "improved" else tr("worse, beyond error")
+        return tr("improved (above MDC)") if one.verdict == "improved" else tr("worse (above MDC)")
     if not one.is_beyond_error:
-        return tr("no difference beyond error")
+        return tr("no difference beyond MDC")
     less, than_left = one.difference_deg < 0.0, both.second.side == "left"
     return {
-        (True, True): tr("less than the left, beyond error"),
-        (True, False): tr("less than the right, beyond error"),
-        (False, True): tr("more than the left, beyond error"),
-        (False, False): tr("more than the right, beyond error"),
+        (True, True): tr("less than left (above MDC)"),
+        (True, False): tr("less than right (above MDC)"),
+        (False, True): tr("more than left (above MDC)"),
+        (False, False): tr("more than right (above MDC)"),
     }[less, than_left]
 
 
 def hand_comparison_note() -> str:
     """Return the note on comparing with the other hand."""
-    return tr("The other hand is a comparison, not a norm: hands of one person differ by themselves.")
+    return tr("The other hand is a comparison, not a norm: left and right differ in healthy people too.")
 
 
 MIDDLE_JOINTS = "middle"
@@ -245,7 +245,7 @@ def comparison_choices(first: SessionResults, second: SessionResults) -> list[tu
         return []
     found = progress_choices(first)
     if main_kind(first) == "middle" and not is_thumb_exercise(first):
-        return [(MIDDLE_JOINTS, tr("Middle joints of all fingers")), *found]  # no finger stands for the others
+        return [(MIDDLE_JOINTS, tr("PIP joints of all fingers")), *found]  # no finger stands for the others
     return found
 
 

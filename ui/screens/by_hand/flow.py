@@ -54,11 +54,11 @@ class ManualMeasurementsFlow(Flow):
         self.context.messages.show_question(
             MessageText(
                 self.tr("Leave without saving?"),
-                self.tr("Values are written that are not kept yet."),
-                self.tr("Save them, or let them go."),
+                self.tr("Some values have not been saved."),
+                self.tr("Save or discard the values."),
             ),
             (
-                Answer(self.tr("Let them go"), on_discard, "L", is_risky=True),
+                Answer(self.tr("Discard"), on_discard, "D", is_risky=True),
                 Answer(self.tr("Back to the form"), lambda: None),
             ),
             icon="file-text",
@@ -115,12 +115,12 @@ class ManualMeasurementsFlow(Flow):
             return
         self.context.messages.show_question(
             MessageText(
-                self.tr("Unusual: check, or keep it"),
+                self.tr("Check the unusual values, or save them as entered"),
                 "; ".join(doubts),
-                self.tr("Look at the numbers once more before they are kept."),
+                self.tr("Check the values before you save them."),
             ),
             (
-                Answer(self.tr("Keep as written"), lambda: self._save(values), "K", is_risky=True),
+                Answer(self.tr("Save as entered"), lambda: self._save(values), "S", is_risky=True),
                 Answer(self.tr("Back to the form"), lambda: None),
             ),
             icon="file-text",

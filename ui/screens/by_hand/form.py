@@ -70,8 +70,8 @@ class MeasureRow(QObject):
             field = ValueField(theme, measure, f"{name} {which}".strip(), FIELD_PX[measure.kind])
             field.textChanged.connect(lambda _: self._on_edited())
             self.fields.append((way, field))
-        self.location_field = QLineEdit(maxLength=MAX_LOCATION_LENGTH, placeholderText=self.tr("where"))
-        self.location_field.setAccessibleName(self.tr("{name}: where it was taken").format(name=name))
+        self.location_field = QLineEdit(maxLength=MAX_LOCATION_LENGTH, placeholderText=self.tr("location"))
+        self.location_field.setAccessibleName(self.tr("{name}: location of the measurement").format(name=name))
         self.location_field.textChanged.connect(lambda _: self._on_edited())
         self.widgets: list[QWidget] = []
         self.side_text = Text(theme, "", 14, SEMIBOLD)
@@ -135,14 +135,14 @@ class MeasureRow(QObject):
             for one in find_superseded_entries(values, key, day):
                 when = numbers.format_date_time(one.entered_at.astimezone()) if one.entered_at else ""
                 said = (
-                    value_words(self.measure, one.value) if one.trials else self.tr("taken back"),
+                    value_words(self.measure, one.value) if one.trials else self.tr("removed"),
                     mode_name(one.mode),
                 )
                 lines.append(" · ".join(filter(None, (" ".join(filter(None, said)), one.rater, when))))
         if lines:
             changed = self.tr("changed")
             self.last_text.setText(f"{changed} · {self.last_text.text()}" if self.last_text.text() else changed)
-        self.last_text.setToolTip(self.tr("Entered before for this day:") + "\n" + "\n".join(lines) if lines else "")
+        self.last_text.setToolTip(self.tr("Previous entries for this day:") + "\n" + "\n".join(lines) if lines else "")
         self.last_text.setAccessibleDescription(self.last_text.toolTip())
 
     def read_values(self, side: Side, day: date) -> list[ManualValue]:
@@ -212,7 +212,7 @@ class ManualForm(QWidget):
         if kind == "angle":
             heads += [(1, self.tr("Active"), MEDIUM, "text2"), (2, self.tr("Passive"), MEDIUM, "text2")]
             heads += [(CARPUS_COLUMN, self.tr("Carpus"), MEDIUM, "text2")]
-        heads += [(LAST_COLUMN, self.tr("last time"), MEDIUM, "text2")] if not self._headings else []
+        heads += [(LAST_COLUMN, self.tr("previous"), MEDIUM, "text2")] if not self._headings else []
         shown: list[QWidget] = [Separator(self._theme)]
         self._grid.addWidget(shown[0], line + 1, 0, 1, LAST_COLUMN + 1)
         for column, words, weight, token in heads:
@@ -308,7 +308,7 @@ class ValueField(NumberField):
         of = self._measure
         if self.is_empty or of.min_value <= self.value() <= of.max_value:
             return ""
-        pattern = self.tr("A number from {least} to {most}, or empty")
+        pattern = self.tr("Enter a number from {least} to {most}, or leave it empty")
         return pattern.format(least=numbers.format_significant(of.min_value, 6), most=value_words(of, of.max_value))
 
     @property
@@ -318,7 +318,9 @@ class ValueField(NumberField):
         if self.error or not math.isfinite(value) or not is_unusual(of, value):
             return ""
         low, high = (value_words(of, end) for end in of.usual_range)
-        return self.tr("{value}? Usual is {low} to {high}").format(value=value_words(of, value), low=low, high=high)
+        return self.tr("{value}? Typical range: {low} to {high}").format(
+            value=value_words(of, value), low=low, high=high
+        )
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         plain = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier == Qt.KeyboardModifier.NoModifier

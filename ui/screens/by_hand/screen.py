@@ -79,7 +79,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self.day_field.setCalendarPopup(True)
         self.day_field.setDisplayFormat(numbers.qt_date_format())
         self.day_field.setMaximumDate(self.day_field.date())
-        self.day_field.setAccessibleName(self.tr("Day of measuring"))
+        self.day_field.setAccessibleName(self.tr("Date of measurement"))
         self.hand_choice = ChoiceRow(theme, [(side, terms.hand_name(side)) for side in ("right", "left")])
         self.form = ManualForm(theme)
         self.measure_choice = Combo()
@@ -194,7 +194,7 @@ class ManualMeasurementsScreen(FittedWidget):
             self._select(record.side, today)
         self._fill()
         if is_refresh:
-            self.status_text.setText(self.tr("Kept."))
+            self.status_text.setText(self.tr("Saved."))
 
     def initial_focus(self) -> QWidget:
         return self.form.initial_focus() if self.form.rows else self
@@ -221,9 +221,9 @@ class ManualMeasurementsScreen(FittedWidget):
 
     def _show_basis(self) -> None:
         by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
-        words = self.tr("Empty means not measured. Nothing here changes a figure of Carpus.")
+        words = self.tr("Leave empty what was not measured. These entries do not change values measured by Carpus.")
         simulated = any(one.is_simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
-        why = self.tr("What Carpus has of this day is simulated, and no value.") if simulated else ""
+        why = self.tr("The Carpus session of this day is simulated and not shown.") if simulated else ""
         zero = terms.thumb_up_words() if {"PRONATION", "SUPINATION"} & set(self.form.rows) else ""
         self.basis_text.setText(" ".join(filter(None, (by, words, zero, why))))
 
@@ -271,8 +271,8 @@ class ManualMeasurementsScreen(FittedWidget):
     def _fill_changes(self) -> None:
         body, theme = self._changes.body, self._theme
         clear_layout(body)
-        body.addWidget(Text(theme, self.tr("By hand and by Carpus are never joined"), 16, SEMIBOLD, wrap=True))
-        words = self.tr("Neither averaged nor subtracted. A change is judged within one way of measuring.")
+        body.addWidget(Text(theme, self.tr("Manual and Carpus values stay separate"), 16, SEMIBOLD, wrap=True))
+        words = self.tr("They are neither averaged nor subtracted. Change is assessed within one method only.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         mine = [one for one in current_values(self.record.values) if one.side in (self.side, "")]
         add_change_rows(body, theme, find_changes(mine))
@@ -285,8 +285,8 @@ class ManualMeasurementsScreen(FittedWidget):
         self.status_text.setText(
             f"{problems[0][0].accessibleName()}: {problems[0][1]}" if problems
             else doubts[0] if doubts
-            else self.tr("Written and not kept yet: also the other hand or another day.") if elsewhere
-            else self.tr("Kept with initials and time; every later change stays readable.")
+            else self.tr("Not saved yet, including values of the other hand or another day.") if elsewhere
+            else self.tr("Values are saved with initials and time. Later changes stay visible.")
         )  # fmt: skip
         self.save_button.setEnabled(not problems and self.has_unsaved)
 

@@ -35,8 +35,8 @@ class BoardCaptureView(FittedWidget):
         self._condition_texts = [StateText(theme) for _ in range(3)]
         self.primary_button = Button(theme, "", "primary")
         self.stop_button = Button(theme, self.tr("Stop"), "quiet", hint=self.tr("Esc"), height_px=40)
-        self.bar = ThinProgressBar(theme, self.tr("How far it is"))
-        words = self.tr("Pictures are taken by themselves when the board is still, sharp and in a new place.")
+        self.bar = ThinProgressBar(theme, self.tr("Progress"))
+        words = self.tr("Images are taken automatically when the board is still, sharp and in a new position.")
         there = Card(theme)
         in_there = column_layout(*self._condition_texts, gap=8)
         there.body.addLayout(in_there)
@@ -66,21 +66,21 @@ class BoardCaptureView(FittedWidget):
 
     def reset(self) -> None:
         self.progress, self._shortfall = None, ""
-        self.frame_view.clear(self.tr("The camera is being opened."))
-        self.instruction.setText(self.tr("One moment"))
-        self.hint.setText(self.tr("The camera is being opened."))
+        self.frame_view.clear(self.tr("Opening the camera…"))
+        self.instruction.setText(self.tr("Please wait"))
+        self.hint.setText(self.tr("Opening the camera…"))
         self.bar.show()
         self.bar.show_busy()
         self.primary_button.setEnabled(False)
         self.primary_button.set_label(button_words(None))
-        self.frame_count.show_state("open", self.tr("No picture yet"))
+        self.frame_count.show_state("open", self.tr("No image yet"))
         for line in self._condition_texts:
             line.show_state("none", "")
 
     def show_opened(self) -> None:
         self.bar.hide()
-        self.instruction.setText(self.tr("Hold the board in the picture"))
-        self.hint.setText(self.tr("All of it, flat towards the camera, about 60 cm away."))
+        self.instruction.setText(self.tr("Hold the board in view"))
+        self.hint.setText(self.tr("Show the whole board, facing the camera, about 60 cm away."))
         self.frame_view.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def show_frame(self, color_rgb: ByteImage) -> None:
@@ -89,18 +89,18 @@ class BoardCaptureView(FittedWidget):
     def show_no_frames(self, words: str) -> None:
         """Show why the camera sends no frames; captured images stay."""
         self.frame_view.clear(words)
-        self.instruction.setText(self.tr("No pictures from the camera"))
+        self.instruction.setText(self.tr("No frames from the camera"))
         self.hint.setText(words)
 
     def show_progress(self, now: BoardProgress) -> None:
         self.progress = now
         views = now.judgement.view_count
-        self.instruction.setText(translate_phrase(now.step) if now.step else self.tr("That is enough"))
-        done = self.tr("Press “Work out”, or show more: it only gets better.")
+        self.instruction.setText(translate_phrase(now.step) if now.step else self.tr("Enough images"))
+        done = self.tr("Press “Calculate”, or add more images to improve the result.")
         self.hint.setText(
-            self._shortfall or view_fault_words(now.lack) or (self.tr("Then hold still.") if now.step else done)
+            self._shortfall or view_fault_words(now.lack) or (self.tr("Then hold it still.") if now.step else done)
         )
-        words = self.tr("1 picture") if views == 1 else self.tr("{count} pictures")
+        words = self.tr("1 image") if views == 1 else self.tr("{count} images")
         self.frame_count.show_state("partly" if now.step else "good", words.format(count=views))
         self.primary_button.set_label(button_words(now))
         self.primary_button.setEnabled(views >= now.required_views and not now.judgement.missing_text)
@@ -110,8 +110,8 @@ class BoardCaptureView(FittedWidget):
             line.show_state(*row)
 
     def show_calculating(self) -> None:
-        self.instruction.setText(self.tr("Working it out"))
-        self.hint.setText(self.tr("A few seconds; put the board down."))
+        self.instruction.setText(self.tr("Calculating…"))
+        self.hint.setText(self.tr("This takes a few seconds. You can put the board down."))
         self.frame_view.setFocus(Qt.FocusReason.OtherFocusReason)  # else on the way back, where a key more would leave
         self.primary_button.setEnabled(False)
         self.bar.show()

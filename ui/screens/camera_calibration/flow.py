@@ -143,7 +143,9 @@ class CameraCalibrationFlow(CameraFlowBase):
             if gathering is not self._gathering:
                 return
             if isinstance(fault, BoardViewsTooSimilar | BoardNotVisible):
-                words = self.tr("Show it some more, tilted more and nearer: {why}.").format(why=fault.detail)
+                words = self.tr("Add more images with the board closer and more tilted: {why}.").format(
+                    why=fault.detail
+                )
                 self.screen.capture_view.show_shortfall(words)
             else:
                 self._on_failed(fault)

@@ -85,7 +85,7 @@ class BoardSetupView(QWidget):
             theme,
             [
                 ("chessboard", self.tr("Chessboard")),
-                ("charuco", self.tr("ChArUco: may be partly hidden, takes longer")),
+                ("charuco", self.tr("ChArUco: may be partly covered, takes longer")),
             ],
             "chessboard",
         )  # fmt: skip
@@ -98,10 +98,10 @@ class BoardSetupView(QWidget):
         self.ruler_field.setSingleStep(0.5)
         self.ruler_field.setValue(RULER_MM)
         self.ruler_field.setSuffix("\N{NO-BREAK SPACE}mm")
-        self.ruler_field.setAccessibleName(self.tr("The ruler on the print measures"))
+        self.ruler_field.setAccessibleName(self.tr("Length of the printed ruler"))
         self.ruler_field.lineEdit().setTextMargins(10, 0, 10, 0)
         self.camera_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.start_button = Button(theme, self.tr("Begin"), "primary", icon="camera", hint=ENTER_KEY)
+        self.start_button = Button(theme, self.tr("Start"), "primary", icon="camera", hint=ENTER_KEY)
         self._build_layout()
         theme.changed.connect(self._fit)
         self._fit()
@@ -112,26 +112,26 @@ class BoardSetupView(QWidget):
         body = column_layout(gap=GAP_PX, margins=(4, 4, 12, 4))
         self._status_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         words = self.tr(
-            "Five minutes: how the lens sees, how far off the depth is, and whether depth lies on colour. Do it once "
-            "for each camera, after a knock, and when the check card says so."
+            "Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and "
+            "colour. Do it once for each camera, and again after a knock or when the check card asks for it."
         )
         body.addWidget(heading(theme, self.tr("Calibrate the camera"), wrap=True))
         fill(body, Text(theme, words, 16, REGULAR, "text2", wrap=True), self._status_text)
         board = self._make_card(self.tr("1  Print the board"))
         fill(board.body, self.pattern, row_layout(self.paper, self.print_button, STRETCH, gap=12))
         words = self.tr(
-            "Print at 100 % (“actual size”) on plain paper and glue it flat onto something stiff, such as glass or a "
-            "thick board. Then measure the ruler under it."
+            "Print at 100 % (“actual size”) on plain paper. Glue it flat onto something stiff, such as glass or a "
+            "thick board. Then measure the printed ruler."
         )
         board.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        row = row_layout(Text(theme, self.tr("The ruler on the print measures"), 14), self.ruler_field, STRETCH, gap=12)
+        row = row_layout(Text(theme, self.tr("Length of the printed ruler"), 14), self.ruler_field, STRETCH, gap=12)
         board.body.addLayout(row)
         body.addWidget(board)
         show = self._make_card(self.tr("2  Show it to the camera"))
         words = self.tr(
-            "Even light, no reflections. The screen says where to hold the board; pictures are taken by themselves "
-            "when it is still, sharp and in a new place. No picture of the board is stored, and nothing is changed "
-            "before you say so."
+            "Use even light without reflections. The screen shows where to hold the board. Images are taken "
+            "automatically when it is still, sharp and in a new position. No image is saved, and nothing changes "
+            "until you confirm."
         )
         fill(show.body, Text(theme, words, 14, REGULAR, "text2", wrap=True), self.camera_text)
         show.body.addWidget(self.start_button, 0, Qt.AlignmentFlag.AlignLeft)
@@ -165,9 +165,11 @@ class BoardSetupView(QWidget):
         self._status_text.show_text(words)
 
     def set_camera_connected(self, is_connected: bool) -> None:
-        self.camera_text.setText(self.tr("It is plugged in.") if is_connected else self.tr("No camera is plugged in."))
+        self.camera_text.setText(
+            self.tr("The camera is connected.") if is_connected else self.tr("No camera is connected.")
+        )
         self.start_button.setEnabled(is_connected)
-        self.start_button.set_label(self.tr("Begin") if is_connected else self.tr("Begin · plug the camera in"))
+        self.start_button.set_label(self.tr("Start") if is_connected else self.tr("Start · connect the camera"))
 
     def initial_focus(self) -> QWidget:
         return self.start_button if self.start_button.isEnabled() else self.print_button
@@ -182,7 +184,7 @@ class BoardResultView(QWidget):
         self.result: BoardResult | None = None
         self.headline_text = heading(theme, wrap=True)
         self.basis_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
-        self.again_button = Button(theme, self.tr("Take &again"), icon="rotate-ccw")
+        self.again_button = Button(theme, self.tr("&Repeat"), icon="rotate-ccw")
         self.use_button = Button(theme, self.tr("Use this calibration"), "primary", icon="check", hint=ENTER_KEY)
         self._table = Card(theme, 20)
         foot = row_layout(self.use_button, self.again_button, STRETCH, gap=12)

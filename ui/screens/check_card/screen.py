@@ -43,7 +43,7 @@ class CheckCardScreen(FittedWidget):
         self.verdict = StateText(theme)
         self.instruction = Text(theme, "", 18, SEMIBOLD, wrap=True)
         self.countdown = Text(theme, "", 44, SEMIBOLD)
-        self.bar = ThinProgressBar(theme, self.tr("How far the check is"))
+        self.bar = ThinProgressBar(theme, self.tr("Progress of the check"))
         self.check_button = Button(theme, "", "primary", icon="play", hint=ENTER_KEY)
         self.stop_button = Button(theme, self.tr("Stop"), hint=self.tr("Esc"))
         self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
@@ -61,12 +61,15 @@ class CheckCardScreen(FittedWidget):
         column = column_layout(self.verdict, self.instruction, self.countdown, self.bar, gap=12)
         fill(column, self.check_button, self.stop_button, 12)
         card = self.tr(
-            "Print both pages at 100 %: each ruler must be 100 mm long. Glue the first flat onto stiff card, fold the "
-            "wedge and glue it onto the dashed field."
+            "Print both pages at 100 %: each ruler must be 100 mm long. Glue the first page flat onto stiff card. "
+            "Fold the wedge and glue it onto the dashed field."
         )
         fill(column, Text(theme, card, 14, REGULAR, "text2", wrap=True))
         fill(column, row_layout(self.paper, self.print_button, gap=12), self.calibrate_button, STRETCH)
-        limits = self.tr("A check is good for a week. All lengths off by one share: the depth, or the print’s size.")
+        limits = self.tr(
+            "A check is valid for one week. If all lengths deviate by the same share, the depth or the print "
+            "size is wrong."
+        )
         fill(column, caption(theme, limits, wrap=True))
         self._side = scroll_column(column)
         margins = (MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
@@ -81,13 +84,17 @@ class CheckCardScreen(FittedWidget):
 
     def set_camera_connected(self, is_connected: bool) -> None:
         self.check_button.setEnabled(is_connected)
-        face = self.tr("Check now, 30 seconds") if is_connected else self.tr("Check · plug the camera in")
+        face = self.tr("Check now, 30 seconds") if is_connected else self.tr("Check · connect the camera")
         self.check_button.set_label(face)
 
     def show_status(self, status: CheckStatus) -> None:
         """Show the result of the last check."""
         state, words = check_words(status)
-        names = {"good": self.tr("Right"), "warn": self.tr("Check it again"), "bad": self.tr("Out")}
+        names = {
+            "good": self.tr("Within tolerance"),
+            "warn": self.tr("Check again"),
+            "bad": self.tr("Out of tolerance"),
+        }
         self._verdict = state, names.get(state, self.tr("Not checked yet")), words
         if not self.is_measuring:
             self._show_verdict()
@@ -99,7 +106,7 @@ class CheckCardScreen(FittedWidget):
 
     def begin_measuring(self) -> None:
         self._set_measuring(is_measuring=True)
-        self.show_no_frames(self.tr("The camera is being opened."))
+        self.show_no_frames(self.tr("Opening the camera…"))
         self.show_progress(None)
 
     def end_measuring(self) -> None:

@@ -251,12 +251,16 @@ def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str
     said = []
     if lost_labels:
         names = ", ".join(marker_title(name) for name in lost_labels)
-        said.append(tr("Not held: {names}. Correct a picture soon after too.").format(names=names))
+        said.append(tr("Not kept: {names}. Also correct a later frame.").format(names=names))
     if found.lost_markers:
         names = ", ".join(marker_title(name) for name in found.lost_markers)
-        said.append(tr("Hardly seen any more: {names}. What they show has no value then.").format(names=names))
+        said.append(
+            tr("Rarely visible in the new result: {names}. Their angles are missing there.").format(names=names)
+        )
     if found.changed_frames:
-        pattern = tr("{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.")
+        pattern = tr(
+            "{count} of {common} frames differ by more than 2°. Largest difference at {time}: {angle}, {size}."
+        )
         said.append(
             pattern.format(
                 count=found.changed_frames,
@@ -267,9 +271,9 @@ def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str
             )
         )
     else:
-        said.append(tr("No picture differs by more than 2°."))
+        said.append(tr("No frame differs by more than 2°."))
     if found.recovered_frames:
-        said.append(tr("{count} pictures have an angle that had none.").format(count=found.recovered_frames))
+        said.append(tr("{count} frames have an angle that was missing before.").format(count=found.recovered_frames))
     if found.is_live:
-        said.append(tr("As measured live: one of the two was not looked back at."))
+        said.append(tr("Live values are compared, because one of the two results is not smoothed."))
     return " ".join(said)

@@ -50,7 +50,7 @@ class CorrectionFrameView(FrameView):
         self.overlay = lambda painter, _: self._paint_marks(painter)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(self.tr("Picture to put markers right on"))
+        self.setAccessibleName(self.tr("Frame with labels to correct"))
 
     def show_edits(self, edits: MarkerEdits, row: int, blob_px: FloatArray, *, has_frame: bool) -> None:
         """Show the labels of a row; its frame was shown before."""
@@ -145,13 +145,13 @@ class CorrectionFrameView(FrameView):
                     2.5,
                     lambda p=point: painter.drawEllipse(p, RING_RADIUS_PX, RING_RADIUS_PX),  # type: ignore[misc]
                 )
-                words = self.tr("{marker}, so far").format(marker=marker_title(name))
+                words = self.tr("{marker}, before").format(marker=marker_title(name))
                 self._paint_label(painter, words, point, taken, wrong=True)
         for name, point in rings:
             if len(places.markers) <= MAX_ALWAYS_LABELLED or name in changed or name == self.current_marker:
                 words = marker_title(name)
                 hidden = not np.isfinite(now[places.markers.index(name)]).all()
-                words = self.tr("{marker}, hidden").format(marker=words) if hidden else words
+                words = self.tr("{marker}, occluded").format(marker=words) if hidden else words
                 others = [other for one, other in rings if one != name]
                 plate = self._paint_label(painter, words, point, taken, others)
                 if plate is not None:

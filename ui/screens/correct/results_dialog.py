@@ -57,7 +57,7 @@ class ResultsDialog(Dialog):
         self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.session_label = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.words = Text(theme, "", 14, REGULAR, wrap=True)
-        self.bar = ThinProgressBar(theme, self.tr("How far the tracking is"))
+        self.bar = ThinProgressBar(theme, self.tr("Progress of the re-analysis"))
         self.legend = _make_legend(theme)
         fingers = [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = ChoiceRow(theme, [*fingers, (WRIST, self.tr("Wrist"))])
@@ -65,8 +65,8 @@ class ResultsDialog(Dialog):
         self.curves = SessionChart(theme)
         self.curves.cursor_moved.connect(self.curves.set_time)
         self.stop_button = Button(theme, self.tr("&Stop"), "plain", height_px=44)
-        self.keep_button = Button(theme, self.tr("&Keep the old one"), "plain", height_px=44)
-        self.use_button = Button(theme, self.tr("&Use the new result"), "plain", height_px=44)
+        self.keep_button = Button(theme, self.tr("&Keep old result"), "plain", height_px=44)
+        self.use_button = Button(theme, self.tr("&Use new result"), "plain", height_px=44)
         self.later_button = Button(theme, "", "plain", height_px=44)
         self.later_button.clicked.connect(self.close_dialog)
         self.set_default(self.later_button)
@@ -79,12 +79,15 @@ class ResultsDialog(Dialog):
         fill(body, 4, row)
 
     def show_running(self, session_label: str, percent: int) -> None:
-        self._show_heading(self.tr("Tracking again: {percent} %").format(percent=percent), session_label)
+        self._show_heading(self.tr("Re-analysing: {percent} %").format(percent=percent), session_label)
         self.bar.show_progress(percent, 100)
         self.words.setText(
-            self.tr("Go on working meanwhile. Nothing replaces the old result until you choose; Stop keeps it.")
+            self.tr(
+                "You can continue working. The old result stays until you choose the new one. Stop keeps the old "
+                "result."
+            )
         )
-        self.later_button.set_label(self.tr("Go on working"))
+        self.later_button.set_label(self.tr("Continue working"))
         self._show_sections(running=True, both=None)
 
     def show_reading(self, session_label: str) -> None:

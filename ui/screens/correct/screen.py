@@ -78,17 +78,15 @@ class CorrectionScreen(FittedWidget):
         self.state = StateText(theme)
         self.title = Text(theme, "", 28, SEMIBOLD, wrap=True)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.anyway_button = Button(theme, self.tr("Track again although &doubtful"), "quiet", height_px=32)
+        self.anyway_button = Button(theme, self.tr("Re-analyse &anyway (uncertain)"), "quiet", height_px=32)
         self.anyway_button.hide()
         self.rows: dict[str, MarkerRow] = {}
         self._rows = column_layout(gap=0)
         self.next_doubtful_button = Button(
-            theme, self.tr("Next doubtful picture"), "quiet", hint=KEYS["correct_doubtful"], height_px=36
+            theme, self.tr("Next uncertain frame"), "quiet", hint=KEYS["correct_doubtful"], height_px=36
         )
-        self.hide_button = Button(
-            theme, self.tr("Not to be seen here"), "quiet", hint=KEYS["correct_hide"], height_px=36
-        )
-        self.primary_button = Button(theme, self.tr("Track again from here"), "primary", hint=ENTER_KEY)
+        self.hide_button = Button(theme, self.tr("Not visible here"), "quiet", hint=KEYS["correct_hide"], height_px=36)
+        self.primary_button = Button(theme, self.tr("Re-analyse from here"), "primary", hint=ENTER_KEY)
         self.cancel_button = Button(theme, self.tr("Cancel"), height_px=52)
         self.cancel_button.setToolTip(self.tr("Back to the review (Esc)"))
         self._build_layout()
@@ -105,7 +103,9 @@ class CorrectionScreen(FittedWidget):
         fill(left, player, (self.curves, 200))
         right = column_layout(self.state, self.title, self.hint, gap=8, margins=(0, 0, 0, 0))
         card = Card(self._theme, 16)
-        card.body.addWidget(Text(self._theme, self.tr("At this picture: distance to its place"), 14, SEMIBOLD))
+        card.body.addWidget(
+            Text(self._theme, self.tr("In this frame: distance to the expected position"), 14, SEMIBOLD)
+        )
         column = column_layout(self._rows, STRETCH)
         card.body.addWidget(scroll_column(column), 1)
         fill(right, (card, 1), row_layout(self.hide_button, STRETCH), self.next_doubtful_button, self.anyway_button)
@@ -119,12 +119,12 @@ class CorrectionScreen(FittedWidget):
     def _show_keys(self) -> None:
         """Show the shortcuts that have an effect here."""
         said = [
-            (self.tr("Drag"), self.tr("move a name")), (KEYS["correct_hide"], self.tr("not to be seen here")),
-            (f"{KEYS['correct_back']} {KEYS['correct_on']}", self.tr("picture")),
+            (self.tr("Drag"), self.tr("move a label")), (KEYS["correct_hide"], self.tr("not visible here")),
+            (f"{KEYS['correct_back']} {KEYS['correct_on']}", self.tr("frame")),
             (KEYS["correct_undo"], self.tr("undo")),
         ]  # fmt: skip
         if self._find_doubtful_rows().size:
-            said.append((KEYS["correct_doubtful"], self.tr("next doubtful")))
+            said.append((KEYS["correct_doubtful"], self.tr("next uncertain")))
         self._key_caps.set_keys(said)
 
     def _fit(self) -> None:
@@ -173,7 +173,7 @@ class CorrectionScreen(FittedWidget):
             line.nudged.connect(self._nudge_marker)
             self.rows[name] = line
             self._rows.addWidget(line)
-        self.frame_view.clear(self.tr("Reading the picture…"))
+        self.frame_view.clear(self.tr("Reading the frame…"))
         self.frame_view.set_hand_area(session.calibration.clicks.pixel)
         self.row = -1
         joint = self._figures.exercise.joint
@@ -321,18 +321,20 @@ class CorrectionScreen(FittedWidget):
         at = numbers.format_clock_tenths(float(self._time_s[self.row]))
         doubtful = bool(session.markers.doubted[self.row].any()) or session.status[self.row] == TrackStatus.DOUBTFUL
         changed = places.row_edits(self.row)
-        state = self.tr("Doubtful at {time}") if doubtful else self.tr("Picture at {time}")
+        state = self.tr("Uncertain at {time}") if doubtful else self.tr("Frame at {time}")
         self.state.show_state("warn" if doubtful else "none", state.format(time=at))
         name = marker_title(self.current_marker) if self.current_marker else ""
         self.title.setText(
-            self.tr("Put “{marker}” on its disc").format(marker=name) if name else self.tr("Which name is wrong?")
+            self.tr("Drag “{marker}” to its marker").format(marker=name) if name else self.tr("Which label is wrong?")
         )
         if self.frame_view.has_frame:
-            self.hint.setText(self.tr("Drag a name in the picture, or choose it below and click its disc."))
+            self.hint.setText(self.tr("Drag a label in the frame, or select it below and click its marker."))
         elif self.frame_view.image is None:  # it is being read
             self.hint.clear()
         else:
-            pattern = self.tr("No pictures stored: the {count} blue spots of this moment. Drag a name to its spot.")
+            pattern = self.tr(
+                "No video was saved. These are the {count} blue spots of this frame. Drag a label to its spot."
+            )
             self.hint.setText(pattern.format(count=len(self._blob_px)))
         now = places.current_px(self.row)
         for number, (marker, line) in enumerate(self.rows.items()):
@@ -357,32 +359,34 @@ class CorrectionScreen(FittedWidget):
         some = bool(places.corrections())
         self.primary_button.setEnabled(some)
         first = places.corrections()[0].row if some else 0
-        again = self.tr("Track again from {time}").format(time=numbers.format_clock_tenths(float(self._time_s[first])))
+        again = self.tr("Re-analyse from {time}").format(time=numbers.format_clock_tenths(float(self._time_s[first])))
         found = places.find_label_doubt()
         self.anyway_button.setVisible(found is not None)
         self.next_doubtful_button.setVisible(bool(self._find_doubtful_rows().size) and found is None)
         if found is not None:
             self._show_doubt(*found)
         else:
-            self.primary_button.set_label(again if some else self.tr("Nothing changed yet"))
+            self.primary_button.set_label(again if some else self.tr("No changes yet"))
         self.setAccessibleName(self.title.text())
 
     def _show_doubt(self, row: int, doubt: LabelDoubt) -> None:
         """Show what is implausible about the labels and offer a remedy."""
         at = numbers.format_clock_tenths(float(self._time_s[row]))
-        self.state.show_state("warn", self.tr("Look at the names at {time}").format(time=at))
+        self.state.show_state("warn", self.tr("Check the labels at {time}").format(time=at))
         if doubt.swapped is not None:
             one, other = (marker_title(name) for name in doubt.swapped)
-            self.title.setText(self.tr("“{one}” and “{other}” look exchanged").format(one=one, other=other))
-            self.hint.setText(self.tr("So the angles would be wrong from there on. Let the two change places?"))
-            self.primary_button.set_label(self.tr("Change the two names"))
+            self.title.setText(self.tr("“{one}” and “{other}” appear swapped").format(one=one, other=other))
+            self.hint.setText(self.tr("The angles would be wrong from there on. Swap the two labels?"))
+            self.primary_button.set_label(self.tr("Swap the labels"))
             return
         words = self.tr("“{marker}” cannot be there").format(marker=marker_title(doubt.misplaced))
         self.title.setText(words)
-        far = self.tr("It lies {size} mm from where the other discs let it be. It may be another disc, or no disc.")
+        far = self.tr(
+            "It is {size} mm from the position that fits the other markers. It may be another marker, or no marker."
+        )
         self.hint.setText(far.format(size=format_rounded(1000.0 * doubt.offset_m)))
         here = row == self.row
-        self.primary_button.set_label(self.tr("Take the last step back") if here else self.tr("Show that picture"))
+        self.primary_button.set_label(self.tr("Undo the last step") if here else self.tr("Show that frame"))
 
 
 ROW_PX = 34
@@ -431,7 +435,7 @@ class MarkerRow(QPushButton):
             else "–"
         )
         if not is_visible:
-            now = self.tr("hidden")
+            now = self.tr("occluded")
         if is_changed and math.isfinite(original_mm):
             now = self.tr("{now}, was {size} mm").format(now=now, size=format_rounded(original_mm))
         far = is_visible and math.isfinite(residual_mm) and residual_mm > large_mm

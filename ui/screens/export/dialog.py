@@ -20,13 +20,13 @@ from carpus.ui.kit.theme import Theme
 
 TRANSLATION_CONTEXT = "ExportDialog"
 FORMAT_NAMES = {
-    "csv": QT_TRANSLATE_NOOP("ExportDialog", "Tables (CSV): angles, joints, markers, events, measures"),
-    "json": QT_TRANSLATE_NOOP("ExportDialog", "Measures with their origin (JSON)"),
+    "csv": QT_TRANSLATE_NOOP("ExportDialog", "Tables (CSV): angles, joints, markers, events, values"),
+    "json": QT_TRANSLATE_NOOP("ExportDialog", "Values with their origin (JSON)"),
     "c3d": QT_TRANSLATE_NOOP("ExportDialog", "Markers for motion capture programs (C3D)"),
     "trc": QT_TRANSLATE_NOOP("ExportDialog", "Markers for OpenSim (TRC)"),
     "mot": QT_TRANSLATE_NOOP("ExportDialog", "Angles for OpenSim (MOT)"),
     "bids": QT_TRANSLATE_NOOP("ExportDialog", "Data set for research (BIDS-Motion)"),
-    "h5": QT_TRANSLATE_NOOP("ExportDialog", "The session itself, for another Carpus"),
+    "h5": QT_TRANSLATE_NOOP("ExportDialog", "Session file, for another Carpus installation"),
 }
 """A format that is missing here is shown by its short name."""
 
@@ -47,7 +47,7 @@ class ExportDialog(Dialog):
         body = self.card.body
         body.setSpacing(2)
         self.title = Text(theme, self.tr("Export this session"), 20, SEMIBOLD, wrap=True)
-        self.words = Text(theme, self.tr("Files that are there are never overwritten."), 14, token="text2", wrap=True)
+        self.words = Text(theme, self.tr("Existing files are never overwritten."), 14, token="text2", wrap=True)
         fill(body, self.title, self.words, 8)
         self.format_ticks: dict[str, CheckButton] = {}
         for name in FORMATS:
@@ -57,24 +57,24 @@ class ExportDialog(Dialog):
                 else name.upper()
             )
             self.format_ticks[name] = self._add_tick(words)
-        words = self.tr("Tables of angles, repetitions and measures (CSV), for any spreadsheet.")
+        words = self.tr("Tables of angles, repetitions and values (CSV), for any spreadsheet.")
         self.tables_only_text = Text(theme, words, 14, wrap=True)
         self.tables_only_text.hide()
         fill(body, self.tables_only_text, 8)
         self.region_choice = self._make_region_choice()
         fill(body, LabelledField(theme, self.tr("&Tables for"), self.region_choice), 8)
-        self.deidentify_tick = self._add_tick(
-            self.tr("Nobody can be found by it: random name, no dates (day 1, 2 …), no notes")
-        )
-        self.bar = ThinProgressBar(theme, self.tr("How far the export is"))
+        self.deidentify_tick = self._add_tick(self.tr("De-identified: random name, relative days, no notes"))
+        self.bar = ThinProgressBar(theme, self.tr("Progress of the export"))
         fill(body, 8, self.bar, 8)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
-        self.folder_button = Button(theme, self.tr("Choose the folder…"), "primary", height_px=44)
+        self.folder_button = Button(theme, self.tr("Choose folder…"), "primary", height_px=44)
         self.close_button.clicked.connect(self.dismiss)
         self.folder_button.clicked.connect(self._request_export)
         self.set_default(self.folder_button)
-        self.more_button = Button(theme, self.tr("&Other formats: settings…"), "quiet", height_px=44)
-        self.more_button.setToolTip(self.tr("JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on."))
+        self.more_button = Button(theme, self.tr("&Other formats…"), "quiet", height_px=44)
+        self.more_button.setToolTip(
+            self.tr("For JSON, C3D, TRC, MOT and BIDS, turn on “For research” in the settings.")
+        )
         self.more_button.clicked.connect(self._request_more_formats)
         body.addLayout(row_layout(self.more_button, STRETCH, self.close_button, self.folder_button, gap=10))
         self._is_running, self._shows_research = False, True
@@ -130,7 +130,7 @@ class ExportDialog(Dialog):
         regions = [own, *(region for region in OFFERED_REGIONS if region != own)]
         choices = [(regional_table_form(region), self._region_words(region)) for region in regions]
         field = Combo()
-        field.set_choices([*choices, (MACHINE_DIALECT, self.tr("programs: 1.5 and a comma, the same everywhere"))])
+        field.set_choices([*choices, (MACHINE_DIALECT, self.tr("other programs: 1.5, separated by commas"))])
         return field
 
     def _region_words(self, region: str) -> str:

@@ -38,7 +38,7 @@ class ExportController(QObject):
         """Ask for a folder and export into it; the dialog shows the progress."""
         context, session_id = self._context, self._session_id
         start = context.recent_locations.folder("exports")
-        folder = QFileDialog.getExistingDirectory(context.window, self.tr("Export into a folder"), start)
+        folder = QFileDialog.getExistingDirectory(context.window, self.tr("Export to folder"), start)
         if not folder:
             return
         context.recent_locations.save_folder("exports", folder)

@@ -37,7 +37,7 @@ def write_cards(path: Path) -> None:
     writer = QPdfWriter(buffer)
     writer.setResolution(DPI)
     writer.setCreator("Carpus")
-    writer.setTitle(tr("Carpus: discs and set-up"))
+    writer.setTitle(tr("Carpus: markers and set-up"))
     page, upright = QPageSize(QPageSize.PageSizeId.A4), QPageLayout.Orientation.Portrait
     writer.setPageLayout(QPageLayout(page, upright, QMarginsF(15.0, 15.0, 15.0, 15.0), QPageLayout.Unit.Millimeter))
     painter = QPainter(writer)
@@ -53,14 +53,14 @@ def write_cards(path: Path) -> None:
 
 
 def _paint_marker_card(painter: QPainter) -> None:
-    y = _paint_title(painter, tr("Where the discs go"), tr("Blue matt paper, 12 mm, on clean dry skin"))
+    y = _paint_title(painter, tr("Where the markers go"), tr("Blue matt paper, 12 mm, on clean dry skin"))
     paint_marker_map(painter, QRectF(8 * MM, y, 164 * MM, 86 * MM), "right", whole_hand=False, unit=PX)
     y += 90 * MM
     lines = (
-        tr("1. Wrist: middle of the back of the wrist, over the crease of the lifted hand."),
-        tr("2. Thumb base: on the bony edge, a thumb's width from the wrist disc."),
-        tr("3. Knuckles: on the back of the hand just behind each knuckle."),
-        tr("Whole hand: also on the creases of every joint, and on the nails. Small fingers: 8 mm."),
+        tr("1. Wrist: middle of the dorsal side, over the crease of the extended wrist."),
+        tr("2. Thumb base (CMC): on the bony edge, one thumb’s width from the wrist marker."),
+        tr("3. MCP joints: on the back of the hand, just proximal to each knuckle."),
+        tr("Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm."),
     )
     y = _paint_lines(painter, y, lines)
     paint_marker_map(painter, QRectF(8 * MM, y + 2 * MM, 116 * MM, 78 * MM), "right", whole_hand=True, unit=0.8 * PX)
@@ -70,8 +70,8 @@ def _paint_marker_card(painter: QPainter) -> None:
         y + 84 * MM,
         (
             tr("The left hand is the mirror image."),
-            tr("Put them where they were last time. Never on wounds, dressings or fragile skin."),
-            tr("Nothing else blue in the picture: no sleeve, pen, ring or nail."),
+            tr("Place them where they were last time, never on wounds, dressings or fragile skin."),
+            tr("Keep everything else blue out of view: sleeves, pens, rings, nails."),
         ),
     )
     _paint_footer(painter)
@@ -100,19 +100,25 @@ def _paint_rulers(painter: QPainter, at: QPointF) -> None:
 
 
 def _paint_setup_card(painter: QPainter) -> None:
-    y = _paint_title(painter, tr("Setting up"), tr("Camera, arm, light, picture"))
+    y = _paint_title(painter, tr("Setting up"), tr("Camera, arm, light, image"))
     paint_camera_setup(painter, QRectF(8 * MM, y, 164 * MM, 112 * MM), PX)
     _paint_lines(
         painter,
         y + 118 * MM,
         (
-            tr("1. Camera 70 to 80 cm above the table, straight down, tied with a cord. Plug it straight in."),
-            tr("2. No sun on the hand; even light from the ceiling; no shadow of the camera's arm."),
-            tr("3. The forearm rests and stays still. A towel under it lets the hand bend down over the edge."),
-            tr("4. Clear the table of everything blue. Roll up a blue sleeve."),
-            tr("5. Choose the patient, Enter. Lay the hand flat and still, Space takes the picture."),
-            tr("6. Click the discs in the order of the drawing; check the names of the whole hand."),
-            tr("7. All checks green: Enter. Space records, Space stops and opens the review."),
+            tr(
+                "1. Camera 70 to 80 cm above the table, pointing straight down, secured with a cord and "
+                "connected directly."
+            ),
+            tr("2. Even light from the ceiling. No sun and no shadow of the camera arm on the hand."),
+            tr("3. The forearm rests and stays still. A towel under it lets the wrist flex over the edge."),
+            tr("4. Remove everything blue from the table. Roll up blue sleeves."),
+            tr("5. Choose the patient and press Enter. Lay the hand flat and still and press Space."),
+            tr("6. Click the markers in the order of the drawing. For the whole hand, check the labels."),
+            tr(
+                "7. When all checks are green, press Enter. Space starts the recording, and ends it and opens "
+                "the review."
+            ),
             tr("Stop at pain of 5 or more, at 2 more than before, at numbness, swelling or dizziness."),
         ),
     )

@@ -124,12 +124,16 @@ class PatientCardView(Card):
         self.edit_button.setVisible(not practice)
         self._matched_name.show_text(self.tr("Name: {name}").format(name=matched_name) if matched_name else "")
         self._hand.setText(
-            self.tr("Simulated: nothing counts") if practice else terms.hand_status_words(row.side, row.dominance)
+            self.tr("Simulated: excluded from analysis")
+            if practice
+            else terms.hand_status_words(row.side, row.dominance)
         )
         self._show_diagnosis(row)
         day = numbers.format_day_month(row.last_session) if row.last_session else ""
-        self._photo.show_picture(card.marker_photo_rgb, self.tr("Markers as on {day}").format(day=day) if day else "")
-        none = self.tr("No session counted yet") if card.has_sessions else self.tr("No session yet")
+        self._photo.show_picture(
+            card.marker_photo_rgb, self.tr("Place markers as on {day}").format(day=day) if day else ""
+        )
+        none = self.tr("No analysed session yet") if card.has_sessions else self.tr("No session yet")
         self._exercise.setText(terms.exercise_name(row.last_exercise) if row.last_exercise else none)
         self._last_session.setText(self._last_words(card, practice))
         self._task_summary.show_text(card.task_summary)
@@ -174,8 +178,8 @@ class PatientCardView(Card):
                     "A simulated patient moves in front of a simulated camera. Try every step without a patient."
                 )
             if card.has_sessions:
-                return self.tr("Only simulated sessions so far: they count nowhere.")
-            return self.tr("Put the markers on, then start.")
+                return self.tr("Only simulated sessions so far (excluded).")
+            return self.tr("Attach the markers, then start.")
         number = self.tr("{ordinal} session").format(ordinal=numbers.format_ordinal(row.session_count))
         parts = (number + ", " + numbers.format_short_date(row.last_session), card.repetitions)
         words = " · ".join(part for part in parts if part)

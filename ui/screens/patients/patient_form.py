@@ -81,14 +81,14 @@ class PatientForm(Dialog):
                 "pseudonym",
                 self.tr("&Name in Carpus"),
                 QLineEdit(),
-                limit_length(MAX_NAME_CHARACTERS, self.tr("Name: {count} letters too many")),
+                limit_length(MAX_NAME_CHARACTERS, self.tr("Name: {count} characters too long")),
                 (another,),
             ),
             Field(
                 "name",
-                self.tr("&Real name, if wanted (stays in this list, never in a session or report)"),
+                self.tr("&Real name, optional (stays in this list, never in a session or report)"),
                 QLineEdit(),
-                limit_length(MAX_NAME_CHARACTERS, self.tr("Real name: {count} letters too many")),
+                limit_length(MAX_NAME_CHARACTERS, self.tr("Real name: {count} characters too long")),
             ),
             Field(
                 "side",
@@ -107,9 +107,9 @@ class PatientForm(Dialog):
             ),
             Field(
                 "diagnosis",
-                self.tr("&Diagnosis or operation (stays in this list, in no session)"),
+                self.tr("&Diagnosis or operation (stays in this list, never in a session)"),
                 QLineEdit(),
-                limit_length(MAX_NAME_CHARACTERS, self.tr("Diagnosis: {count} letters too many")),
+                limit_length(MAX_NAME_CHARACTERS, self.tr("Diagnosis: {count} characters too long")),
                 (self.listed_tick,),
             ),
             Field(
@@ -168,8 +168,8 @@ class PatientForm(Dialog):
         pseudonym.
         """
         self._taken_names = taken_names
-        self._title.setText(self.tr("New patient") if patient is None else self.tr("Change patient"))
-        self._save_words = self.tr("Add patient") if patient is None else self.tr("Keep changes")
+        self._title.setText(self.tr("New patient") if patient is None else self.tr("Edit patient"))
+        self._save_words = self.tr("Add patient") if patient is None else self.tr("Save changes")
         self.remove_button.setVisible(patient is not None)
         is_made_up = bool(GENERATED_PSEUDONYM.fullmatch(name.strip()))
         pseudonym = name if is_made_up else self._register.suggest_pseudonym() if patient is None else ""
@@ -229,9 +229,9 @@ class PatientForm(Dialog):
         if not typed or self._onset_day() is not None:
             return ""
         if numbers.parse_date(typed) is not None:
-            return self.tr("Since when? It is yet to come")
+            return self.tr("Since when? The date is in the future")
         if COMPLETE_DATE.fullmatch(typed) and not MONTH_FIRST.match(typed):
-            return self.tr("Since when? There is no such day")
+            return self.tr("Since when? This date does not exist")
         return self.tr("Since when? Day, month, year")
 
     def _show_diagnosis_listed(self) -> None:
@@ -252,9 +252,9 @@ class PatientForm(Dialog):
         name = values["pseudonym"]
         if not name or name.casefold() in self._taken_names:
             words = (
-                self.tr("Give the patient a name.")
+                self.tr("Enter a name.")
                 if not name
-                else self.tr("“{name}” is taken. Choose another name.").format(name=name)
+                else self.tr("“{name}” is already in use. Choose another name.").format(name=name)
             )
             self._error_text.show_text(words)
             self.fields["pseudonym"].setFocus(Qt.FocusReason.OtherFocusReason)

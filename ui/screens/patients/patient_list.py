@@ -79,7 +79,7 @@ def row_cells(row: Patient, today: date, matched_name: str = "") -> tuple[str, s
     about = " · ".join(part for part in (matched_name, row.diagnosis) if part)
     since = numbers.format_weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
-        return row.pseudonym, side, about, since, tr("No session counted yet"), "", ""
+        return row.pseudonym, side, about, since, tr("No analysed session yet"), "", ""
     when = row.last_session
     return (
         row.pseudonym, side, about, since, numbers.format_short_date(when), numbers.format_days_ago(when, today),

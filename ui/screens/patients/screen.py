@@ -313,8 +313,8 @@ class _OfflineView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         words = self.tr(
-            "The list of patients comes back by itself. To measure now, type the patient’s made-up name above: the "
-            "session is kept, and is in the list when the server answers."
+            "The patient list returns when the server answers. To measure now, enter the patient’s made-up name "
+            "above. The session is saved and appears in the list later."
         )
         self.button = Button(theme, "", "primary")
         row = column_layout(

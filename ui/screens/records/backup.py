@@ -121,9 +121,9 @@ class BackupController(QObject):
         if self._library.store.is_server_away or not self.is_overdue():
             return
         facts = self._facts()
-        words = MessageText(facts.headline, facts.detail, self.tr("Plug the disk for back-ups in, and back up."))
+        words = MessageText(facts.headline, facts.detail, self.tr("Connect the backup disk and back up."))
         to_settings = partial(self._context.navigator.open_screen, "settings", "safety")
-        strip = self._context.messages.show_notice(layout, words, self.tr("To the settings"), to_settings)
+        strip = self._context.messages.show_notice(layout, words, self.tr("Open settings"), to_settings)
         self.backup_finished.connect(strip.postponed)
 
     def run_if_due(self) -> None:
@@ -186,7 +186,7 @@ class BackupController(QObject):
 
     def _choose_folder(self) -> bool:
         """Ask for the folder; return whether one was chosen."""
-        title = self.tr("Folder for back-ups, on another disk")
+        title = self.tr("Backup folder, on another disk")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
             self._apply_settings(replace(self._settings, folder=folder))
@@ -200,7 +200,7 @@ class BackupController(QObject):
     # --- the way back -------------------------------------------------------------------------------------
     def choose_restore_folder(self) -> None:
         """Ask for a folder with backups, then for one of them; its changes are shown first."""
-        title = self.tr("Folder that holds the back-ups")
+        title = self.tr("Folder with the backups")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
             place = Path(folder)
@@ -215,8 +215,8 @@ class BackupController(QObject):
             return
         line = self.tr("{when}: {n} session files")
         self.choice_dialog.request_choice(
-            self.tr("Which back-up is to be restored?"),
-            self.tr("What it changes is shown before anything is done."),
+            self.tr("Which backup should be restored?"),
+            self.tr("Carpus shows the changes before it restores anything."),
             self.tr("Restore…"),
             [
                 (one.name, line.format(when=numbers.format_date_time(one.made.astimezone()), n=one.session_count))
@@ -235,25 +235,21 @@ class BackupController(QObject):
         self._background.run(make_plan, lambda plan: self._confirm_restore(place, backup, plan), self._on_failed, self)
 
     def _confirm_restore(self, folder: Path, backup: Backup, plan: RestorePlan) -> None:
-        what = self.tr(
-            "Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}."
-        )
+        what = self.tr("Restore the backup of {when}? Session files added: {come}, changed: {change}, removed: {go}.")
         when = numbers.format_date_time(backup.made.astimezone())
         happened = what.format(when=when, come=len(plan.added), change=len(plan.replaced), go=len(plan.removed))
         if plan.erased_count:
-            stays = self.tr("Patients and sessions that were erased since then stay erased: {n}.").format(
-                n=plan.erased_count
-            )
+            stays = self.tr("Patients and sessions deleted since then stay deleted: {n}.").format(n=plan.erased_count)
             happened = f"{happened} {stays}"
         self._context.messages.show_question(
             MessageText(
                 happened,
-                self.tr("The folder of what is here now is kept beside the new one."),
-                self.tr("Carpus closes when it is done. Start it again then."),
+                self.tr("The current data folder is kept next to the restored one."),
+                self.tr("Carpus closes afterwards. Start it again then."),
             ),
             (
-                Answer(self.tr("Restore it"), lambda: self._restore(folder, backup), "R", is_risky=True),
-                Answer(self.tr("Leave it as it is"), lambda: None),
+                Answer(self.tr("Restore"), lambda: self._restore(folder, backup), "R", is_risky=True),
+                Answer(self.tr("Cancel"), lambda: None),
             ),
             icon="rotate-ccw",
         )
@@ -295,27 +291,29 @@ def backup_facts(
     place_words, place_state = tr("not chosen yet"), "none"
     if place:
         place_state = "good" if there else "warn"
-        place_words = tr("not there now")
+        place_words = tr("not connected")
         if there:
             free = shutil.disk_usage(place).free / 1e9
             place_words = tr("{free} GB free").format(free=format_rounded(free))
             if is_same_disk(Path(place), data_folder):
                 place_state, place_words = "warn", tr("on the same disk as the data")
     if last is None:
-        headline, detail, more = tr("There is no back-up yet."), "", ""
+        headline, detail, more = tr("There is no backup yet."), "", ""
         old, beside = True, False
     else:
         days = (now.date() - last.made.astimezone(now.tzinfo).date()).days
         age = numbers.format_days_ago(last.made.astimezone(now.tzinfo), now.date())
-        missing = {0: tr("Every session is in it."), 1: tr("1 session file is not in it.")}
-        rest = missing.get(last.later_sessions, tr("{n} session files are not in it.").format(n=last.later_sessions))
+        missing = {0: tr("It contains every session."), 1: tr("1 session file is missing from it.")}
+        rest = missing.get(
+            last.later_sessions, tr("{n} session files are missing from it.").format(n=last.later_sessions)
+        )
         old = is_backup_due(last.made, settings.remind_days, now)
         beside = is_same_disk(Path(last.place), data_folder)
-        first = tr("The last back-up is {days} days old.").format(days=days)
-        headline = f"{first if days > 1 else tr('The last back-up is of {day}.').format(day=age)} {rest}"
-        facts = tr("{when} · {n} session files, {size} GB · read back and compared: all equal")
+        first = tr("The last backup is {days} days old.").format(days=days)
+        headline = f"{first if days > 1 else tr('Last backup: {day}.').format(day=age)} {rest}"
+        facts = tr("{when} · {n} session files, {size} GB · verified")
         if last.sessions == 1:
-            facts = tr("{when} · 1 session file, {size} GB · read back and compared: all equal")
+            facts = tr("{when} · 1 session file, {size} GB · verified")
         size = (
             numbers.format_fixed(last.size_bytes / 1e9, 2)
             if last.size_bytes < 1e10
@@ -324,7 +322,7 @@ def backup_facts(
         detail = facts.format(when=numbers.format_date_time(last.made.astimezone()), n=last.sessions, size=size)
         more = tr("Reminder after {days} days.").format(days=settings.remind_days)
         if beside:
-            more = tr("It lies on the disk that holds the data: if that disk breaks, both are lost.")
+            more = tr("It is on the same disk as the data. If that disk fails, both are lost.")
     return BackupFacts(
         "warn" if old or beside else "good",
         headline,

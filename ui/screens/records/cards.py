@@ -37,8 +37,10 @@ class BackupCard(Card):
 
     def __init__(self, theme: Theme, hour: int) -> None:
         super().__init__(theme, 24)
-        self.body.addWidget(Text(theme, self.tr("Back-up"), 20, SEMIBOLD))
-        words = self.tr("Everything of the data folder: patients, sessions, pictures, log. Works while you measure.")
+        self.body.addWidget(Text(theme, self.tr("Backup"), 20, SEMIBOLD))
+        words = self.tr(
+            "Backs up the whole data folder: patients, sessions, images and log. You can measure meanwhile."
+        )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.state_card = Card(theme, 14, "soft", "soft")
         self.state_sign = StateText(theme, 16, SEMIBOLD)
@@ -47,13 +49,13 @@ class BackupCard(Card):
         self.note = Text(theme, "", 12, MEDIUM, "text2", wrap=True)
         self.now_button = Button(theme, self.tr("&Back up now"), icon="archive")
         self.restore_button = Button(theme, self.tr("&Restore…"), icon="rotate-ccw")
-        self.progress = caption(theme, self.tr("then read back and compared"), wrap=True)
+        self.progress = caption(theme, self.tr("then verified"), wrap=True)
         self.folder = Text(theme, "", 14, MEDIUM, wrap=True)
         self.folder_state = StateText(theme, 12, MEDIUM, 16)
         self.folder_button = Button(theme, self.tr("Change…"), height_px=36)
         self.schedule = ChoiceRow(
             theme,
-            [(12, self.tr("Each day at 12:00")), (18, self.tr("At 18:00")), (-1, self.tr("Only when told"))],
+            [(12, self.tr("Daily at 12:00")), (18, self.tr("Daily at 18:00")), (-1, self.tr("Manual only"))],
             hour,
         )
         self._build_layout(theme)
@@ -61,20 +63,20 @@ class BackupCard(Card):
     def _build_layout(self, theme: Theme) -> None:
         texts = column_layout(self.headline, self.detail, self.note, gap=2)
         self.state_card.body.addLayout(row_layout((self.state_sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=10))
-        shows = caption(theme, self.tr("shows first what changes"), wrap=True)
+        shows = caption(theme, self.tr("shows the changes first"), wrap=True)
         acts = column_layout(self.now_button, self.progress, STRETCH, gap=4)
         again = column_layout(self.restore_button, shows, STRETCH, gap=4)
-        keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
+        keep = Text(theme, self.tr("the last 14, plus one per month for 2 years"), 14)
         fill(
             self.body,
             row_layout((self.state_card, 1), acts, again, gap=16),
             Separator(theme),
-            _make_row(theme, self.tr("Folder for back-ups"), self.folder, self.folder_state, self.folder_button),
+            _make_row(theme, self.tr("Backup folder"), self.folder, self.folder_state, self.folder_button),
             Separator(theme),
-            _make_row(theme, self.tr("By itself"), self.schedule),
+            _make_row(theme, self.tr("Automatic"), self.schedule),
             Separator(theme),
             _make_row(theme, self.tr("Keep"), keep),
-            caption(theme, self.tr("Whoever has the back-up disk can read it: use an encrypted disk."), wrap=True),
+            caption(theme, self.tr("Anyone with the backup disk can read it. Use an encrypted disk."), wrap=True),
         )
 
     def show_facts(self, facts: BackupFacts) -> None:
@@ -93,7 +95,7 @@ class BackupCard(Card):
         running = percent is not None
         self.now_button.setEnabled(not running)
         self.restore_button.setEnabled(not running)
-        words = self.tr("{percent} %").format(percent=percent) if running else self.tr("then read back and compared")
+        words = self.tr("{percent} %").format(percent=percent) if running else self.tr("then verified")
         self.progress.setText(words)
 
 
@@ -103,10 +105,7 @@ class LockCard(Card):
     def __init__(self, theme: Theme, minutes: int) -> None:
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Lock"), 20, SEMIBOLD))
-        words = self.tr(
-            "A PIN hides names and pictures from those who pass by. It protects no file: whoever has this computer’s "
-            "account or disk reads them without it."
-        )
+        words = self.tr("A PIN only hides the screen. It does not encrypt files.")
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.disk = StateText(theme, 14, SEMIBOLD)
         self.disk_remedy = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -124,7 +123,7 @@ class LockCard(Card):
         self.pin_button = Button(theme, "", height_px=40)
         fill(
             self.body,
-            Text(theme, self.tr("Lock by itself"), 14, REGULAR, "text2"),
+            Text(theme, self.tr("Lock automatically"), 14, REGULAR, "text2"),
             self.minutes,
             Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
         )
@@ -154,13 +153,13 @@ class RecordsCard(Card):
     def __init__(self, theme: Theme, years: int, choices: Sequence[int]) -> None:
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Records"), 20, SEMIBOLD))
-        words = self.tr("How long records must be kept after the last session: your law says it, Carpus does not know.")
+        words = self.tr("Enter the retention period that the law requires after the last session.")
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         names = {0: self.tr("Not set")}
         shown = sorted({*choices, years})
         options = [(one, names.get(one, self.tr("{n} years").format(n=one))) for one in shown]
         self.years = ChoiceRow(theme, options, years, wraps=True)
-        self.due_button = Button(theme, self.tr("What is d&ue…"), height_px=40)
+        self.due_button = Button(theme, self.tr("Records past r&etention…"), height_px=40)
         self.archive_button = Button(theme, self.tr("&Archive…"), icon="archive", height_px=40)
         self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)
         fill(

@@ -82,13 +82,13 @@ class DeletionController(QObject):
     def _on_deleted(self, plan: ErasurePlan, files: int) -> None:
         single = plan.kind == "session"
         self._refresh_after_removal(plan)
-        what = self.tr("The session is erased.") if single else self.tr("The patient is erased.")
+        what = self.tr("The session was deleted.") if single else self.tr("The patient was deleted.")
         count = self.tr("Files deleted: {count}.").format(count=files)
         place = self._sessions().notice_layout if single else self._patients.notice_layout
         self._show_notice(place, MessageText(what, count, ""), "trash-2")
 
     def _on_moved(self, name: str) -> None:
-        words = MessageText(self.tr("The session is now one of {name}.").format(name=name), "", "")
+        words = MessageText(self.tr("The session now belongs to {name}.").format(name=name), "", "")
         self._show_notice(self._sessions().notice_layout, words, "arrow-right")
 
     def _show_notice(self, layout: QVBoxLayout, words: MessageText, icon: str) -> None:
@@ -122,7 +122,7 @@ class DeletionController(QObject):
         else:
             what = self.tr("{name} is in the archive.").format(name=plan.pseudonym)
             place = self._patients.notice_layout
-        words = MessageText(what, self.tr("Nothing is lost. It counts nowhere until it is brought back."), "")
+        words = MessageText(what, self.tr("Nothing was deleted. Archived items are excluded until restored."), "")
         strip = self._context.messages.show_notice(
             place, words, self.tr("&Undo"), lambda: self._restore(archived), icon="archive", later_text=self.tr("Close")
         )
@@ -192,7 +192,7 @@ class DeleteDialog(Dialog):
         self.confirm_field = QLineEdit()
         self.confirm_field.setMinimumWidth(theme.px(200))
         self.confirm_field.textChanged.connect(self._check)
-        self.delete_button = Button(theme, self.tr("Erase for good"), "plain", height_px=52)
+        self.delete_button = Button(theme, self.tr("Delete permanently"), "plain", height_px=52)
         self.delete_button.on_enter = "nothing"  # what cannot be undone takes the mouse or the space bar
         self.cancel_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=52)
         self.archive_button = Button(theme, self.tr("Archive instead"), "primary")
@@ -213,16 +213,14 @@ class DeleteDialog(Dialog):
             parent=self._sections,
         )
         for sign, title, words in (
-            (_make_sign(theme, "bad"), self.tr("This goes"), self.deleted_text),
-            (_make_sign(theme, "good"), self.tr("This stays"), self.kept_text),
-            (_make_sign(theme, "warn"), self.tr("This cannot be undone"), self.consequence_text),
+            (_make_sign(theme, "bad"), self.tr("Deleted"), self.deleted_text),
+            (_make_sign(theme, "good"), self.tr("Not deleted"), self.kept_text),
+            (_make_sign(theme, "warn"), self.tr("Cannot be undone"), self.consequence_text),
         ):
             fill(column, Separator(theme), _make_section(sign, Text(theme, title, 20, SEMIBOLD), words))
         column.addWidget(Separator(theme))
         milder = Card(theme, 0, "soft", "soft")
-        offered = Text(
-            theme, self.tr("Leaves all lists and counts nowhere; everything can be brought back."), wrap=True
-        )
+        offered = Text(theme, self.tr("Removes it from all lists and results. Everything can be restored."), wrap=True)
         milder.body.setContentsMargins(0, 12, 12, 12)
         milder.body.addLayout(
             _make_section(
@@ -244,13 +242,13 @@ class DeleteDialog(Dialog):
         self._pseudonym = plan.pseudonym
         single = plan.kind == "session"
         self.title.setText(
-            self.tr("Erase this session for good?") if single else self.tr("Erase this patient for good?")
+            self.tr("Delete this session permanently?") if single else self.tr("Delete this patient permanently?")
         )
         self.subject_text.setText(_describe_target(plan))
         self.deleted_text.setText(self._describe_deleted(plan))
         self.kept_text.setText(self._describe_kept(plan, last_backup))
         self.consequence_text.setText(self._describe_consequences(plan, retention_years, last_backup, today))
-        self.confirm_label.setText(self.tr("To erase, type “{name}” here").format(name=plan.pseudonym))
+        self.confirm_label.setText(self.tr("To delete, type “{name}” here").format(name=plan.pseudonym))
         self.confirm_field.clear()
         self.confirm_field.setAccessibleName(self.confirm_label.text())
         self._check()
@@ -271,11 +269,11 @@ class DeleteDialog(Dialog):
             self._fit()
 
     def _describe_deleted(self, plan: ErasurePlan) -> str:
-        words = self.tr("Angles, pictures, notes and pain scores of this session ({size} MB; files: {files}).")
+        words = self.tr("Angles, images, notes and pain scores of this session ({size} MB, files: {files}).")
         if plan.kind == "patient":
             words = self.tr(
-                "The patient’s entry with real name, notes and values measured by hand, and all sessions ({count}) "
-                "with their angles, pictures and notes ({size} MB; files: {files})."
+                "The patient’s entry: real name, notes, values measured by hand. All sessions ({count}): angles, "
+                "images, notes ({size} MB, files: {files})."
             )
         size_mb = plan.size_bytes / 1e6
         size = format_rounded(size_mb) if size_mb >= 10 else numbers.format_fixed(size_mb, 1)
@@ -285,33 +283,31 @@ class DeleteDialog(Dialog):
         parts = [self.tr("The patient’s other sessions.")] if plan.kind == "session" else []
         if last_backup is not None:
             day = numbers.format_date(last_backup)
-            parts.append(
-                self.tr("Back-ups up to {day} and files copied elsewhere: Carpus cannot reach them.").format(day=day)
-            )
+            parts.append(self.tr("Backups up to {day} and copies elsewhere.").format(day=day))
         else:
-            parts.append(self.tr("Files copied elsewhere: Carpus cannot reach them."))
+            parts.append(self.tr("Copies elsewhere."))
         for words, found in (
-            (self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}."), plan.output_files),
+            (self.tr("Delete yourself: reports and exports saved elsewhere ({n}): {path}."), plan.output_files),
             (
-                self.tr("Files outside the patient’s folder, look at them yourself ({n}): {path}."),
+                self.tr("Check yourself: files outside the patient’s folder ({n}): {path}."),
                 plan.unassigned_files,
             ),
         ):
             if found:
                 paths = ", ".join(map(str, found[:MAX_PATHS_SHOWN])) + (", …" if len(found) > MAX_PATHS_SHOWN else "")
                 parts.append(words.format(n=len(found), path=paths))
-        parts.append(self.tr("The log keeps that it was erased, no name."))
+        parts.append(self.tr("The log records the deletion, without a name."))
         return " ".join(parts)
 
     def _describe_consequences(self, plan: ErasurePlan, years: int, last_backup: datetime | None, today: date) -> str:
-        words = self.tr("Nobody can bring it back.")
+        words = self.tr("It cannot be restored.")
         if last_backup is not None:
-            words = self.tr("Carpus cannot bring it back: a restored back-up leaves it out.")
+            words = self.tr("It cannot be restored, not even from a backup.")
         until = retention_end(max(one.recorded for one in plan.results), years) if plan.results else None
         if until is None or until < today:
             return words
         early = self.tr(
-            "Your records must be kept until {day} ({years} years, as set in Settings): erasing comes before that day."
+            "The retention period set in Settings ({years} years) ends on {day}. You would delete before that date."
         )
         return f"{words} {early.format(day=numbers.format_date(until), years=years)}"
 

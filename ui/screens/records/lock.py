@@ -154,8 +154,8 @@ class LockController(QObject):
                 tried = self.pin.check(old)
                 if not tried.is_correct:
                     self._library.audit_log.log_program("pin_refused", left=tried.tries_left)
-                    words = self.tr("The current PIN is not right.")
-                    wait = self.tr("Too many tries. The next one in {seconds} s.").format(
+                    words = self.tr("The current PIN is wrong.")
+                    wait = self.tr("Too many attempts. Try again in {seconds} s.").format(
                         seconds=round_half_away(tried.pause_s)
                     )
                     self.pin_dialog.error_text.show_text(wait if tried.pause_s else words)
@@ -243,8 +243,7 @@ class PinDialog(Dialog):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
         words = self.tr(
-            "Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are "
-            "readable for whoever has this computer’s account or disk."
+            "At least four characters, digits or letters. A PIN only hides the screen. It does not encrypt files."
         )
         self.add_heading(words=words)
         self.current_pin, self.new_pin, self.repeated_pin = QLineEdit(), QLineEdit(), QLineEdit()
@@ -275,9 +274,9 @@ class PinDialog(Dialog):
 
     def _accept(self) -> None:
         if len(self.new_pin.text()) < MIN_PIN_LENGTH:
-            self.error_text.show_text(self.tr("A PIN has four signs or more."))
+            self.error_text.show_text(self.tr("A PIN needs at least four characters."))
         elif self.new_pin.text() != self.repeated_pin.text():
-            self.error_text.show_text(self.tr("The two are not the same."))
+            self.error_text.show_text(self.tr("The two PINs differ."))
         else:
             self.pin_chosen.emit(self.current_pin.text(), self.new_pin.text())
 
@@ -347,10 +346,12 @@ class LockScreen(Dialog):
         """Cover the window; ``is_session_saved`` if a session was open."""
         self.reason_text.setText(reason)
         words = (
-            self.tr("Nothing is lost. The open session is stored.") if is_session_saved else self.tr("Nothing is lost.")
+            self.tr("All data are saved, including the open session.")
+            if is_session_saved
+            else self.tr("All data are saved.")
         )
         self.data_state.show_state("good", words, token="text")
-        self.privacy_state.show_state("none", self.tr("Names, pictures and figures are hidden."), icon="eye-off")
+        self.privacy_state.show_state("none", self.tr("Names, images and values are hidden."), icon="eye-off")
         self._show_forgotten(help_shown=False)
         self.error_text.hide()
         self.pin_field.clear()
@@ -359,7 +360,7 @@ class LockScreen(Dialog):
 
     def lock_reason(self, when: datetime, minutes: int) -> str:
         if minutes:
-            words = self.tr("Locked by itself at {time}, after {minutes} minutes without a key.")
+            words = self.tr("Locked automatically at {time} after {minutes} minutes without input.")
             return words.format(time=f"{when:%H:%M}", minutes=minutes)
         return self.tr("Locked at {time}.").format(time=f"{when:%H:%M}")
 
@@ -370,9 +371,9 @@ class LockScreen(Dialog):
             self._start_pause(pause_s)
             self._show_pause()
             return
-        words = self.tr("Not this PIN. 1 more try, then a pause of 1 minute.")
+        words = self.tr("Wrong PIN. 1 attempt left before a 1-minute wait.")
         if attempts_left != 1:
-            words = self.tr("Not this PIN. {left} more tries, then a pause of 1 minute.").format(left=attempts_left)
+            words = self.tr("Wrong PIN. {left} attempts left before a 1-minute wait.").format(left=attempts_left)
         self.show_message(words)
 
     def show_message(self, words: str) -> None:
@@ -397,7 +398,7 @@ class LockScreen(Dialog):
     def _show_pause(self) -> None:
         if self._keeps_message:
             return
-        self.error_text.show_text(self.tr("Too many tries. The next one in {seconds} s.").format(seconds=self._pause_s))
+        self.error_text.show_text(self.tr("Too many attempts. Try again in {seconds} s.").format(seconds=self._pause_s))
 
     def _count_seconds(self) -> None:
         self._pause_s = max(0, self._pause_s - 1)
@@ -420,12 +421,9 @@ class LockScreen(Dialog):
         super().close_dialog()
 
     def _show_forgotten(self, *, help_shown: bool) -> None:
-        words = self.tr("PIN forgotten? F1 says what can be done.")
+        words = self.tr("Forgot the PIN? Press F1.")
         if help_shown:
-            words = self.tr(
-                "Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus "
-                "again: nothing is lost. A PIN hides; it does not protect the files."
-            )
+            words = self.tr("Ask your IT support to remove the PIN. No data are lost.")
         self.forgotten_text.setText(words)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

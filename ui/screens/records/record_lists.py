@@ -87,19 +87,19 @@ class RecordListsController(QObject):
         self._run(lambda: self._records.due_patients(self.retention_years, self._context.today()), self._show_due)
 
     def _show_due(self, found: list[DuePatient]) -> None:
-        words = self.tr("Nothing is due: no patient’s last session is so old.")
+        words = self.tr("No record is past its retention period.")
         if not self.retention_years:
-            words = self.tr("Say first how many years records must be kept.")
+            words = self.tr("Set the retention period first.")
         elif found:
-            words = self.tr("Their last session is more than {n} years ago. Nothing goes by itself.")
+            words = self.tr("The last session was more than {n} years ago. Nothing is deleted automatically.")
         listed = [
             ListedRecord(
                 one.patient_id,
                 one.pseudonym,
                 (
-                    self.tr("1 session, on {last}; had to be kept until {until}")
+                    self.tr("1 session on {last}, retention until {until}")
                     if one.sessions == 1
-                    else self.tr("{n} sessions, the last on {last}; had to be kept until {until}")
+                    else self.tr("{n} sessions, the last on {last}, retention until {until}")
                 ).format(
                     n=one.sessions,
                     last=numbers.format_date(one.last_session),
@@ -109,7 +109,9 @@ class RecordListsController(QObject):
             )
             for one in found
         ]
-        self.records_dialog.show_records(self.tr("What is due"), words.format(n=self.retention_years), listed)
+        self.records_dialog.show_records(
+            self.tr("Records past retention"), words.format(n=self.retention_years), listed
+        )
 
     def show_archive(self, is_shown: Callable[[ArchivedItem], bool] | None = None) -> None:
         """Show archived items, all or those that ``is_shown`` accepts."""
@@ -129,7 +131,7 @@ class RecordListsController(QObject):
             since = self.tr("archived on {day}").format(day=numbers.format_date(one.since))
             listed.append(ListedRecord(one.item_id, one.pseudonym, f"{what}, {since}", True))
         self._session_ids = {one.item_id: one.session_id for one in found if one.session_id}
-        words = self.tr("In no list and no count. Everything can be brought back.")
+        words = self.tr("Excluded from all lists and results. Everything can be restored.")
         self.records_dialog.show_records(
             self.tr("Archive"), words if found else self.tr("The archive is empty."), listed
         )
@@ -162,7 +164,7 @@ class RecordListsController(QObject):
     def _format_log_entry(self, entry: AuditEntry, names: dict[str, str]) -> tuple[str, ...]:
         """Return time, user, action, patient and details."""
         of_whom = names.get(entry.subject, entry.subject[:8])
-        by = self.tr("by command") if entry.source == "command" else ""
+        by = self.tr("by command line") if entry.source == "command" else ""
         facts = ", ".join(filter(None, (self._format_fact(name, value) for name, value in entry.facts.items())))
         detail = " · ".join(part for part in (facts, by) if part)
         when = numbers.format_date_time(entry.when.astimezone())
@@ -176,10 +178,10 @@ class RecordListsController(QObject):
             "files": (self.tr("1 file"), self.tr("{n} files")),
             "sessions": (self.tr("1 session"), self.tr("{n} sessions")),
             "values": (self.tr("1 value"), self.tr("{n} values")),
-            "left": (self.tr("1 left"), self.tr("{n} left")),
+            "left": (self.tr("1 remaining"), self.tr("{n} remaining")),
             "limits": (self.tr("1 study"), self.tr("{n} studies")),
-            "idle": (self.tr("nobody was there"), ""),
-            "deidentified": (self.tr("without what identifies"), ""),
+            "idle": (self.tr("automatic"), ""),
+            "deidentified": (self.tr("de-identified"), ""),
             "late": (self.tr("finished later"), ""),
             "set": (self.tr("with a PIN"), ""),
         }.get(name, ("", ""))
@@ -189,15 +191,15 @@ class RecordListsController(QObject):
         words = {
             "opened": self.tr("opened"), "recorded": self.tr("recorded"), "added": self.tr("added"),
             "changed": self.tr("changed"), "exported": self.tr("exported"), "reported": self.tr("report saved"),
-            "set_aside": self.tr("set aside"), "taken_back": self.tr("taken back"), "moved": self.tr("moved"),
-            "renamed": self.tr("exercise changed"), "tracked_again": self.tr("tracked again"),
+            "set_aside": self.tr("excluded"), "taken_back": self.tr("included again"), "moved": self.tr("moved"),
+            "renamed": self.tr("exercise changed"), "tracked_again": self.tr("re-analysed"),
             "recovered": self.tr("recovered"), "archived": self.tr("archived"),
-            "brought_back": self.tr("brought back"), "erase_begun": self.tr("erasing begun"),
-            "erased": self.tr("erased"), "backed_up": self.tr("backed up"),
-            "backup_compared": self.tr("back-up compared"), "restored": self.tr("restored"),
-            "locked": self.tr("locked"), "unlocked": self.tr("unlocked"), "pin_refused": self.tr("PIN refused"),
+            "brought_back": self.tr("restored from archive"), "erase_begun": self.tr("deletion started"),
+            "erased": self.tr("deleted"), "backed_up": self.tr("backed up"),
+            "backup_compared": self.tr("backup verified"), "restored": self.tr("backup restored"),
+            "locked": self.tr("locked"), "unlocked": self.tr("unlocked"), "pin_refused": self.tr("wrong PIN"),
             "pin_changed": self.tr("PIN changed"), "read_log": self.tr("log read"),
-            "entered_by_hand": self.tr("values by hand entered"),
+            "entered_by_hand": self.tr("manual values entered"),
         }  # fmt: skip
         return words.get(action, action)
 
@@ -262,10 +264,10 @@ class RecordsDialog(Dialog):
             ),
             1,
         )
-        first = Button(self._theme, self.tr("Bring back") if record.is_archived else self.tr("Archive"), height_px=36)
+        first = Button(self._theme, self.tr("Restore") if record.is_archived else self.tr("Archive"), height_px=36)
         signal = self.restore_requested if record.is_archived else self.archive_requested
         first.clicked.connect(lambda _=False, one=record.identity: signal.emit(one))
-        erase = Button(self._theme, self.tr("Erase…"), "plain", icon="trash-2", height_px=36)
+        erase = Button(self._theme, self.tr("Delete…"), "plain", icon="trash-2", height_px=36)
         erase.clicked.connect(lambda _=False, one=record.identity: self.delete_requested.emit(one))
         for button in (first, erase):
             button.setAccessibleName(f"{button.text()} {record.title}")
@@ -280,12 +282,12 @@ class LogDialog(Dialog):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 1080)
         words = self.tr(
-            "Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up "
-            "kept elsewhere shows a later change. Names are put to it here, as long as they are in the list."
+            "Append-only log. It protects against mistakes, not against someone with full access to this computer. "
+            "Names appear only here, while they are in the patient list."
         )
         self.add_heading(self.tr("Log"), words, gap=10)
         self.table = QTableWidget(0, 5)
-        heads = (self.tr("When"), self.tr("Who"), self.tr("What"), self.tr("Of whom"), self.tr("Details"))
+        heads = (self.tr("When"), self.tr("Who"), self.tr("What"), self.tr("Patient"), self.tr("Details"))
         self.table.setHorizontalHeaderLabels(heads)
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -300,7 +302,7 @@ class LogDialog(Dialog):
         fill(self.card.body, self.table, (self.done_button, 0, Qt.AlignmentFlag.AlignRight))
 
     def show_entries(self, entries: Sequence[Sequence[str]]) -> None:
-        self.title.setText(self.tr("Log: {n} lines").format(n=len(entries)))
+        self.title.setText(self.tr("Log: {n} entries").format(n=len(entries)))
         self.table.setRowCount(len(entries))
         for row, deed in enumerate(reversed(entries)):
             for column, text in enumerate(deed):

@@ -24,11 +24,13 @@ class ExcludeDialog(Dialog):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 600)
-        words = self.tr("It stays in the list and can be opened, but counts nowhere. It can be taken back.")
-        self.add_heading(self.tr("Set this session aside?"), words)
+        words = self.tr(
+            "It stays in the list and can be opened, but is excluded from analysis. You can include it again."
+        )
+        self.add_heading(self.tr("Exclude this session?"), words)
         quick = QHBoxLayout()
         self.buttons: list[Button] = []
-        for reason in (self.tr("wrong exercise"), self.tr("trial"), self.tr("discs lost"), self.tr("pain")):
+        for reason in (self.tr("wrong exercise"), self.tr("trial"), self.tr("markers lost"), self.tr("pain")):
             button = Button(theme, reason, "plain", height_px=40)
             button.clicked.connect(lambda _=False, reason=reason: self._accept(reason))
             quick.addWidget(button)
@@ -37,11 +39,11 @@ class ExcludeDialog(Dialog):
         self.card.body.addLayout(quick)
         self.reason_field = QLineEdit(placeholderText=self.tr("Another reason"))
         self.reason_field.setAccessibleName(self.tr("Another reason"))
-        self.accept_button = Button(theme, self.tr("Set it aside"), "plain")
+        self.accept_button = Button(theme, self.tr("Exclude"), "plain")
         self.accept_button.clicked.connect(lambda: self._accept(self.reason_field.text().strip()))
         self.reason_field.textChanged.connect(self._on_reason_edited)
         self.card.body.addWidget(self.reason_field)
-        self.close_button = Button(theme, self.tr("Let it count"), "plain")
+        self.close_button = Button(theme, self.tr("Cancel"), "plain")
         self.close_button.clicked.connect(self.close_dialog)
         self.card.body.addLayout(row_layout(STRETCH, self.accept_button, self.close_button))
 
@@ -77,7 +79,7 @@ class ChoiceDialog(Dialog):
         self.card.body.addWidget(self.choice_field)
         self.accept_button = Button(theme, "", "primary", height_px=44)
         self.accept_button.clicked.connect(self._accept)
-        close = Button(theme, self.tr("Leave it as it is"), "plain", height_px=44)
+        close = Button(theme, self.tr("Cancel"), "plain", height_px=44)
         close.clicked.connect(self.close_dialog)
         self.set_default(close)
         self.card.body.addLayout(row_layout(STRETCH, self.accept_button, close))

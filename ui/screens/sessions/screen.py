@@ -183,8 +183,8 @@ class SessionsScreen(QWidget):
         )  # fmt: skip
         self.facts_text.setText(" · ".join(fact for fact in facts if fact))
         self.remark_text.show_text(" · ".join(part for part in (remark(line), line.warning) if part))
-        back = self.tr("&Take back: let it count")
-        self.exclude_button.set_label(back if line.exclusion_reason else self.tr("&Set aside…"))
+        back = self.tr("&Include again")
+        self.exclude_button.set_label(back if line.exclusion_reason else self.tr("E&xclude…"))
         practice = self._patient_id == PRACTICE_PATIENT
         self.move_button.setVisible(not practice)
         for button in (
@@ -229,11 +229,11 @@ class SessionsScreen(QWidget):
         self._run_action(lambda line: self._store.exclude(line.entry.session_id, reason))
 
     def _choose_patient(self) -> None:
-        words = self.tr("It then counts in the other patient’s progress, and no more in that of {name}.")
+        words = self.tr("It will move from {name}’s progress to the other patient’s.")
         self.move_dialog.request_choice(
-            self.tr("To whom does this session belong?"),
+            self.tr("Which patient does this session belong to?"),
             words.format(name=self._pseudonym),
-            self.tr("Move it there"),
+            self.tr("Move"),
             [one for one in self._store.target_patients(self._patient_id) if one[0] != self._patient_id],
         )
 
@@ -245,8 +245,8 @@ class SessionsScreen(QWidget):
         others = [one.id for one in alike if one.id != line.entry.exercise]
         self.exercise_dialog.request_choice(
             self.tr("Which exercise was it?"),
-            self.tr("Repetitions and figures are worked out anew. The recording itself is not changed."),
-            self.tr("It was this one"),
+            self.tr("Repetitions and values are calculated again. The recording itself is not changed."),
+            self.tr("Change exercise"),
             [(one, terms.exercise_name(one)) for one in others],
         )
 

@@ -53,11 +53,11 @@ class SessionLine:
 def remark(line: SessionLine) -> str:
     """Return why a session is excluded or not readable; empty otherwise."""
     if line.entry.simulated and not line.is_practice:
-        return tr("does not count: simulated")
+        return tr("excluded: simulated")
     if line.exclusion_reason:
-        return tr("set aside: {reason}").format(reason=line.exclusion_reason)
+        return tr("excluded: {reason}").format(reason=line.exclusion_reason)
     if line.is_damaged:
-        return tr("its file is not there") if line.is_missing else tr("cannot be read")
+        return tr("file missing") if line.is_missing else tr("not readable")
     return ""
 
 

@@ -18,8 +18,8 @@ class CameraCard(Card):
         self._theme = theme
         self.body.addWidget(Text(theme, self.tr("Camera"), 20, SEMIBOLD))
         words = self.tr(
-            "A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 "
-            "seconds whether it still measures right."
+            "A printed board calibrates the camera. A printed card checks in 30 seconds whether it is still within "
+            "tolerance."
         )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self._row = row_layout(gap=10)
@@ -46,4 +46,4 @@ class CameraCard(Card):
         for button in (self.check_button, self.calibrate_button):
             button.hide()
         self._sign.hide()  # an empty sign would set the words in
-        self._state.setText(self.tr("In the demo the camera is simulated: there is nothing to calibrate."))
+        self._state.setText(self.tr("In the demo the camera is simulated. It needs no calibration."))

@@ -70,7 +70,7 @@ class SettingsFlow(Flow):
     def _compute_limits(self) -> None:
         """Compute MDC95 from the sessions of a folder, in the background."""
         places, shell = self.context.recent_locations, self.context.window
-        title = self.tr("Folder of the test-retest sessions")
+        title = self.tr("Folder with the test–retest sessions")
         folder = QFileDialog.getExistingDirectory(shell, title, places.folder("exports"))
         if not folder:
             return
@@ -105,11 +105,11 @@ class LicencesWindow(QDialog):
 
     def __init__(self, parent: QWidget, theme: Theme, text: str) -> None:
         super().__init__(parent)
-        self.setWindowTitle(self.tr("Parts and their licences"))
+        self.setWindowTitle(self.tr("Components and licences"))
         self.text = QPlainTextEdit(text)
         self.text.setReadOnly(True)
         self.text.setAccessibleName(self.windowTitle())
-        words = self.tr("The licences are legal texts, and stay in the language that they were written in.")
+        words = self.tr("The licences are legal texts and are shown in their original language.")
         margins = (MARGIN_PX, MARGIN_PX, MARGIN_PX, MARGIN_PX)
         column_layout(Text(theme, words, 14, wrap=True), (self.text, 1), margins=margins, parent=self)
         self.resize(theme.px(860), theme.px(600))

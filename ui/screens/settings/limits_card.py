@@ -31,7 +31,7 @@ from carpus.ui.words.verdicts import error_limit_words
 def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
     """Return the card with default limits in two columns, and the clinic's own below."""
     card = Card(theme, 24)
-    card.body.addWidget(Text(theme, tr("What counts as a change"), 20, SEMIBOLD))
+    card.body.addWidget(Text(theme, tr("Measurement error (MDC95)"), 20, SEMIBOLD))
     card.body.addWidget(Text(theme, error_limit_words(), 14, REGULAR, "text2", wrap=True))
     grid = grid_layout(24, 6)
     lines = limit_rows()
@@ -66,12 +66,12 @@ def study_view(theme: Theme, study: RetestStudy, words: str) -> QWidget:
 
 def study_words(study: RetestStudy) -> str:
     """Return when and with how many people a study was made, and whether it is used."""
-    said = tr("On {date} with {count} people in {sessions} sessions; 95 % intervals in brackets.").format(
+    said = tr("On {date} with {count} people in {sessions} sessions, 95 % intervals in brackets.").format(
         date=numbers.format_date(date.fromisoformat(study.made)), count=study.people, sessions=study.sessions
     )
     if study.is_in_force:
-        return said + " " + tr("In force in progress and reports, in place of the limits above.")
-    return said + " " + tr("Not in force: {count} people are the least.").format(count=MIN_PEOPLE)
+        return said + " " + tr("Used in progress and reports instead of the values above.")
+    return said + " " + tr("Not used: at least {count} people are needed.").format(count=MIN_PEOPLE)
 
 
 def study_rows(study: RetestStudy) -> list[tuple[str, str, str]]:
@@ -89,9 +89,7 @@ def study_rows(study: RetestStudy) -> list[tuple[str, str, str]]:
         low, high = limit.mdc95_interval_deg
         sem = tr("SEM {size}").format(size=_format_tenths(limit.sem_deg))
         change = f"{numbers.format_degrees(limit.limit_deg)} ({_format_tenths(low)} – {_format_tenths(high)})"
-        few = (
-            "" if limit.people >= MIN_PEOPLE else " · " + tr("{count} people, not in force").format(count=limit.people)
-        )
+        few = "" if limit.people >= MIN_PEOPLE else " · " + tr("{count} people, not used").format(count=limit.people)
         out.append((name, sem, change + few))
     return out
 
@@ -103,18 +101,18 @@ def _format_tenths(size_deg: float) -> str:
 def limit_rows() -> list[tuple[str, str]]:
     """Return the name and limit of each kind of angle; for the wrist one end and the total arc."""
     named = (
-        (tr("Flexion, extension"), tr("Flexion and extension, whole arc"), "flexion"),
-        (tr("Radial, ulnar deviation"), tr("Deviation, whole arc"), "deviation"),
-        (tr("Supination, pronation"), tr("Supination and pronation, whole arc"), "pronosupination"),
+        (tr("Flexion, extension"), tr("Flexion–extension, total arc"), "flexion"),
+        (tr("Radial, ulnar deviation"), tr("Radial–ulnar deviation, total arc"), "deviation"),
+        (tr("Supination, pronation"), tr("Pronation–supination, total arc"), "pronosupination"),
     )
     out = []
     for end, arc, angle in named:
         limit_deg = math.degrees(change_limit_rad(angle))
         out += [(end, numbers.format_degrees(limit_deg)), (arc, numbers.format_degrees(ARC_LIMIT_FACTOR * limit_deg))]
     joints = (
-        (tr("Range of a finger’s knuckle, middle or end joint"), "PIP3_flexion"),
-        (tr("Range of a finger’s spreading"), "MCP2_abduction"),
-        (tr("Range of the thumb’s joints"), "CMC1_abduction"),
+        (tr("Range of motion of a finger’s MCP, PIP or DIP"), "PIP3_flexion"),
+        (tr("Range of finger abduction"), "MCP2_abduction"),
+        (tr("Range of motion of the thumb joints"), "CMC1_abduction"),
     )
     for name, joint in joints:
         out.append((name, numbers.format_degrees(ARC_LIMIT_FACTOR * math.degrees(change_limit_rad(joint)))))

@@ -33,19 +33,21 @@ class ReportCard(Card):
         super().__init__(theme, 24)
         self._theme, self._form = theme, form
         self.body.addWidget(Text(theme, self.tr("Report"), 20, SEMIBOLD))
-        words = self.tr("Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.")
+        words = self.tr(
+            "Name, address and logo of the clinic appear at the top of every page. Empty fields are not printed."
+        )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.name = QLineEdit(form.letterhead.name, maxLength=MAX_NAME_CHARACTERS)
         self.address = QPlainTextEdit("\n".join(form.letterhead.address))
         self.address.setTabChangesFocus(True)
         theme.on_change(self.address, lambda: self.address.setFixedHeight(theme.px(ADDRESS_PX)))
-        self.body.addWidget(LabelledField(theme, self.tr("Name of the clinic"), self.name))
+        self.body.addWidget(LabelledField(theme, self.tr("Clinic name"), self.name))
         self.body.addWidget(LabelledField(theme, self.tr("Address, up to four lines"), self.address))
         row = row_layout(gap=12)
         self.logo_label = QLabel()
         self.logo_label.setAccessibleName(self.tr("Logo"))
         self.choose_button = Button(theme, self.tr("Choose a logo…"), height_px=40)
-        self.remove_button = Button(theme, self.tr("Remove the logo"), "quiet", height_px=40)
+        self.remove_button = Button(theme, self.tr("Remove logo"), "quiet", height_px=40)
         fill(row, self.logo_label, self.choose_button, self.remove_button, STRETCH)
         self.body.addLayout(row)
         self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
@@ -64,7 +66,7 @@ class ReportCard(Card):
         self._form = form
 
     def choose_logo(self) -> None:
-        kinds = self.tr("Pictures (*.png *.jpg *.jpeg)")
+        kinds = self.tr("Images (*.png *.jpg *.jpeg)")
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a logo"), "", kinds)
         if path:
             self.load_logo(Path(path))
@@ -129,14 +131,14 @@ def logo_png(path: Path) -> bytes:
         size = path.stat().st_size
         data = path.read_bytes() if size <= MAX_LOGO_BYTES else b""
     except OSError:
-        raise LogoError(tr("This picture cannot be read. Choose a PNG or JPEG file.")) from None
+        raise LogoError(tr("This image cannot be read. Choose a PNG or JPEG file.")) from None
     if size > MAX_LOGO_BYTES:
-        raise LogoError(tr("This picture is larger than 8 MB. Choose a smaller one."))
+        raise LogoError(tr("This image is larger than 8 MB. Choose a smaller one."))
     image = _decode_image(data)
     if image.isNull():
-        raise LogoError(tr("This file is no picture that Carpus can read. Choose a PNG or JPEG file."))
+        raise LogoError(tr("Carpus cannot read this file as an image. Choose a PNG or JPEG file."))
     if min(image.width(), image.height()) < MIN_LOGO_PX:
-        raise LogoError(tr("This picture is too small to print. Choose one of at least 32 pixels each way."))
+        raise LogoError(tr("This image is too small to print. Choose one of at least 32 × 32 pixels."))
     if max(image.width(), image.height()) > MAX_LOGO_PX:
         image = image.scaled(
             MAX_LOGO_PX, MAX_LOGO_PX, Qt.AspectRatioMode.KeepAspectRatio, Qt.TransformationMode.SmoothTransformation

@@ -36,15 +36,15 @@ class RetestDialog(Dialog):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 760)
         words = self.tr(
-            "From people who were measured more than once, all discs taken off and put on again in between: standard "
-            "error of measurement (SEM) and smallest real change (MDC95), with 95 % intervals."
+            "Based on people measured more than once, with all markers removed and replaced in between. Shows the "
+            "standard error of measurement (SEM) and MDC95 with 95 % intervals."
         )
-        self.add_heading(self.tr("Limits from test-retest sessions"), words)
+        self.add_heading(self.tr("MDC95 from test–retest sessions"), words)
         self._column = column_layout(gap=16)
         self._area = scroll_column(self._column)
         self.card.body.addWidget(self._area)
-        self.accept_button = Button(theme, self.tr("&Use these limits"), "primary", height_px=44)
-        self.close_button = self.add_buttons(self.accept_button, cancel_text=self.tr("Leave it as it is"))
+        self.accept_button = Button(theme, self.tr("&Use these values"), "primary", height_px=44)
+        self.close_button = self.add_buttons(self.accept_button, cancel_text=self.tr("Cancel"))
         self.set_default(self.close_button)
         self.accept_button.clicked.connect(self._accept)
         self._usable: list[RetestStudy] = []
@@ -56,7 +56,7 @@ class RetestDialog(Dialog):
         for one in found:
             self._column.addWidget(study_view(self._theme, one.to_study(today.isoformat()), study_summary(one)))
         if unreadable:
-            words = self.tr("Sessions that cannot be read: {count}").format(count=unreadable)
+            words = self.tr("Unreadable sessions: {count}").format(count=unreadable)
             self._column.addWidget(Text(self._theme, words, 14, REGULAR, "warn", wrap=True))
         self._column.addStretch(1)
         self.accept_button.setEnabled(bool(self._usable))
@@ -77,13 +77,13 @@ def study_summary(found: RetestAnalysis) -> str:
     """Return who was measured, whether the study is usable, and what was excluded."""
     said = [tr("People: {people}, sessions: {sessions}.").format(people=found.people, sessions=found.sessions)]
     if found.simulated:
-        said.append(tr("Limits of a simulated hand are never used."))
+        said.append(tr("Values of a simulated hand are never used."))
     elif not found.is_usable:
-        said.append(tr("Not usable yet: {count} people are the least, 20 are better.").format(count=MIN_PEOPLE))
+        said.append(tr("Not usable yet: at least {count} people are needed, 20 are better.").format(count=MIN_PEOPLE))
     reasons = Counter(_exclusion_words(left.reason) for left in found.excluded)
     if reasons:
         words = ", ".join(f"{count} ({reason})" for reason, count in reasons.items())
-        said.append(tr("Left out: {sessions}.").format(sessions=words))
+        said.append(tr("Excluded: {sessions}.").format(sessions=words))
     return " ".join(said)
 
 

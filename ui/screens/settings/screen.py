@@ -55,7 +55,7 @@ class SettingsScreen(QWidget):
         self.language_note.hide()
         self.folder_text = Text(theme, preferences.data_folder, 14)
         self.folder_button = Button(theme, self.tr("Change…"), height_px=40)
-        self.retest_button = Button(theme, self.tr("Compute from test-retest sessions…"), height_px=40)
+        self.retest_button = Button(theme, self.tr("Calculate from test–retest sessions…"), height_px=40)
         self.done_button = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"))
         self._limits_host = Card(theme, 0)  # what is in it changes when new limits are put into force
         self._limits_host.set_colors("canvas", "canvas")
@@ -68,31 +68,30 @@ class SettingsScreen(QWidget):
 
     def _make_table(self, theme: Theme) -> list[tuple[SettingsPage, str, str, list[Field]]]:
         """Return the cards: page, title, description and fields."""
-        computer = ("system", self.tr("As the computer"))
+        computer = ("system", self.tr("Match system"))
         looks = ChoiceRow(theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), computer])
         sizes = ChoiceRow(theme, [(scale, f"{format_rounded(100 * scale)} %") for scale in TEXT_SCALES])
         orders = [("zyx", self.tr("As in the papers: deviation first")), ("isb", self.tr("ISB: flexion first"))]
         starts = [
-            ("key", self.tr("At the key")), ("countdown", self.tr("3 s after the key")),
-            ("still", self.tr("When the hand lies still")),
+            ("key", self.tr("On key press")), ("countdown", self.tr("3 s after key press")),
+            ("still", self.tr("When the hand is still")),
         ]  # fmt: skip
-        sounds = [(False, self.tr("No sound")), (True, self.tr("One beep at the goal"))]
+        sounds = [(False, self.tr("No sound")), (True, self.tr("Beep at the goal"))]
         streams = [(False, self.tr("Off")), (True, self.tr("Stream live values"))]
         return [
             (
                 "measuring", self.tr("Start of a recording"),
                 self.tr(
-                    "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a "
-                    "slide show, is a keyboard with a few keys. Page Down goes on, records and stops. A start by "
-                    "itself is counted down, and Space takes it back."
+                    "Hands-free start: use a pedal or a presentation remote (Page Down). An automatic start is "
+                    "counted down, and Space cancels it."
                 ),
                 [Field("start", "", ChoiceRow(theme, starts))],
             ),
             (
                 "measuring", self.tr("The patient’s view"),
                 self.tr(
-                    "A second screen, or a window of its own, that shows the patient what to do. It opens from the "
-                    "screen one measures on; whether it speaks to a child or an adult is chosen with the exercise."
+                    "A second screen or window shows the patient what to do. Open it while measuring. Choose with "
+                    "the exercise whether it addresses a child or an adult."
                 ),
                 [Field("patient_sound", "", ChoiceRow(theme, sounds))],
             ),
@@ -101,7 +100,7 @@ class SettingsScreen(QWidget):
                 [Field("therapist", "", QLineEdit(maxLength=12), change_signal="editingFinished")],
             ),
             (
-                "looks", self.tr("Looks"), "",
+                "looks", self.tr("Appearance"), "",
                 [
                     Field("theme", self.tr("Colours"), looks),
                     Field("text_scale", self.tr("Text size"), sizes),
@@ -111,25 +110,24 @@ class SettingsScreen(QWidget):
             (
                 "research", self.tr("Research"),
                 self.tr(
-                    "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, "
-                    "all formats of an export, the order of the angles, streaming. No value changes by it."
+                    "Shows path and axes, speeds, the movement page in reports, all export formats, angle order and "
+                    "streaming. It changes no values."
                 ),
                 [Field("research", "", CheckButton(theme, self.tr("For research")))],
             ),
             (
-                "research", self.tr("Order of the angles"),
+                "research", self.tr("Angle order"),
                 self.tr(
-                    "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ "
-                    "order; sessions in different orders are never compared."
+                    "Order of the wrist angles in review, progress and reports. Session files keep the order of the "
+                    "papers. Sessions with different orders are not compared."
                 ),
                 [Field("angle_order", "", ChoiceRow(theme, orders))],
             ),
             (
                 "research", self.tr("Other programs"),
                 self.tr(
-                    "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any "
-                    "computer in the same network can read them; no name and no picture is in them. From the next "
-                    "set-up on."
+                    "Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the "
+                    "network can read them. Names and images are not included. Applies from the next set-up."
                 ),
                 [Field("stream", "", ChoiceRow(theme, streams))],
             ),
@@ -151,14 +149,14 @@ class SettingsScreen(QWidget):
             elif part == "research" and fields[0].name != "research":
                 self._research_cards.append(card)
         self._pages["measuring"].addWidget(self._limits_host)
-        words = self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer.")
+        words = self.tr("Sessions and patient list. Private to your user account. Nothing leaves this computer.")
         data = self._make_card(self.tr("Data"), words, row_layout((self.folder_text, 1), self.folder_button))
         self._pages["safety"].addWidget(data)
         self._pages["about"].addWidget(self._make_about_card())
         self._build_index()
         self._show_research_cards()
         self.show_page("looks")
-        self.demo_notice = Text(theme, self.tr("A demo: what is chosen here holds until it is closed."), 14, wrap=True)
+        self.demo_notice = Text(theme, self.tr("Demo: settings apply until it is closed."), 14, wrap=True)
         self.demo_notice.hide()
         head = row_layout(
             (heading(theme, self.tr("Settings")), 1),
@@ -173,12 +171,11 @@ class SettingsScreen(QWidget):
     def _make_about_card(self) -> Card:
         theme = self._theme
         words = self.tr(
-            "Carpus asks nobody whether there is a newer version, and sends nothing. To look yourself, compare this "
-            "version with the newest one where you got Carpus from; its list of changes says what is new. Install it "
-            "over this one: patients, sessions and settings stay. Make a back-up before."
+            "Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. "
+            "Back up, then install it over this one. Patients, sessions and settings stay."
         )
         self.update_text = Text(theme, words, 14, REGULAR, "text2", wrap=True)
-        self.licences_button = Button(theme, self.tr("Parts and their licences"), height_px=40)
+        self.licences_button = Button(theme, self.tr("Components and licences"), height_px=40)
         return self._make_card(
             self.tr("About Carpus"),
             "",
@@ -191,7 +188,7 @@ class SettingsScreen(QWidget):
     def _build_index(self) -> None:
         titles: dict[SettingsPage, str] = {
             "camera": self.tr("Camera"), "measuring": self.tr("Measuring"), "report": self.tr("Report and clinic"),
-            "safety": self.tr("Safety"), "looks": self.tr("Looks and language"),
+            "safety": self.tr("Safety"), "looks": self.tr("Appearance and language"),
             "research": self.tr("Research"), "about": self.tr("About Carpus"),
         }  # fmt: skip
         self._page_stack = QStackedWidget()
@@ -229,7 +226,7 @@ class SettingsScreen(QWidget):
     def show_computing(self, *, on: bool) -> None:
         """Show that sessions are being read, about one second each."""
         self.retest_button.setEnabled(not on)
-        words = self.tr("Reading the sessions…") if on else self.tr("Compute from test-retest sessions…")
+        words = self.tr("Reading the sessions…") if on else self.tr("Calculate from test–retest sessions…")
         self.retest_button.set_label(words)
 
     def revert_language(self, code: str, reason: str) -> None:
@@ -267,14 +264,14 @@ class SettingsScreen(QWidget):
     def show_available_version(self, folder: str, newest: str | None) -> None:
         """Show the newest version in the update folder; None if it cannot be read."""
         if newest is None:
-            words = self.tr("The folder of the clinic’s packages cannot be read: {folder}.")
+            words = self.tr("The update folder cannot be read: {folder}.")
         elif is_newer(newest, __version__):
             words = self.tr(
-                "Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions "
-                "and settings stay. Make a back-up before."
+                "Version {newest} is available in {folder}. Back up, then install it over this one. Patients, "
+                "sessions and settings stay."
             )
         else:
-            words = self.tr("The clinic’s packages in {folder} are not newer than this version.")
+            words = self.tr("There is no newer version in {folder}.")
         self.update_text.setText(words.format(folder=folder, newest=newest))
 
     def _apply_preferences(self, preferences: Preferences) -> None:
