@@ -51,11 +51,11 @@ class CalibratedSource:
         self._source.close()
 
     def _correct_depth(self, frame: Frame) -> Frame:
-        made = self._calibration
-        if frame.depth_raw is None or (made.depth_scale == 1.0 and made.depth_offset_m == 0.0):
+        calibration = self._calibration
+        if frame.depth_raw is None or (calibration.depth_scale == 1.0 and calibration.depth_offset_m == 0.0):
             return frame
         if self._correction_table is None or self._correction_table[0] != frame.depth_unit_m:
-            self._correction_table = (frame.depth_unit_m, compute_correction_table(made, frame.depth_unit_m))
+            self._correction_table = (frame.depth_unit_m, compute_correction_table(calibration, frame.depth_unit_m))
         depth = self._correction_table[1][frame.depth_raw]
         depth.flags.writeable = False
         return replace(frame, depth_raw=depth, depth_unit_m=_DEPTH_STEP_M)
@@ -194,17 +194,17 @@ def save_camera_name(data_folder: Path, kind: str, name: str) -> str:
     """
     path = data_folder / CAMERAS_FOLDER / _NAMES_FILE
     others = {other: taken for other, taken in _load_names(data_folder).items() if other != kind}
-    kept = normalize_name(name)
-    if kept in others.values():
+    stored_name = normalize_name(name)
+    if stored_name in others.values():
         of_kind = f" ({normalize_name(kind)[: MAX_NAME_CHARACTERS // 2]})"
-        kept = normalize_name(kept[: MAX_NAME_CHARACTERS - len(of_kind)] + of_kind)
-    names = {**others, kind: kept}
+        stored_name = normalize_name(stored_name[: MAX_NAME_CHARACTERS - len(of_kind)] + of_kind)
+    names = {**others, kind: stored_name}
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as cause:
         raise write_fault(path, cause) from cause
     replace_text(path, json.dumps(names, ensure_ascii=False))
-    return kept
+    return stored_name
 
 
 def _load_names(data_folder: Path) -> dict[str, str]:

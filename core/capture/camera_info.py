@@ -12,7 +12,7 @@ import yaml
 
 from carpus.core.model.camera import DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
 from carpus.core.model.dates import is_moment
-from carpus.core.model.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, parse_sensor
+from carpus.core.model.depth_sensor import ASSUMED, ASSUMED_SENSOR, parse_sensor
 from carpus.core.model.errors import CameraFileUnreadable, OutputExists
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import SIMULATED
@@ -93,9 +93,15 @@ def read_camera_info(path: Path) -> CameraInfo:
         raise CameraFileUnreadable(path, phrase("not YAML")) from cause
     if not isinstance(content, dict):
         raise CameraFileUnreadable(path, phrase("not a camera calibration"))
-    registered, mirrored, simulated = (_parse_flag(path, content, key) for key in ("registered", "mirrored", SIMULATED))
-    calibration, unit_m = _parse_calibration(path, content), _parse_depth_unit_m(path, content)
-    return CameraInfo(_parse_camera(path, content), registered, mirrored, bool(simulated), calibration, unit_m)
+    try:
+        flags = {key: content.get(key) for key in ("registered", "mirrored", SIMULATED)}
+        for key, value in flags.items():
+            if value is not None and not isinstance(value, bool):
+                raise _ContentError(phrase("{key} is neither true nor false", key=key))
+        camera, calibration, unit_m = _parse_camera(content), _parse_calibration(content), _parse_depth_unit_m(content)
+    except _ContentError as cause:
+        raise CameraFileUnreadable(path, cause.args[0]) from cause
+    return CameraInfo(camera, flags["registered"], flags["mirrored"], bool(flags[SIMULATED]), calibration, unit_m)
 
 
 def write_camera_info(
@@ -162,109 +168,79 @@ def _format_matrix(rows: int, columns: int, data: list[float]) -> dict[str, Any]
     return {"rows": rows, "cols": columns, "data": [float(value) for value in data]}
 
 
-def _parse_camera(path: Path, content: dict[str, Any]) -> Camera:
-    said = content.get("distortion_model", _DEFAULT_MODEL)
-    model = next((known for known in DISTORTION_COEFFICIENT_COUNTS if known == said), None)
+class _ContentError(Exception):
+    """Raised with a text if the content of a camera file is invalid."""
+
+
+def _parse_camera(content: dict[str, Any]) -> Camera:
+    model_name = content.get("distortion_model", _DEFAULT_MODEL)
+    model = next((each for each in DISTORTION_COEFFICIENT_COUNTS if each == model_name), None)
     if model is None:
-        raise CameraFileUnreadable(
-            path,
-            phrase(
-                "distortion_model {said}, {coefficients} expected",
-                said=said,
-                coefficients=" or ".join(DISTORTION_COEFFICIENT_COUNTS),
-            ),
+        models = " or ".join(DISTORTION_COEFFICIENT_COUNTS)
+        raise _ContentError(
+            phrase("distortion_model {said}, {coefficients} expected", said=model_name, coefficients=models)
         )
-    width, height = (_parse_size(path, content, key) for key in ("image_width", "image_height"))
-    k = _parse_numbers(path, content, "camera_matrix")
+    sides: list[int] = []
+    for key in ("image_width", "image_height"):
+        side = content.get(key)
+        if isinstance(side, bool) or not isinstance(side, int) or not 0 < side <= _MAX_SIDE_PX:
+            raise _ContentError(phrase("{key} is not a number of pixels", key=key))
+        sides.append(side)
+    width, height = sides
+    k = _parse_numbers(content, "camera_matrix")
     if len(k) != 9:
-        raise CameraFileUnreadable(path, phrase("camera_matrix has {count} numbers, 9 expected", count=len(k)))
+        raise _ContentError(phrase("camera_matrix has {count} numbers, 9 expected", count=len(k)))
     fx, skew, cx, zero, fy, cy, *last = k
     if fx <= 0.0 or fy <= 0.0 or [skew, zero, *last] != [0.0, 0.0, 0.0, 0.0, 1.0]:
-        raise CameraFileUnreadable(path, phrase("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]"))
+        raise _ContentError(phrase("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]"))
     if not all(_FOCAL_LENGTH_RANGE[0] <= f / width <= _FOCAL_LENGTH_RANGE[1] for f in (fx, fy)):
-        raise CameraFileUnreadable(
-            path,
-            phrase(
-                "fx {fx} and fy {fy} are no camera's with pictures {width} pixels wide",
-                fx=f"{fx:g}",
-                fy=f"{fy:g}",
-                width=width,
-            ),
-        )
-    distortion = (
-        _parse_numbers(path, content, "distortion_coefficients") if "distortion_coefficients" in content else []
-    )
+        values = {"fx": f"{fx:g}", "fy": f"{fy:g}", "width": width}
+        raise _ContentError(phrase("fx {fx} and fy {fy} are no camera's with pictures {width} pixels wide", **values))
+    distortion = _parse_numbers(content, "distortion_coefficients") if "distortion_coefficients" in content else []
     wanted = DISTORTION_COEFFICIENT_COUNTS[model]
     if len(distortion) not in (0, 4, 5, wanted):
-        raise CameraFileUnreadable(
-            path,
-            phrase(
-                "distortion_coefficients has {count} numbers, {wanted} expected", count=len(distortion), wanted=wanted
-            ),
-        )
+        counts = {"count": len(distortion), "wanted": wanted}
+        raise _ContentError(phrase("distortion_coefficients has {count} numbers, {wanted} expected", **counts))
+    try:
+        sensor = parse_sensor(content[_SENSOR]) if content.get(_SENSOR) is not None else ASSUMED_SENSOR
+    except ValueError as cause:
+        raise _ContentError(f"{_SENSOR}: {cause}") from cause
     lens = (*distortion, *[0.0] * (wanted - len(distortion)))
-    camera = Camera(fx, fy, cx, cy, width, height, lens, "file", _parse_sensor(path, content), model)
-    if not _is_distortion_invertible(camera):
-        raise CameraFileUnreadable(
-            path,
-            phrase("distortion_coefficients are no lens’s: points do not find back to their places"),
-        )
-    return camera
-
-
-def _is_distortion_invertible(camera: Camera) -> bool:
-    """Return whether distorting the undistorted pixels returns them, up to the outer tenth."""
-    across, down = (np.linspace(0.1, 0.9, 5) * size for size in (camera.width_px, camera.height_px))
+    camera = Camera(fx, fy, cx, cy, width, height, lens, "file", sensor, model)
+    # distorting the undistorted pixels returns them, up to the outer tenth of the image
+    across, down = (np.linspace(0.1, 0.9, 5) * size for size in (width, height))
     pixel = np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2)
     with np.errstate(all="ignore"):
         off_px = np.abs(camera.distort(camera.undistort(pixel)) - pixel).max()
-    return bool(off_px <= _MAX_ROUND_TRIP_PX)
+    if not off_px <= _MAX_ROUND_TRIP_PX:
+        raise _ContentError(phrase("distortion_coefficients are no lens’s: points do not find back to their places"))
+    return camera
 
 
-def _parse_sensor(path: Path, content: dict[str, Any]) -> DepthSensor:
-    said = content.get(_SENSOR)
-    if said is None:
-        return ASSUMED_SENSOR
-    try:
-        return parse_sensor(said)
-    except ValueError as cause:
-        raise CameraFileUnreadable(path, f"{_SENSOR}: {cause}") from cause
-
-
-def _parse_calibration(path: Path, content: dict[str, Any]) -> StoredCalibration | None:
-    said = content.get(_CALIBRATION)
-    if said is None:
+def _parse_calibration(content: dict[str, Any]) -> StoredCalibration | None:
+    block = content.get(_CALIBRATION)
+    if block is None:
         return None
     try:
-        out = StoredCalibration(
-            str(said["serial"]),
-            str(said["calibrated"]),
-            float(said["depth_scale"]),
-            float(said["depth_offset_m"]),
-            float(said["error_px"]),
-            int(said["pictures"]),
+        calibration = StoredCalibration(
+            str(block["serial"]),
+            str(block["calibrated"]),
+            float(block["depth_scale"]),
+            float(block["depth_offset_m"]),
+            float(block["error_px"]),
+            int(block["pictures"]),
         )
-        if not is_moment(out.calibrated):
-            raise ValueError(out.calibrated)
+        if not is_moment(calibration.calibrated):
+            raise ValueError(calibration.calibrated)
     except (KeyError, TypeError, ValueError, OverflowError) as cause:
-        raise CameraFileUnreadable(
-            path, phrase("{calibration} is not as Carpus writes it", calibration=_CALIBRATION)
-        ) from cause
-    if not (_SCALE_RANGE[0] <= out.depth_scale <= _SCALE_RANGE[1] and abs(out.depth_offset_m) <= _MAX_OFFSET_M):
-        raise CameraFileUnreadable(
-            path, phrase("{calibration} has depth that no camera reads", calibration=_CALIBRATION)
-        )
-    return out
+        raise _ContentError(phrase("{calibration} is not as Carpus writes it", calibration=_CALIBRATION)) from cause
+    is_scale = _SCALE_RANGE[0] <= calibration.depth_scale <= _SCALE_RANGE[1]
+    if not (is_scale and abs(calibration.depth_offset_m) <= _MAX_OFFSET_M):
+        raise _ContentError(phrase("{calibration} has depth that no camera reads", calibration=_CALIBRATION))
+    return calibration
 
 
-def _parse_size(path: Path, content: dict[str, Any], key: str) -> int:
-    value = content.get(key)
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 < value <= _MAX_SIDE_PX:
-        raise CameraFileUnreadable(path, phrase("{key} is not a number of pixels", key=key))
-    return value
-
-
-def _parse_depth_unit_m(path: Path, content: dict[str, Any]) -> float | None:
+def _parse_depth_unit_m(content: dict[str, Any]) -> float | None:
     value = content.get("depth_unit_m")
     if value is None:
         return None
@@ -273,29 +249,22 @@ def _parse_depth_unit_m(path: Path, content: dict[str, Any]) -> float | None:
     except (TypeError, ValueError):
         unit_m = math.nan
     if not _DEPTH_UNIT_RANGE_M[0] <= unit_m <= _DEPTH_UNIT_RANGE_M[1]:
-        raise CameraFileUnreadable(path, phrase("depth_unit_m is not metres per count, as 0.001 or 0.0002"))
+        raise _ContentError(phrase("depth_unit_m is not metres per count, as 0.001 or 0.0002"))
     return unit_m
 
 
-def _parse_flag(path: Path, content: dict[str, Any], key: str) -> bool | None:
-    value = content.get(key)
-    if value is None or isinstance(value, bool):
-        return value
-    raise CameraFileUnreadable(path, phrase("{key} is neither true nor false", key=key))
-
-
-def _parse_numbers(path: Path, content: dict[str, Any], key: str) -> list[float]:
+def _parse_numbers(content: dict[str, Any], key: str) -> list[float]:
     block = content.get(key)
     data = block.get("data") if isinstance(block, dict) else None
     if not isinstance(data, list):
-        raise CameraFileUnreadable(path, phrase("{key} has no data", key=key))
+        raise _ContentError(phrase("{key} has no data", key=key))
     try:
         # YAML 1.1 takes 1e-05 for a word, so words are read as numbers too
         numbers = [float(value) for value in data if not isinstance(value, bool)]
-    except (TypeError, ValueError) as cause:
-        raise CameraFileUnreadable(path, phrase("{key} holds something that is not a number", key=key)) from cause
+    except (TypeError, ValueError):
+        numbers = []
     if len(numbers) != len(data) or not all(math.isfinite(value) for value in numbers):
-        raise CameraFileUnreadable(path, phrase("{key} holds something that is not a number", key=key))
+        raise _ContentError(phrase("{key} holds something that is not a number", key=key))
     return numbers
 
 

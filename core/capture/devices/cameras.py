@@ -39,13 +39,13 @@ def check_library(
     except PackageNotFoundError:
         found = phrase("missing: {package}", package=package)
         return Finding(name, "bad", found, install_hint(package)) if is_needed else None
-    trouble = _find_load_error(load) if loads_library and is_needed else ""
-    if not trouble:
+    load_error = _find_load_error(load) if loads_library and is_needed else ""
+    if not load_error:
         return Finding(name, "good", found)
     return Finding(
         name,
         "bad",
-        phrase("{found}, cannot be loaded: {trouble}", found=found, trouble=trouble),
+        phrase("{found}, cannot be loaded: {trouble}", found=found, load_error=load_error),
         phrase("Install it, and what it names, again."),
     )
 
@@ -150,8 +150,8 @@ CAMERAS = {
 
 def parse_kind(uri: str) -> str:
     """Return the kind that a camera address names before its first colon, else the default."""
-    named = uri.partition(":")[0]
-    return named if named in CAMERAS else next(iter(CAMERAS))
+    kind_name = uri.partition(":")[0]
+    return kind_name if kind_name in CAMERAS else next(iter(CAMERAS))
 
 
 def validate_address(uri: str) -> None:
@@ -159,9 +159,9 @@ def validate_address(uri: str) -> None:
 
     Without a kind it is an OpenNI2 address with a slash, such as ``1d27/0601@1/7``, or empty.
     """
-    named = uri.partition(":")[0]
-    if named and named not in CAMERAS and "/" not in uri:
-        raise CameraUnknown(named, describe_known_names(named, CAMERAS))
+    kind_name = uri.partition(":")[0]
+    if kind_name and kind_name not in CAMERAS and "/" not in uri:
+        raise CameraUnknown(kind_name, describe_known_names(kind_name, CAMERAS))
 
 
 def load_camera_kind(name: str) -> CameraKind:
@@ -212,6 +212,6 @@ def open_camera(
     """
     validate_address(uri)
     name = choose_kind(uri)
-    named, _, which = uri.partition(":")
-    place = which if named in CAMERAS else uri
+    kind_name, _, which = uri.partition(":")
+    place = which if kind_name in CAMERAS else uri
     return load_camera_kind(name).open(uri=place or None, camera=camera, patience_s=patience_s, notice=notice)

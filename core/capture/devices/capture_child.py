@@ -225,13 +225,13 @@ class CaptureOutlet:
         forward_images : callable
             Waits briefly for images, publishes them and resets the watchdog of their sensor.
         """
-        heard = StreamWatchdog(sensors)
+        watchdog = StreamWatchdog(sensors)
         while not self.is_stopping:
             self.handle_commands(block=False)
             if unplugged.is_set():
                 raise CaptureFailed(CameraLost, "unplugged")
-            forward_images(heard)
-            heard.check()
+            forward_images(watchdog)
+            watchdog.check()
             self.send_heartbeat()
 
     def publish(self, sensor: Sensor, number: int, timestamp_us: int, image: memoryview) -> None:
@@ -326,10 +326,10 @@ def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CaptureFai
 
     Which driver claims the camera is no help: the driver that failed may have claimed it itself.
     """
-    said = reason.lower()
-    if any(word in said for word in _BUSY_WORDS):
+    text = reason.lower()
+    if any(word in text for word in _BUSY_WORDS):
         return CaptureFailed(CameraBusy, reason)
     locked = [str(camera.node) for camera in connected if not camera.can_open]
-    if locked or any(word in said for word in _PERMISSION_WORDS):
+    if locked or any(word in text for word in _PERMISSION_WORDS):
         return CaptureFailed(CameraPermission, locked[0] if locked else reason)
     return CaptureFailed(DriverFailed, reason)

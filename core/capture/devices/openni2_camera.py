@@ -165,20 +165,20 @@ def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
 
 
 def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
-    library, gone = Context(), _UnplugEvent()
-    outlet.retain(library, gone)
-    library.register_disconnect_handler(gone.handle_disconnect)
+    library, unplugged = Context(), _UnplugEvent()
+    outlet.retain(library, unplugged)
+    library.register_disconnect_handler(unplugged.handle_disconnect)
     device, opened = open_camera(library, plan)
-    gone.uri = device.read_info().uri
+    unplugged.uri = device.read_info().uri
     streams = list(device.streams)
 
-    def forward_images(heard: StreamWatchdog) -> None:
+    def forward_images(watchdog: StreamWatchdog) -> None:
         if library.poll_streams(streams, POLL_MS) is not None:
             # the wait names the older stream; reading only that one would starve the other
             for stream in streams:
                 if library.poll_streams([stream], 0) is not None:
                     _publish_image(outlet, stream, opened.modes[stream.sensor])
-                    heard.reset(stream.sensor)
+                    watchdog.reset(stream.sensor)
 
     def lock() -> bool:
         color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
@@ -189,7 +189,7 @@ def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
     outlet.lock_exposure = lock
     outlet.send(opened)
     try:
-        outlet.run(opened.modes, gone, forward_images)
+        outlet.run(opened.modes, unplugged, forward_images)
     finally:
         device.close()
 

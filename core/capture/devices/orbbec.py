@@ -64,14 +64,14 @@ def load_library() -> None:
 def _silence_stdout() -> Iterator[None]:
     """Suppress the process's standard output, on which the library prints its own path."""
     sys.stdout.flush()
-    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
+    stdout, null = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
     try:
         yield
     finally:
-        os.dup2(kept, 1)
-        os.close(kept)
-        os.close(nowhere)
+        os.dup2(stdout, 1)
+        os.close(stdout)
+        os.close(null)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,15 +96,15 @@ def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
     """Return the device to open; raises :class:`CaptureFailed` if there is none."""
     state = ob.OBDeviceAccessState
     held = (state.OB_DEVICE_ACCESS_STATE_CONTROLLED, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE)
-    listed = context.query_devices()
+    listing = context.query_devices()
     names = []
-    for index in range(listed.get_count()):
-        serial = str(listed.get_device_serial_number_by_index(index))
-        name = f"{listed.get_device_name_by_index(index)} {serial}".strip()
+    for index in range(listing.get_count()):
+        serial = str(listing.get_device_serial_number_by_index(index))
+        name = f"{listing.get_device_name_by_index(index)} {serial}".strip()
         if plan.serial in ("", serial):
-            if listed.query_device_access_state(index) in held:
+            if listing.query_device_access_state(index) in held:
                 raise CaptureFailed(CameraBusy, name)
-            return listed.get_device_by_index(index)
+            return listing.get_device_by_index(index)
         names.append(name)
     raise camera_unlisted_error(find_usb_cameras(plan.models), names)
 
@@ -165,15 +165,15 @@ def set_property(ob: Any, device: Any, prop: Any, value: float) -> bool:
 
 def read_full_size_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
     """Return size and intrinsics of the colour images as the camera sends them."""
-    found, bent = color.get_intrinsic(), color.get_distortion()
+    found, distortion = color.get_intrinsic(), color.get_distortion()
     model = ob.OBCameraDistortionModel
-    five = (bent.k1, bent.k2, bent.p1, bent.p2, bent.k3)
+    five = (distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3)
     name, coefficients = {
         model.BROWN_CONRADY: ("plumb_bob", five),
-        model.BROWN_CONRADY_K6: ("rational_polynomial", (*five, bent.k4, bent.k5, bent.k6)),
+        model.BROWN_CONRADY_K6: ("rational_polynomial", (*five, distortion.k4, distortion.k5, distortion.k6)),
         model.INVERSE_BROWN_CONRADY: ("inverse_brown_conrady", five),
-    }.get(bent.model, (str(bent.model.name).lower(), five))
-    if bent.model == model.NONE or not any(coefficients):
+    }.get(distortion.model, (str(distortion.model.name).lower(), five))
+    if distortion.model == model.NONE or not any(coefficients):
         name, coefficients = "plumb_bob", (0.0,) * 5
     size_px = (int(color.get_width()), int(color.get_height()))
     return size_px, Lens(found.fx, found.fy, found.cx, found.cy, name, tuple(float(each) for each in coefficients))
@@ -211,10 +211,12 @@ def describe_device(ob: Any, device: Any, streams: OrbbecStreams) -> dict[str, s
 
 def _list_profiles(ob: Any, pipeline: Any, sensor: Any) -> list[Any]:
     try:
-        listed = pipeline.get_stream_profile_list(sensor)
+        listing = pipeline.get_stream_profile_list(sensor)
     except (RuntimeError, ob.OBError):
         return []  # a camera without this sensor
-    return [listed.get_stream_profile_by_index(index).as_video_stream_profile() for index in range(listed.get_count())]
+    return [
+        listing.get_stream_profile_by_index(index).as_video_stream_profile() for index in range(listing.get_count())
+    ]
 
 
 def _is_color(ob: Any, profile: Any) -> bool:
@@ -250,11 +252,11 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     context = plan.make_context() if plan.make_context is not None else ob.Context()
     device = find_device(ob, context, plan)
     serial = device.get_device_info().get_serial_number()
-    gone = threading.Event()
+    unplugged = threading.Event()
 
     def handle_change(removed: Any, _added: Any) -> None:
         if serial in [removed.get_device_serial_number_by_index(each) for each in range(removed.get_count())]:
-            gone.set()
+            unplugged.set()
 
     context.set_device_changed_callback(handle_change)
     pipeline = ob.Pipeline(device)
@@ -270,27 +272,27 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     pictures = _OrbbecImages(ob, outlet, streams)
     lock = ColorLock(outlet, _OrbbecControls(ob, device, streams))
     outlet.lock_exposure = lock.start
-    is_told = False
+    is_reported = False
 
-    def forward_images(heard: StreamWatchdog) -> None:
-        nonlocal is_told
+    def forward_images(watchdog: StreamWatchdog) -> None:
+        nonlocal is_reported
         both = pipeline.wait_for_frames(POLL_MS)
         color, depth = (None, None) if both is None else (both.get_color_frame(), both.get_depth_frame())
         if depth is not None:
-            heard.reset(Sensor.DEPTH)
-            if not is_told:  # a depth picture tells its unit, in millimetres
+            watchdog.reset(Sensor.DEPTH)
+            if not is_reported:  # a depth picture tells its unit, in millimetres
                 unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
                 mirrored = dict.fromkeys(streams.modes, False)
                 outlet.send(DeviceOpened(streams.modes, mirrored, None, settings, read_lens(ob, streams), unit_m))
-                is_told = True
+                is_reported = True
             pictures.forward_depth(depth)
         if color is not None:
-            heard.reset(Sensor.COLOR)
+            watchdog.reset(Sensor.COLOR)
             picture = pictures.forward_color(color)
             if picture is not None:
                 lock.add_frame(picture)
 
-    outlet.run(streams.modes, gone, forward_images)
+    outlet.run(streams.modes, unplugged, forward_images)
     pipeline.stop()
 
 
@@ -324,11 +326,11 @@ class _OrbbecImages:
 
     def forward_depth(self, frame: Any) -> None:
         """Publish a depth image; one that cannot be registered is skipped, and its frame has no depth."""
-        laid = self._align.process(frame)
-        if laid is None:
+        registered = self._align.process(frame)
+        if registered is None:
             return
-        laid = laid.as_depth_frame()
-        picture = laid.get_data().view("<u2").reshape(laid.get_height(), laid.get_width())
+        registered = registered.as_depth_frame()
+        picture = registered.get_data().view("<u2").reshape(registered.get_height(), registered.get_width())
         self._publish(Sensor.DEPTH, frame, self._bending.distort(picture))
 
     def _publish(self, sensor: Sensor, frame: Any, picture: Any) -> memoryview:

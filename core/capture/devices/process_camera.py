@@ -183,15 +183,11 @@ class ProcessCamera:
                 self._notice(ExposureUnstable(self._info.name))
             for frame in frames:
                 self._last_frame_s = time.monotonic()
-                self._relock_exposure()
+                if self._frames_to_relock:  # a reconnected camera has lost its lock; its automatic settles first
+                    self._frames_to_relock -= 1
+                    if self._frames_to_relock == 0 and self._is_exposure_locked:
+                        self._process.send_command(LockExposure())
                 yield frame
-
-    def _relock_exposure(self) -> None:
-        """Lock the exposure of a camera that was reconnected, once its automatic has settled."""
-        if self._frames_to_relock:
-            self._frames_to_relock -= 1
-            if self._frames_to_relock == 0 and self._is_exposure_locked:
-                self._process.send_command(LockExposure())
 
     def _reconnect(self, lost: CarpusFault) -> float | None:
         """Wait for the camera; return the seconds of its absence, or None if closed.

@@ -281,44 +281,46 @@ def serve(outlet: CaptureOutlet, plan: CameraConfig | Path) -> None:
 def _serve_camera(rs: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     context = plan.make_context() if plan.make_context is not None else rs.context()
     device = find_device(rs, context, plan)
-    gone = threading.Event()
-    context.set_devices_changed_callback(lambda change: gone.set() if change.was_removed(device) else None)
+    unplugged = threading.Event()
+    context.set_devices_changed_callback(lambda change: unplugged.set() if change.was_removed(device) else None)
     streams = choose_streams(rs, device, plan)
     settings = describe_device(rs, device, streams) | configure(rs, streams)
-    waiting: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
-    outlet.retain(context, device, streams, waiting)
+    frame_queue: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
+    outlet.retain(context, device, streams, frame_queue)
 
     def enqueue(frame: Any) -> None:
         frame.keep()
         while True:
             try:
-                waiting.put_nowait(frame)
+                frame_queue.put_nowait(frame)
                 return
             except queue.Full:
-                _get_frame(waiting, 0.0)  # the oldest; its number is missing then, and counted
+                _get_frame(frame_queue, 0.0)  # the oldest; its number is missing then, and counted
 
     _start_streams(streams, enqueue)
     pictures = _RealSenseImages(rs, outlet, streams)
     hold = ColorLock(outlet, _RealSenseControls(rs, streams))
     outlet.lock_exposure = hold.start
-    is_told = False
+    is_reported = False
 
-    def forward_images(heard: StreamWatchdog) -> None:
-        nonlocal is_told
-        frame = _get_frame(waiting, POLL_MS / 1000.0)
+    def forward_images(watchdog: StreamWatchdog) -> None:
+        nonlocal is_reported
+        frame = _get_frame(frame_queue, POLL_MS / 1000.0)
         if frame is None:
             return
         sensor = _frame_sensor(rs, frame)
-        heard.reset(sensor)
-        if sensor == Sensor.COLOR and not is_told:
+        watchdog.reset(sensor)
+        if sensor == Sensor.COLOR and not is_reported:
             outlet.send(_build_report(rs, streams, settings | {"clock": _clock_name(rs, frame)}))
-            is_told = True
+            is_reported = True
         pictures.forward(frame)
         if sensor == Sensor.COLOR:
             hold.add_frame(memoryview(frame.get_data()).cast("B"))
 
-    outlet.run(streams.modes, gone, forward_images)
-    _stop_streams(streams)
+    outlet.run(streams.modes, unplugged, forward_images)
+    for sensor, _ in streams.opening:
+        sensor.stop()
+        sensor.close()
 
 
 def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
@@ -330,37 +332,37 @@ def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
         raise CaptureFailed(RecordingDamaged, " ".join(str(failure).split())) from failure
     except CaptureFailed as failure:
         raise CaptureFailed(RecordingUnsupported, failure.detail) from failure
-    waiting: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
-    outlet.retain(playback, streams, waiting)
+    frame_queue: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
+    outlet.retain(playback, streams, frame_queue)
 
     def enqueue(frame: Any) -> None:
         frame.keep()
-        waiting.put(frame)  # the library reads on only when this is over
+        frame_queue.put(frame)  # the library reads on only when this is over
 
     settings = describe_device(rs, playback, streams)
     playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
     _start_streams(streams, enqueue)
     playback.resume()
     pictures = _RealSenseImages(rs, outlet, streams)
-    heard = time.monotonic()
-    is_told = False
+    watchdog = time.monotonic()
+    is_reported = False
     while not outlet.is_stopping:
         outlet.handle_commands(block=not outlet.has_free_slot)
         if not outlet.has_free_slot:
-            heard = time.monotonic()
+            watchdog = time.monotonic()
             continue
-        frame = _get_frame(waiting, POLL_MS / 1000.0)
+        frame = _get_frame(frame_queue, POLL_MS / 1000.0)
         if frame is not None:
-            heard = time.monotonic()
-            if not is_told:
+            watchdog = time.monotonic()
+            if not is_reported:
                 outlet.send(_build_report(rs, streams, settings | {"clock": _clock_name(rs, frame)}))
-                is_told = True
+                is_reported = True
             pictures.forward(frame)
-        elif playback.current_status() == rs.playback_status.stopped and waiting.empty():
-            if not is_told:
+        elif playback.current_status() == rs.playback_status.stopped and frame_queue.empty():
+            if not is_reported:
                 raise CaptureFailed(RecordingDamaged, "no picture in it")
             return
-        elif time.monotonic() - heard > FILE_SILENCE_S:
+        elif time.monotonic() - watchdog > FILE_SILENCE_S:
             raise CaptureFailed(RecordingDamaged, f"no picture for {FILE_SILENCE_S:g} s")
         outlet.send_heartbeat()
 
@@ -372,15 +374,9 @@ def _start_streams(streams: RealsenseStreams, take: Callable[[Any], None]) -> No
         sensor.start(take)
 
 
-def _stop_streams(streams: RealsenseStreams) -> None:
-    for sensor, _ in streams.opening:
-        sensor.stop()
-        sensor.close()
-
-
-def _get_frame(waiting: queue.Queue[Any], wait_s: float) -> Any | None:
+def _get_frame(frame_queue: queue.Queue[Any], wait_s: float) -> Any | None:
     try:
-        return waiting.get(timeout=wait_s) if wait_s > 0.0 else waiting.get_nowait()
+        return frame_queue.get(timeout=wait_s) if wait_s > 0.0 else frame_queue.get_nowait()
     except queue.Empty:
         return None
 
@@ -411,7 +407,9 @@ class _RealSenseImages:
         self._color: Any | None = None
         self._early: list[Any] = []
         self._joined = rs.frame_queue(1)
-        self._join = rs.processing_block(self._join_frames)
+        self._join = rs.processing_block(
+            lambda frame, source: source.frame_ready(source.allocate_composite_frame([frame, self._color]))
+        )
         self._join.start(self._joined)
         outlet.retain(self)
 
@@ -437,11 +435,8 @@ class _RealSenseImages:
     def _forward_depth(self, frame: Any) -> None:
         self._join.invoke(frame)
         both = self._joined.wait_for_frame(JOIN_MS).as_frameset()
-        laid = self._align.process(both).get_depth_frame()
-        self._publish(Sensor.DEPTH, laid, memoryview(laid.get_data()).cast("B"))
-
-    def _join_frames(self, frame: Any, source: Any) -> None:
-        source.frame_ready(source.allocate_composite_frame([frame, self._color]))
+        registered = self._align.process(both).get_depth_frame()
+        self._publish(Sensor.DEPTH, registered, memoryview(registered.get_data()).cast("B"))
 
     def _publish(self, sensor: Sensor, frame: Any, picture: memoryview) -> None:
         self._outlet.publish(sensor, frame.get_frame_number(), round(frame.get_timestamp() * 1000.0), picture)

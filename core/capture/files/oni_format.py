@@ -140,11 +140,13 @@ def _decode_indices(data: bytes, first: int) -> NDArray[np.int32]:
     step[escape, 1] = np.where(behind < 0x80, 0, 192 - behind)
     times[escape + 1] = 0
     times[far + 2] = 0
-    kept = np.flatnonzero(times)
-    index, times = np.cumsum(step.ravel()[kept], dtype=np.int32), times.ravel()[kept]
-    anew = np.searchsorted(kept, 2 * far + 1)
+    used = np.flatnonzero(times)
+    index, times = np.cumsum(step.ravel()[used], dtype=np.int32), times.ravel()[used]
+    restarts = np.searchsorted(used, 2 * far + 1)
     written = behind[behind < 0x80] << 8 | coded[far + 2]
-    index += np.repeat(np.append(first, written - index[anew]), np.diff([0, *anew, len(index)])).astype(np.int32)
+    index += np.repeat(np.append(first, written - index[restarts]), np.diff([0, *restarts, len(index)])).astype(
+        np.int32
+    )
     if len(index) and index.min() < 0:
         raise IndexError("an index below nothing")
     return np.append(np.int32(first), np.repeat(index, times))

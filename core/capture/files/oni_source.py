@@ -116,9 +116,9 @@ class _Node:
 
     @property
     def pixel_format(self) -> int:
-        told, old = self.read_int(oni.PIXEL_FORMAT_2), self.read_int(oni.PIXEL_FORMAT_1)
-        if told or self.kind == NodeType.DEPTH:
-            return told or PixelFormat.DEPTH_1_MM  # whatever the old number says
+        new, old = self.read_int(oni.PIXEL_FORMAT_2), self.read_int(oni.PIXEL_FORMAT_1)
+        if new or self.kind == NodeType.DEPTH:
+            return new or PixelFormat.DEPTH_1_MM  # whatever the old number says
         return _OLD_FORMATS.get(old, PixelFormat.JPEG) if old else PixelFormat.RGB888
 
 
@@ -286,11 +286,11 @@ class _ContentsReader:
         return OniContents(self._path, self._identity, version, color, depth)
 
     def _build_stream(self, node: _Node) -> OniStream:
-        told, pixel_format = node.properties, node.pixel_format
-        width, height, fps = struct.unpack("<III", told.get(oni.MAP_OUTPUT_MODE, bytes(12)))
+        properties, pixel_format = node.properties, node.pixel_format
+        width, height, fps = struct.unpack("<III", properties.get(oni.MAP_OUTPUT_MODE, bytes(12)))
         if not (1 <= width <= MAX_WIDTH_PX and 1 <= height <= MAX_HEIGHT_PX and 1 <= fps <= MAX_FPS):
             raise self._damage_error(f"pictures of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
-        if any(told.get(oni.CROPPING, b"")[:4]):
+        if any(properties.get(oni.CROPPING, b"")[:4]):
             raise RecordingUnsupported(self._path, phrase("cropped pictures"))
         if pixel_format not in _FORMATS[node.kind]:
             name = next((each.name for each in PixelFormat if each == pixel_format), str(pixel_format))
@@ -299,10 +299,10 @@ class _ContentsReader:
                 self._path, phrase("depth as {name}", name=name) if is_depth else phrase("colour as {name}", name=name)
             )
         view: tuple[float, float] | None = None
-        if oni.FIELD_OF_VIEW in told:
-            across, down = struct.unpack("<dd", told[oni.FIELD_OF_VIEW])
+        if oni.FIELD_OF_VIEW in properties:
+            across, down = struct.unpack("<dd", properties[oni.FIELD_OF_VIEW])
             view = (across, down) if 0.0 < across < math.pi and 0.0 < down < math.pi else None
-        mirrored = any(told.get(oni.MIRROR, b""))
+        mirrored = any(properties.get(oni.MIRROR, b""))
         columns = np.array(node.images, np.int64).T
         return OniStream(width, height, fps, node.codec.decode("ascii"), pixel_format, mirrored, view, *columns)
 
@@ -325,11 +325,11 @@ class OniSource:
         if self._contents.depth is not None:
             self._streams[Sensor.DEPTH] = self._contents.depth
         sidecar = sidecar_path(path)
-        told = read_camera_info(sidecar) if sidecar.exists() else None
-        self._layout = _build_layout(self._contents, told)
+        camera_info = read_camera_info(sidecar) if sidecar.exists() else None
+        self._layout = _build_layout(self._contents, camera_info)
         times_us = self._contents.color.timestamp_us
         self._period_us = float(np.median(np.diff(times_us))) if len(times_us) > 1 else 1e6 / self._contents.color.fps
-        self._info = self._build_info(told, registered)
+        self._info = self._build_info(camera_info, registered)
 
     @property
     def info(self) -> SourceInfo:
@@ -396,33 +396,37 @@ class OniSource:
         if counts:
             self._notice(DamagedFramesExcluded(self._path, ", ".join(counts)))
 
-    def _build_info(self, told: CameraInfo | None, answer: bool | None) -> SourceInfo:
+    def _build_info(self, camera_info: CameraInfo | None, answer: bool | None) -> SourceInfo:
         contents, layout = self._contents, self._layout
         view = contents.color.field_of_view_rad or (contents.depth.field_of_view_rad if contents.depth else None)
         camera = (
-            rescale_camera(told.camera, layout.size_px) if told else camera_from_field_of_view(layout.size_px, view)
+            rescale_camera(camera_info.camera, layout.size_px)
+            if camera_info
+            else camera_from_field_of_view(layout.size_px, view)
         )
         if camera is None:
             size = "{}x{}".format(*layout.size_px)
-            if told:
-                detail = f"for pictures of {told.camera.width_px}x{told.camera.height_px}, these are {size}"
+            if camera_info:
+                detail = (
+                    f"for pictures of {camera_info.camera.width_px}x{camera_info.camera.height_px}, these are {size}"
+                )
                 raise CameraFileUnreadable(sidecar_path(self._path), detail)
             raise RecordingUnsupported(self._path, phrase("no intrinsics for pictures of {size}", size=size))
         settings = {"format": f".oni {contents.version}", "color": _format_stream(contents, "color")}
         if contents.depth is not None:
             settings["depth"] = _format_stream(contents, "depth")
-            settings["registered"] = self._resolve_registration(told.registered if told else None, answer)
+            settings["registered"] = self._resolve_registration(camera_info.registered if camera_info else None, answer)
         settings["mirrored"] = "turned back" if layout.color_mirrored else "no"
         if layout.format_enlargement:
             settings["enlarged"] = layout.format_enlargement
             self._notice(FramesEnlarged(self._path, layout.format_enlargement))
-        if told is not None and told.simulated:
+        if camera_info is not None and camera_info.simulated:
             settings[SIMULATED] = "yes"
         has_depth, count = contents.depth is not None, len(contents.color)
         return SourceInfo(self._path.name, camera, has_depth, count, float(contents.color.fps), settings)
 
-    def _resolve_registration(self, told: bool | None, answer: bool | None) -> str:
-        registered = told if told is not None else answer
+    def _resolve_registration(self, camera_info: bool | None, answer: bool | None) -> str:
+        registered = camera_info if camera_info is not None else answer
         if registered is None:
             self._notice(RegistrationAssumed(self._path))
             return "assumed"
@@ -431,9 +435,9 @@ class OniSource:
         return "yes" if registered else "no"
 
 
-def _build_layout(contents: OniContents, told: CameraInfo | None) -> StreamLayout:
+def _build_layout(contents: OniContents, camera_info: CameraInfo | None) -> StreamLayout:
     color, depth = contents.color, contents.depth
-    mirrored = told.mirrored if told else None
+    mirrored = camera_info.mirrored if camera_info else None
     layout = StreamLayout(
         (color.width_px, color.height_px),
         (depth.width_px, depth.height_px) if depth else None,

@@ -227,7 +227,7 @@ class RawRecording:
         try:
             with path.open("rb") as file:
                 head, self._entries, done, self._surplus_bytes = _build_index(path, file)
-                said = b"" if head is None else _read_payload(file, head)
+                header = b"" if head is None else _read_payload(file, head)
         except OSError as cause:
             raise RecordingUnreadable(path, cause.strerror or "") from cause
         if not self._entries:
@@ -236,7 +236,7 @@ class RawRecording:
         self._count = max(entry.number for entry in self._entries) + 1 if done is None else done.number
         self._times_s = np.array([entry.timestamp_s for entry in self._entries])
         try:
-            content = json.loads(said or b"")
+            content = json.loads(header or b"")
             camera = dict(content["camera"])
             camera["distortion"] = tuple(camera["distortion"])
             if len(camera["distortion"]) != DISTORTION_COEFFICIENT_COUNTS[camera.get("distortion_model", "plumb_bob")]:

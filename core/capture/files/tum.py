@@ -107,7 +107,12 @@ class TumFolder:
         color, color_gone = _check_files(_read_list(folder / COLOR_LIST, notice), skip_damaged, first=True)
         if not color:
             raise RecordingEmpty(folder, phrase("no picture in {color_list}", color_list=COLOR_LIST))
-        depth, depth_gone = _check_files(_read_depth_list(folder, requires_depth, notice), skip_damaged, first=False)
+        depth_list = folder / DEPTH_LIST
+        depth_entries = _read_list(depth_list, notice) if depth_list.exists() else []
+        if requires_depth and not depth_entries:
+            missing = phrase("no picture in {depth_list}", depth_list=DEPTH_LIST)
+            raise DepthMissing(folder, missing if depth_list.exists() else f"no {DEPTH_LIST}")
+        depth, depth_gone = _check_files(depth_entries, skip_damaged, first=False)
         if color_gone or depth_gone:
             notice(DamagedFramesExcluded(folder, _format_counts(color_gone, depth_gone, "missing")))
         color_s = np.array([time_s for time_s, _ in color])
@@ -131,6 +136,12 @@ class TumFolder:
         self._depth_unit_m = camera_info.depth_unit_m or _estimate_depth_unit_m(
             folder, self.stored_frames, camera_info.camera, notice
         )
+        with (folder / COLOR_LIST).open(encoding="utf-8-sig") as lines:
+            remarks = [line.strip() for line in lines if line.startswith("#")]
+
+        def read_remark(start: str) -> str:
+            return next((line.removeprefix(start) for line in remarks if line.startswith(start)), "")
+
         self.info = SourceInfo(
             name=folder.resolve().name,
             camera=camera_info.camera,
@@ -140,28 +151,26 @@ class TumFolder:
             settings={
                 "format": "tum",
                 "depth_unit_m": repr(self._depth_unit_m),
-                **_read_simulated_setting(folder / COLOR_LIST),
+                **({SIMULATED: "yes"} if SIMULATED_REMARK in remarks else {}),
             },
-            recording_id=_read_remark(folder / COLOR_LIST, RECORDING_ID_REMARK),
-            recorded=_read_remark(folder / COLOR_LIST, RECORDED_REMARK),
+            recording_id=read_remark(RECORDING_ID_REMARK),
+            recorded=read_remark(RECORDED_REMARK),
         )
 
     def frames(self) -> Iterator[Frame]:
         """Yield the frames in order; may be repeated."""
-        decoded = self._prefetch_frames(self._read_ahead) if self._read_ahead > 0 else self._load_frames()
-        return self._number_frames(decoded)
+        if self._read_ahead > 0:
+            return self._number_frames(self._prefetch_frames(self._read_ahead))
+        return self._number_frames(self._load_frame(index) for index in range(len(self.stored_frames)))
 
     def close(self) -> None:
         """Do nothing: no file is open between two frames."""
 
-    def _load_frames(self) -> Iterator[_DecodedFrame]:
-        return (self._load_frame(index) for index in range(len(self.stored_frames)))
-
     def _number_frames(self, decoded: Iterator[_DecodedFrame]) -> Iterator[Frame]:
         """Yield the decoded frames, numbered; skipped ones count as missing before the next."""
         number, color_lost, depth_lost, missing = 0, 0, 0, 0
-        with closing(decoded) as all_of_them:  # type: ignore[type-var]
-            for frame, depth_is_lost in all_of_them:
+        with closing(decoded) as loaded:  # type: ignore[type-var]
+            for frame, depth_is_lost in loaded:
                 depth_lost += depth_is_lost
                 if frame is None:
                     color_lost += 1
@@ -258,23 +267,13 @@ def count_dropped_frames(timestamp_s: FloatArray) -> list[int]:
     return [0, *(max(0, round(float(gap)) - 1) for gap in gap_s / np.median(gap_s))]
 
 
-def _read_depth_list(folder: Path, need_depth: bool, notice: NoticeHandler) -> list[_Entry]:
-    path = folder / DEPTH_LIST
-    depth = _read_list(path, notice) if path.exists() else []
-    if need_depth and not depth:
-        raise DepthMissing(
-            folder, phrase("no picture in {depth_list}", depth_list=DEPTH_LIST) if path.exists() else f"no {DEPTH_LIST}"
-        )
-    return depth
-
-
 def _estimate_depth_unit_m(folder: Path, stored: Sequence[StoredFrame], camera: Camera, notice: NoticeHandler) -> float:
     """Return metres per count: the format's 1/5000, or 1 mm if half of the readings would be far too near."""
     for frame in [frame for frame in stored if frame.depth is not None][:_UNIT_SAMPLE_FRAMES]:
         assert frame.depth is not None
         try:
             counts = read_depth(frame.depth)
-        except FrameDamaged:  # told when it is read
+        except FrameDamaged:  # reported when it is read
             continue
         if (counts > 0).any():
             middle, nearest_m = float(np.median(counts[counts > 0])), camera.sensor.nearest_m
@@ -299,14 +298,14 @@ def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
     except UnicodeDecodeError as cause:
         raise RecordingUnreadable(path, phrase("not a text file")) from cause
     entries: list[_Entry] = []
-    twice = 0
+    repeated = 0
     for number, line in enumerate(text.splitlines(), start=1):
         content = line.strip()
         if not content or content.startswith("#"):
             continue
         time_s, picture = _parse_entry(path, number, content)
         if entries and time_s == entries[-1][0]:
-            twice += 1
+            repeated += 1
             continue
         if entries and time_s < entries[-1][0]:
             raise TimesUnordered(
@@ -319,27 +318,27 @@ def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
                 ),
             )
         entries.append((time_s, picture, f"{path.name} line {number}"))
-    if twice:
-        notice(RepeatedTimesExcluded(path, str(twice)))
+    if repeated:
+        notice(RepeatedTimesExcluded(path, str(repeated)))
     step = float(np.median(np.diff([time_s for time_s, _, _ in entries]))) if len(entries) > 1 else 0.0
-    for least, scale, unit in _TIME_UNITS:
-        if step >= least:
+    for min_step, scale, unit in _TIME_UNITS:
+        if step >= min_step:
             notice(UnitAssumed(path, phrase("times in {unit}, not in seconds", unit=unit)))
             return [(time_s * scale, picture, place) for time_s, picture, place in entries]
     return entries
 
 
-def _check_files(entries: list[_Entry], leave_out: bool, *, first: bool) -> tuple[list[tuple[float, Path]], int]:
+def _check_files(entries: list[_Entry], skip_damaged: bool, *, first: bool) -> tuple[list[tuple[float, Path]], int]:
     """Return the entries whose files exist, and the number of others; the first colour image must exist."""
-    out: list[tuple[float, Path]] = []
+    found: list[tuple[float, Path]] = []
     for time_s, picture, place in entries:
         if _is_file(picture):
-            out.append((time_s, picture))
-        elif first and not out:
+            found.append((time_s, picture))
+        elif first and not found:
             raise InitialFrameDamaged(picture, phrase("missing, {place}", place=place))
-        elif not leave_out:
+        elif not skip_damaged:
             raise FrameDamaged(picture, phrase("missing, {place}", place=place))
-    return out, len(entries) - len(out)
+    return found, len(entries) - len(found)
 
 
 def _is_file(path: Path) -> bool:
@@ -352,18 +351,6 @@ def _is_file(path: Path) -> bool:
 def _format_counts(color: int, depth: int, how: str) -> str:
     counts = [f"{count} {kind}" for count, kind in ((color, "colour"), (depth, "depth")) if count]
     return f"{' and '.join(counts)} {how}"
-
-
-def _read_simulated_setting(color_list: Path) -> dict[str, str]:
-    with color_list.open(encoding="utf-8-sig") as lines:
-        remarks = (line.strip() for line in lines if line.startswith("#"))
-        return {SIMULATED: "yes"} if SIMULATED_REMARK in remarks else {}
-
-
-def _read_remark(color_list: Path, remark: str) -> str:
-    """Return what follows a remark in a list, else an empty text."""
-    with color_list.open(encoding="utf-8-sig") as lines:
-        return next((line.removeprefix(remark).strip() for line in lines if line.startswith(remark)), "")
 
 
 def _parse_entry(path: Path, number: int, content: str) -> tuple[float, Path]:
@@ -434,7 +421,8 @@ class TumWriter(FileWriter):
                 (path / kind).mkdir()
                 self._lists[kind] = open(path / name, "xb", 0, opener=open_private)  # noqa: SIM115  # closed by close
                 remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
-                remark += "".join(f"{name}{value}\n" for name, value in _recording_remarks(info) if value)
+                remark += f"{RECORDED_REMARK}{info.recorded}\n" if info.recorded else ""
+                remark += f"{RECORDING_ID_REMARK}{info.recording_id}\n" if info.recording_id else ""
                 _append(self._lists[kind], f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
             write_camera_info(path / CAMERA_FILE, info.camera)
         except OSError as cause:
@@ -495,10 +483,6 @@ def _append(file: FileIO, text: str) -> None:
         file.truncate(begin)
         file.seek(begin)
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-
-def _recording_remarks(info: SourceInfo) -> tuple[tuple[str, str], ...]:
-    return (RECORDED_REMARK, info.recorded), (RECORDING_ID_REMARK, info.recording_id)
 
 
 def to_tum_depth(depth_raw: DepthImage, depth_unit_m: float) -> DepthImage:
