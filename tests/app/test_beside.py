@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.desktop.window import Desktop
 from carpus.core.records.log import read_log
 from tests.records.samples import LINDEN, kept
-from tests.research.agreement.test_retest import written
+from tests.research.agreement.test_retest import write_session
 
 NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
 EARLIER = NOW - timedelta(days=7)
@@ -23,7 +23,7 @@ EARLIER = NOW - timedelta(days=7)
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """Flexion to and fro by 45 degrees, and a week before by 30."""
     folder = tmp_path_factory.mktemp("sessions")
-    return written(folder, 1, 1, NOW, 45.0), written(folder, 1, 2, EARLIER, 30.0)
+    return write_session(folder, 1, 1, NOW, 45.0), write_session(folder, 1, 2, EARLIER, 30.0)
 
 
 @pytest.fixture

@@ -31,22 +31,22 @@ SIDES: tuple[Side, Side] = ("right", "left")
 NAMES = WRIST6.markers
 
 
-def good(scene: Scene, **kwargs: object) -> Calibration:
+def assert_good(scene: Scene, **kwargs: object) -> Calibration:
     outcome = outcome_of(scene, **kwargs)  # type: ignore[arg-type]
     assert outcome.verdict.findings == ()
     assert outcome.calibration is not None
     return outcome.calibration
 
 
-def only(findings: tuple[CalibrationFinding, ...], kind: str) -> CalibrationFinding:
+def single_finding(findings: tuple[CalibrationFinding, ...], kind: str) -> CalibrationFinding:
     assert [finding.kind for finding in findings] == [kind]
     return findings[0]
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_palm_and_pose_are_measured_on_both_hands(side: Side) -> None:
+def test_calibrate_hand_measures_palm_and_pose_of_both_hands(side: Side) -> None:
     scene = Scene(side)
-    found = good(scene)
+    found = assert_good(scene)
     assert np.linalg.norm(found.marker_position_w0_m - palm(side), axis=1).max() < 0.0015
     placed = found.marker_position_w0_m @ found.rotation_w0_cam.T + found.translation_w0_cam_m
     assert np.linalg.norm(placed - scene.discs_cam_m, axis=1).max() < 0.0012
@@ -58,14 +58,14 @@ def test_palm_and_pose_are_measured_on_both_hands(side: Side) -> None:
     assert np.allclose(found.marker_position_w0_m[3, 1:], 0.0, atol=1e-9), "X to MCP3"
 
 
-def test_without_noise_the_arch_is_exact() -> None:
-    found = good(Scene(noise=0.0))
+def test_calibrate_hand_without_noise_is_exact() -> None:
+    found = assert_good(Scene(noise=0.0))
     assert np.linalg.norm(found.marker_position_w0_m - palm("right"), axis=1).max() < 3e-4
     assert found.verdict.residual_mm.max() < 0.3
 
 
 @pytest.mark.parametrize("direction_deg", [0.0, 80.0, 160.0, 240.0, 320.0])
-def test_clicks_five_pixels_off_still_land(direction_deg: float) -> None:
+def test_calibrate_hand_clicks_five_pixels_off_are_assigned(direction_deg: float) -> None:
     angle = np.radians(direction_deg + 60.0 * np.arange(6))
     error = 5.0 * np.stack((np.cos(angle), np.sin(angle)), axis=1)
     scene = Scene()
@@ -74,9 +74,9 @@ def test_clicks_five_pixels_off_still_land(direction_deg: float) -> None:
     assert np.abs(outcome.pixel - scene.discs_px).max() < 0.4
 
 
-def test_verdict_tells_the_plain_values() -> None:
+def test_calibrate_hand_verdict_has_plain_values() -> None:
     scene = Scene(tilt_deg=9.0, distance_m=0.66)
-    verdict = good(scene).verdict
+    verdict = assert_good(scene).verdict
     assert verdict.distance_m == pytest.approx(scene.discs_cam_m[0, 2], abs=0.002)
     assert verdict.hand_length_mm == pytest.approx(82.0 / 0.446, rel=0.02)
     # The tilt is told against the line of sight to WRIST, which itself is a few degrees off the axis.
@@ -90,14 +90,14 @@ def test_verdict_tells_the_plain_values() -> None:
     assert verdict.can_start
 
 
-def test_a_click_on_bare_skin_is_named() -> None:
+def test_calibrate_hand_click_on_skin_is_named() -> None:
     scene = Scene()
     clicks = clicks_on(scene)
     pixel = clicks.pixel.copy()
     pixel[4] = 0.5 * (scene.discs_px[0] + scene.discs_px[3]) + [8.0, 0.0]
     assert np.linalg.norm(scene.discs_px - pixel[4], axis=1).min() > 15.0
     outcome = outcome_of(scene, replace(clicks, pixel=pixel))
-    finding = only(outcome.verdict.findings, "click_on_no_marker")
+    finding = single_finding(outcome.verdict.findings, "click_on_no_marker")
     assert finding.markers == ("MCP4",)
     assert finding.blocks
     assert not outcome.verdict.can_start
@@ -109,13 +109,13 @@ def test_a_click_on_bare_skin_is_named() -> None:
     assert caught.value.subject == "MCP4"
 
 
-def test_two_clicks_on_one_disc_are_both_named() -> None:
+def test_calibrate_hand_two_clicks_on_one_marker_are_named() -> None:
     scene = Scene()
     clicks = clicks_on(scene)
     pixel = clicks.pixel.copy()
     pixel[5] = pixel[4] + [1.5, -1.0]
     outcome = outcome_of(scene, replace(clicks, pixel=pixel))
-    finding = only(outcome.verdict.findings, "two_clicks_on_one")
+    finding = single_finding(outcome.verdict.findings, "two_clicks_on_one")
     assert set(finding.markers) == {"MCP4", "MCP5"}
     assert finding.blocks
     with pytest.raises(ClickOnNoMarker):
@@ -129,7 +129,7 @@ def test_two_clicks_on_one_disc_are_both_named() -> None:
         *((pair, "left") for pair in ((0, 3), (1, 2), (3, 4))),
     ],
 )
-def test_two_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None:
+def test_calibrate_hand_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None:
     scene = Scene(side)
     pixel = scene.discs_px.copy()
     pixel[list(pair)] = pixel[list(pair)][::-1]
@@ -141,10 +141,10 @@ def test_two_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None
 
 @pytest.mark.parametrize("by", [1, -2])
 @pytest.mark.parametrize("side", SIDES)
-def test_names_shifted_from_disc_to_disc_are_told_and_refused(side: Side, by: int) -> None:
+def test_calibrate_hand_shifted_labels_are_refused(side: Side, by: int) -> None:
     scene = Scene(side)
     outcome = outcome_of(scene, Clicks(side, WRIST6, np.roll(scene.discs_px, by, axis=0)), still(scene, 5))
-    finding = only(outcome.verdict.findings, "shifted")
+    finding = single_finding(outcome.verdict.findings, "shifted")
     assert set(finding.markers) == set(NAMES)
     assert finding.markers[:2] == ("WRIST", NAMES[-by])
     assert not outcome.verdict.can_start
@@ -152,21 +152,21 @@ def test_names_shifted_from_disc_to_disc_are_told_and_refused(side: Side, by: in
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_wrong_side_is_told(side: Side) -> None:
+def test_calibrate_hand_wrong_side_is_found(side: Side) -> None:
     scene = Scene(side)
     claimed: Side = "left" if side == "right" else "right"
     outcome = outcome_of(scene, Clicks(claimed, WRIST6, scene.discs_px))
-    assert only(outcome.verdict.findings, "wrong_side").blocks is False
+    assert single_finding(outcome.verdict.findings, "wrong_side").blocks is False
 
 
-def test_a_hand_of_another_length_than_last_time_is_doubted() -> None:
+def test_check_hand_length_other_length_is_found() -> None:
     outcome = outcome_of(Scene())
     length_mm = outcome.verdict.hand_length_mm
     for same in (math.nan, length_mm, 0.9 * length_mm, 1.1 * length_mm):
         assert check_hand_length(outcome, same) is outcome
     for other in (0.8 * length_mm, 1.25 * length_mm):
         doubted = check_hand_length(outcome, other)
-        finding = only(doubted.verdict.findings, "other_length")
+        finding = single_finding(doubted.verdict.findings, "other_length")
         assert (finding.value, finding.limit) == (length_mm, other)
         assert doubted.calibration is not None
         assert doubted.calibration.verdict is doubted.verdict, "the session keeps it"
@@ -174,10 +174,10 @@ def test_a_hand_of_another_length_than_last_time_is_doubted() -> None:
 
 
 @pytest.mark.parametrize("marker", [0, 3, 5])
-def test_a_disc_without_depth_is_named(marker: int) -> None:
+def test_calibrate_hand_marker_without_depth_is_named(marker: int) -> None:
     scene = Scene()
     outcome = outcome_of(scene, frames=frames_of(scene, 5, hole_at=marker))
-    finding = only(outcome.verdict.findings, "no_depth")
+    finding = single_finding(outcome.verdict.findings, "no_depth")
     assert finding.markers == (NAMES[marker],)
     assert finding.blocks
     with pytest.raises(MarkerWithoutDepth) as caught:
@@ -185,7 +185,7 @@ def test_a_disc_without_depth_is_named(marker: int) -> None:
     assert caught.value.subject == NAMES[marker]
 
 
-def test_no_depth_picture_at_all_names_every_disc() -> None:
+def test_calibrate_hand_without_depth_names_every_marker() -> None:
     scene = Scene()
     frames = [replace(frame, depth_raw=None) for frame in still(scene)]
     outcome = outcome_of(scene, frames=frames)
@@ -195,11 +195,11 @@ def test_no_depth_picture_at_all_names_every_disc() -> None:
         require_calibration(outcome)
 
 
-def test_a_hole_in_one_picture_only_is_filled_by_the_others() -> None:
+def test_calibrate_hand_depth_hole_in_one_frame_is_averaged() -> None:
     scene = Scene()
     frames = [*frames_of(scene, 1, hole_at=2), *still(scene, 16)]
     frames = [replace(frame, timestamp_s=1.7e9 + k / 30.0) for k, frame in enumerate(frames)]
-    found = good(scene, frames=frames)
+    found = assert_good(scene, frames=frames)
     assert np.linalg.norm(found.marker_position_w0_m[2] - palm("right")[2]) < 0.0015
 
 
@@ -212,10 +212,10 @@ def test_a_hole_in_one_picture_only_is_filled_by_the_others() -> None:
         (Scene(size=1.3), "hand_length", pytest.approx(1.3 * 82.0 / 0.446, rel=0.03), 225.0, "mm"),
     ],
 )
-def test_how_the_hand_lies_is_told_with_its_figure(
+def test_calibrate_hand_tilt_and_distance_are_found_with_value(
     scene: Scene, kind: str, value: object, limit: float, unit: str
 ) -> None:
-    finding = only(outcome_of(scene).verdict.findings, kind)
+    finding = single_finding(outcome_of(scene).verdict.findings, kind)
     assert finding.value == value
     assert (finding.limit, finding.unit, finding.blocks) == (limit, unit, False)
 
@@ -223,7 +223,7 @@ def test_how_the_hand_lies_is_told_with_its_figure(
 @pytest.mark.parametrize(
     ("limit", "kind", "within"), [("most_tilt_deg", "tilt", 1.01), ("least_distance_m", "distance", 0.99)]
 )
-def test_what_lies_beyond_its_limit_by_a_hundredth_is_told(limit: str, kind: str, within: float) -> None:
+def test_calibrate_hand_value_just_beyond_limit_is_found(limit: str, kind: str, within: float) -> None:
     scene = Scene(tilt_deg=9.0, distance_m=0.66)
     verdict = outcome_of(scene).verdict
     value = verdict.tilt_deg if kind == "tilt" else verdict.distance_m
@@ -233,12 +233,12 @@ def test_what_lies_beyond_its_limit_by_a_hundredth_is_told(limit: str, kind: str
 
 
 @pytest.mark.parametrize("count", [1, 4])
-def test_too_few_pictures_are_told(count: int) -> None:
-    finding = only(outcome_of(Scene(), frames=still(Scene(), count)).verdict.findings, "few_frames")
+def test_calibrate_hand_few_frames_are_found(count: int) -> None:
+    finding = single_finding(outcome_of(Scene(), frames=still(Scene(), count)).verdict.findings, "few_frames")
     assert (finding.value, finding.limit) == (count, 5)
 
 
-def test_the_capture_ends_where_the_hand_begins_to_move() -> None:
+def test_neutral_capture_ends_when_the_hand_moves() -> None:
     scene = Scene()
     shift = np.zeros((17, 2))
     shift[9:, 0] = 0.6 * np.arange(1, 9)
@@ -249,7 +249,7 @@ def test_the_capture_ends_where_the_hand_begins_to_move() -> None:
     assert np.abs(outcome.pixel - scene.discs_px).max() < 0.4
 
 
-def test_a_disc_whose_depth_jumps_about_is_told_by_its_residual() -> None:
+def test_calibrate_hand_jumping_depth_gives_residual() -> None:
     scene = Scene()
     frames = []
     for k, frame in enumerate(still(scene)):
@@ -259,14 +259,14 @@ def test_a_disc_whose_depth_jumps_about_is_told_by_its_residual() -> None:
         raw[v - 8 : v + 9, u - 8 : u + 9] += np.uint16(60 if k % 2 else 0)  # 12 mm to and fro
         frames.append(replace(frame, depth_raw=raw))
     verdict = outcome_of(scene, frames=frames).verdict
-    finding = only(verdict.findings, "residual")
+    finding = single_finding(verdict.findings, "residual")
     assert finding.markers == ("MCP4",)
     assert finding.value == pytest.approx(6.0, abs=1.0)
     assert finding.unit == "mm"
     assert not finding.blocks
 
 
-def test_the_noise_of_a_still_hand_is_measured() -> None:
+def test_measure_hand_noise_of_a_still_hand_is_measured() -> None:
     scene = Scene()
     quiet, loud = (outcome_of(one, frames=frames_of(one, 9)).noise for one in (Scene(noise=0.5), Scene(noise=2.0)))
     assert 0.0 < quiet.pixel_sd_px < 0.5 * loud.pixel_sd_px
@@ -276,7 +276,7 @@ def test_the_noise_of_a_still_hand_is_measured() -> None:
     assert np.isnan(few.pixel_sd_px), "three pictures show no noise worth the name"
 
 
-def test_covariances_say_how_well_the_discs_are_known() -> None:
+def test_measure_hand_covariances_match_errors() -> None:
     """Errors in depth over many hands against what is claimed; sideways the discs are known far better."""
     squares = []
     for scene in (Scene(), Scene("left"), Scene(tilt_deg=9.0, distance_m=0.66)):
@@ -292,7 +292,7 @@ def test_covariances_say_how_well_the_discs_are_known() -> None:
     assert np.mean(squares) < 2.0
 
 
-def test_start_angles_are_carried_on() -> None:
+def test_calibrate_hand_start_angles_are_kept() -> None:
     scene = Scene()
     start = np.radians([0.0, 30.0, 0.0])
     args = (clicks_on(scene), still(scene, 5), CAMERA, CalibrationSettings(), DetectionSettings())
@@ -304,15 +304,15 @@ def test_start_angles_are_carried_on() -> None:
     assert np.array_equal(given.marker_position_w0_m, none.marker_position_w0_m), "told, not mixed in"
 
 
-def test_clicks_at_the_very_rim_are_no_trouble() -> None:
+def test_calibrate_hand_clicks_at_the_image_edge_are_accepted() -> None:
     scene = Scene()
     pixel: FloatArray = scene.discs_px.copy()
     pixel[0] = [319.0, 239.0]
     outcome = outcome_of(scene, Clicks("right", WRIST6, pixel), still(scene, 5))
-    assert only(outcome.verdict.findings, "click_on_no_marker").markers == ("WRIST",)
+    assert single_finding(outcome.verdict.findings, "click_on_no_marker").markers == ("WRIST",)
 
 
-def test_a_disc_seen_once_says_nothing_of_the_noise() -> None:
+def test_measure_hand_marker_seen_once_adds_no_noise() -> None:
     rng = np.random.default_rng(5)
     pixel = PALM_PX + rng.normal(0.0, 0.1, (8, 6, 2))
     depth_m = 0.7 + rng.normal(0.0, 0.001, (8, 6))
@@ -324,7 +324,7 @@ def test_a_disc_seen_once_says_nothing_of_the_noise() -> None:
     assert 0.0005 < noise.depth_sd_m < 0.002
 
 
-def _still_capture(clicks: Clicks, frames: int, pixel_sd: float, depth_sd_m: float, said_m: float) -> NeutralCapture:
+def _make_capture(clicks: Clicks, frames: int, pixel_sd: float, depth_sd_m: float, said_m: float) -> NeutralCapture:
     rng = np.random.default_rng(7)
     count = len(clicks.pixel)
     sway = rng.normal(0.0, 0.3, (frames, 1, 2))  # the arm's, common to all discs
@@ -334,13 +334,13 @@ def _still_capture(clicks: Clicks, frames: int, pixel_sd: float, depth_sd_m: flo
 
 
 @pytest.mark.parametrize("protocol", [WRIST6, HAND21])
-def test_the_noise_of_discs_is_that_of_their_own_whatever_their_number(protocol: MarkerProtocol) -> None:
+def test_measure_hand_noise_is_independent_of_marker_count(protocol: MarkerProtocol) -> None:
     """What all share is the hand's; each disc's part of that is given back, to few discs more than to many."""
     spread = np.column_stack((np.arange(21) % 5 * 40.0 + 200.0, np.arange(21) // 5 * 40.0 + 150.0))
     palm = list(HAND21.palm)
     spread[palm] = PALM_PX
     pixel = spread if protocol is HAND21 else PALM_PX
-    capture = _still_capture(Clicks("right", protocol, pixel), 300, 0.1, 0.001, 0.001)
+    capture = _make_capture(Clicks("right", protocol, pixel), 300, 0.1, 0.001, 0.001)
     noise = measure_hand(Clicks("right", protocol, pixel), capture, CAMERA, CalibrationSettings()).noise
     assert noise.pixel_sd_px == pytest.approx(0.1, rel=0.045)
     assert noise.depth_sd_m == pytest.approx(0.001, rel=0.04)
@@ -348,11 +348,11 @@ def test_the_noise_of_discs_is_that_of_their_own_whatever_their_number(protocol:
 
 @pytest.mark.parametrize("frames", [8, 200])
 @pytest.mark.parametrize("said_over_book", [1.0, 3.0])
-def test_how_well_a_disc_is_known_after_so_many_pictures(frames: int, said_over_book: float) -> None:
+def test_measure_hand_covariance_falls_with_frames(frames: int, said_over_book: float) -> None:
     """Scatter is averaged away; the pattern of the depth and a slope stay; across, a tenth of a pixel stays."""
     book_m = float(PRIMESENSE.reading_sd_m(np.array(0.7)))
     clicks = Clicks("right", WRIST6, PALM_PX)
-    capture = _still_capture(clicks, frames, 0.1, 0.001, said_over_book * book_m)
+    capture = _make_capture(clicks, frames, 0.1, 0.001, said_over_book * book_m)
     calibration = measure_hand(clicks, capture, CAMERA, CalibrationSettings()).calibration
     assert calibration is not None
     in_cam = (

@@ -25,7 +25,7 @@ RADIUS_PX = 4.8
 
 
 @lru_cache(maxsize=4)
-def seen(seed: int, paper_to: str = "blue") -> tuple[Frame, Camera, FloatArray]:
+def detect_candidates(seed: int, paper_to: str = "blue") -> tuple[Frame, Camera, FloatArray]:
     """A still hand, its camera and where its discs are (6, 2); the colour channels may be exchanged."""
     pictures = SimulatedRecording(
         RecordingSpec(seed=seed, hand="left" if seed % 2 else "right", distance_m=0.66, light="normal", false_blobs=1.0)
@@ -39,8 +39,8 @@ def seen(seed: int, paper_to: str = "blue") -> tuple[Frame, Camera, FloatArray]:
 
 
 @pytest.mark.parametrize("seed", few([0, 1, 3], 2))
-def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -> None:
-    frame, camera, discs = seen(seed)
+def test_marker_candidates_of_the_palm_are_found_and_snapped_to(seed: int) -> None:
+    frame, camera, discs = detect_candidates(seed)
     found = find_marker_candidates(frame, camera, SETTINGS)
     rng = np.random.default_rng(seed)
     for disc in discs:
@@ -50,7 +50,7 @@ def test_every_disc_is_found_before_any_click_and_clicks_snap_to_it(seed: int) -
 
 
 @pytest.mark.parametrize(("seed", "side"), few([(304, "left"), (301, "right"), (300, "left")], 2))
-def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: int, side: Side) -> None:
+def test_marker_candidates_of_a_whole_hand_are_found_and_labelled(seed: int, side: Side) -> None:
     """The first is a child's, with small discs that take on some of the skin; the last wears a blue sleeve."""
     spec = RecordingSpec(seed=seed, hand=side, protocol="hand21", motion="rest", false_blobs=2.0)
     pictures = SimulatedRecording(spec)
@@ -61,7 +61,7 @@ def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: in
     assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.marker_px[0], axis=1).max() < 3.0  # under a disc
 
 
-def test_clicks_at_the_edges_of_small_discs_are_found_all_the_same() -> None:
+def test_calibrate_hand_clicks_at_edges_of_small_markers_are_assigned() -> None:
     """Colours learnt under them alone are half skin, and discs fall in two."""
     spec = RecordingSpec(
         seed=22, protocol="hand21", motion="fingers", seconds=5.0, hidden_share=0.03, false_blobs=1.0,
@@ -76,16 +76,16 @@ def test_clicks_at_the_edges_of_small_discs_are_found_all_the_same() -> None:
 
 
 @pytest.mark.parametrize("paper_to", ["blue", "green"])
-def test_a_click_on_a_disc_of_any_colour_finds_it(paper_to: str) -> None:
-    frame, camera, discs = seen(0, paper_to)
+def test_marker_at_click_of_any_colour_is_found(paper_to: str) -> None:
+    frame, camera, discs = detect_candidates(0, paper_to)
     for disc in discs:
         taken = find_marker_at_click(frame, disc + 1.0, camera, SETTINGS)
         assert len(taken) == 1
         assert np.linalg.norm(taken.pixel[0] - disc) < 1.0
 
 
-def test_a_click_on_bare_skin_finds_nothing() -> None:
-    frame, camera, discs = seen(0)
+def test_marker_at_click_on_skin_is_none() -> None:
+    frame, camera, discs = detect_candidates(0)
     middles = [(a + b) / 2 for i, a in enumerate(discs) for b in discs[:i]]
     bare = [spot for spot in middles if np.linalg.norm(discs - spot, axis=1).min() > 4 * RADIUS_PX]
     found = find_marker_candidates(frame, camera, SETTINGS)
@@ -94,15 +94,15 @@ def test_a_click_on_bare_skin_finds_nothing() -> None:
     assert sum(len(find_marker_at_click(frame, spot, camera, SETTINGS)) for spot in bare) == 0
 
 
-def test_a_picture_without_a_hand_has_no_candidates_and_a_click_at_its_edge_finds_nothing() -> None:
-    frame, camera, _ = seen(0)
+def test_marker_candidates_without_hand_are_none() -> None:
+    frame, camera, _ = detect_candidates(0)
     grey = Frame(0, 0.0, np.full_like(frame.color_rgb, 90), None, 1.0)
     assert len(find_marker_candidates(grey, camera, SETTINGS)) == 0
     for corner in ((0.0, 0.0), (639.0, 479.0)):
         assert len(find_marker_at_click(grey, np.array(corner), camera, SETTINGS)) == 0
 
 
-def in_dark_cloth(frame: Frame, base: tuple[int, int, int], from_row: int, seed: int) -> Frame:
+def render_dark_cloth(frame: Frame, base: tuple[int, int, int], from_row: int, seed: int) -> Frame:
     """The picture with a dark pullover from a row down: folds, weave and noise, its hue blue by chance."""
     rng = np.random.default_rng(seed)
     shape = frame.color_rgb.shape
@@ -118,9 +118,9 @@ CLOTHS = [(26, 29, 40), (20, 20, 24), (40, 46, 66)]
 
 
 @pytest.mark.parametrize(("seed", "base"), few(zip((0, 1, 0), CLOTHS, strict=True)))
-def test_a_dark_pullover_has_no_discs(seed: int, base: tuple[int, int, int]) -> None:
-    frame, camera, _ = seen(0)
-    cloth = in_dark_cloth(frame, base, 0, seed)
+def test_marker_candidates_of_a_dark_pullover_are_none(seed: int, base: tuple[int, int, int]) -> None:
+    frame, camera, _ = detect_candidates(0)
+    cloth = render_dark_cloth(frame, base, 0, seed)
     found = find_marker_candidates(cloth, camera, SETTINGS)
     assert len(found) <= 8  # it was all that is ever handed on, 48
     assert not (propose_labels(found, camera, "right", HAND21).blob >= 0).any()
@@ -129,10 +129,10 @@ def test_a_dark_pullover_has_no_discs(seed: int, base: tuple[int, int, int]) -> 
 
 
 @pytest.mark.parametrize("base", CLOTHS)
-def test_a_dark_pullover_beside_the_hand_hides_no_disc(base: tuple[int, int, int]) -> None:
-    frame, camera, discs = seen(0)
+def test_marker_candidates_beside_a_dark_pullover_are_found(base: tuple[int, int, int]) -> None:
+    frame, camera, discs = detect_candidates(0)
     below = int(discs[:, 1].max() + 25)
-    found = find_marker_candidates(in_dark_cloth(frame, base, below, 0), camera, SETTINGS)
+    found = find_marker_candidates(render_dark_cloth(frame, base, below, 0), camera, SETTINGS)
     for disc in discs:
         assert np.linalg.norm(found.pixel - disc, axis=1).min() < 1.0
     assert len(found) <= 14

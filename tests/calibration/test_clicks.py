@@ -37,14 +37,14 @@ def write(path: Path, content: Any) -> Path:
     return path
 
 
-def test_the_order_is_the_protocol_s_not_the_file_s(tmp_path: Path) -> None:
+def test_read_clicks_are_in_protocol_order(tmp_path: Path) -> None:
     clicks = read_clicks(write(tmp_path / "c.json", GOOD), 640, 480)
     assert (clicks.side, clicks.protocol) == ("right", WRIST6)
     assert clicks.pixel.tolist() == [MARKERS[name] for name in ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")]
     assert clicks.pixel.dtype == np.float64
 
 
-def test_what_is_written_is_read_and_has_the_agreed_form(tmp_path: Path) -> None:
+def test_write_clicks_are_read_back(tmp_path: Path) -> None:
     pixel = np.random.default_rng(0).uniform(0, 480, (21, 2))
     path = tmp_path / "c.json"
     write_clicks(path, Clicks("left", HAND21, pixel))
@@ -56,7 +56,7 @@ def test_what_is_written_is_read_and_has_the_agreed_form(tmp_path: Path) -> None
     assert content["markers"]["TIP5"] == pixel[20].tolist()
 
 
-def test_a_finger_that_cannot_lie_straight_stays_said(tmp_path: Path) -> None:
+def test_write_clicks_keeps_straight_fingers(tmp_path: Path) -> None:
     path, said = tmp_path / "c.json", (True, True, False, True, True)
     write_clicks(path, Clicks("left", HAND21, np.zeros((21, 2)), said))
     assert read_clicks(path).straight_fingers == said
@@ -69,7 +69,7 @@ def test_a_finger_that_cannot_lie_straight_stays_said(tmp_path: Path) -> None:
             read_clicks(write(tmp_path / "e.json", GOOD | {"straight_fingers": wrong}))
 
 
-def test_clicks_are_never_overwritten(tmp_path: Path) -> None:
+def test_write_clicks_existing_file_is_refused(tmp_path: Path) -> None:
     path = write(tmp_path / "c.json", "mine")
     clicks = Clicks("left", WRIST6, np.zeros((6, 2)))
     with pytest.raises(OutputExists):
@@ -79,12 +79,12 @@ def test_clicks_are_never_overwritten(tmp_path: Path) -> None:
         write_clicks(tmp_path / "nowhere" / "c.json", clicks)
 
 
-def changed(**change: Any) -> dict[str, Any]:
+def change_content(**change: Any) -> dict[str, Any]:
     return GOOD | change
 
 
 def markers(**change: Any) -> dict[str, Any]:
-    return changed(markers=MARKERS | change)
+    return change_content(markers=MARKERS | change)
 
 
 BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
@@ -92,16 +92,16 @@ BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
     "cut off": (json.dumps(GOOD)[:60], ClicksUnreadable, "not JSON"),
     "no object": ([1, 2], ClicksUnreadable, "object"),
     "nested without end": ("[" * 100_000, ClicksUnreadable, "not JSON"),
-    "third hand": (changed(hand="both"), ClicksUnreadable, '"both"'),
+    "third hand": (change_content(hand="both"), ClicksUnreadable, '"both"'),
     "no hand": ({"protocol": "wrist6", "markers": MARKERS}, ClicksUnreadable, "hand is null"),
-    "unknown protocol": (changed(protocol="foot26"), ProtocolUnknown, "wrist6, hand21"),
+    "unknown protocol": (change_content(protocol="foot26"), ProtocolUnknown, "wrist6, hand21"),
     "no protocol": ({"hand": "right", "markers": MARKERS}, ProtocolUnknown, "wrist6"),
-    "other protocol": (changed(protocol="hand21"), ClicksUnreadable, "no click for DIP2"),
-    "no markers": (changed(markers=None), ClicksUnreadable, "no markers"),
-    "markers as a list": (changed(markers=[[1, 2]] * 6), ClicksUnreadable, "no markers"),
+    "other protocol": (change_content(protocol="hand21"), ClicksUnreadable, "no click for DIP2"),
+    "no markers": (change_content(markers=None), ClicksUnreadable, "no markers"),
+    "markers as a list": (change_content(markers=[[1, 2]] * 6), ClicksUnreadable, "no markers"),
     "extra marker": (markers(TIP2=[1, 2]), ClicksUnreadable, "unknown marker TIP2"),
     "missing marker": (
-        changed(markers={k: v for k, v in MARKERS.items() if k != "MCP4"}),
+        change_content(markers={k: v for k, v in MARKERS.items() if k != "MCP4"}),
         ClicksUnreadable,
         "no click for MCP4",
     ),
@@ -120,7 +120,7 @@ BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
 
 
 @pytest.mark.parametrize("case", BAD)
-def test_a_wrong_file_is_one_typed_fault_with_the_fact(tmp_path: Path, case: str) -> None:
+def test_read_clicks_invalid_file_is_refused_with_reason(tmp_path: Path, case: str) -> None:
     content, kind, fact = BAD[case]
     path = write(tmp_path / "c.json", content)
     with pytest.raises(kind) as caught:
@@ -129,7 +129,7 @@ def test_a_wrong_file_is_one_typed_fault_with_the_fact(tmp_path: Path, case: str
     assert fact in caught.value.detail
 
 
-def test_no_file_and_no_text(tmp_path: Path) -> None:
+def test_read_clicks_missing_or_binary_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ClicksUnreadable) as caught:
         read_clicks(tmp_path / "nowhere.json")
     assert caught.value.detail == "there is no such file"
@@ -144,7 +144,7 @@ def test_no_file_and_no_text(tmp_path: Path) -> None:
     ("u", "v", "inside"),
     [(-0.5, -0.5, True), (639.4, 479.4, True), (-0.6, 0, False), (639.5, 0, False), (0, 479.5, False)],
 )
-def test_the_picture_ends_at_the_edge_of_its_outer_pixels(u: float, v: float, inside: bool) -> None:
+def test_check_clicks_inside_includes_the_outer_pixels(u: float, v: float, inside: bool) -> None:
     clicks = Clicks("right", WRIST6, np.full((6, 2), 10.0))
     clicks.pixel[3] = u, v
     if inside:

@@ -24,29 +24,29 @@ ROW = HAND21.markers.index
 
 
 @cache
-def _seen(seed: int, side: Side, protocol: str) -> FloatArray:
+def _visible_plan(seed: int, side: Side, protocol: str) -> FloatArray:
     truth = compute_truth(Scene(RecordingSpec(seed=seed, hand=side, protocol=protocol, motion="rest", seconds=0.2)))
     return plan_view(truth.marker_position_cam_m[0])
 
 
-def seen_plan(seed: int, side: Side, protocol: str = "hand21") -> FloatArray:
+def visible_plan(seed: int, side: Side, protocol: str = "hand21") -> FloatArray:
     """A patient's discs at the neutral pose as the camera has them."""
-    return _seen(seed, side, protocol).copy()
+    return _visible_plan(seed, side, protocol).copy()
 
 
 # --- the side -------------------------------------------------------------------------------
 @pytest.mark.parametrize("protocol", PROTOCOLS)
 @pytest.mark.parametrize("side", SIDES)
-def test_the_other_side_is_seen_and_the_own_is_not_doubted(protocol: str, side: Side) -> None:
+def test_other_side_is_found_and_own_side_accepted(protocol: str, side: Side) -> None:
     claimed: Side = "left" if side == "right" else "right"
     for seed in range(12):
-        plan = seen_plan(seed, side, protocol)
+        plan = visible_plan(seed, side, protocol)
         assert not is_other_side(PROTOCOLS[protocol], side, plan)
         assert is_other_side(PROTOCOLS[protocol], claimed, plan)
 
 
-def test_turn_size_and_place_of_the_hand_do_not_matter() -> None:
-    plan = seen_plan(0, "right", "wrist6")
+def test_other_side_is_independent_of_pose_and_size() -> None:
+    plan = visible_plan(0, "right", "wrist6")
     turn = np.array([[0.0, -1.0], [1.0, 0.0]])
     assert not is_other_side(WRIST6, "right", 0.7 * plan @ turn.T - 0.1)
     assert is_other_side(WRIST6, "left", 0.7 * plan @ turn.T - 0.1)
@@ -54,24 +54,24 @@ def test_turn_size_and_place_of_the_hand_do_not_matter() -> None:
 
 # --- the palm -------------------------------------------------------------------------------
 @pytest.mark.parametrize("side", SIDES)
-def test_right_names_are_not_doubted(side: Side) -> None:
+def test_shifted_labels_of_a_right_palm_are_none(side: Side) -> None:
     for seed in range(8):
-        assert find_shifted_labels(side, seen_plan(seed, side, "wrist6")) == ()
-        assert find_shifted_labels(side, seen_plan(seed, side, "hand21")[list(HAND21.palm)]) == ()
+        assert find_shifted_labels(side, visible_plan(seed, side, "wrist6")) == ()
+        assert find_shifted_labels(side, visible_plan(seed, side, "hand21")[list(HAND21.palm)]) == ()
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_names_one_disc_further_on_are_told_with_the_wrist_first(side: Side) -> None:
+def test_shifted_labels_by_one_marker_begin_with_the_wrist(side: Side) -> None:
     for seed in range(6):
-        plan = seen_plan(seed, side, "wrist6")
+        plan = visible_plan(seed, side, "wrist6")
         assert find_shifted_labels(side, np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
         assert find_shifted_labels(side, np.roll(plan, -1, axis=0))[:2] == ("WRIST", "CMC1")
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_every_wrong_order_is_told_name_by_name(side: Side) -> None:
+def test_shifted_labels_of_every_permutation_are_named(side: Side) -> None:
     for seed in range(2):
-        plan = seen_plan(seed, side, "wrist6")
+        plan = visible_plan(seed, side, "wrist6")
         for order in list(permutations(range(6)))[1:]:
             wrong = find_shifted_labels(side, plan[list(order)])
             assert set(wrong) == {PALM_MARKERS[i] for i in range(6) if order[i] != i}
@@ -80,16 +80,16 @@ def test_every_wrong_order_is_told_name_by_name(side: Side) -> None:
             assert wrong[1] == PALM_MARKERS[order[first]]
 
 
-def test_the_other_hand_with_its_names_in_order_is_not_called_shifted() -> None:
+def test_shifted_labels_of_the_other_hand_are_none() -> None:
     for seed in range(6):
-        assert find_shifted_labels("left", seen_plan(seed, "right", "wrist6")) == ()
+        assert find_shifted_labels("left", visible_plan(seed, "right", "wrist6")) == ()
 
 
 @pytest.mark.parametrize("tilt_deg", [-35.0, 35.0])
 @pytest.mark.parametrize("axis", ["x", "y"])
-def test_a_tilted_hand_is_not_doubted_and_a_shift_on_it_is_told(axis: str, tilt_deg: float) -> None:
+def test_shifted_labels_of_a_tilted_hand_are_found(axis: str, tilt_deg: float) -> None:
     for seed in range(6):
-        flat = np.column_stack((seen_plan(seed, "right", "wrist6"), np.zeros(6)))
+        flat = np.column_stack((visible_plan(seed, "right", "wrist6"), np.zeros(6)))
         plan = Rotation.from_euler(axis, tilt_deg, degrees=True).apply(flat - flat.mean(axis=0))[:, :2]
         assert find_shifted_labels("right", plan) == ()
         assert find_shifted_labels("right", np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
@@ -114,15 +114,15 @@ def bent_plan(rng: np.random.Generator, side: Side) -> FloatArray:
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
-def test_no_hand_is_doubted(side: Side) -> None:
+def test_label_fault_of_right_labels_is_none(side: Side) -> None:
     for seed in range(12):
-        assert find_label_fault(HAND21, side, seen_plan(seed, side)) is None
+        assert find_label_fault(HAND21, side, visible_plan(seed, side)) is None
     rng = np.random.default_rng(4)
     assert [find_label_fault(HAND21, side, bent_plan(rng, side)) for _ in range(80)] == [None] * 80
 
 
-def test_any_two_exchanged_names_are_found_and_named() -> None:
-    plan = seen_plan(3, "right")
+def test_label_fault_any_two_swapped_labels_are_named() -> None:
+    plan = visible_plan(3, "right")
     for pair in list(combinations(range(21), 2))[::13]:
         wrong = plan.copy()
         wrong[list(pair)] = plan[list(pair)[::-1]]
@@ -135,18 +135,18 @@ def test_any_two_exchanged_names_are_found_and_named() -> None:
     "pair", [("TIP3", "TIP4"), ("TIP1", "IP1"), ("MCP3", "MCP4"), ("PIP2", "DIP2"), ("MCP1", "CMC1"), ("TIP4", "TIP5")]
 )
 @pytest.mark.parametrize("side", ["right", "left"])
-def test_the_usual_mistakes_are_named_on_many_hands(pair: tuple[str, str], side: Side) -> None:
+def test_label_fault_usual_mistakes_on_many_hands_are_named(pair: tuple[str, str], side: Side) -> None:
     rows = [ROW(name) for name in pair]
     for seed in range(2):
-        plan = seen_plan(seed, side)
+        plan = visible_plan(seed, side)
         plan[rows] = plan[rows[::-1]]
         found = find_label_fault(HAND21, side, plan)
         assert found is not None
         assert {*found.swapped[0], *found.swapped[1]} == set(pair)
 
 
-def test_two_whole_fingers_that_stand_in_for_each_other_are_named() -> None:
-    plan = seen_plan(1, "right")
+def test_label_fault_two_swapped_fingers_are_named() -> None:
+    plan = visible_plan(1, "right")
     middle, ring = ([ROW(f"{joint}{k}") for joint in ("MCP", "PIP", "DIP", "TIP")] for k in (3, 4))
     plan[middle + ring] = plan[ring + middle]
     found = find_label_fault(HAND21, "right", plan)
@@ -154,8 +154,8 @@ def test_two_whole_fingers_that_stand_in_for_each_other_are_named() -> None:
     assert found.swapped == tuple(tuple(HAND21.markers[i] for i in rows) for rows in (middle, ring))
 
 
-def test_a_name_on_something_that_is_no_disc_of_the_hand_is_named_alone() -> None:
-    plan = seen_plan(2, "right")
+def test_label_fault_label_off_the_hand_is_misplaced() -> None:
+    plan = visible_plan(2, "right")
     plan[ROW("TIP5")] = plan[0] + [0.05, -0.06]  # a blue sleeve
     found = find_label_fault(HAND21, "right", plan)
     assert found is not None

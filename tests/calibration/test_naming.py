@@ -34,13 +34,13 @@ def hand(seed: int, side: Side, protocol: str = "hand21", false_blobs: float = 0
     return sequence.detections[1], sequence.marker[1]
 
 
-def blob_of(marker: IntArray, count: int) -> IntArray:
+def find_blob(marker: IntArray, count: int) -> IntArray:
     true = np.full(count, -1)
     true[marker[marker >= 0]] = np.flatnonzero(marker >= 0)
     return true
 
 
-def without(blobs: Detections, gone: IntArray) -> Detections:
+def without_markers(blobs: Detections, gone: IntArray) -> Detections:
     return blobs.subset(~np.isin(np.arange(len(blobs)), gone))
 
 
@@ -50,53 +50,53 @@ def is_complete(proposal: LabelProposal) -> bool:
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("side", ["right", "left"])
-def test_all_discs_get_their_names_among_false_blobs(side: Side, seed: int) -> None:
+def test_propose_labels_among_false_blobs_labels_all(side: Side, seed: int) -> None:
     blobs, marker = hand(seed, side, false_blobs=3.0)
     proposal = propose_labels(blobs, DEFAULT_CAMERA, side, HAND21)
-    assert np.array_equal(proposal.blob, blob_of(marker, 21))
+    assert np.array_equal(proposal.blob, find_blob(marker, 21))
     assert proposal.is_sure.sum() >= 20
     assert np.nanmax(proposal.misfit_m) < 0.01
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_disc_that_is_not_there_is_not_named_and_the_others_keep_their_names(seed: int) -> None:
+def test_propose_labels_missing_marker_is_unlabelled(seed: int) -> None:
     blobs, marker = hand(seed, "right", false_blobs=2.0)
     gone = np.random.default_rng(seed).choice(np.flatnonzero(marker >= 0), 2, replace=False)
-    proposal = propose_labels(without(blobs, gone), DEFAULT_CAMERA, "right", HAND21)
-    true = blob_of(np.delete(marker, gone), 21)
+    proposal = propose_labels(without_markers(blobs, gone), DEFAULT_CAMERA, "right", HAND21)
+    true = find_blob(np.delete(marker, gone), 21)
     assert np.array_equal(proposal.blob, true)
     assert not is_complete(proposal)
     assert not proposal.is_sure[marker[gone]].any()
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_the_six_discs_of_the_palm(seed: int) -> None:
+def test_propose_labels_of_the_palm_labels_six(seed: int) -> None:
     blobs, marker = hand(seed, "left", "wrist6", false_blobs=2.0)
     proposal = propose_labels(blobs, DEFAULT_CAMERA, "left", WRIST6)
-    assert np.array_equal(proposal.blob, blob_of(marker, 6))
+    assert np.array_equal(proposal.blob, find_blob(marker, 6))
     assert proposal.is_sure.all(), "six right names are confirmed at once"
     other = propose_labels(blobs, DEFAULT_CAMERA, "right", WRIST6)
     assert not (is_complete(other) and other.is_sure.any()), "the other hand's names are looked at one by one"
 
 
 @pytest.mark.parametrize(("seed", "gone"), [(1076, "CMC1"), (1101, "CMC1"), (1163, "MCP4"), (1046, "MCP4")])
-def test_with_one_of_the_six_away_no_other_spot_takes_its_name(seed: int, gone: str) -> None:
+def test_propose_labels_missing_palm_marker_is_not_replaced(seed: int, gone: str) -> None:
     side: Side = "left" if seed % 2 else "right"
     blobs, marker = hand(seed, side, "wrist6", false_blobs=4.0)
-    there = np.arange(len(blobs)) != blob_of(marker, 6)[WRIST6.markers.index(gone)]
+    there = np.arange(len(blobs)) != find_blob(marker, 6)[WRIST6.markers.index(gone)]
     assert is_complete(propose_labels(blobs, DEFAULT_CAMERA, side, WRIST6))
     assert not is_complete(propose_labels(blobs.subset(there), DEFAULT_CAMERA, side, WRIST6))
 
 
-def test_the_other_side_does_not_fit() -> None:
+def test_propose_labels_of_the_other_side_is_unsure() -> None:
     for seed in SEEDS:
         blobs, _ = hand(seed, "right")
         assert not is_complete(propose_labels(blobs, DEFAULT_CAMERA, "left", HAND21))
 
 
-def test_names_that_a_person_gave_are_kept() -> None:
+def test_propose_labels_keeps_given_labels() -> None:
     blobs, marker = hand(201, "right")
-    true = blob_of(marker, 21)
+    true = find_blob(marker, 21)
     given = {row: int(true[row]) for row in (0, 1, 5, 9, 17)}
     assert np.array_equal(propose_labels(blobs, DEFAULT_CAMERA, "right", HAND21, given_labels=given).blob, true)
     tip, other = HAND21.markers.index("TIP2"), HAND21.markers.index("TIP3")
@@ -106,7 +106,7 @@ def test_names_that_a_person_gave_are_kept() -> None:
     assert len(set(kept.blob[kept.blob >= 0])) == np.count_nonzero(kept.blob >= 0)
 
 
-def test_what_is_no_hand_is_not_named() -> None:
+def test_propose_labels_without_hand_labels_none() -> None:
     rng = np.random.default_rng(3)
     for count in (0, 1, 5, 24):
         pixel = rng.uniform((0.0, 0.0), (640.0, 480.0), (count, 2))
@@ -117,7 +117,7 @@ def test_what_is_no_hand_is_not_named() -> None:
         assert proposal.is_sure.sum() <= 4
 
 
-def test_unknown_depths_do_not_matter_much() -> None:
+def test_propose_labels_with_unknown_depths_labels_all() -> None:
     blobs, marker = hand(203, "left")
     flat = Detections(blobs.pixel, np.full(len(blobs), np.nan), blobs.depth_sd_m, blobs.area_px, blobs.similarity)
-    assert np.array_equal(propose_labels(flat, DEFAULT_CAMERA, "left", HAND21).blob, blob_of(marker, 21))
+    assert np.array_equal(propose_labels(flat, DEFAULT_CAMERA, "left", HAND21).blob, find_blob(marker, 21))

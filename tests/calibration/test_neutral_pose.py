@@ -25,31 +25,31 @@ def true_pose(seed: int) -> tuple[FloatArray, FloatArray]:
     return rotation, np.array([0.0, 0.03, 0.7]) + rng.uniform(-0.05, 0.05, 3)
 
 
-def measured(rotation: FloatArray, translation: FloatArray) -> FloatArray:
+def measure_markers(rotation: FloatArray, translation: FloatArray) -> FloatArray:
     """u, v of every disc, then the depths."""
     x, y, z = (PALM_M @ rotation.T + translation).T
     return np.concatenate((np.stack((520.0 * x / z + 318.0, 530.0 * y / z + 243.0), axis=1).ravel(), z))
 
 
-def fitted(values: FloatArray, rotation: FloatArray, translation: FloatArray) -> tuple[FloatArray, FloatArray]:
+def fit_pose(values: FloatArray, rotation: FloatArray, translation: FloatArray) -> tuple[FloatArray, FloatArray]:
     return estimate_neutral_pose(
         CAMERA, PALM_M, values[:12].reshape(6, 2), values[12:], rotation, translation,
         pixel_sd_px=PIXEL_SD, depth_sd_m=DEPTH_SD,
     )  # fmt: skip
 
 
-def turn_between(a: FloatArray, b: FloatArray) -> FloatArray:
+def angle_between(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.asarray(Rotation.from_matrix(a.T @ b).as_rotvec())
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_truth_is_recovered_from_bad_starts(seed: int) -> None:
+def test_neutral_pose_from_bad_starts_is_exact(seed: int) -> None:
     rotation, translation = true_pose(seed)
     rng = np.random.default_rng(seed + 50)
     axis = rng.normal(size=3)
     off = Rotation.from_rotvec(axis / np.linalg.norm(axis) * np.radians(40.0)).as_matrix()
-    found = fitted(measured(rotation, translation), rotation @ off, translation + rng.uniform(-0.15, 0.15, 3))
-    assert np.linalg.norm(turn_between(rotation, found[0])) < 1e-9
+    found = fit_pose(measure_markers(rotation, translation), rotation @ off, translation + rng.uniform(-0.15, 0.15, 3))
+    assert np.linalg.norm(angle_between(rotation, found[0])) < 1e-9
     assert np.linalg.norm(found[1] - translation) < 1e-9
     assert np.allclose(found[0] @ found[0].T, np.eye(3), atol=1e-12)
 
@@ -61,7 +61,7 @@ def predicted_covariance(rotation: FloatArray, translation: FloatArray) -> Float
         step = np.zeros(6)
         step[i] = 1e-6
         ahead, back = (
-            measured(rotation @ Rotation.from_rotvec(s * step[3:]).as_matrix(), translation + s * step[:3])
+            measure_markers(rotation @ Rotation.from_rotvec(s * step[3:]).as_matrix(), translation + s * step[:3])
             for s in (1.0, -1.0)
         )
         columns.append((ahead - back) / 2e-6)
@@ -69,15 +69,15 @@ def predicted_covariance(rotation: FloatArray, translation: FloatArray) -> Float
     return np.asarray(np.linalg.inv(h.T @ h))
 
 
-def test_noise_makes_errors_as_predicted_and_no_bias() -> None:
+def test_neutral_pose_errors_match_the_predicted_covariance() -> None:
     rotation, translation = true_pose(3)
     covariance = predicted_covariance(rotation, translation)
     rng = np.random.default_rng(0)
     errors = []
     for _ in range(300):
         noise = np.concatenate((PIXEL_SD * rng.normal(size=12), DEPTH_SD * rng.normal(size=6)))
-        found = fitted(measured(rotation, translation) + noise, rotation, translation)
-        errors.append(np.concatenate((found[1] - translation, turn_between(rotation, found[0]))))
+        found = fit_pose(measure_markers(rotation, translation) + noise, rotation, translation)
+        errors.append(np.concatenate((found[1] - translation, angle_between(rotation, found[0]))))
     error = np.array(errors)
     # Normalised squared errors sum to a chi-square with 6 degrees of freedom each.
     squared = np.einsum("ni,ij,nj->n", error, np.linalg.inv(covariance), error)
@@ -86,15 +86,15 @@ def test_noise_makes_errors_as_predicted_and_no_bias() -> None:
     assert mean @ np.linalg.solve(covariance / 300.0, mean) < chi2.isf(1e-4, 6)
 
 
-def test_the_result_is_the_minimum() -> None:
+def test_neutral_pose_is_the_minimum() -> None:
     rotation, translation = true_pose(4)
     rng = np.random.default_rng(1)
     weight = np.concatenate((np.full(12, 1.0 / PIXEL_SD), np.full(6, 1.0 / DEPTH_SD)))
-    values = measured(rotation, translation) + rng.normal(size=18) / weight
-    found = fitted(values, rotation, translation)
+    values = measure_markers(rotation, translation) + rng.normal(size=18) / weight
+    found = fit_pose(values, rotation, translation)
 
     def cost(r: FloatArray, t: FloatArray) -> float:
-        return float(np.sum((weight * (values - measured(r, t))) ** 2))
+        return float(np.sum((weight * (values - measure_markers(r, t))) ** 2))
 
     least = cost(*found)
     for _ in range(50):
@@ -102,21 +102,21 @@ def test_the_result_is_the_minimum() -> None:
         assert cost(found[0] @ Rotation.from_rotvec(turn).as_matrix(), found[1] + shift) > least
 
 
-def test_discs_without_depth_are_used_by_their_pixels() -> None:
+def test_neutral_pose_uses_pixels_of_markers_without_depth() -> None:
     rotation, translation = true_pose(5)
-    values = measured(rotation, translation)
+    values = measure_markers(rotation, translation)
     values[[12, 14, 15]] = np.nan
     off = Rotation.from_rotvec([0.2, -0.1, 0.3]).as_matrix()
-    found = fitted(values, rotation @ off, translation + 0.03)
-    assert np.linalg.norm(turn_between(rotation, found[0])) < 1e-9
+    found = fit_pose(values, rotation @ off, translation + 0.03)
+    assert np.linalg.norm(angle_between(rotation, found[0])) < 1e-9
     assert np.linalg.norm(found[1] - translation) < 1e-9
 
 
-def test_without_any_depth_the_arch_still_fixes_the_pose() -> None:
+def test_neutral_pose_without_depth_is_determined() -> None:
     """The papers' colour-only measurement, from a start near by."""
     rotation, translation = true_pose(6)
-    values = measured(rotation, translation)
+    values = measure_markers(rotation, translation)
     values[12:] = np.nan
-    found = fitted(values, rotation @ Rotation.from_rotvec([0.05, 0.05, -0.1]).as_matrix(), translation + 0.01)
-    assert np.linalg.norm(turn_between(rotation, found[0])) < 1e-6
+    found = fit_pose(values, rotation @ Rotation.from_rotvec([0.05, 0.05, -0.1]).as_matrix(), translation + 0.01)
+    assert np.linalg.norm(angle_between(rotation, found[0])) < 1e-6
     assert np.linalg.norm(found[1] - translation) < 1e-6

@@ -21,7 +21,7 @@ NO_SPOT = np.empty((0, 2))
 MCP3 = PALM_MARKERS.index("MCP3")
 
 
-def judged(scene: Scene, clicked_px: FloatArray, *spots: FloatArray) -> CalibrationOutcome:
+def calibrate_clicks(scene: Scene, clicked_px: FloatArray, *spots: FloatArray) -> CalibrationOutcome:
     radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
     extras = tuple(Extra((float(u), float(v)), radius_px, PAPERS["blue"]) for u, v in spots)
     clicks = replace(clicks_on(scene), pixel=clicked_px)
@@ -35,13 +35,13 @@ def odd_kinds(outcome: CalibrationOutcome) -> list[str]:
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_a_blue_spot_clicked_as_the_middle_knuckle_is_doubted_and_the_true_disc_shown(side: Side) -> None:
+def test_odd_marker_blue_spot_as_mcp3_is_found(side: Side) -> None:
     scene = Scene(side=side)
     true = scene.discs_px
     false = true[0] + 0.62 * (true[MCP3] - true[0])  # the hand would be 115 mm long
     clicked = true.copy()
     clicked[MCP3] = false
-    outcome = judged(scene, clicked, false)
+    outcome = calibrate_clicks(scene, clicked, false)
     assert odd_kinds(outcome) == ["other_spot"]
     (finding,) = (one for one in outcome.verdict.findings if one.kind == "other_spot")
     assert finding.markers == ("MCP3",)
@@ -49,24 +49,24 @@ def test_a_blue_spot_clicked_as_the_middle_knuckle_is_doubted_and_the_true_disc_
     assert outcome.calibration is not None
     assert not outcome.calibration.verdict.is_good
     clicked[MCP3] = finding.spot_px  # the name is moved; what lies on the palm is still one spot too many
-    assert odd_kinds(judged(scene, clicked, false)) == ["spare_spot"]
+    assert odd_kinds(calibrate_clicks(scene, clicked, false)) == ["spare_spot"]
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_a_right_palm_with_nothing_beside_it_is_not_questioned(side: Side) -> None:
+def test_odd_marker_of_a_right_palm_is_none(side: Side) -> None:
     for size in (0.7, 1.0, 1.15):
         scene = Scene(side=side, size=size)
-        assert odd_kinds(judged(scene, scene.discs_px)) == []
+        assert odd_kinds(calibrate_clicks(scene, scene.discs_px)) == []
 
 
-def test_a_blue_thing_away_from_the_palm_is_nobody_s_affair() -> None:
+def test_odd_marker_spot_away_from_the_palm_is_ignored() -> None:
     scene = Scene()
     away = scene.discs_px.min(axis=0) + [-38.0, 60.0]
-    assert odd_kinds(judged(scene, scene.discs_px, away)) == []
+    assert odd_kinds(calibrate_clicks(scene, scene.discs_px, away)) == []
 
 
 @pytest.mark.parametrize(("radii", "told"), [(1.2, True), (2.6, False)])
-def test_a_spot_that_nobody_named_close_to_a_disc_is_told(radii: float, told: bool) -> None:
+def test_near_spot_beside_a_marker_is_found(radii: float, told: bool) -> None:
     """Either may be the disc: a ring finger's knuckle was measured on the wrong of two, and nothing was said."""
     scene = Scene()
     radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
@@ -84,7 +84,7 @@ def test_a_spot_that_nobody_named_close_to_a_disc_is_told(radii: float, told: bo
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_no_palm_has_this_shape_and_the_disc_at_fault_is_named(side: Side) -> None:
+def test_odd_marker_impossible_palm_names_the_marker(side: Side) -> None:
     rng = np.random.default_rng(4)
     for marker in range(6):
         plan = average_palm(side).copy()
@@ -96,7 +96,7 @@ def test_no_palm_has_this_shape_and_the_disc_at_fault_is_named(side: Side) -> No
         assert (odd.marker, odd.is_spot_better) == (marker, False)
 
 
-def test_hands_and_sticking_differ_without_a_question() -> None:
+def test_odd_marker_of_varied_hands_is_none() -> None:
     rng = np.random.default_rng(0)
     asked = 0
     for _ in range(300):
@@ -106,7 +106,7 @@ def test_hands_and_sticking_differ_without_a_question() -> None:
     assert asked <= 3
 
 
-def test_the_discs_of_the_fingers_are_no_spare_spots_of_the_palm() -> None:
+def test_odd_marker_finger_markers_are_no_spare_spots() -> None:
     palm = average_palm("right")
     along = (palm[2:6] - palm[0]) / np.linalg.norm(palm[2:6] - palm[0], axis=1)[:, None]
     fingers = np.concatenate([palm[2:6] + reach * along for reach in (0.045, 0.07, 0.09)])

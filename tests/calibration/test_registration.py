@@ -26,7 +26,7 @@ def offset_px(pictures: SimulatedRecording, frame: Frame) -> float:
     return estimate_depth_offset_px(frame, looks, centre[np.isfinite(centre[:, 0])])
 
 
-def moved(frame: Frame, columns: int, rows: int) -> Frame:
+def shift_depth(frame: Frame, columns: int, rows: int) -> Frame:
     """The frame with its depth beside its colour; what comes into the picture is a hole."""
     assert frame.depth_raw is not None
     depth = np.zeros_like(frame.depth_raw)
@@ -44,27 +44,29 @@ def takes() -> list[tuple[SimulatedRecording, Frame]]:
     return [(pictures, next(pictures.frames())) for pictures in made]
 
 
-def test_registered_depth_is_never_suspected(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
+def test_depth_offset_of_registered_depth_is_zero(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     assert [offset_px(*take) for take in takes] == [0.0] * len(takes)
 
 
 @pytest.mark.parametrize("shift", [(12, 0), (-12, 0), (10, -10)])
-def test_depth_beside_colour_is_noticed(shift: tuple[int, int], takes: list[tuple[SimulatedRecording, Frame]]) -> None:
+def test_depth_offset_of_shifted_depth_is_found(
+    shift: tuple[int, int], takes: list[tuple[SimulatedRecording, Frame]]
+) -> None:
     """In most rooms: on a table of the skin's own colour the picture does not say."""
     true_px = float(np.hypot(*shift))
-    found: FloatArray = np.array([offset_px(pictures, moved(frame, *shift)) for pictures, frame in takes])
+    found: FloatArray = np.array([offset_px(pictures, shift_depth(frame, *shift)) for pictures, frame in takes])
     noticed = found[found > 0.0]
     assert len(noticed) >= len(takes) - 1
     assert np.abs(noticed - true_px).max() < 6.0
 
 
-def test_without_depth_or_discs_nothing_is_said(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
+def test_depth_offset_without_depth_or_markers_is_zero(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     pictures, frame = takes[0]
     assert offset_px(pictures, replace(frame, depth_raw=None)) == 0.0
-    assert offset_px(pictures, moved(frame, 640, 0)) == 0.0, "a picture full of holes"
+    assert offset_px(pictures, shift_depth(frame, 640, 0)) == 0.0, "a picture full of holes"
 
 
-def test_the_verdict_names_it(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
+def test_calibrate_hand_depth_offset_is_found(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     pictures, frame = takes[0]
     clicks, camera = sample_clicks(pictures.truth), pictures.truth.camera
     kinds = [
@@ -72,7 +74,7 @@ def test_the_verdict_names_it(takes: list[tuple[SimulatedRecording, Frame]]) -> 
             finding.kind
             for finding in calibrate_hand(clicks, [each], camera, CalibrationSettings(), DETECTION).verdict.findings
         ]
-        for each in (frame, moved(frame, 12, 0))
+        for each in (frame, shift_depth(frame, 12, 0))
     ]
     assert "depth_off" not in kinds[0]
     assert "depth_off" in kinds[1]

@@ -36,7 +36,7 @@ def flexion(value: float, day: date = DAY, way: str = "active") -> ManualValue:
     return ManualValue("FLEXION", way, "right", day, (value,), rater="MK")  # type: ignore[arg-type]
 
 
-def test_every_measure_can_hold_what_is_usual_and_nothing_that_cannot_be() -> None:
+def test_manual_measure_limits_hold_the_usual_range() -> None:
     assert len({one.id for one in MEASURES}) == len(MEASURES)
     for of in MEASURES:
         assert of.min_value <= of.usual_range[0] < of.usual_range[1] <= of.max_value, of.id
@@ -55,7 +55,7 @@ def test_every_measure_can_hold_what_is_usual_and_nothing_that_cannot_be() -> No
             ManualValue(of.id, of.modes[0], "" if of.is_per_hand else "left", DAY, ())
 
 
-def test_the_last_entry_of_a_day_counts_and_what_it_replaced_stays_readable() -> None:
+def test_current_values_of_a_day_are_the_latest_and_earlier_ones_stay() -> None:
     entries = [flexion(40.0), flexion(45.0), flexion(60.0, way="passive"), flexion(30.0, DAY - timedelta(days=7))]
     assert [one.value for one in current_values(entries)] == [30.0, 45.0, 60.0]
     assert find_superseded_entries(entries, flexion(0.0).key, DAY) == [flexion(40.0)]
@@ -67,7 +67,7 @@ def test_the_last_entry_of_a_day_counts_and_what_it_replaced_stays_readable() ->
 
 
 @given(first=st.floats(0, 90), last=st.floats(0, 90))
-def test_a_change_is_judged_by_its_own_way_and_direction(first: float, last: float) -> None:
+def test_change_verdict_follows_limit_and_direction_of_the_measure(first: float, last: float) -> None:
     def verdict(name: str, share: float = 1.0) -> str:
         of = find_manual_measure(name)
         values = [share * first, share * last]
@@ -83,7 +83,7 @@ def test_a_change_is_judged_by_its_own_way_and_direction(first: float, last: flo
     assert compute_change([flexion(first)]) is None
 
 
-def test_the_store_keeps_every_entry_in_order_and_says_what_it_knows(tmp_path: Path) -> None:
+def test_store_returns_manual_values_in_order_of_entry(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         size = ManualValue("WRIST_ROUND", "", "left", DAY, (17.6,), "over both styloids", "MK")

@@ -10,12 +10,12 @@ from carpus.core.measures.change_limits import MeasuredLimit, RetestStudy, chang
 from carpus.core.model.hand.protocols import WRIST_ANGLES, joint_angle_names
 
 
-def test_every_angle_has_a_limit() -> None:
+def test_change_limit_exists_for_every_angle() -> None:
     for name in (*WRIST_ANGLES, *joint_angle_names(dip_free=True), "TAM"):
         assert 8.0 <= round(math.degrees(change_limit_rad(name)), 6) <= 22.0, name
 
 
-def test_limits_of_the_reference() -> None:
+def test_change_limit_equals_the_reference() -> None:
     limits = {"flexion": 10, "deviation": 8, "pronosupination": 15, "TAM": 22}
     limits |= {"MCP2_flexion": 12, "PIP5_flexion": 12, "MCP3_abduction": 8}
     limits |= {"CMC1_extension": 15, "MCP1_flexion": 15, "MCP1_abduction": 15, "IP1_flexion": 15}
@@ -27,9 +27,7 @@ def test_limits_of_the_reference() -> None:
 @pytest.mark.parametrize(
     ("people", "mdc95_deg", "limit_deg"), [(9, 4.2, None), (10, 4.2, 5.0), (10, 4.0, 4.0), (12, 4.9, 5.0)]
 )
-def test_a_clinics_own_limit_is_of_ten_people_and_whole_degrees_upwards(
-    people: int, mdc95_deg: float, limit_deg: float | None
-) -> None:
+def test_study_limit_needs_ten_people_and_rounds_up(people: int, mdc95_deg: float, limit_deg: float | None) -> None:
     limit = MeasuredLimit("flexion", "flexion", people, 1.5, (1.0, 2.0), mdc95_deg, (3.0, 6.0))
     study = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-01", people, 2 * people, 2, (limit,))
     assert study.limit_deg("flexion", "flexion") == limit_deg

@@ -16,13 +16,13 @@ TIME_S = np.arange(COUNT) / 30.0
 HIDDEN = (TIME_S >= 1.0) & (TIME_S < 2.0)
 
 
-def moving() -> FloatArray:
+def moving_angles() -> FloatArray:
     """Angles (N, 5) of a thumb that goes across the palm and back in three seconds."""
     swing = 0.5 - 0.5 * np.cos(2.0 * math.pi * TIME_S / 3.0)
     return np.radians(np.outer(swing, [-20.0, 35.0, 30.0, 2.0, 25.0]) + 5.0)
 
 
-def of(
+def compute_coherence(
     angles_rad: FloatArray, sd_deg: float = 4.0, off_m: float = 0.0, hidden: FloatArray = HIDDEN, known: bool = True
 ) -> Coherence:
     """Of a thumb whose tip goes with its first two angles, and lies so far off while it is hidden."""
@@ -32,29 +32,29 @@ def of(
     return digit_coherence(TIME_S, NAMES, angles_rad, sds, tip_m, hidden, np.full(COUNT, known))
 
 
-def test_a_thumb_that_moves_on_while_hidden_is_coherent() -> None:
-    found = of(moving())
+def test_coherence_of_a_thumb_that_moves_while_occluded_is_full() -> None:
+    found = compute_coherence(moving_angles())
     assert found.occluded_share == pytest.approx(1.0 / 3.0, abs=0.02)
     assert (found.coherent_share, found.known_share) == (1.0, 1.0)
     assert len(found.jumps_m) == 1
     assert found.jumps_m[0] < 0.005
-    lost = of(moving(), off_m=0.03)
+    lost = compute_coherence(moving_angles(), off_m=0.03)
     assert lost.jumps_m[0] == pytest.approx(0.03, abs=0.005), "told when it is seen again"
 
 
-def test_a_guess_a_pose_that_no_hand_takes_and_a_jump_are_not() -> None:
-    guess = of(moving(), sd_deg=16.0)
+def test_coherence_of_guess_impossible_pose_and_jump_is_low() -> None:
+    guess = compute_coherence(moving_angles(), sd_deg=16.0)
     assert (guess.coherent_share, guess.known_share) == (1.0, 0.0)
-    bent_back = moving()
+    bent_back = moving_angles()
     bent_back[45:, 4] = np.radians(-60.0)
-    assert of(bent_back).coherent_share == pytest.approx(0.5, abs=0.06)
-    flickering = moving()
+    assert compute_coherence(bent_back).coherent_share == pytest.approx(0.5, abs=0.06)
+    flickering = moving_angles()
     flickering[30:60:2, 2] += np.radians(40.0)
-    assert of(flickering).coherent_share < 0.1
+    assert compute_coherence(flickering).coherent_share < 0.1
 
 
-def test_what_is_never_hidden_or_never_known_says_nothing() -> None:
-    seen = of(moving(), hidden=np.zeros(COUNT, dtype=bool))
+def test_coherence_without_occlusion_or_tracking_is_unknown() -> None:
+    seen = compute_coherence(moving_angles(), hidden=np.zeros(COUNT, dtype=bool))
     assert seen.occluded_share == 0.0
     assert math.isnan(seen.coherent_share)
-    assert math.isnan(of(moving(), known=False).occluded_share)
+    assert math.isnan(compute_coherence(moving_angles(), known=False).occluded_share)

@@ -31,17 +31,17 @@ FULL = np.ones(len(TIME_S), dtype=bool)
 SD_DEG = 2.0
 
 
-def track(name: str, angle_deg: np.ndarray, valid: np.ndarray = FULL, sd_deg: float = SD_DEG) -> JointTrack:
+def make_track(name: str, angle_deg: np.ndarray, valid: np.ndarray = FULL, sd_deg: float = SD_DEG) -> JointTrack:
     return joint_track(name, TIME_S, np.radians(angle_deg), np.full(len(TIME_S), math.radians(sd_deg)), valid)
 
 
-def between(start_s: float, end_s: float) -> np.ndarray:
+def make_repetition(start_s: float, end_s: float) -> np.ndarray:
     """Frames of a part of every repetition."""
     return (np.mod(TIME_S, 4.0) >= start_s) & (np.mod(TIME_S, 4.0) < end_s)
 
 
-def test_a_joint_that_is_always_seen_has_its_true_range() -> None:
-    found = joint_range(track("PIP3_flexion", 5.0 + 85.0 * WAVE), REPETITIONS)
+def test_joint_range_always_visible_is_true() -> None:
+    found = joint_range(make_track("PIP3_flexion", 5.0 + 85.0 * WAVE), REPETITIONS)
     assert found.repetitions == 3
     assert np.degrees(found.arc.values) == pytest.approx([85.0] * 3, abs=0.3)
     assert math.degrees(found.maximum.mean) == pytest.approx(90.0, abs=0.3)
@@ -50,10 +50,10 @@ def test_a_joint_that_is_always_seen_has_its_true_range() -> None:
     assert not found.bottom_limited
 
 
-def test_what_a_hidden_joint_was_thought_to_do_is_not_its_range_but_is_told() -> None:
-    hidden = between(1.5, 2.5)
+def test_joint_range_occluded_angle_is_excluded_and_limited() -> None:
+    hidden = make_repetition(1.5, 2.5)
     angle = np.where(hidden, 120.0, 80.0 * WAVE)
-    found = joint_range(track("PIP3_flexion", angle, ~hidden), REPETITIONS)
+    found = joint_range(make_track("PIP3_flexion", angle, ~hidden), REPETITIONS)
     largest_seen = float((80.0 * WAVE[~hidden]).max())
     assert math.degrees(found.maximum.best) == pytest.approx(largest_seen, abs=1.0)
     assert found.top_limited
@@ -61,22 +61,20 @@ def test_what_a_hidden_joint_was_thought_to_do_is_not_its_range_but_is_told() ->
 
 
 @pytest.mark.parametrize(("share", "repetitions"), [(0.33, 3), (0.27, 0)])
-def test_a_repetition_counts_for_a_joint_that_was_seen_in_three_tenths_of_it(share: float, repetitions: int) -> None:
-    seen = between(0.0, 4.0 * share)
-    assert joint_range(track("PIP3_flexion", 80.0 * WAVE, seen), REPETITIONS).repetitions == repetitions
+def test_joint_range_repetition_needs_three_tenths_visible(share: float, repetitions: int) -> None:
+    seen = make_repetition(0.0, 4.0 * share)
+    assert joint_range(make_track("PIP3_flexion", 80.0 * WAVE, seen), REPETITIONS).repetitions == repetitions
 
 
 @pytest.mark.parametrize(("further_deg", "limited"), [(2.0, False), (4.0, True)])
-def test_a_hidden_joint_is_limited_where_it_may_have_gone_five_degrees_further(
-    further_deg: float, limited: bool
-) -> None:
-    hidden = between(1.5, 2.5)
+def test_joint_range_possible_further_five_degrees_is_limited(further_deg: float, limited: bool) -> None:
+    hidden = make_repetition(1.5, 2.5)
     largest_seen = float((80.0 * WAVE[~hidden]).max())
     angle = np.where(hidden, largest_seen + further_deg, 80.0 * WAVE)
-    assert joint_range(track("PIP3_flexion", angle, ~hidden), REPETITIONS).top_limited == limited
+    assert joint_range(make_track("PIP3_flexion", angle, ~hidden), REPETITIONS).top_limited == limited
 
 
-def test_repetitions_that_were_surely_seen_stand_for_one_that_was_not() -> None:
+def test_joint_range_visible_repetitions_stand_for_an_occluded_one() -> None:
     four = (*REPETITIONS, Repetition(12.0, 16.0, 1.0))
     time_s = np.arange(0.0, 16.0, 1.0 / 30.0)
     angle = np.radians(80.0 * (0.5 - 0.5 * np.cos(2.0 * math.pi * time_s / 4.0)))
@@ -92,36 +90,36 @@ def test_repetitions_that_were_surely_seen_stand_for_one_that_was_not() -> None:
     assert not total.top_limited
 
 
-def test_a_joint_hidden_in_the_middle_of_its_way_is_not_limited() -> None:
-    hidden = between(0.8, 1.2)
-    found = joint_range(track("PIP3_flexion", 80.0 * WAVE, ~hidden), REPETITIONS)
+def test_joint_range_occluded_between_extremes_is_not_limited() -> None:
+    hidden = make_repetition(0.8, 1.2)
+    found = joint_range(make_track("PIP3_flexion", 80.0 * WAVE, ~hidden), REPETITIONS)
     assert math.degrees(found.arc.mean) == pytest.approx(80.0, abs=0.5)
     assert not found.top_limited
     assert not found.bottom_limited
 
 
-def test_a_joint_never_seen_has_no_range() -> None:
-    found = joint_range(track("PIP3_flexion", 80.0 * WAVE, ~FULL), REPETITIONS)
+def test_joint_range_never_visible_is_unknown() -> None:
+    found = joint_range(make_track("PIP3_flexion", 80.0 * WAVE, ~FULL), REPETITIONS)
     assert math.isnan(found.arc.mean)
     assert found.top_limited
-    total = total_active_motion([track("MCP3_flexion", 60.0 * WAVE, ~FULL)] * 2, REPETITIONS, inferred=True)
+    total = total_active_motion([make_track("MCP3_flexion", 60.0 * WAVE, ~FULL)] * 2, REPETITIONS, inferred=True)
     assert math.isnan(total.arc.mean)
     assert total.top_limited
 
 
-def test_a_repetition_seen_too_little_is_not_in_the_mean() -> None:
+def test_joint_range_hardly_visible_repetition_is_excluded() -> None:
     valid = FULL.copy()
     valid[(TIME_S > 4.2) & (TIME_S < 7.8)] = False
-    found = joint_range(track("PIP3_flexion", 80.0 * WAVE, valid), REPETITIONS)
+    found = joint_range(make_track("PIP3_flexion", 80.0 * WAVE, valid), REPETITIONS)
     assert found.repetitions == 2
 
 
 @pytest.mark.parametrize(("lowest_deg", "deficit_deg"), [(12.0, 12.0), (0.0, 0.0), (-15.0, 0.0)])
-def test_total_is_bending_less_what_is_missing_to_straight(lowest_deg: float, deficit_deg: float) -> None:
+def test_total_active_motion_is_flexion_less_deficit(lowest_deg: float, deficit_deg: float) -> None:
     joints = [
-        track("MCP3_flexion", 70.0 * WAVE),
-        track("PIP3_flexion", lowest_deg + (90.0 - lowest_deg) * WAVE),
-        track("DIP3_flexion", 50.0 * WAVE),
+        make_track("MCP3_flexion", 70.0 * WAVE),
+        make_track("PIP3_flexion", lowest_deg + (90.0 - lowest_deg) * WAVE),
+        make_track("DIP3_flexion", 50.0 * WAVE),
     ]
     found = total_active_motion(joints, REPETITIONS, inferred=False)
     assert math.degrees(found.maximum.mean) == pytest.approx(210.0, abs=0.5)
@@ -129,28 +127,28 @@ def test_total_is_bending_less_what_is_missing_to_straight(lowest_deg: float, de
     assert not found.top_limited
 
 
-def test_an_end_joint_without_a_disc_of_its_own_adds_two_thirds_of_the_middle_joint_and_of_its_error() -> None:
-    joints = [track("MCP3_flexion", 60.0 * WAVE, sd_deg=1.0), track("PIP3_flexion", 90.0 * WAVE, sd_deg=3.0)]
+def test_total_active_motion_inferred_dip_adds_two_thirds_of_the_pip() -> None:
+    joints = [make_track("MCP3_flexion", 60.0 * WAVE, sd_deg=1.0), make_track("PIP3_flexion", 90.0 * WAVE, sd_deg=3.0)]
     found = total_active_motion(joints, REPETITIONS, inferred=True)
     assert math.degrees(found.arc.mean) == pytest.approx(60.0 + 90.0 * 5.0 / 3.0, abs=0.8)
     assert math.degrees(found.arc.measurement_sd) >= math.hypot(1.0, 5.0) - 1e-6
 
 
-def test_the_total_needs_all_joints_seen_at_once_and_says_when_the_fist_was_not() -> None:
-    hidden = between(1.4, 2.6)
-    joints = [track("MCP3_flexion", 60.0 * WAVE), track("PIP3_flexion", 90.0 * WAVE, ~hidden)]
+def test_total_active_motion_needs_all_joints_visible_or_is_limited() -> None:
+    hidden = make_repetition(1.4, 2.6)
+    joints = [make_track("MCP3_flexion", 60.0 * WAVE), make_track("PIP3_flexion", 90.0 * WAVE, ~hidden)]
     found = total_active_motion(joints, REPETITIONS, inferred=True)
     assert math.degrees(found.maximum.mean) < 200.0
     assert found.top_limited
 
 
-def test_one_range_over_the_whole_recording_where_nothing_was_repeated() -> None:
-    found = joint_range(track("PIP3_flexion", 40.0 * WAVE), ())
+def test_joint_range_without_repetitions_covers_the_recording() -> None:
+    found = joint_range(make_track("PIP3_flexion", 40.0 * WAVE), ())
     assert found.repetitions == 0
     assert np.degrees(found.arc.values) == pytest.approx([40.0], abs=0.3)
 
 
-def test_a_joint_is_seen_by_the_disc_over_it_and_the_next_one() -> None:
+def test_visible_joints_need_both_markers() -> None:
     names = joint_angle_names(True)
     px = np.zeros((1, 21, 2))
     px[0, HAND21.markers.index("DIP4")] = np.nan
@@ -159,13 +157,13 @@ def test_a_joint_is_seen_by_the_disc_over_it_and_the_next_one() -> None:
     assert unseen == {"PIP4_flexion", "DIP4_flexion"}
 
 
-def test_an_unsure_or_predicted_sample_does_not_count() -> None:
+def test_valid_joints_exclude_uncertain_and_predicted_samples() -> None:
     seen = np.ones((3, 1), dtype=bool)
     sd = np.radians([[2.0], [2.0], [20.0]])
     assert valid_joints(np.array([0, 1, 0]), seen, np.zeros((3, 1)), sd)[:, 0].tolist() == [True, False, False]
 
 
-def test_ranges_and_totals_of_a_simulated_hand_are_those_of_its_motion() -> None:
+def test_finger_ranges_of_a_simulated_hand_match_its_motion() -> None:
     truth = compute_truth(Scene(RecordingSpec(seed=3, protocol="hand21", motion="fist", seconds=12.0)))
     names = joint_angle_names(False)
     always = np.ones(len(truth.time_s), dtype=bool)

@@ -19,23 +19,23 @@ pytestmark = ONE_PROCESS
 RATE = 30.0
 
 
-def strokes_of(take: Tracked, column: int, *, smoothed: bool | None) -> list[StrokeMeasures]:
+def find_strokes(take: Tracked, column: int, *, smoothed: bool | None) -> list[StrokeMeasures]:
     """Measures of the true strokes, taken of the true angle (None) or of a tracked one."""
     true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, column])
     found = find_repetitions(true).strokes
     if smoothed is None:
         return [measure_stroke(true, stroke) for stroke in found]
-    angle = angle_of(take, column, smoothed=smoothed)
+    angle = make_angle(take, column, smoothed=smoothed)
     return [measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed) for stroke in found]
 
 
-def angle_of(take: Tracked, column: int, *, smoothed: bool) -> Signal:
+def make_angle(take: Tracked, column: int, *, smoothed: bool) -> Signal:
     motion = take.smoothed if smoothed else take.causal
     both = np.column_stack((motion.angles_rad[:, column], motion.angles_sd_rad[:, column]))
     return resample_evenly(take.truth.timestamp_s, both, take.status == 0)
 
 
-def mean(measures: list[StrokeMeasures], name: str) -> float:
+def mean_of_known(measures: list[StrokeMeasures], name: str) -> float:
     return float(np.mean([getattr(one, name) for one in measures]))
 
 
@@ -48,18 +48,18 @@ EXERCISES = (
 
 @EITHER
 @pytest.mark.parametrize(("motion", "column", "seconds", "speed_hz"), EXERCISES)
-def test_speed_and_smoothness_are_those_of_the_movement(
+def test_stroke_speed_and_smoothness_match_the_movement(
     motion: str, column: int, seconds: float, speed_hz: float, smoothed: bool
 ) -> None:
     take = tracked(motion, seconds, speed_hz)
-    true, found = strokes_of(take, column, smoothed=None), strokes_of(take, column, smoothed=smoothed)
+    true, found = find_strokes(take, column, smoothed=None), find_strokes(take, column, smoothed=smoothed)
     assert len(found) >= 3
     assert not any(stroke.too_slow for stroke in found)
     # Live flexion at 0.4 Hz peaks 4.3 % too high: the filter keeps what may be gliding skin uncertain,
     # and its error then lasts 0.13 s instead of 0.06 s, which no low-pass of a stroke takes away.
     most = 0.05 if (motion, speed_hz, smoothed) == ("flexion", 0.4, False) else 0.04
-    assert mean(found, "peak_speed_rad_s") == pytest.approx(mean(true, "peak_speed_rad_s"), rel=most)
-    assert mean(found, "movement_time_s") == pytest.approx(mean(true, "movement_time_s"), rel=0.04)
+    assert mean_of_known(found, "peak_speed_rad_s") == pytest.approx(mean_of_known(true, "peak_speed_rad_s"), rel=most)
+    assert mean_of_known(found, "movement_time_s") == pytest.approx(mean_of_known(true, "movement_time_s"), rel=0.04)
     judged = [(one, other) for one, other in zip(true, found, strict=True) if not other.too_slow_to_be_smooth]
     for one, other in judged:
         assert other.sparc == pytest.approx(one.sparc, abs=0.25)
@@ -70,10 +70,10 @@ def test_speed_and_smoothness_are_those_of_the_movement(
 
 
 @EITHER
-def test_what_is_lost_in_noise_is_not_judged_instead_of_called_jerky(smoothed: bool) -> None:
+def test_stroke_smoothness_lost_in_noise_is_unknown(smoothed: bool) -> None:
     take = tracked("flexion", 30.0, 0.1, 31, 0.3)
-    true, found = strokes_of(take, 1, smoothed=None), strokes_of(take, 1, smoothed=smoothed)
-    assert math.degrees(mean(true, "arc_rad")) == pytest.approx(30.0, abs=3.0)
+    true, found = find_strokes(take, 1, smoothed=None), find_strokes(take, 1, smoothed=smoothed)
+    assert math.degrees(mean_of_known(true, "arc_rad")) == pytest.approx(30.0, abs=3.0)
     assert sum(stroke.too_slow_to_be_smooth for stroke in found) >= len(found) - 1
     for one, other in zip(true, found, strict=True):
         assert (
@@ -85,7 +85,7 @@ def test_what_is_lost_in_noise_is_not_judged_instead_of_called_jerky(smoothed: b
         assert math.isnan(other.peaks) or other.peaks == 1.0
 
 
-def there_and_back(duration_s: float) -> Signal:
+def make_repetitions(duration_s: float) -> Signal:
     """60 degrees of minimum jerk, with holds before, between and after."""
     tau = np.arange(0.0, 1.0 - 1e-9, 1.0 / (duration_s * RATE))
     up = 60.0 * (10 * tau**3 - 15 * tau**4 + 6 * tau**5)
@@ -93,16 +93,16 @@ def there_and_back(duration_s: float) -> Signal:
     return resample_evenly(np.arange(len(angle)) / RATE, angle)
 
 
-def measured(signal: Signal) -> list[StrokeMeasures]:
+def measure_strokes(signal: Signal) -> list[StrokeMeasures]:
     return [measure_stroke(signal, stroke) for stroke in find_repetitions(signal).strokes]
 
 
-def test_a_quick_stroke_keeps_its_peak() -> None:
-    peak_rad_s = mean(measured(there_and_back(0.4)), "peak_speed_rad_s")
+def test_stroke_peak_of_a_quick_stroke_is_kept() -> None:
+    peak_rad_s = mean_of_known(measure_strokes(make_repetitions(0.4)), "peak_speed_rad_s")
     assert math.degrees(peak_rad_s) == pytest.approx(1.875 * 60.0 / 0.4, rel=0.02)
 
 
-def test_the_speed_of_noise_is_what_it_is_said_to_be() -> None:
+def test_noise_speed_sd_matches_samples() -> None:
     noise = Noise(0.4, FILTER_CORRELATION_S)
     drawn = noise.sample(3000, RATE)
     for cutoff_hz in (2.0, 6.0):
@@ -117,7 +117,7 @@ def test_the_speed_of_noise_is_what_it_is_said_to_be() -> None:
     assert cutoff_for_speed(Noise(0.0, 0.2), 1.0, 4.0) == pytest.approx(10.0)
 
 
-def test_the_largest_of_noisy_values_is_not_taken_at_its_word() -> None:
+def test_extreme_of_noisy_values_is_unbiased() -> None:
     held = np.concatenate((np.linspace(0.0, 30.0, 30), np.full(45, 30.0), np.linspace(30.0, 0.0, 30)))
     noise = Noise(0.5, FILTER_CORRELATION_S)
     rng = np.random.default_rng(8)
@@ -137,7 +137,7 @@ def test_the_largest_of_noisy_values_is_not_taken_at_its_word() -> None:
 
 
 @EITHER
-def test_extremes_of_repetitions_are_unbiased_and_within_a_degree(smoothed: bool) -> None:
+def test_range_extremes_of_repetitions_are_within_a_degree(smoothed: bool) -> None:
     off_deg, sd_deg = [], []
     for motion, column, seconds, speed_hz, seed in (
         *((*exercise, 1) for exercise in EXERCISES), ("flexion", 1, 10.0, 0.4, 2), ("fast_deviation", 0, 6.0, 1.3, 2),
@@ -145,7 +145,7 @@ def test_extremes_of_repetitions_are_unbiased_and_within_a_degree(smoothed: bool
         take = tracked(motion, seconds, speed_hz, seed)
         true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, column])
         repetitions = find_repetitions(true).repetitions
-        angle = angle_of(take, column, smoothed=smoothed)
+        angle = make_angle(take, column, smoothed=smoothed)
         found = motion_range(low_pass(angle.column(0), 10.0), angle.column(1), repetitions, smoothed=smoothed)
         real = motion_range(true, true, repetitions)
         for mine, its, outward in ((found.maximum, real.maximum, 1.0), (found.minimum, real.minimum, -1.0)):
@@ -156,7 +156,7 @@ def test_extremes_of_repetitions_are_unbiased_and_within_a_degree(smoothed: bool
     assert 0.05 < min(sd_deg) <= max(sd_deg) < 1.0
 
 
-def test_extremes_of_finger_joints_are_within_three_degrees() -> None:
+def test_range_extremes_of_finger_joints_are_within_three_degrees() -> None:
     take = tracked("fist", 7.5, 0.4, discs="hand21")
     names = list(take.truth.joint_names)
     off_deg = []
@@ -176,12 +176,12 @@ def test_extremes_of_finger_joints_are_within_three_degrees() -> None:
     assert np.mean(off_deg) == pytest.approx(0.0, abs=0.6)
 
 
-def test_the_speed_of_a_stroke_that_goes_out_of_sight_is_not_known() -> None:
-    whole = there_and_back(1.0)
+def test_stroke_speed_with_occlusion_is_unknown() -> None:
+    whole = make_repetitions(1.0)
     time_s = whole.time_s
     gone = (time_s > 3.2) & (time_s < 3.9)  # in the middle of the way back, at its fastest
-    out, *back = measured(resample_evenly(time_s, whole.value, ~gone))
-    assert out.peak_speed_rad_s == pytest.approx(measured(whole)[0].peak_speed_rad_s, rel=1e-3)
+    out, *back = measure_strokes(resample_evenly(time_s, whole.value, ~gone))
+    assert out.peak_speed_rad_s == pytest.approx(measure_strokes(whole)[0].peak_speed_rad_s, rel=1e-3)
     assert back
     assert all(math.isnan(stroke.peak_speed_rad_s) for stroke in back)
     # A hand that comes back into the picture in the middle of a movement is as little known.
@@ -194,13 +194,13 @@ def test_the_speed_of_a_stroke_that_goes_out_of_sight_is_not_known() -> None:
     ("motion", "column", "seconds", "speed_hz", "seed", "share"),
     few([("pronosupination", 2, 30.0, 0.1, 32, 0.5), ("flexion", 1, 45.0, 0.05, 31, 0.3)]),
 )
-def test_noise_that_is_quicker_than_a_slow_stroke_is_not_its_speed(
+def test_stroke_speed_of_a_slow_stroke_is_not_that_of_noise(
     motion: str, column: int, seconds: float, speed_hz: float, seed: int, share: float, smoothed: bool
 ) -> None:
     take = tracked(motion, seconds, speed_hz, seed, share)
     # Half a way from rest is too little beside the noise of its beginning: up to 38 % too quick. No figure has it.
-    true = [one for one in strokes_of(take, column, smoothed=None) if not one.stroke.is_half]
-    angle = angle_of(take, column, smoothed=smoothed)
+    true = [one for one in find_strokes(take, column, smoothed=None) if not one.stroke.is_half]
+    angle = make_angle(take, column, smoothed=smoothed)
     strokes = [stroke for stroke in find_repetitions(angle.column(0)).strokes if not stroke.is_half]
     found = [measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed) for stroke in strokes]
     assert len(found) == len(true)

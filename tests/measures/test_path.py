@@ -19,7 +19,7 @@ pytestmark = ONE_PROCESS
 RATE = 30.0
 
 
-def reach(length_m: float, bow_m: float = 0.0) -> Signal:
+def make_reach(length_m: float, bow_m: float = 0.0) -> Signal:
     """One second of minimum jerk along x with a sideways bow, rest before and after."""
     t = np.arange(0.0, 3.0 + 1e-9, 1.0 / RATE)
     tau = np.clip(t - 1.0, 0.0, 1.0)
@@ -27,8 +27,8 @@ def reach(length_m: float, bow_m: float = 0.0) -> Signal:
     return resample_evenly(t, np.column_stack((length_m * s, bow_m * np.sin(math.pi * s), 0.0 * s)))
 
 
-def test_straight_reach() -> None:
-    found = measure_path(reach(0.3), 1.0, 2.0)
+def test_path_of_a_straight_reach_is_straight() -> None:
+    found = measure_path(make_reach(0.3), 1.0, 2.0)
     assert found.length_m == pytest.approx(0.3, abs=1e-9)
     assert found.straightness == pytest.approx(1.0, abs=1e-9)
     assert found.peak_speed_m_s == pytest.approx(1.875 * 0.3, rel=0.02)
@@ -37,23 +37,23 @@ def test_straight_reach() -> None:
     assert found.sparc == pytest.approx(-1.40, abs=0.05)
 
 
-def test_half_circle_is_longer_by_half_pi() -> None:
+def test_path_of_a_half_circle_is_longer_by_half_pi() -> None:
     angle = np.linspace(0.0, math.pi, 61)
     circle: FloatArray = np.column_stack((np.cos(angle), np.sin(angle), 0.0 * angle)) * 0.1
     found = measure_path(resample_evenly(np.arange(61) / RATE, circle), 0.0, 2.0)
     assert found.straightness == pytest.approx(math.pi / 2, rel=1e-3)
 
 
-def test_undefined_cases() -> None:
-    assert math.isnan(measure_path(reach(0.04), 1.0, 2.0).straightness)
-    assert measure_path(reach(0.04), 1.0, 2.0).length_m == pytest.approx(0.04, abs=1e-9)
-    signal = reach(0.3)
+def test_path_undefined_cases_are_nan() -> None:
+    assert math.isnan(measure_path(make_reach(0.04), 1.0, 2.0).straightness)
+    assert measure_path(make_reach(0.04), 1.0, 2.0).length_m == pytest.approx(0.04, abs=1e-9)
+    signal = make_reach(0.3)
     signal.value[45:50] = np.nan
     assert math.isnan(measure_path(signal, 1.0, 2.0).length_m)
     assert math.isnan(measure_path(signal, 50.0, 60.0).length_m)
 
 
-def serial(parts: int, noise_m_s: float = 0.0) -> FloatArray:
+def make_serial_reach(parts: int, noise_m_s: float = 0.0) -> FloatArray:
     tau = np.arange(0.0, 1.0, 1.0 / RATE)
     one = 0.3 * 30.0 * tau**2 * (1.0 - tau) ** 2
     ripple = noise_m_s * np.sin(2.0 * math.pi * 4.1 * np.arange(parts * len(tau)) / RATE)
@@ -61,8 +61,8 @@ def serial(parts: int, noise_m_s: float = 0.0) -> FloatArray:
 
 
 @pytest.mark.parametrize("parts", [1, 2, 3])
-def test_a_dip_that_noise_makes_parts_no_unit_in_two(parts: int) -> None:
-    wavy = serial(parts, 0.004)
+def test_path_peaks_noise_dip_splits_no_peak(parts: int) -> None:
+    wavy = make_serial_reach(parts, 0.004)
     assert count_speed_peaks(wavy, RATE, 0.02, min_dip=0.016) == parts
     # Nor does it take a long rise apart into steps that are too small to count.
     slow = np.concatenate((np.linspace(0.0, 0.1, 75), np.linspace(0.1, 0.0, 75)))
@@ -73,7 +73,7 @@ def test_a_dip_that_noise_makes_parts_no_unit_in_two(parts: int) -> None:
 
 @pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
 @pytest.mark.parametrize(("seed", "speed_hz", "share", "seconds"), few([(4, 0.06, 1.0, 20.0), (5, 0.05, 0.25, 24.0)]))
-def test_slow_reaches_have_the_figures_of_the_movement(
+def test_reaches_slow_match_the_movement(
     seed: int, speed_hz: float, share: float, seconds: float, smoothed: bool
 ) -> None:
     take = tracked("reach_grasp", seconds, speed_hz, seed, share)
@@ -94,7 +94,7 @@ def test_slow_reaches_have_the_figures_of_the_movement(
     assert bool(judged) == (share == 1.0)
 
 
-def test_a_reach_that_is_lost_in_noise_is_not_judged() -> None:
+def test_reaches_lost_in_noise_are_too_slow() -> None:
     time_s = np.arange(0.0, 40.0, 1.0 / RATE)
     tau = np.clip((time_s - 5.0) / 30.0, 0.0, 1.0)
     way = np.column_stack((0.06 * (10 * tau**3 - 15 * tau**4 + 6 * tau**5), 0.0 * tau, 0.0 * tau))

@@ -37,7 +37,7 @@ def exercise_deg(tops: list[float], move_s: float = 1.0, hold_s: float = 1.0) ->
     return np.concatenate(parts)
 
 
-def range_of(value_deg: FloatArray, valid: FloatArray | None = None) -> MotionRange:
+def measure_range(value_deg: FloatArray, valid: FloatArray | None = None) -> MotionRange:
     """Of an angle without noise, known to a degree."""
     t = 5.0 + np.arange(len(value_deg)) / RATE
     both = resample_evenly(t, np.radians(np.column_stack((value_deg, np.ones(len(t))))), valid)
@@ -45,13 +45,13 @@ def range_of(value_deg: FloatArray, valid: FloatArray | None = None) -> MotionRa
     return motion_range(low_pass(both.column(0), MAX_CUTOFF_HZ), both.column(1), repetitions)
 
 
-def test_tilt_of_known_poses() -> None:
+def test_view_tilt_of_known_poses_is_exact() -> None:
     angles = np.radians([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 50.0, 0.0], [0.0, 0.0, -80.0]])
     tilt = view_tilt_rad(rotation_from_angles(angles, "right"), LOOKING_DOWN)
     np.testing.assert_allclose(np.degrees(tilt), [0.0, 0.0, 50.0, 80.0], atol=1e-6)
 
 
-def test_unsure_angles_and_steep_flexion() -> None:
+def test_valid_wrist_angles_exclude_uncertain_and_steep_flexion() -> None:
     angles = np.radians([[1.0, 2.0, 3.0], [1.0, 76.0, 3.0], [np.nan, 2.0, 3.0], [1.0, 2.0, 3.0]])
     sd = np.radians(np.full((4, 3), 1.0))
     sd[3, 2] = math.radians(9.0)
@@ -59,9 +59,9 @@ def test_unsure_angles_and_steep_flexion() -> None:
     assert valid_wrist_angles(np.ones(4, dtype=bool), angles, sd).tolist() == expected
 
 
-def test_range_over_repetitions() -> None:
+def test_motion_range_over_repetitions_is_exact() -> None:
     tops = [40.0, 44.0, 48.0, 52.0, 56.0]
-    found = range_of(exercise_deg(tops))
+    found = measure_range(exercise_deg(tops))
     assert found.repetitions == 5
     np.testing.assert_allclose(np.degrees(found.arc.values), tops, atol=0.3)
     assert math.degrees(found.arc.mean) == pytest.approx(48.0, abs=0.3)
@@ -73,7 +73,7 @@ def test_range_over_repetitions() -> None:
 
 
 @pytest.mark.parametrize(("share", "measured"), [(0.69, 1), (0.71, 2)])
-def test_a_repetition_seen_for_less_than_seven_tenths_is_not_measured(share: float, measured: int) -> None:
+def test_motion_range_repetition_needs_seven_tenths_visible(share: float, measured: int) -> None:
     value = np.radians(exercise_deg([40.0, 50.0]))
     angle = resample_evenly(np.arange(len(value)) / RATE, value)
     first, second = find_repetitions(angle).repetitions
@@ -82,37 +82,37 @@ def test_a_repetition_seen_for_less_than_seven_tenths_is_not_measured(share: flo
     assert math.degrees(found.arc.best) == pytest.approx(50.0 if measured == 2 else 40.0, abs=0.3)
 
 
-def test_arc_does_not_depend_on_the_neutral_but_the_ends_do() -> None:
+def test_motion_range_arc_is_independent_of_the_neutral_pose() -> None:
     value = exercise_deg([50.0] * 3)
-    plain, shifted = range_of(value), range_of(value - 15.0)
+    plain, shifted = measure_range(value), measure_range(value - 15.0)
     assert shifted.arc.mean == pytest.approx(plain.arc.mean, abs=1e-9)
     assert math.degrees(plain.maximum.mean - shifted.maximum.mean) == pytest.approx(15.0, abs=1e-6)
 
 
-def test_without_repetitions_the_whole_recording_is_one_range() -> None:
-    found = range_of(np.concatenate((np.zeros(60), min_jerk(0.0, 7.0, 1.0), np.full(60, 7.0))))
+def test_motion_range_without_repetitions_covers_the_recording() -> None:
+    found = measure_range(np.concatenate((np.zeros(60), min_jerk(0.0, 7.0, 1.0), np.full(60, 7.0))))
     assert found.repetitions == 0
     assert math.degrees(found.arc.mean) == pytest.approx(7.0, abs=0.1)
 
 
-def test_nothing_valid_is_unknown_not_zero() -> None:
+def test_motion_range_without_valid_samples_is_unknown() -> None:
     value = exercise_deg([40.0] * 3)
-    found = range_of(value, valid=np.zeros(len(value), dtype=bool))
+    found = measure_range(value, valid=np.zeros(len(value), dtype=bool))
     assert found.repetitions == 0
     assert math.isnan(found.arc.mean)
     assert math.isnan(found.arc.best)
 
 
-def test_a_top_out_of_sight_is_said_to_be_limited() -> None:
+def test_motion_range_occluded_top_is_limited() -> None:
     value = exercise_deg([70.0] * 3)
-    found = range_of(value, valid=value < 60.0)
+    found = measure_range(value, valid=value < 60.0)
     assert found.top_limited
     assert not found.bottom_limited
     assert math.degrees(found.maximum.best) < 61.0
 
 
-def test_a_hand_that_leaves_at_the_top_for_good_is_limited_too() -> None:
+def test_motion_range_hand_leaving_at_the_top_is_limited() -> None:
     value = np.concatenate((exercise_deg([40.0] * 3), min_jerk(0.0, 80.0, 1.0)))
-    found = range_of(value, valid=value <= 45.0)
+    found = measure_range(value, valid=value <= 45.0)
     assert math.degrees(found.maximum.best) == pytest.approx(40.0, abs=0.5)
-    assert range_of(value[-30:], valid=value[-30:] <= 45.0).top_limited
+    assert measure_range(value[-30:], valid=value[-30:] <= 45.0).top_limited

@@ -20,16 +20,16 @@ pytestmark = ONE_PROCESS
 RATE = 30.0
 
 
-def bell(share: FloatArray) -> FloatArray:
+def bell_curve(share: FloatArray) -> FloatArray:
     s = np.clip(share, 0.0, 1.0)
     return 10 * s**3 - 15 * s**4 + 6 * s**5
 
 
-def test_reaches_are_found_out_and_back_with_their_times_and_paths() -> None:
+def test_find_reaches_out_and_back_with_times_and_paths() -> None:
     t = np.arange(0.0, 21.0, 1.0 / RATE)
     way = np.zeros(len(t))
     for k in range(5):
-        way += bell((t - 1.0 - 4 * k) / 0.9) - bell((t - 3.0 - 4 * k) / 1.4)
+        way += bell_curve((t - 1.0 - 4 * k) / 0.9) - bell_curve((t - 3.0 - 4 * k) / 1.4)
     signal = resample_evenly(t, np.column_stack((0.25 * way, 0.02 * np.sin(math.pi * way), 0.0 * way)))
     found = find_reaches(low_pass(signal))
     assert [reach.is_outward for reach in found] == [True, False] * 5
@@ -42,7 +42,7 @@ def test_reaches_are_found_out_and_back_with_their_times_and_paths() -> None:
     assert find_reaches(resample_evenly(t, 0.02 * np.column_stack((way, way, way)))) == ()
 
 
-def test_reaches_of_a_tracked_hand_are_those_of_the_hand() -> None:
+def test_find_reaches_of_a_tracked_hand_match_truth() -> None:
     take = tracked("reach", 12.0, 0.25)
     true, mine = (
         find_reaches(low_pass(resample_evenly(take.truth.timestamp_s, position)))
@@ -55,7 +55,7 @@ def test_reaches_of_a_tracked_hand_are_those_of_the_hand() -> None:
         assert other.path.straightness == pytest.approx(one.path.straightness, abs=0.05)
 
 
-def test_co_flexion_and_its_lag() -> None:
+def test_co_flexion_finds_correlation_and_lag() -> None:
     t = np.arange(0.0, 12.0, 1.0 / RATE)
     first, second = np.sin(2 * math.pi * 0.4 * t), 0.5 * np.sin(2 * math.pi * 0.4 * (t - 0.2))
     found = co_flexion(first, second, RATE)
@@ -69,7 +69,7 @@ def test_co_flexion_and_its_lag() -> None:
     assert enslaving_share(first, 0.26 * first) == pytest.approx(0.26, abs=0.01)
 
 
-def test_tremor_is_told_only_where_it_exceeds_the_noise() -> None:
+def test_tremor_is_reported_above_noise_only() -> None:
     t = np.arange(0.0, 10.0, 1.0 / RATE)
     rng = np.random.default_rng(3)
     noise = math.radians(0.1)
@@ -87,7 +87,7 @@ def test_tremor_is_told_only_where_it_exceeds_the_noise() -> None:
 @pytest.mark.parametrize(
     ("total", "grade"), [(270.0, "excellent"), (260.0, "excellent"), (200.0, "good"), (195.0, "fair"), (130.0, "poor")]
 )
-def test_grades_of_total_active_motion(total: float, grade: str) -> None:
+def test_total_active_motion_grades_match_the_reference(total: float, grade: str) -> None:
     assert total_grade(total_share(total, 3)) == grade
     assert total_share(total, 3, other_hand_deg=total) == 1.0
     assert total_grade(math.nan) is None
@@ -101,13 +101,13 @@ def test_grades_of_total_active_motion(total: float, grade: str) -> None:
         ((0.0, 35.0, 0.0), (0.0, 35.0, 0.0)),
     ],
 )
-def test_the_order_of_the_isb_is_that_of_the_reference(zyx: tuple[float, ...], isb: tuple[float, ...]) -> None:
+def test_isb_angle_order_matches_the_reference(zyx: tuple[float, ...], isb: tuple[float, ...]) -> None:
     for side in ("right", "left"):
         pose = rotation_from_angles(np.radians(zyx), side)  # type: ignore[arg-type]
         assert np.degrees(isb_from_rotation(pose, side)) == pytest.approx(isb, abs=0.06)  # type: ignore[arg-type]
 
 
-def test_zyz_is_given_where_it_is_known_with_its_deviation() -> None:
+def test_zyz_angles_are_given_where_known() -> None:
     sd = np.radians([0.5, 0.5, 0.5])
     pose = Rotation.from_euler("ZYZ", [40.0, 2.0, -25.0], degrees=True).as_matrix()
     zyz, spread, total = zyz_with_sd(pose, sd, "right")
@@ -126,7 +126,7 @@ def test_zyz_is_given_where_it_is_known_with_its_deviation() -> None:
     assert np.isnan(spread[1]).all()
 
 
-def test_a_flat_hand_s_trial_has_its_zyz_where_the_pose_is_sure_of_it() -> None:
+def test_zyz_angles_of_a_flat_hand_need_a_certain_pose() -> None:
     take = tracked("deviation", 14.0, 0.15)
     zyz, spread, total = zyz_with_sd(take.smoothed.rotation_w2_w0, take.smoothed.angles_sd_rad, "right")
     assert np.isfinite(total).all(), "alpha + gamma is always known"
@@ -138,7 +138,7 @@ def test_a_flat_hand_s_trial_has_its_zyz_where_the_pose_is_sure_of_it() -> None:
 
 
 @pytest.mark.parametrize("hz", [0.5, 1.0, 1.7, 2.5])
-def test_a_brisk_exercise_is_no_tremor(hz: float) -> None:
+def test_tremor_of_a_brisk_exercise_is_none(hz: float) -> None:
     t = np.arange(0.0, 12.0, 1.0 / RATE)
     # Strokes with holds at both ends: what is quick in them lies above 3 Hz too.
     strokes = np.radians(30.0) * np.tanh(3.0 * np.sin(2 * math.pi * hz * t))
@@ -152,7 +152,7 @@ def test_a_brisk_exercise_is_no_tremor(hz: float) -> None:
 
 
 @pytest.mark.parametrize("fps", [1.5, 5.0, 20.0])
-def test_tremor_of_too_few_frames_a_second_is_not_available(fps: float) -> None:
+def test_tremor_at_low_frame_rate_is_unknown(fps: float) -> None:
     t = np.arange(0.0, 40.0, 1.0 / fps)
     found = measure_tremor(resample_evenly(t, np.full(len(t), 0.3)), math.radians(0.25))
     assert (found.has_few_frames, found.is_tremor) == (True, False)

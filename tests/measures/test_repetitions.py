@@ -16,11 +16,11 @@ from carpus.core.model.types import FloatArray
 RATE = 30.0
 
 
-def signal_of(value_deg: FloatArray, keep: FloatArray | None = None) -> Signal:
+def make_signal(value_deg: FloatArray, keep: FloatArray | None = None) -> Signal:
     return resample_evenly(np.arange(len(value_deg)) / RATE, np.radians(value_deg), keep)
 
 
-def both_sides(
+def swing_to_both_sides(
     amplitude_deg: float, frequency_hz: float, count: int = 6, noise_deg: float = 0.0, seed: int = 0
 ) -> FloatArray:
     """Rest, ``count`` full swings to both sides, rest."""
@@ -31,7 +31,7 @@ def both_sides(
     return value + np.random.default_rng(seed).normal(0.0, noise_deg, len(value))
 
 
-def one_side(amplitude_deg: float, frequency_hz: float, count: int = 6, hold_s: float = 0.0) -> FloatArray:
+def swing_to_one_side(amplitude_deg: float, frequency_hz: float, count: int = 6, hold_s: float = 0.0) -> FloatArray:
     """Rest, ``count`` raised cosines with a hold at the top, rest."""
     t = np.arange(0.0, 0.5 / frequency_hz, 1.0 / RATE)
     up = 0.5 * amplitude_deg * (1.0 - np.cos(2.0 * math.pi * frequency_hz * t))
@@ -47,8 +47,8 @@ def one_side(amplitude_deg: float, frequency_hz: float, count: int = 6, hold_s: 
     noise=st.floats(0.0, 2.0),
     seed=st.integers(0, 10_000),
 )
-def test_six_of_six_swings(amplitude: float, frequency: float, noise: float, seed: int) -> None:
-    found = find_repetitions(signal_of(both_sides(amplitude, frequency, noise_deg=noise, seed=seed)))
+def test_find_repetitions_six_swings_gives_six(amplitude: float, frequency: float, noise: float, seed: int) -> None:
+    found = find_repetitions(make_signal(swing_to_both_sides(amplitude, frequency, noise_deg=noise, seed=seed)))
     assert len(found.repetitions) == 6
 
 
@@ -58,8 +58,8 @@ def test_six_of_six_swings(amplitude: float, frequency: float, noise: float, see
     frequency=st.floats(0.2, 1.0),
     hold=st.floats(0.0, 2.0),
 )
-def test_six_of_six_excursions_to_one_side(amplitude: float, frequency: float, hold: float) -> None:
-    found = find_repetitions(signal_of(one_side(amplitude, frequency, hold_s=hold)))
+def test_find_repetitions_six_excursions_to_one_side_gives_six(amplitude: float, frequency: float, hold: float) -> None:
+    found = find_repetitions(make_signal(swing_to_one_side(amplitude, frequency, hold_s=hold)))
     assert len(found.repetitions) == 6
     assert len(found.strokes) == 12
     assert found.strokes[0].is_rising == (amplitude > 0.0)
@@ -68,16 +68,16 @@ def test_six_of_six_excursions_to_one_side(amplitude: float, frequency: float, h
 
 @settings(max_examples=40, deadline=None)
 @given(noise=st.floats(0.0, 2.0), seed=st.integers(0, 10_000), offset=st.floats(-60.0, 60.0))
-def test_no_repetition_in_noise(noise: float, seed: int, offset: float) -> None:
+def test_find_repetitions_noise_gives_none(noise: float, seed: int, offset: float) -> None:
     value = offset + np.random.default_rng(seed).normal(0.0, noise, 300)
-    found = find_repetitions(signal_of(value))
+    found = find_repetitions(make_signal(value))
     assert found.repetitions == ()
     assert found.strokes == ()
 
 
-def test_repetitions_follow_each_other_and_hold_one_top_each() -> None:
-    value = one_side(60.0, 0.5)
-    signal = signal_of(value)
+def test_find_repetitions_are_contiguous_with_one_top_each() -> None:
+    value = swing_to_one_side(60.0, 0.5)
+    signal = make_signal(value)
     found = find_repetitions(signal)
     for k, rep in enumerate(found.repetitions):
         part = signal.crop(rep.start_s, rep.end_s)
@@ -89,30 +89,30 @@ def test_repetitions_follow_each_other_and_hold_one_top_each() -> None:
     assert found.repetitions[2].end_s - found.repetitions[2].start_s == pytest.approx(2.0, abs=0.1)
 
 
-def test_swings_to_both_sides_are_cut_at_the_middle() -> None:
-    found = find_repetitions(signal_of(both_sides(30.0, 0.5)))
+def test_find_repetitions_both_sides_are_cut_at_the_middle() -> None:
+    found = find_repetitions(make_signal(swing_to_both_sides(30.0, 0.5)))
     for k, rep in enumerate(found.repetitions):
         assert rep.start_s == pytest.approx(1.0 + 2.0 * k, abs=0.1)
         assert rep.end_s == pytest.approx(3.0 + 2.0 * k, abs=0.1)
 
 
-def test_a_last_swing_that_never_comes_back_is_no_repetition() -> None:
-    value = one_side(60.0, 0.5)[: -(30 + 30)]
+def test_find_repetitions_last_swing_without_return_is_partial() -> None:
+    value = swing_to_one_side(60.0, 0.5)[: -(30 + 30)]
     assert value[-1] == pytest.approx(60.0, abs=0.5)
-    assert len(find_repetitions(signal_of(value)).repetitions) == 5
+    assert len(find_repetitions(make_signal(value)).repetitions) == 5
 
 
-def test_small_range_short_or_nothing_seen_gives_none() -> None:
-    assert find_repetitions(signal_of(both_sides(4.5, 0.5))).repetitions == ()
-    assert find_repetitions(signal_of(both_sides(30.0, 0.5)[40:65])).repetitions == ()
-    assert find_repetitions(signal_of(np.full(200, np.nan))).repetitions == ()
+def test_find_repetitions_small_short_or_unseen_gives_none() -> None:
+    assert find_repetitions(make_signal(swing_to_both_sides(4.5, 0.5))).repetitions == ()
+    assert find_repetitions(make_signal(swing_to_both_sides(30.0, 0.5)[40:65])).repetitions == ()
+    assert find_repetitions(make_signal(np.full(200, np.nan))).repetitions == ()
 
 
-def test_a_hidden_stretch_shows_in_the_repetition_it_hurts() -> None:
-    value = one_side(60.0, 0.5)
+def test_find_repetitions_gap_lowers_valid_share() -> None:
+    value = swing_to_one_side(60.0, 0.5)
     keep = np.ones(len(value), dtype=bool)
     keep[30 + 2 * 60 + 22 : 30 + 2 * 60 + 38] = False
-    found = find_repetitions(signal_of(value, keep))
+    found = find_repetitions(make_signal(value, keep))
     shares = [rep.valid_share for rep in found.repetitions]
     assert len(shares) == 6
     assert shares[2] == pytest.approx(1.0 - 16 / 60, abs=0.05)
@@ -120,28 +120,28 @@ def test_a_hidden_stretch_shows_in_the_repetition_it_hurts() -> None:
 
 
 @pytest.mark.parametrize(("share", "counted"), [(0.27, 6), (0.33, 8)])
-def test_a_swing_of_less_than_three_tenths_of_the_usual_one_is_no_repetition(share: float, counted: int) -> None:
-    value = np.concatenate((one_side(60.0, 0.5), one_side(share * 60.0, 0.5, count=2)))
-    assert len(find_repetitions(signal_of(value)).repetitions) == counted
+def test_find_repetitions_swing_below_three_tenths_is_none(share: float, counted: int) -> None:
+    value = np.concatenate((swing_to_one_side(60.0, 0.5), swing_to_one_side(share * 60.0, 0.5, count=2)))
+    assert len(find_repetitions(make_signal(value)).repetitions) == counted
 
 
 @pytest.mark.parametrize(("hidden_s", "counted"), [(0.9, 4), (1.2, 3)])
-def test_nothing_is_counted_across_more_than_a_second_out_of_sight(hidden_s: float, counted: int) -> None:
-    value = one_side(60.0, 0.25, count=4)
+def test_find_repetitions_long_occlusion_is_not_crossed(hidden_s: float, counted: int) -> None:
+    value = swing_to_one_side(60.0, 0.25, count=4)
     top = 30 + 120 + 60
     keep = np.ones(len(value), dtype=bool)
     keep[top - round(0.5 * hidden_s * RATE) : top + round(0.5 * hidden_s * RATE)] = False
-    found = find_repetitions(signal_of(value, keep))
+    found = find_repetitions(make_signal(value, keep))
     assert len(found.repetitions) == counted
     assert (len(found.occluded_s), len(found.partial_repetitions)) == ((0, 0) if counted == 4 else (1, 2))
 
 
-def test_the_noise_of_a_poor_picture_hardly_ever_looks_like_a_repetition() -> None:
+def test_find_repetitions_strong_noise_rarely_gives_one() -> None:
     noisy = [np.random.default_rng(seed).normal(0.0, 6.0, 300) for seed in range(100)]
-    assert sum(bool(find_repetitions(signal_of(value)).repetitions) for value in noisy) <= 10
+    assert sum(bool(find_repetitions(make_signal(value)).repetitions) for value in noisy) <= 10
 
 
-def turns_sample_by_sample(value: FloatArray, least: float) -> list[tuple[bool, float]]:
+def find_turns_by_sample(value: FloatArray, least: float) -> list[tuple[bool, float]]:
     """Side and value of every turning point, by looking at every pair of samples."""
     known = value[np.isfinite(value)].tolist()
     out: list[tuple[bool, float]] = []
@@ -166,39 +166,39 @@ def turns_sample_by_sample(value: FloatArray, least: float) -> list[tuple[bool, 
     hidden=st.sets(st.integers(0, 80)),
     least=st.integers(1, 12),
 )
-def test_turning_points_are_those_read_sample_by_sample(steps: list[int], hidden: set[int], least: int) -> None:
+def test_turning_points_match_a_sample_by_sample_search(steps: list[int], hidden: set[int], least: int) -> None:
     value = np.cumsum(np.array(steps, dtype=float))
     value[[k for k in hidden if k < len(value)]] = np.nan
     found = [(turn.is_high, turn.value) for turn in _find_turning_points(value, least)]
-    assert found == (turns_sample_by_sample(value, least) if np.isfinite(value).sum() > 1 else [])
+    assert found == (find_turns_by_sample(value, least) if np.isfinite(value).sum() > 1 else [])
 
 
-def test_missing_frames_anywhere_unmake_no_clear_wave() -> None:
-    waves = one_side(60.0, 0.5, count=10)
-    away = np.concatenate((waves, np.zeros(20 * 30), one_side(60.0, 0.5, count=2)))
+def test_find_repetitions_missing_frames_keep_clear_waves() -> None:
+    waves = swing_to_one_side(60.0, 0.5, count=10)
+    away = np.concatenate((waves, np.zeros(20 * 30), swing_to_one_side(60.0, 0.5, count=2)))
     keep = np.ones(len(away), dtype=bool)
     keep[len(waves) + 10 : len(waves) + 20 * 30 - 10] = False
-    found = find_repetitions(signal_of(away, keep))
+    found = find_repetitions(make_signal(away, keep))
     whole = [rep for rep in found.repetitions if rep.valid_share == 1.0]
-    assert signal_of(away, keep).valid_share < 0.65
+    assert make_signal(away, keep).valid_share < 0.65
     assert len(whole) >= 12
     # Every third frame missing, anywhere, leaves all ten.
     scattered = np.random.default_rng(1).random(len(waves)) > 0.35
-    assert len(find_repetitions(signal_of(waves, scattered)).repetitions) == 10
+    assert len(find_repetitions(make_signal(waves, scattered)).repetitions) == 10
 
 
 @pytest.mark.parametrize("end", ["rest", "away", "turned over"])
 @pytest.mark.parametrize("count", [4, 10])
-def test_what_comes_after_unmakes_no_repetition(end: str, count: int) -> None:
-    waves = both_sides(15.0, 0.4, count=count)
+def test_find_repetitions_later_samples_remove_none(end: str, count: int) -> None:
+    waves = swing_to_both_sides(15.0, 0.4, count=count)
     after = {
         "rest": np.zeros(600 * 30),
         "away": np.full(5 * 30, np.nan),
         "turned over": np.concatenate((np.linspace(0.0, 150.0, 20), np.full(60, 150.0))),
     }[end]
-    before = find_repetitions(signal_of(waves)).repetitions
+    before = find_repetitions(make_signal(waves)).repetitions
     assert len(before) == count
-    found = find_repetitions(signal_of(np.concatenate((waves, after)))).repetitions
+    found = find_repetitions(make_signal(np.concatenate((waves, after)))).repetitions
     assert len(found) >= count
     for one in before[:-1]:
         middle_s = 0.5 * (one.start_s + one.end_s)
@@ -206,30 +206,28 @@ def test_what_comes_after_unmakes_no_repetition(end: str, count: int) -> None:
 
 
 @pytest.mark.parametrize(("pace_deg_s", "first_s"), [(4.0, 0.0), (8.0, 1.5)])
-def test_a_hand_that_creeps_by_more_than_a_thirtieth_of_its_swing_does_not_stand(
-    pace_deg_s: float, first_s: float
-) -> None:
+def test_find_repetitions_creeping_hand_is_not_still(pace_deg_s: float, first_s: float) -> None:
     """Begun in the midst of a way of 60 degrees: what stands there is home, what moves is the piece of a repetition."""
     creep = 15.0 + pace_deg_s * np.arange(0.0, 0.5, 1.0 / RATE)
     way = 0.5 * (1.0 - np.cos(math.pi * np.arange(0.0, 1.0, 1.0 / RATE)))
     first = creep[-1] + (60.0 - creep[-1]) * way
     value = np.concatenate((creep, first, *[60.0 - 60.0 * way, 60.0 * way] * 2, np.full(int(RATE), 60.0)))
-    found = find_repetitions(signal_of(value))
+    found = find_repetitions(make_signal(value))
     assert [one.cut for one in found.partial_repetitions] == ["cut_by_start" if first_s else "cut_by_end"]
     assert [found.repetitions[0].start_s, len(found.repetitions)] == [pytest.approx(first_s, abs=0.05), 2]
 
 
-def test_why_there_is_none_is_said() -> None:
+def test_explain_no_repetitions_gives_the_reason() -> None:
     def why(value: FloatArray) -> str | None:
-        signal = signal_of(value)
+        signal = make_signal(value)
         return explain_no_repetitions(signal, find_repetitions(signal))
 
     assert why(np.full(200, np.nan)) == "nothing_seen"
-    assert why(both_sides(30.0, 0.5)[:20]) == "too_short"
-    assert why(both_sides(4.5, 0.5)) == "small_range"
+    assert why(swing_to_both_sides(30.0, 0.5)[:20]) == "too_short"
+    assert why(swing_to_both_sides(4.5, 0.5)) == "small_range"
     assert why(np.linspace(0.0, 50.0, 90)) == "no_return"
     assert why(40.0 * np.sin(2.0 * math.pi * 3.0 * np.arange(180) / 30.0)) == "too_quick"
-    assert why(both_sides(30.0, 0.5)) is None
+    assert why(swing_to_both_sides(30.0, 0.5)) is None
     one = 40.0 * np.sin(2.0 * math.pi * np.arange(73) / 75.0)  # not quite to its end
     assert why(np.concatenate((np.zeros(240), one))) == "no_return", "the recording ended in it: it was not quick"
     seen = np.concatenate([np.linspace(0.0, 50.0, 30), np.linspace(50.0, 0.0, 30)] * 4)

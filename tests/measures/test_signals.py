@@ -22,7 +22,7 @@ from carpus.core.model import so3
 RATE = 30.0
 
 
-def test_even_samples_stay_as_they_are() -> None:
+def test_resample_even_samples_are_unchanged() -> None:
     t = 1000.0 + np.arange(90) / RATE
     value = np.sin(t)
     signal = resample_evenly(t, value)
@@ -33,7 +33,7 @@ def test_even_samples_stay_as_they_are() -> None:
     assert len(signal.gaps_s) == 0
 
 
-def test_dropped_frames_keep_the_clock() -> None:
+def test_resample_dropped_frames_keep_time() -> None:
     t = np.delete(np.arange(90) / RATE, [20, 21, 50])
     signal = resample_evenly(t, 3.0 * t)
     assert len(signal.time_s) == 90
@@ -41,7 +41,7 @@ def test_dropped_frames_keep_the_clock() -> None:
 
 
 @pytest.mark.parametrize(("missing", "filled"), [(5, True), (6, True), (8, False)])
-def test_only_short_gaps_are_filled(missing: int, filled: bool) -> None:
+def test_resample_fills_short_gaps_only(missing: int, filled: bool) -> None:
     t = np.arange(90) / RATE
     value = t.copy()
     value[40 : 40 + missing] = np.nan
@@ -55,7 +55,7 @@ def test_only_short_gaps_are_filled(missing: int, filled: bool) -> None:
         assert not signal.is_near_gap(39 / RATE - 0.3)
 
 
-def test_hidden_start_and_end_are_gaps_outside_the_base() -> None:
+def test_resample_occluded_ends_are_gaps() -> None:
     t = np.arange(90) / RATE
     valid = (t > 1.0) & (t < 2.0)
     signal = resample_evenly(t, np.column_stack((t, -t)), valid)
@@ -66,7 +66,7 @@ def test_hidden_start_and_end_are_gaps_outside_the_base() -> None:
 
 
 @pytest.mark.parametrize("known", [0, 1])
-def test_nothing_known_is_an_empty_signal(known: int) -> None:
+def test_resample_without_valid_samples_is_empty(known: int) -> None:
     t = np.arange(30) / RATE
     value = np.full(30, np.nan)
     value[:known] = 1.0
@@ -91,14 +91,14 @@ def test_nothing_known_is_an_empty_signal(known: int) -> None:
         (4.0, 5.0, 0, 0),
     ],
 )
-def test_between_are_the_samples_from_start_to_end(start_s: float, end_s: float, first: int, count: int) -> None:
+def test_crop_returns_samples_from_start_to_end(start_s: float, end_s: float, first: int, count: int) -> None:
     time_s = np.arange(31) / 10.0
     part = resample_evenly(time_s, np.arange(31.0)).crop(start_s, end_s)
     assert part.value == pytest.approx(np.arange(first, first + count))
     assert np.allclose(part.time_s, time_s[first : first + count])
 
 
-def test_low_pass_does_not_delay_and_stops_fast_noise() -> None:
+def test_low_pass_has_no_delay_and_removes_fast_noise() -> None:
     t = np.arange(0.0, 8.0, 1.0 / RATE)
     slow = low_pass(resample_evenly(t, np.sin(2 * math.pi * 0.5 * t))).value
     np.testing.assert_allclose(slow[30:-30], np.sin(2 * math.pi * 0.5 * t)[30:-30], atol=2e-3)
@@ -113,7 +113,7 @@ def test_low_pass_halves_the_power_at_its_cut_off(cutoff_hz: float) -> None:
     assert float(np.std(passed)) * math.sqrt(2.0) == pytest.approx(math.sqrt(0.5), abs=0.003)
 
 
-def test_each_stretch_is_filtered_on_its_own() -> None:
+def test_low_pass_filters_each_run_separately() -> None:
     t = np.arange(0.0, 4.0, 1.0 / RATE)
     value = np.sin(t)
     value[50:60] = np.nan
@@ -126,7 +126,7 @@ def test_each_stretch_is_filtered_on_its_own() -> None:
     assert np.isfinite(smooth.value[80:]).all()
 
 
-def test_slow_recording_is_left_alone() -> None:
+def test_low_pass_slow_recording_is_unchanged() -> None:
     t = np.arange(0.0, 4.0, 0.1)
     signal = resample_evenly(t, np.sin(t))
     assert low_pass(signal) is signal
@@ -141,7 +141,7 @@ def test_rate_of_change_keeps_gaps() -> None:
     assert np.isnan(rate[30:45]).all()
 
 
-def test_stretches() -> None:
+def test_find_runs_returns_slices_in_order() -> None:
     flag = np.array([True, True, False, True, False, False, True])
     assert find_runs(flag) == [slice(0, 2), slice(3, 4), slice(6, 7)]
     assert find_runs(np.zeros(3, dtype=bool)) == []
@@ -154,7 +154,7 @@ def test_stretches() -> None:
         (1, 6, 0.0, False), (2, 6, 0.0, False), (3, 6, 0.0, False),
     ],
 )  # fmt: skip
-def test_a_frame_counts_that_is_tracked_by_four_discs_no_more_than_70_degrees_aslant(
+def test_valid_view_needs_four_markers_and_tilt_below_70_degrees(
     status: int, discs: int, tilt_deg: float, counts: bool
 ) -> None:
     pixel = np.full((1, 6, 2), np.nan)
@@ -164,14 +164,14 @@ def test_a_frame_counts_that_is_tracked_by_four_discs_no_more_than_70_degrees_as
     assert valid_view(np.array([status]), pixel, tilted, towards_camera).tolist() == [counts]
 
 
-def test_an_angle_counts_that_is_known_to_8_degrees() -> None:
+def test_valid_angle_needs_sd_below_8_degrees() -> None:
     sd_deg = np.array([7.9, 8.1, np.nan, 1.0])
     valid = valid_angle(np.full(4, True), np.array([0.0, 0.0, 0.0, np.nan]), np.radians(sd_deg))
     assert valid.tolist() == [True, False, False, False]
 
 
 @pytest.mark.parametrize(("gone_s", "taken_s"), [(0.15, 0.0), (0.3, 0.09)])
-def test_what_lies_beside_a_gap_that_is_not_filled_does_not_count(gone_s: float, taken_s: float) -> None:
+def test_exclude_view_edges_beside_long_gaps(gone_s: float, taken_s: float) -> None:
     time_s = np.arange(200) / 100.0
     gone = (time_s > 1.0) & (time_s < 1.0 + gone_s)
     kept = time_s[exclude_view_edges(~gone, time_s)]

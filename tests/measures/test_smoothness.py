@@ -18,11 +18,11 @@ def min_jerk_speed(duration_s: float, rate_hz: float) -> FloatArray:
     return 30.0 * tau**2 * (1.0 - tau) ** 2 / duration_s
 
 
-def serial(parts: int, rate_hz: float = 30.0) -> FloatArray:
+def make_serial_speed(parts: int, rate_hz: float = 30.0) -> FloatArray:
     return np.concatenate([min_jerk_speed(1.0, rate_hz)[:-1]] * parts)
 
 
-def test_reference_vector() -> None:
+def test_smoothness_of_the_reference_vector_is_exact() -> None:
     t = np.arange(-1.0, 1.0, 0.01)
     speed = np.exp(-5.0 * t**2)
     assert sparc(speed, 100.0) == pytest.approx(-1.41403, abs=5e-6)
@@ -30,33 +30,33 @@ def test_reference_vector() -> None:
 
 
 @pytest.mark.parametrize(("hz", "counts"), [(8.0, True), (12.0, False)])
-def test_what_shakes_faster_than_ten_hertz_is_no_part_of_the_arc_length(hz: float, counts: bool) -> None:
+def test_sparc_ignores_frequencies_above_ten_hertz(hz: float, counts: bool) -> None:
     t = np.arange(-1.0, 1.0, 0.01)
     speed = np.exp(-5.0 * t**2)
     shaken = speed * (1.0 + 0.3 * np.cos(2.0 * math.pi * hz * t))
     assert (sparc(shaken, 100.0) < sparc(speed, 100.0) - 0.05) == counts
 
 
-def test_minimum_jerk_at_thirty_frames() -> None:
+def test_smoothness_of_minimum_jerk_at_thirty_fps_is_ideal() -> None:
     assert sparc(min_jerk_speed(1.0, 30.0), 30.0) == pytest.approx(-1.401, abs=0.02)
     assert log_dimensionless_jerk(min_jerk_speed(1.0, 30.0), 30.0) == pytest.approx(-5.25, abs=0.06)
     assert log_dimensionless_jerk(min_jerk_speed(0.6, 30.0), 30.0) == pytest.approx(-5.20, abs=0.08)
 
 
 @pytest.mark.parametrize(("parts", "arc_length", "jerk"), [(2, -2.26, -8.0), (3, -2.70, -9.6), (4, -3.10, -10.8)])
-def test_more_submovements_are_less_smooth(parts: int, arc_length: float, jerk: float) -> None:
-    assert sparc(serial(parts), 30.0) == pytest.approx(arc_length, abs=0.08)
-    assert log_dimensionless_jerk(serial(parts), 30.0) == pytest.approx(jerk, abs=0.15)
+def test_smoothness_falls_with_submovements(parts: int, arc_length: float, jerk: float) -> None:
+    assert sparc(make_serial_speed(parts), 30.0) == pytest.approx(arc_length, abs=0.08)
+    assert log_dimensionless_jerk(make_serial_speed(parts), 30.0) == pytest.approx(jerk, abs=0.15)
 
 
 @pytest.mark.parametrize("measure", [sparc, log_dimensionless_jerk])
-def test_smoothness_depends_on_shape_not_on_size(measure: object) -> None:
+def test_smoothness_is_independent_of_size(measure: object) -> None:
     assert callable(measure)
     speed = min_jerk_speed(1.0, 30.0)
     assert measure(7.0 * speed, 30.0) == pytest.approx(measure(speed, 30.0), rel=1e-9)
 
 
-def test_filtering_brings_noisy_smoothness_back() -> None:
+def test_smoothness_of_a_noisy_profile_is_restored_by_filtering() -> None:
     rng = np.random.default_rng(3)
     t = np.arange(0.0, 3.0, 1.0 / 30.0)
     tau = np.clip(t - 1.0, 0.0, 1.0)
@@ -77,24 +77,24 @@ def test_filtering_brings_noisy_smoothness_back() -> None:
     [np.ones(7), np.zeros(40), np.full(40, np.nan), np.concatenate((np.ones(20), [np.nan], np.ones(20)))],
     ids=["too short", "no motion", "unknown", "gap"],
 )
-def test_undefined_is_nan(speed: FloatArray) -> None:
+def test_smoothness_undefined_is_nan(speed: FloatArray) -> None:
     assert math.isnan(sparc(speed, 30.0))
     assert math.isnan(log_dimensionless_jerk(speed, 30.0))
 
 
-def test_too_slow_to_judge() -> None:
+def test_smoothness_of_a_slow_profile_is_nan() -> None:
     speed = 0.01 * min_jerk_speed(1.0, 30.0)
     assert math.isnan(sparc(speed, 30.0, min_peak=0.05))
     assert math.isfinite(sparc(speed, 30.0, min_peak=0.01))
 
 
 @pytest.mark.parametrize("parts", [1, 2, 3, 4])
-def test_one_peak_for_each_submovement(parts: int) -> None:
-    assert count_speed_peaks(serial(parts), 30.0, 0.02) == parts
+def test_speed_peaks_count_each_submovement(parts: int) -> None:
+    assert count_speed_peaks(make_serial_speed(parts), 30.0, 0.02) == parts
 
 
-def test_small_ripples_and_close_neighbours_are_no_peaks() -> None:
-    speed = serial(1)
+def test_speed_peaks_ignore_ripples_and_close_neighbours() -> None:
+    speed = make_serial_speed(1)
     ripple = speed.copy()
     ripple[20] += 0.01 + speed[19] - speed[20]
     assert count_speed_peaks(ripple, 30.0, 0.02) == 1

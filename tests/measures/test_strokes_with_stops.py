@@ -15,7 +15,7 @@ from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures, log_dimensionless_jerk, measure_stroke, sparc
 from carpus.core.model.types import FloatArray
-from tests.measures.test_noise import angle_of
+from tests.measures.test_noise import make_angle
 from tests.measures.tracked import ONE_PROCESS, tracked
 from tests.measures.ways import RATE, Part, way
 from tests.suites import few
@@ -23,14 +23,14 @@ from tests.suites import few
 pytestmark = ONE_PROCESS
 
 
-def there_and_back(parts: list[Part], hold_s: float = 1.0) -> FloatArray:
+def make_repetitions(parts: list[Part], hold_s: float = 1.0) -> FloatArray:
     """A repetition between two holds, radians."""
     arc, hold = sum(part[0] for part in parts), np.ones(round(hold_s * RATE))
     out = way(parts)
     return np.radians(np.concatenate((0.0 * hold, out, arc * hold, (arc - out), 0.0 * hold)))
 
 
-def strokes_of(angle: FloatArray, sd_deg: float = 0.0) -> list[StrokeMeasures]:
+def find_strokes(angle: FloatArray, sd_deg: float = 0.0) -> list[StrokeMeasures]:
     time_s = np.arange(len(angle)) / RATE
     signal = resample_evenly(time_s, angle)
     sd = resample_evenly(time_s, np.full(len(angle), math.radians(sd_deg))) if sd_deg else None
@@ -56,8 +56,8 @@ def true_speed(parts: list[Part]) -> FloatArray:
     ],
     ids=["smooth", "quick", "three stops", "a pause"],
 )
-def test_a_stop_inside_a_stroke_is_part_of_it(parts: list[Part], published: float, pauses: int) -> None:
-    found = strokes_of(there_and_back(parts))
+def test_stroke_with_a_stop_includes_the_pause(parts: list[Part], published: float, pauses: int) -> None:
+    found = find_strokes(make_repetitions(parts))
     assert len(found) == 2
     duration_s = sum(part[1] for part in parts)
     moves = [part for part in parts if part[0]]
@@ -85,12 +85,10 @@ parts_of_people = st.lists(
 
 
 @given(parts=parts_of_people, noise_deg=st.sampled_from([0.0, 0.1, 0.3, 0.6]), seed=st.integers(0, 99))
-def test_the_mean_speed_is_never_above_the_peak_and_pauses_are_within_the_movement(
-    parts: list[Part], noise_deg: float, seed: int
-) -> None:
-    angle = there_and_back(parts)
+def test_stroke_mean_is_below_peak_and_pauses_within_movement(parts: list[Part], noise_deg: float, seed: int) -> None:
+    angle = make_repetitions(parts)
     drawn = Noise(math.radians(noise_deg), SMOOTHER_CORRELATION_S).sample(len(angle), RATE)[seed % 64]
-    for stroke in strokes_of(angle + drawn, 2.0 * noise_deg):
+    for stroke in find_strokes(angle + drawn, 2.0 * noise_deg):
         assert not stroke.mean_speed_rad_s > stroke.peak_speed_rad_s
         assert not stroke.pause_s > stroke.movement_time_s
         assert not stroke.movement_time_s > stroke.stroke.end_s - stroke.stroke.start_s + 2.0
@@ -98,24 +96,24 @@ def test_the_mean_speed_is_never_above_the_peak_and_pauses_are_within_the_moveme
         assert not stroke.sparc > -1.0
 
 
-def test_units_of_a_movement_too_slow_for_them_are_not_known() -> None:
-    for stroke in strokes_of(there_and_back([(12.0, 8.0)], hold_s=2.0)):
+def test_stroke_peaks_of_a_slow_movement_are_unknown() -> None:
+    for stroke in find_strokes(make_repetitions([(12.0, 8.0)], hold_s=2.0)):
         assert math.degrees(stroke.arc_rad) == pytest.approx(12.0, abs=0.1)
         assert math.degrees(stroke.peak_speed_rad_s) == pytest.approx(1.875 * 12.0 / 8.0, rel=0.03)
         assert math.isnan(stroke.peaks)
 
 
-def test_who_creeps_on_in_the_turning_place_has_arrived() -> None:
+def test_stroke_creeping_in_the_turning_band_has_ended() -> None:
     settling = [(58.0, 1.0), (0.0, 0.5), (2.0, 1.5)]
-    out, _ = strokes_of(there_and_back(settling))
+    out, _ = find_strokes(make_repetitions(settling))
     assert out.movement_time_s == pytest.approx(1.0 - 2 * 0.0594, abs=0.03)
     assert out.pauses == 0.0
 
 
 @pytest.mark.parametrize("hold_s", [0.5, 6.0])
-def test_a_hold_makes_no_arc_of_its_noise(hold_s: float) -> None:
+def test_stroke_arc_of_a_noisy_hold_is_zero(hold_s: float) -> None:
     noise, off_deg, plain_deg = Noise(math.radians(0.4), SMOOTHER_CORRELATION_S), [], []
-    one = there_and_back([(60.0, 1.0)], hold_s)
+    one = make_repetitions([(60.0, 1.0)], hold_s)
     for drawn in noise.sample(3 * len(one), RATE)[:12]:
         time_s = np.arange(len(drawn)) / RATE
         both = resample_evenly(
@@ -134,12 +132,12 @@ def test_a_hold_makes_no_arc_of_its_noise(hold_s: float) -> None:
 
 @pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
 @pytest.mark.parametrize(("seconds", "speed_hz", "share", "fewest"), few([(12.0, 0.5, 1.5, 3), (24.0, 0.15, 1.0, 0)]))
-def test_a_tracked_patient_who_stops_is_not_called_smooth(
+def test_stroke_smoothness_of_a_tracked_patient_with_stops_is_low(
     seconds: float, speed_hz: float, share: float, fewest: int, smoothed: bool
 ) -> None:
     take = tracked("flexion", seconds, speed_hz, seed=5, share=share, stops=True)
     true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, 1])
-    angle = angle_of(take, 1, smoothed=smoothed)
+    angle = make_angle(take, 1, smoothed=smoothed)
     pairs = [
         (measure_stroke(true, stroke), measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed))
         for stroke in find_repetitions(true).strokes
@@ -159,7 +157,7 @@ def test_a_tracked_patient_who_stops_is_not_called_smooth(
     assert sum(math.isfinite(other.sparc) for _, other in known) >= (fewest if smoothed else min(fewest, 1))
 
 
-def test_what_has_no_smoothness_says_why() -> None:
+def test_stroke_without_smoothness_has_a_reason() -> None:
     time_s = np.arange(0.0, 22.0, 1 / 30)
     value = np.radians(12.0) * (0.5 - 0.5 * np.cos(np.pi * np.clip((time_s - 1.0) / 10.0, 0.0, 2.0)))
     angle = resample_evenly(time_s, value)

@@ -17,13 +17,13 @@ from carpus.core.simulation.truth import compute_truth
 
 
 @pytest.mark.parametrize("option", [{"dropped_share": 1.5}, {"seconds": 0.0}, {"skin_tone": 9}, {"motion": "dance"}])
-def test_impossible_options_are_refused(option: dict) -> None:
+def test_recording_spec_impossible_options_are_refused(option: dict) -> None:
     with pytest.raises(SettingsInvalid):
         create_motion(RecordingSpec(**option))
 
 
 @pytest.mark.parametrize("name", MOTIONS)
-def test_every_motion_starts_still_and_has_no_jump(name: str) -> None:
+def test_motion_starts_still_and_is_continuous(name: str) -> None:
     motion = create_motion(RecordingSpec(seed=3, motion=name, protocol="hand21", seconds=6.0, tremor_deg=1.0))
     still = np.linspace(0.0, 0.7, 20)
     assert STILL_S >= 0.7
@@ -39,7 +39,7 @@ def test_every_motion_starts_still_and_has_no_jump(name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "axis", "degrees"), [("deviation", 0, 25.0), ("flexion", 1, 50.0), ("pronosupination", 2, 35.0)]
 )
-def test_single_axis_motions_fill_their_range_and_leave_the_others(name: str, axis: int, degrees: float) -> None:
+def test_motion_single_axis_fills_its_range_only(name: str, axis: int, degrees: float) -> None:
     time_s = np.arange(0.0, 12.0, 0.01)
     angles = np.degrees(create_motion(RecordingSpec(seed=1, motion=name, seconds=12.0)).wrist_angles_rad(time_s))
     assert 0.9 * degrees < angles[:, axis].max() < degrees + 2.0
@@ -47,7 +47,7 @@ def test_single_axis_motions_fill_their_range_and_leave_the_others(name: str, ax
     assert np.abs(np.delete(angles, axis, axis=1)).max() < 2.5
 
 
-def test_options_shape_the_motion() -> None:
+def test_motion_follows_the_options() -> None:
     time_s = np.arange(0.0, 12.0, 0.01)
 
     def flexion(**options: object) -> np.ndarray:
@@ -66,14 +66,14 @@ def test_options_shape_the_motion() -> None:
     assert np.fft.rfftfreq(len(shaking), 0.01)[spectrum.argmax()] == pytest.approx(5.0, abs=0.2)
 
 
-def test_fast_deviation_turns_at_its_frequency() -> None:
+def test_motion_fast_deviation_has_its_frequency() -> None:
     time_s = np.arange(1.0, 11.0, 0.01)
     angle = create_motion(RecordingSpec(seed=1, motion="fast_deviation", seconds=12.0)).wrist_angles_rad(time_s)[:, 0]
     spectrum = np.abs(np.fft.rfft(angle - angle.mean()))
     assert np.fft.rfftfreq(len(angle), 0.01)[spectrum.argmax()] == pytest.approx(1.7, abs=0.12)
 
 
-def test_reaching_is_as_measured_on_people() -> None:
+def test_motion_reach_matches_measured_people() -> None:
     time_s = np.arange(0.0, 4.0, 0.002)
     carry = create_motion(RecordingSpec(seed=2, motion="reach", seconds=4.0)).arm_displacement_m(time_s)
     speed = np.linalg.norm(np.gradient(carry, 0.002, axis=0), axis=1)
@@ -85,7 +85,7 @@ def test_reaching_is_as_measured_on_people() -> None:
     assert 0.7 < time_s[last] - time_s[first] < 1.15
 
 
-def test_coupled_and_free_end_joints() -> None:
+def test_motion_dip_coupled_and_free() -> None:
     time_s = np.arange(0.0, 6.0, 0.05)
     coupled = create_motion(RecordingSpec(motion="hook", protocol="hand21"))
     free = create_motion(RecordingSpec(motion="hook", protocol="hand21", dip="free"))
@@ -104,7 +104,7 @@ def test_stroke_path_holds_and_passes_through_its_postures() -> None:
     )
 
 
-def test_palm_discs_are_one_rigid_body_in_every_frame() -> None:
+def test_scene_palm_markers_are_rigid() -> None:
     truth = compute_truth(Scene(RecordingSpec(seed=5, motion="mixed", protocol="hand21")))
     palm = truth.marker_position_cam_m[:, [HAND21.markers.index(name) for name in PALM_MARKERS]]
     gaps = np.linalg.norm(palm[:, :, None] - palm[:, None], axis=-1)
@@ -114,7 +114,7 @@ def test_palm_discs_are_one_rigid_body_in_every_frame() -> None:
     assert 2e-3 < np.ptp(wrist_to_knuckle) < 5e-3
 
 
-def test_wrist_disc_hardly_moves_in_deviation_and_turns_about_the_joint_under_it() -> None:
+def test_scene_wrist_marker_turns_about_its_joint() -> None:
     scene = Scene(RecordingSpec(seed=6, motion="deviation"))
     truth = compute_truth(scene)
     assert np.linalg.norm(truth.position_m, axis=1).max() < 0.004
@@ -127,7 +127,7 @@ def test_wrist_disc_hardly_moves_in_deviation_and_turns_about_the_joint_under_it
     assert 0.008 < -joint[2] < 0.018
 
 
-def test_true_velocities_are_derivatives() -> None:
+def test_truth_velocities_are_derivatives() -> None:
     spec = RecordingSpec(seed=8, motion="reach_grasp", protocol="hand21", seconds=3.0)
     scene = Scene(spec)
     truth = compute_truth(scene)
@@ -148,7 +148,7 @@ def test_true_velocities_are_derivatives() -> None:
     assert (along / (np.linalg.norm(axis, axis=1) * speed)[fast]).min() > 0.999
 
 
-def test_left_hand_is_the_mirror_image_of_the_right() -> None:
+def test_scene_left_hand_mirrors_the_right() -> None:
     right = RecordingSpec(seed=9, motion="thumb", protocol="hand21", yaw_deg=0.0, tilt_deg=0.0)
     a, b = Scene(right), Scene(dataclasses.replace(right, hand="left"))
     times = np.linspace(0.0, 6.0, 30)

@@ -43,7 +43,7 @@ def radius_px(pictures: SimulatedRecording, i: int, m: int) -> float:
 
 
 @pytest.mark.parametrize(("hand", "seed", "frame"), few([("left", 6, 40), ("right", 4, 0), ("right", 8, 70)]))
-def test_discs_appear_where_the_truth_projects_them(hand: str, seed: int, frame: int) -> None:
+def test_rendered_markers_match_the_projected_truth(hand: str, seed: int, frame: int) -> None:
     spec = RecordingSpec(
         seed=seed, hand=hand, light="bright", skin_tone=1, hand_length_mm=185, exposure_s=0.0, motion="mixed",
         sensor_noise=False,
@@ -59,7 +59,7 @@ def test_discs_appear_where_the_truth_projects_them(hand: str, seed: int, frame:
         assert error < (0.45 if m == 1 else 0.3), (m, error)  # CMC1 lies on a slope
 
 
-def test_sensor_adds_little_to_the_discs_places() -> None:
+def test_rendered_markers_move_little_with_sensor_noise() -> None:
     spec = RecordingSpec(seed=4, light="bright", skin_tone=1, hand_length_mm=185, motion="rest", seconds=1.0)
     pictures = SimulatedRecording(spec)
     errors = []
@@ -74,20 +74,20 @@ def test_sensor_adds_little_to_the_discs_places() -> None:
 
 
 @pytest.mark.parametrize("motion", few(["fist", "mixed", "abduction"]))
-def test_discs_lie_on_the_rendered_surface(motion: str) -> None:
+def test_rendered_markers_lie_on_the_surface(motion: str) -> None:
     spec = RecordingSpec(seed=11, protocol="hand21", motion=motion, depth_delay_s=0.0, sensor_noise=False)
     assert discs_found_on_the_surface(SimulatedRecording(spec), (0, 35, 60), least_facing=0.4) > 25
 
 
 @pytest.mark.parametrize("skin_offsets", [True, False])
 @pytest.mark.parametrize("hand", ["right", "left"])
-def test_palm_discs_stay_on_the_skin_while_wrist_and_fingers_bend(hand: str, skin_offsets: bool) -> None:
+def test_rendered_palm_markers_stay_on_the_skin_in_flexion(hand: str, skin_offsets: bool) -> None:
     for motion in ("flexion", "fist", "pronosupination"):
         scene = Scene(RecordingSpec(seed=2, hand=hand, motion=motion, protocol="hand21", skin_offsets=skin_offsets))
         assert np.abs(gaps_m(scene, np.linspace(0.0, 6.0, 13), HAND21.palm)).max() < 6e-4
 
 
-def test_hidden_discs_are_not_in_the_picture() -> None:
+def test_rendered_covered_markers_are_absent() -> None:
     spec = RecordingSpec(
         seed=3, hidden_share=0.5, hidden_mean_s=0.5, light="bright", skin_tone=0, hand_length_mm=190, seconds=4.0,
         motion="rest", sensor_noise=False,
@@ -105,7 +105,7 @@ def test_hidden_discs_are_not_in_the_picture() -> None:
     assert min(seen.values()) > 8
 
 
-def test_passing_thing_hides_discs_and_stands_nearer() -> None:
+def test_rendered_rod_hides_markers_and_is_nearer() -> None:
     spec = RecordingSpec(seed=5, object_passes=True, motion="rest", seconds=5.0, sensor_noise=False)
     pictures = SimulatedRecording(spec)
     frames = range(0, len(pictures), 8)
@@ -119,7 +119,7 @@ def test_passing_thing_hides_discs_and_stands_nearer() -> None:
     assert clean.depth_m[v, u] < before.depth_m[v, u] - 0.02
 
 
-def test_hand_leaves_the_picture_and_returns() -> None:
+def test_rendered_hand_leaves_the_image_and_returns() -> None:
     spec = RecordingSpec(seed=5, leaves_picture=True, motion="rest", seconds=6.0, exposure_s=0.0)
     pictures = SimulatedRecording(spec)
     pixel = pictures.truth.marker_px
@@ -130,7 +130,7 @@ def test_hand_leaves_the_picture_and_returns() -> None:
     np.testing.assert_array_equal(pictures.render_clean(away).visible_share, 0.0)
 
 
-def test_false_blobs_are_blue_and_have_depth() -> None:
+def test_rendered_false_blobs_are_blue_with_depth() -> None:
     without = SimulatedRecording(RecordingSpec(seed=6, motion="rest", sensor_noise=False))
     with_blobs = SimulatedRecording(RecordingSpec(seed=6, motion="rest", sensor_noise=False, false_blobs=4))
     plain, spotted = without.render_clean(5), with_blobs.render_clean(5)
@@ -143,7 +143,7 @@ def test_false_blobs_are_blue_and_have_depth() -> None:
         assert 0.4 < spotted.depth_m[v, u] <= plain.depth_m[v, u] + 1e-3
 
 
-def test_blue_sleeve_and_tone_and_light_show() -> None:
+def test_rendered_sleeve_skin_tone_and_light_are_visible() -> None:
     def arm_color(**options: object) -> FloatArray:
         pictures = SimulatedRecording(RecordingSpec(seed=1, motion="rest", **options))  # type: ignore[arg-type]
         color, _ = pictures.apply_sensor(0, pictures.render_clean(0))
@@ -158,7 +158,7 @@ def test_blue_sleeve_and_tone_and_light_show() -> None:
     assert arm_color(sleeve="none", skin_tone=0, light="dim").mean() < 0.8 * bare.mean()
 
 
-def test_moving_hand_is_blurred_when_the_exposure_is_long() -> None:
+def test_rendered_moving_hand_is_blurred_by_exposure() -> None:
     def sharpness(exposure_s: float) -> float:
         spec = RecordingSpec(seed=4, motion="fast_deviation", exposure_s=exposure_s, sensor_noise=False, seconds=2.0)
         pictures = SimulatedRecording(spec)
@@ -171,7 +171,7 @@ def test_moving_hand_is_blurred_when_the_exposure_is_long() -> None:
     assert sharpness(0.016) < 0.7 * sharpness(0.0)
 
 
-def test_the_last_column_of_a_hand_that_leaves_can_be_lit() -> None:
+def test_ambient_occlusion_of_one_column_works() -> None:
     depth_m = np.full((40, 1), 0.7, dtype=np.float32)
     sliver = TracedSurface(
         Box(100, 140, 639, 640), depth_m, np.ones_like(depth_m), np.zeros((40, 1, 3)), np.zeros((40, 1))
@@ -181,7 +181,7 @@ def test_the_last_column_of_a_hand_that_leaves_can_be_lit() -> None:
     assert np.all(light == 1.0)
 
 
-def test_skin_outside_the_picture_is_none() -> None:
+def test_trace_cones_outside_the_image_is_none() -> None:
     scene = Scene(RecordingSpec(seed=7))
     cones = scene.cones_cam(scene.pose(np.array([0.0])), 0)
     assert trace_cones(scene.camera, cones) is not None

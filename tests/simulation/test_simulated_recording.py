@@ -49,9 +49,7 @@ def digests(folder: Path) -> dict[str, str]:
     }
 
 
-def test_same_spec_gives_the_same_bytes_and_another_seed_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_simulate_same_spec_gives_the_same_bytes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Rendered here or by processes; where these can share nothing one renders all."""
     short = dataclasses.replace(SPEC, seconds=0.2)
     simulate(short, tmp_path / "a", workers=1)
@@ -69,7 +67,7 @@ def test_same_spec_gives_the_same_bytes_and_another_seed_others(
     assert digests(tmp_path / "alone") == a
 
 
-def test_recording_reads_back_with_its_true_times(recording: Path) -> None:
+def test_simulate_recording_reads_back_with_true_times(recording: Path) -> None:
     truth = truth_in(SPEC, recording)
     source = TumFolder(recording)
     frames = list(source.frames())
@@ -86,7 +84,7 @@ def test_recording_reads_back_with_its_true_times(recording: Path) -> None:
     assert 0.001 < delay.mean() < 0.008
 
 
-def test_dropped_frames_keep_time() -> None:
+def test_simulate_dropped_frames_keep_time() -> None:
     whole, thinned = RecordingSpec(seed=1, seconds=20.0), RecordingSpec(seed=1, seconds=20.0, dropped_share=0.1)
     all_times, times = sample_frame_times(whole), sample_frame_times(thinned)
     assert set(times.color_s.tolist()) < set(all_times.color_s.tolist())
@@ -97,7 +95,7 @@ def test_dropped_frames_keep_time() -> None:
     assert times.color_s[0] == 0.0
 
 
-def test_truth_file_is_a_session_of_true_values(recording: Path) -> None:
+def test_truth_file_reads_as_a_session(recording: Path) -> None:
     truth = truth_in(SPEC, recording)
     with h5py.File(recording / TRUTH_FILE) as file:
         assert file.attrs["format"] == "carpus-session"
@@ -118,7 +116,7 @@ def test_truth_file_is_a_session_of_true_values(recording: Path) -> None:
     np.testing.assert_allclose(measured[seen], truth.marker_px[seen])
 
 
-def test_clicks_are_those_of_a_person(recording: Path) -> None:
+def test_simulated_clicks_have_the_error_of_a_person(recording: Path) -> None:
     content = json.loads((recording / "calibration.json").read_text())
     truth = truth_in(SPEC, recording)
     assert content["hand"] == "left"
@@ -130,14 +128,14 @@ def test_clicks_are_those_of_a_person(recording: Path) -> None:
     np.testing.assert_allclose(sample_clicks(exact).pixel, exact.marker_px[0], atol=0.051)
 
 
-def test_nothing_is_overwritten(recording: Path) -> None:
+def test_simulate_existing_recording_is_refused(recording: Path) -> None:
     before = digests(recording)
     with pytest.raises(OutputExists):
         simulate(SPEC, recording)
     assert digests(recording) == before
 
 
-def test_cache_renders_once(tmp_path: Path) -> None:
+def test_render_cached_renders_once(tmp_path: Path) -> None:
     spec = RecordingSpec(seed=30, seconds=0.1, motion="rest")
     calls: list[int] = []
     first = render_cached(spec, lambda done, _: calls.append(done), cache=tmp_path)
@@ -149,7 +147,7 @@ def test_cache_renders_once(tmp_path: Path) -> None:
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_discs_are_covered_as_often_as_asked_but_not_at_the_start() -> None:
+def test_covered_markers_have_the_wanted_share_after_the_start() -> None:
     spec = RecordingSpec(seed=3, seconds=200.0, hidden_share=0.1, hidden_mean_s=0.4)
     times = np.arange(0.0, 200.0, 1.0 / 30.0)
     covered = sample_covered_markers(spec, times)
@@ -160,7 +158,7 @@ def test_discs_are_covered_as_often_as_asked_but_not_at_the_start() -> None:
     assert lengths == pytest.approx(0.4, abs=0.08)
 
 
-def test_false_blobs_are_as_many_as_asked_and_clear_of_the_discs() -> None:
+def test_false_blobs_have_the_wanted_number_clear_of_markers() -> None:
     scene = Scene(RecordingSpec(seed=3, seconds=20.0, false_blobs=2))
     blobs = sample_false_blobs(scene)
     times = np.arange(0.0, 20.0, 0.05)
@@ -173,7 +171,7 @@ def test_false_blobs_are_as_many_as_asked_and_clear_of_the_discs() -> None:
             assert np.linalg.norm(discs - blob.center_m, axis=1).min() > 0.0149
 
 
-def test_measurements_are_the_truth_with_noise() -> None:
+def test_simulated_measurements_are_truth_with_noise() -> None:
     spec = RecordingSpec(
         seed=5, motion="mixed", seconds=20.0, false_blobs=2, hidden_share=0.1, dropped_share=0.02, depth_scale_error=0.0
     )
@@ -198,7 +196,7 @@ def test_measurements_are_the_truth_with_noise() -> None:
     np.testing.assert_array_equal(truth.angles_rad, compute_truth(Scene(spec)).angles_rad)
 
 
-def test_measurements_repeat_and_can_be_free_of_noise() -> None:
+def test_simulated_measurements_repeat_and_can_be_noise_free() -> None:
     spec = RecordingSpec(seed=6, motion="fist", protocol="hand21", seconds=3.0)
     one, two = measurement_sequence(spec), measurement_sequence(spec)
     for a, b in zip(one.detections, two.detections, strict=True):
@@ -212,7 +210,7 @@ def test_measurements_repeat_and_can_be_free_of_noise() -> None:
         np.testing.assert_allclose(blobs.pixel, pixel[marker], atol=1e-9)
 
 
-def test_ctrl_c_is_left_to_whoever_asked_for_pictures(tmp_path: Path) -> None:
+def test_simulate_workers_ignore_ctrl_c(tmp_path: Path) -> None:
     processes = _create_worker_pool(SPEC, tmp_path, 1)
     assert processes is not None
     with processes:

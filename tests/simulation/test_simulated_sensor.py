@@ -27,13 +27,13 @@ def slope(z_m: float) -> np.ndarray:
     return (z_m * (1.0 + 3e-5 * (columns - 320) + 2e-5 * (rows - 240))).astype(np.float32)
 
 
-def errors_on(wall: np.ndarray, sensor: SimulatedDepthSensor, count: int) -> np.ndarray:
+def measure_errors(wall: np.ndarray, sensor: SimulatedDepthSensor, count: int) -> np.ndarray:
     """Of so many pictures of a wall, NaN where a picture has a hole."""
     stack = np.stack([sensor.measure(wall, i) * UNIT_M for i in range(count)])
     return np.where(stack > 0.0, stack - wall, np.nan)
 
 
-def shared(one: np.ndarray, apart: int) -> float:
+def correlation(one: np.ndarray, apart: int) -> float:
     """The share of its variance that a picture's error has in common with that so many pixels further on."""
     return float((one[:, :-apart] * one[:, apart:]).mean() / (one * one).mean())
 
@@ -46,17 +46,17 @@ def block() -> np.ndarray:
 
 
 @pytest.mark.parametrize("z_m", few([0.7, 0.6, 0.9]))
-def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
+def test_depth_noise_matches_the_reference(z_m: float) -> None:
     sensor, wall = StructuredLightSensor(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
-    error = errors_on(wall, sensor, 12)
+    error = measure_errors(wall, sensor, 12)
     sigma = 1.425e-3 * z_m**2
     assert np.nanstd(error) == pytest.approx(sigma, rel=0.15)
     assert abs(np.nanmean(error)) < 0.2 * sigma
     assert np.isnan(error).mean() < 0.005
     # Noise of one frame is shared over the matching window, and not beyond it.
     one = np.nan_to_num(error[0] - error[1])
-    assert shared(one, 2) > 0.4
-    assert abs(shared(one, 16)) < 0.1
+    assert correlation(one, 2) > 0.4
+    assert abs(correlation(one, 16)) < 0.1
     # A part of the error stays from frame to frame.
     fixed = np.nanmean(error, axis=0)
     assert np.nanstd(fixed) > 1.3 * sigma / np.sqrt(12)
@@ -64,12 +64,12 @@ def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
 
 @pytest.mark.parametrize("name", ["d415", "d435", "d455", "azure"])
 @pytest.mark.parametrize("z_m", few([0.6, 1.0]))
-def test_other_sensors_scatter_by_their_own_law(name: str, z_m: float) -> None:
+def test_depth_noise_of_other_sensors_follows_their_law(name: str, z_m: float) -> None:
     """On a wall: what changes from picture to picture, what stays, and how far neighbours are one reading."""
     spec = RecordingSpec(seed=1, depth_scale_error=0.0, sensor=name)
     camera = Scene(spec).camera
     sensor, wall, count = create_depth_sensor(spec, camera), slope(z_m), 8
-    error = errors_on(wall, sensor, count)
+    error = measure_errors(wall, sensor, count)
     stays = np.nanmean(error, axis=0)
     passing = error - stays
     passing_m = float(np.nanstd(passing)) * np.sqrt(count / (count - 1))
@@ -81,11 +81,11 @@ def test_other_sensors_scatter_by_their_own_law(name: str, z_m: float) -> None:
     assert np.sqrt(np.nanvar(stays) - passing_m**2 / count) == pytest.approx(said_stays_m, rel=0.15)
     assert np.isnan(error).mean() < 0.002
     one, apart = np.nan_to_num(passing[0]), round(camera.sensor.patch_px)
-    assert shared(one, -(-apart // 2)) > 0.2
-    assert abs(shared(one, 3 * apart)) < 0.1
+    assert correlation(one, -(-apart // 2)) > 0.2
+    assert abs(correlation(one, 3 * apart)) < 0.1
 
 
-def test_edges_are_thick_for_two_eyes_and_fly_for_time_of_flight() -> None:
+def test_depth_edges_are_thick_in_stereo_and_fly_in_time_of_flight() -> None:
     found = {}
     for name in ("d435", "azure"):
         spec = RecordingSpec(seed=3, depth_scale_error=0.0, sensor=name)
@@ -103,7 +103,7 @@ def test_edges_are_thick_for_two_eyes_and_fly_for_time_of_flight() -> None:
     assert not (np.abs(found["d435"] - 0.75) < 0.03).any(axis=1).mean() > 0.5
 
 
-def test_dark_things_are_noisier_to_time_of_flight() -> None:
+def test_time_of_flight_dark_surfaces_are_noisier() -> None:
     spec = RecordingSpec(seed=5, depth_scale_error=0.0, sensor="azure")
     sensor, wall = create_depth_sensor(spec, Scene(spec).camera), slope(0.7)
     light = np.full((*SHAPE, 3), 0.4, dtype=np.float32)
@@ -113,13 +113,13 @@ def test_dark_things_are_noisier_to_time_of_flight() -> None:
         assert noise[:, :320].clip(max=50.0).mean() > 1.3 * noise[:, 320:].clip(max=50.0).mean()
 
 
-def test_the_written_recording_says_its_sensor(tmp_path: Path) -> None:
+def test_simulate_recording_names_its_sensor(tmp_path: Path) -> None:
     simulate(RecordingSpec(seed=1, seconds=0.05, sensor="d455"), tmp_path / "r")
     assert TumFolder(tmp_path / "r").info.sensor == D455
     assert read_session(tmp_path / "r" / "truth.h5").camera.sensor == D455
 
 
-def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
+def test_depth_steps_are_an_eighth_of_a_pixel() -> None:
     wall = slope(0.8)
     raw = StructuredLightSensor(RecordingSpec(seed=2, depth_scale_error=0.0), SHAPE).measure(wall, 0) * UNIT_M
     values = np.unique(raw[raw > 0.0])
@@ -130,7 +130,7 @@ def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
     assert np.abs(disparity - np.round(disparity)).max() < 0.5e-3 / step + 0.05
 
 
-def test_edges_have_holes_and_a_shadow_on_one_side() -> None:
+def test_depth_edges_have_holes_and_a_shadow() -> None:
     raw = StructuredLightSensor(RecordingSpec(seed=3), SHAPE).measure(block(), 0)[150:330] > 0
     holes = 1.0 - raw.mean(axis=0)
     assert holes[206:394].max() < 0.1
@@ -142,7 +142,7 @@ def test_edges_have_holes_and_a_shadow_on_one_side() -> None:
     assert 5.0 < wide < 14.0  # 43.1 (1 / 0.70 - 1 / 0.80) = 7.7 px of shadow
 
 
-def test_scale_error_is_one_number_of_the_unit_and_bounded() -> None:
+def test_depth_scale_is_constant_and_bounded() -> None:
     wall = slope(0.7)
     scales = []
     for seed in range(8):
@@ -154,7 +154,7 @@ def test_scale_error_is_one_number_of_the_unit_and_bounded() -> None:
     assert min(scales) < 0.0 < max(scales)
 
 
-def test_noise_depends_on_seed_and_frame_alone() -> None:
+def test_sensor_noise_depends_on_seed_and_frame_only() -> None:
     wall = slope(0.7)
     spec = RecordingSpec(seed=4)
     first, again = StructuredLightSensor(spec, SHAPE), StructuredLightSensor(spec, SHAPE)
@@ -163,7 +163,7 @@ def test_noise_depends_on_seed_and_frame_alone() -> None:
     assert np.any(first.measure(wall, 5) != first.measure(wall, 6))
 
 
-def test_two_neighbours_share_their_chroma() -> None:
+def test_color_neighbours_share_chroma() -> None:
     pictures = SimulatedRecording(RecordingSpec(seed=2, light="normal", motion="rest"))
     color, _ = pictures.apply_sensor(0, pictures.render_clean(0))
     difference = color.astype(int)[..., 0] - color.astype(int)[..., 2]
@@ -173,7 +173,7 @@ def test_two_neighbours_share_their_chroma() -> None:
     assert between.mean() > 3 * pairs.mean()
 
 
-def test_dim_light_is_noisier() -> None:
+def test_color_dim_light_is_noisier() -> None:
     def noise(light: str) -> float:
         pictures = SimulatedRecording(RecordingSpec(seed=2, light=light, motion="rest"))  # type: ignore[arg-type]
         clean = pictures.render_clean(0)

@@ -35,17 +35,17 @@ def scenes(**options: Any) -> tuple[Scene, Scene]:
     return Scene(RecordingSpec(seed=5, **options)), Scene(RecordingSpec(seed=5, **options, **SOFT))
 
 
-def tightest(scene: Scene) -> float:
+def min_distance(scene: Scene) -> float:
     """Time of the firmest grip."""
     time_s = np.arange(0.0, scene.spec.seconds, 1.0 / 30.0)
     return float(time_s[scene.pose(time_s).tissue.cup_rad[:, 1].argmax()])
 
 
 @pytest.mark.parametrize("options", few(CASES, 2))
-def test_discs_lie_on_the_rendered_surface_of_a_soft_hand(options: dict[str, Any]) -> None:
+def test_soft_hand_markers_lie_on_the_surface(options: dict[str, Any]) -> None:
     spec = RecordingSpec(seed=5, depth_delay_s=0.0, sensor_noise=False, exposure_s=0.0, **options, **SOFT)
     pictures = SimulatedRecording(spec)
-    frames = [0, round(30 * tightest(pictures.scene)), 95]
+    frames = [0, round(30 * min_distance(pictures.scene)), 95]
     checked = discs_found_on_the_surface(pictures, frames, least_facing=0.5)
     assert checked > 2 * len(spec.marker_protocol.markers) // 3
     discs = pictures.truth.marker_position_cam_m
@@ -53,7 +53,7 @@ def test_discs_lie_on_the_rendered_surface_of_a_soft_hand(options: dict[str, Any
 
 
 @pytest.mark.parametrize("options", few(CASES, 2))
-def test_the_softness_leaves_the_true_angles_as_they_were(options: dict[str, Any]) -> None:
+def test_soft_hand_keeps_true_angles(options: dict[str, Any]) -> None:
     rigid, soft = (compute_truth(scene) for scene in scenes(**options))
     for name in ("angles_rad", "rotation_w2_w0", "joint_angles_rad", "angular_velocity_rad_s", "position_m"):
         np.testing.assert_array_equal(getattr(rigid, name), getattr(soft, name))
@@ -61,7 +61,7 @@ def test_the_softness_leaves_the_true_angles_as_they_were(options: dict[str, Any
     np.testing.assert_allclose(rigid.marker_position_w0_m, soft.marker_position_w0_m, atol=1e-4)
 
 
-def test_no_glide_and_no_cupping_is_the_rigid_hand() -> None:
+def test_soft_hand_without_glide_and_cupping_is_rigid() -> None:
     options = {"motion": "fist", "protocol": "hand21", "habit": "restless_clicks"}
     soft = Scene(RecordingSpec(seed=5, **options, skin_glide_mm=1e-9, cupping=0.0))
     rigid = Scene(RecordingSpec(seed=5, **options))
@@ -82,9 +82,9 @@ def test_no_glide_and_no_cupping_is_the_rigid_hand() -> None:
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])
-def test_the_fixed_unit_does_not_move_while_the_hand_grips(hand: str) -> None:
+def test_soft_hand_fixed_unit_is_still_in_a_grip(hand: str) -> None:
     _, soft = scenes(motion="power_grip", protocol="hand21", hand=hand)
-    pose = soft.pose(np.array([0.0, tightest(soft)]))
+    pose = soft.pose(np.array([0.0, min_distance(soft)]))
     discs = soft.patient.anatomy.palm_disc_m * [1.0, -1.0 if hand == "left" else 1.0, 1.0]
     wrist, mcp2, mcp3 = discs[0], discs[2], discs[3]
     open_hand, grip = (soft.skin.cones_w(pose.joint_angles_rad[i], pose.tissue.select(i)) for i in (0, 1))
@@ -107,7 +107,7 @@ def height_m(place_m: np.ndarray, cones: Any) -> float:
     return float(place[2])
 
 
-def test_knuckles_glide_distally_by_the_gain_and_rise() -> None:
+def test_soft_hand_knuckles_glide_and_rise() -> None:
     _, soft = scenes(motion="bend45", protocol="hand21", seconds=12.0, speed_hz=0.1)
     pose = soft.pose(np.arange(0.0, 12.0, 0.1))
     local = (soft.markers_w0_m(pose) - pose.position_m[:, None]) @ pose.rotation_w2_w0
@@ -119,7 +119,7 @@ def test_knuckles_glide_distally_by_the_gain_and_rise() -> None:
     assert 0.75 * 7.0 * share.mean() < gone_mm[bent].mean() < 1.25 * 7.0 * share.mean()
 
 
-def test_knuckles_stand_out_when_the_fingers_bend() -> None:
+def test_soft_hand_knuckles_stand_out_in_flexion() -> None:
     _, soft = scenes(motion="bend45", protocol="hand21")
     joints = soft.motion.joint_angles_rad(np.zeros(1))[0]
     still = TissueState.rigid(1).select(0)
@@ -130,7 +130,7 @@ def test_knuckles_stand_out_when_the_fingers_bend() -> None:
     assert 0.3e-3 < high - low < 1.5e-3
 
 
-def test_metacarpals_flex_together_with_the_grip() -> None:
+def test_soft_hand_metacarpals_flex_with_the_grip() -> None:
     _, soft = scenes(motion="power_grip", protocol="hand21", seconds=6.0)
     time_s = np.arange(0.0, 6.0, 0.02)
     cup = soft.pose(time_s).tissue.cup_rad
@@ -141,7 +141,7 @@ def test_metacarpals_flex_together_with_the_grip() -> None:
     assert np.abs(cup[time_s < 0.7]).max() < 1e-12
 
 
-def test_play_closes_its_loop_and_the_lag_comes_to_rest() -> None:
+def test_tissue_play_and_lag_come_to_rest() -> None:
     time_s = np.arange(0.0, 8.0, 0.01)
     driver = np.sin(2.0 * np.pi * 0.5 * time_s)[:, None]
     followed = apply_play(driver, 0.2)
@@ -155,7 +155,7 @@ def test_play_closes_its_loop_and_the_lag_comes_to_rest() -> None:
     assert step[-1] == pytest.approx(1.0, abs=1e-6)
 
 
-def test_tissue_is_drawn_per_person_within_its_range() -> None:
+def test_tissue_varies_between_people_within_its_range() -> None:
     drawn = [sample_tissue(RecordingSpec(seed=seed, skin_glide_mm=None, cupping=None)) for seed in range(60)]
     knuckle_mm = np.array([t.glide_m_rad[KNUCKLES].mean() for t in drawn]) * 1e3 * np.pi / 2.0
     assert knuckle_mm.min() < 1.5
@@ -166,7 +166,7 @@ def test_tissue_is_drawn_per_person_within_its_range() -> None:
     assert cup.max() > 0.8
 
 
-def test_habits_do_what_they_are_called() -> None:
+def test_habits_have_their_effect() -> None:
     time_s = np.arange(0.0, 8.0, 0.02)
 
     def motion(habit: str, exercise: str = "flexion") -> Scene:

@@ -20,7 +20,7 @@ from tests.simulation.skin_shown import gaps_m
 PALM = list(HAND21.palm)
 
 
-def test_hands_are_drawn_wider_than_the_prior() -> None:
+def test_wide_anatomy_varies_more_than_the_prior() -> None:
     usual, wide = (
         [Scene(RecordingSpec(seed=seed, protocol="hand21", anatomy=kind, seconds=0.1)) for seed in range(24)]
         for kind in ("usual", "wide")
@@ -48,7 +48,7 @@ def test_hands_are_drawn_wider_than_the_prior() -> None:
 
 @pytest.mark.parametrize("anatomy", ["usual", "wide"])
 @pytest.mark.parametrize("hand", ["right", "left"])
-def test_truth_counts_from_the_frame_that_the_discs_span(hand: str, anatomy: str) -> None:
+def test_wide_anatomy_truth_counts_from_the_markers_frame(hand: str, anatomy: str) -> None:
     spec = RecordingSpec(seed=22, hand=hand, motion="mixed", anatomy=anatomy)
     scene = Scene(spec)
     truth = compute_truth(scene)
@@ -73,13 +73,13 @@ def test_truth_counts_from_the_frame_that_the_discs_span(hand: str, anatomy: str
     np.testing.assert_allclose(truth.angular_velocity_rad_s[100], vee, atol=0.05)
 
 
-def test_discs_lie_on_the_skin_wherever_they_were_stuck() -> None:
+def test_wide_anatomy_markers_lie_on_the_skin() -> None:
     for seed in (2, 7, 24):
         scene = Scene(RecordingSpec(seed=seed, protocol="hand21", motion="fist", anatomy="wide", seconds=4.0))
         assert np.abs(gaps_m(scene, np.linspace(0.0, 4.0, 5), PALM)).max() < 6e-4
 
 
-def test_what_is_worn_shows_and_pen_marks_are_too_small_to_be_found() -> None:
+def test_worn_items_are_visible_and_pen_marks_are_not_detected() -> None:
     plain = {
         "seed": 3,
         "protocol": "hand21",

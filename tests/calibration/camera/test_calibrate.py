@@ -67,13 +67,13 @@ def check_lens(made: CameraCalibration, middle_px: float) -> None:
     assert np.abs(rays[0] @ turned - rays[1]).max() * LENS.fx_px < 1.0
 
 
-def test_the_lens_is_found_within_three_in_a_thousand(made: CameraCalibration) -> None:
+def test_solve_intrinsics_is_within_three_permille(made: CameraCalibration) -> None:
     check_lens(made, middle_px=0.003 * 640)
     assert made.intrinsics.reprojection_error_px < 0.3
     assert abs(made.intrinsics.camera.fx_px - LENS.fx_px) < 4.0 * made.intrinsics.focal_sd_px
 
 
-def test_the_scale_of_depth_is_found_within_two_in_a_thousand(made: CameraCalibration, studio: Studio) -> None:
+def test_check_depth_scale_is_within_two_permille(made: CameraCalibration, studio: Studio) -> None:
     true = depth_scale(studio.spec)
     assert abs(true - 1.0) > 0.004, "the simulated unit must be off, or nothing is found"
     depth = made.depth
@@ -84,7 +84,7 @@ def test_the_scale_of_depth_is_found_within_two_in_a_thousand(made: CameraCalibr
     assert np.linalg.norm(depth.registration_error_px) < 0.5
 
 
-def test_depth_beside_the_colours_and_a_shift_are_told(gathered: ViewCollector) -> None:
+def test_check_depth_finds_registration_error_and_offset(gathered: ViewCollector) -> None:
     def moved(view: BoardView) -> BoardView:
         assert view.depth_raw is not None
         depth = np.roll(view.depth_raw, 3, axis=1)
@@ -100,7 +100,7 @@ def test_depth_beside_the_colours_and_a_shift_are_told(gathered: ViewCollector) 
     assert after.offset_m == pytest.approx(0.006, abs=0.0025)
 
 
-def test_a_charuco_board_does_too() -> None:
+def test_calibrate_camera_with_charuco_is_exact() -> None:
     texture = texture_of(create_board_sheet(CHARUCO, "letter"))
     source = ShownSheets(Studio(seed=4), [[one] for one in poses(texture, distances_m=(0.44, 0.5, 0.6))])
     gathering = ViewCollector(source.info.camera)
@@ -111,19 +111,21 @@ def test_a_charuco_board_does_too() -> None:
     check_lens(found, middle_px=0.005 * 640)
 
 
-def test_it_is_said_in_words(made: CameraCalibration) -> None:
+def test_format_calibration_lines(made: CameraCalibration) -> None:
     said = "\n".join(format_calibration(made))
     assert "px (good: below 0.3 px)" in said
     assert "too long" in said or "too short" in said
     assert "chessboard 10 x 7" in said
 
 
-def shifted(view: BoardView, pixel: FloatArray) -> BoardView:
+def shift_corners(view: BoardView, pixel: FloatArray) -> BoardView:
     return replace(view, detected=replace(view.detected, pixel=pixel))
 
 
-def bent(view: BoardView) -> BoardView:
-    return shifted(view, view.detected.pixel + 8.0 * np.sin(view.detected.corner_ids * 2.1)[:, None] * [1.0, -1.0])
+def bend_board(view: BoardView) -> BoardView:
+    return shift_corners(
+        view, view.detected.pixel + 8.0 * np.sin(view.detected.corner_ids * 2.1)[:, None] * [1.0, -1.0]
+    )
 
 
 UNFIT: dict[str, tuple[Callable[[list[BoardView]], list[BoardView]], type[CarpusFault], str | None]] = {
@@ -131,22 +133,22 @@ UNFIT: dict[str, tuple[Callable[[list[BoardView]], list[BoardView]], type[Carpus
     "too few": (lambda views: views[: MIN_VIEWS - 1], BoardViewsTooSimilar, f"{MIN_VIEWS} needed"),
     "not tilted": (lambda views: [replace(view, nearer_side=None) for view in views], BoardViewsTooSimilar, "tilted"),
     "one corner": (
-        lambda views: [shifted(view, view.detected.pixel * 0.4) for view in views],
+        lambda views: [shift_corners(view, view.detected.pixel * 0.4) for view in views],
         BoardViewsTooSimilar,
         "fields",
     ),
-    "bent": (lambda views: [bent(view) for view in views], BoardUnfit, None),
+    "bent": (lambda views: [bend_board(view) for view in views], BoardUnfit, None),
 }
 
 
 @pytest.mark.parametrize("case", UNFIT)
-def test_pictures_that_are_not_enough_are_refused(case: str, gathered: ViewCollector) -> None:
+def test_solve_intrinsics_insufficient_views_are_refused(case: str, gathered: ViewCollector) -> None:
     change, fault, said = UNFIT[case]
     with pytest.raises(fault, match=said):
         calibrate_camera(change(gathered.views), DEFAULT_CAMERA, "studio")
 
 
-def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
+def test_view_collector_rejected_frame_has_a_reason(shown: list[Frame]) -> None:
     def look(*frames: Frame) -> list[str]:
         gathering = ViewCollector(DEFAULT_CAMERA)
         out = []
@@ -166,7 +168,7 @@ def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
     assert look(with_color(dark, np.zeros_like(dark.color_rgb))) == ["dark"]
 
 
-def test_next_step_names_what_is_missing_until_all_is_there(gathered: ViewCollector) -> None:
+def test_next_instruction_names_what_is_missing(gathered: ViewCollector) -> None:
     asked, whole = WANTED_VIEWS["chessboard"], gathered.coverage
     assert assess_views([], 640, 480).next_instruction(asked) == "Move the board to the top left"
     upright = [view for view in gathered.views if view.nearer_side != "left" and view.nearer_side != "right"]
@@ -180,7 +182,7 @@ def test_next_step_names_what_is_missing_until_all_is_there(gathered: ViewCollec
     assert replace(whole, view_count=asked).next_instruction(asked) is None
 
 
-def test_the_nearer_side_is_the_nearer_side(studio: Studio) -> None:
+def test_board_view_nearer_side_is_right(studio: Studio) -> None:
     texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
     placed = held(texture, (0.0, 0.0, 0.55), 30.0, 90.0, 0.0)
     gathering = ViewCollector(DEFAULT_CAMERA)
@@ -190,7 +192,7 @@ def test_the_nearer_side_is_the_nearer_side(studio: Studio) -> None:
     assert gathering.views[0].tilt_deg == pytest.approx(30.0, abs=2.0)
 
 
-def test_a_moving_board_is_not_kept(studio: Studio) -> None:
+def test_view_collector_moving_board_is_rejected(studio: Studio) -> None:
     texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
     gathering = ViewCollector(DEFAULT_CAMERA)
     for k, x in enumerate((-0.05, 0.0, 0.0)):
@@ -200,7 +202,7 @@ def test_a_moving_board_is_not_kept(studio: Studio) -> None:
 
 @pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
 @pytest.mark.parametrize("paper", PAPER_MM)
-def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper) -> None:
+def test_board_sheet_fits_the_paper_with_margin(board: Board, paper: Paper) -> None:
     sheet = create_board_sheet(board, paper)
     boxes = [mark for mark in sheet.items if isinstance(mark, SheetBox)]
     foot_mm = max(box.top_mm + box.height_mm for box in boxes)
@@ -221,7 +223,7 @@ def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper
 
 
 @pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
-def test_what_is_printed_is_what_is_looked_for(board: Board) -> None:
+def test_board_sheet_is_detected(board: Board) -> None:
     picture = (texture_of(create_board_sheet(board, "a4"))[::8, ::8] * 255).clip(0, 255).astype(np.uint8)
     large = picture.repeat(3, axis=0).repeat(3, axis=1)
     found = find_board(large, [board])
@@ -230,7 +232,7 @@ def test_what_is_printed_is_what_is_looked_for(board: Board) -> None:
 
 
 @pytest.mark.parametrize("board", [CHESSBOARD, CHARUCO], ids=lambda board: board.pattern)
-def test_the_simulated_board_is_shown_in_as_many_ways_as_are_asked_for(board: Board) -> None:
+def test_simulated_board_gives_the_wanted_views(board: Board) -> None:
     """Corners alone, not drawn: a pose that has been there before is not kept, and the showing would never end."""
     sheet = create_board_sheet(board, "a4")
     texture = np.zeros((round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM), 3), dtype=np.float32)

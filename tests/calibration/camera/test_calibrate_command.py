@@ -62,7 +62,7 @@ def stored(data_folder: Path, serial: str, day: int, scale: float = 1.0, offset_
 @pytest.mark.usefixtures("qapp")
 @pytest.mark.parametrize(("paper", "size_mm"), [("a4", (297.0, 210.0)), ("letter", (279.4, 215.9))])
 @pytest.mark.parametrize("pattern", ["chessboard", "charuco"])
-def test_the_board_is_a_page_of_that_size(
+def test_calibrate_command_board_page_has_its_size(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], paper: str, size_mm: tuple[float, float], pattern: str
 ) -> None:
     pdf = tmp_path / "board.pdf"
@@ -79,7 +79,7 @@ def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:
     assert main(["calibrate-camera", str(tmp_path), "--board", str(tmp_path / "b.pdf")]) == 2
 
 
-def test_a_recording_becomes_a_camera_file_that_the_next_recording_uses(
+def test_calibrate_command_writes_a_file_that_is_used(
     recording: Path, studio: Studio, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     output = tmp_path / "camera_info.yaml"
@@ -103,7 +103,7 @@ def test_a_recording_becomes_a_camera_file_that_the_next_recording_uses(
     assert open_recording(recording).info.camera.origin != "calibration"
 
 
-def test_two_calibrations_within_a_second_are_both_kept_and_the_later_one_counts(tmp_path: Path) -> None:
+def test_save_calibration_twice_in_a_second_keeps_both(tmp_path: Path) -> None:
     for scale in (1.01, 1.02, 1.03):
         stored(tmp_path, "9", 3, scale)
     kept = list_calibration_files(tmp_path, "9")
@@ -114,7 +114,7 @@ def test_two_calibrations_within_a_second_are_both_kept_and_the_later_one_counts
     assert newest.calibration.depth_scale == 1.03
 
 
-def test_a_folder_of_pictures_and_an_oni_file_of_the_board_say_the_same(
+def test_calibrate_command_folder_and_oni_agree(
     shown: list[Frame], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     info = SourceInfo("camera", DEFAULT_CAMERA, True, None, 1.0)
@@ -137,7 +137,7 @@ def test_a_folder_of_pictures_and_an_oni_file_of_the_board_say_the_same(
     assert "--serial" in capsys.readouterr().err
 
 
-def test_depth_that_was_corrected_already_counts_in(gathered: ViewCollector) -> None:
+def test_stored_calibration_includes_earlier_correction(gathered: ViewCollector) -> None:
     made = calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
     assert made.depth is not None
     settings = {"depth_scale_corrected": "1.01", "depth_offset_corrected_mm": "2.0"}
@@ -146,14 +146,14 @@ def test_depth_that_was_corrected_already_counts_in(gathered: ViewCollector) -> 
     assert again.depth_offset_m == pytest.approx(0.002 + 1.01 * made.depth.offset_m)
 
 
-def test_an_output_that_is_there_is_kept(recording: Path, tmp_path: Path) -> None:
+def test_calibrate_command_existing_output_is_refused(recording: Path, tmp_path: Path) -> None:
     output = tmp_path / "camera_info.yaml"
     output.write_text("mine")
     assert main(["calibrate-camera", str(recording), "--output", str(output)]) == 1
     assert output.read_text() == "mine"
 
 
-def test_a_recording_without_a_board_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_calibrate_command_without_board_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "empty.carpusraw"
     source = ShownSheets(Studio(), [[], []])
     with RawWriter(path, source.info) as writer:
@@ -165,7 +165,7 @@ def test_a_recording_without_a_board_is_told(tmp_path: Path, capsys: pytest.Capt
     assert "calibration board is not visible" in said[0]
 
 
-def test_the_newest_of_the_right_camera_is_used(tmp_path: Path) -> None:
+def test_stored_calibration_newest_of_the_camera_is_used(tmp_path: Path) -> None:
     stored(tmp_path, SERIAL, 3, scale=1.01)
     stored(tmp_path, SERIAL, 9, scale=1.02)
     stored(tmp_path, SERIAL + "-b", 12, scale=1.03)
@@ -182,7 +182,7 @@ def test_the_newest_of_the_right_camera_is_used(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("origin", ["file", "calibration"])
-def test_a_source_with_intrinsics_of_its_own_keeps_them(tmp_path: Path, origin: str) -> None:
+def test_calibrated_source_keeps_own_intrinsics(tmp_path: Path, origin: str) -> None:
     stored(tmp_path, SERIAL, 3)
     source = ShownSheets(Studio(), [[]], SERIAL)
     assert isinstance(with_stored_calibration(source, tmp_path), CalibratedSource)
@@ -191,7 +191,7 @@ def test_a_source_with_intrinsics_of_its_own_keeps_them(tmp_path: Path, origin: 
     assert with_stored_calibration(source, tmp_path) is source
 
 
-def test_depth_is_put_right_to_a_tenth_of_a_millimetre() -> None:
+def test_calibrated_source_corrects_depth_to_a_tenth_mm() -> None:
     made = StoredCalibration(SERIAL, "2026-11-20T08:00:00+00:00", 1.02, 0.004)
     table = compute_correction_table(made, 0.001)
     true_m = np.array([0.45, 0.6, 1.0, 3.0])
@@ -200,7 +200,7 @@ def test_depth_is_put_right_to_a_tenth_of_a_millimetre() -> None:
     assert table[0] == 0
 
 
-def test_a_session_says_how_old_the_calibration_was_when_the_hand_moved(tmp_path: Path) -> None:
+def test_session_stores_calibration_age(tmp_path: Path) -> None:
     made = StoredCalibration(SERIAL, "2026-11-10T08:00:00+00:00", 1.0, 0.0, 0.2, 20)
     source = ShownSheets(Studio(), [[]], SERIAL)
     info = source.info
@@ -211,7 +211,7 @@ def test_a_session_says_how_old_the_calibration_was_when_the_hand_moved(tmp_path
 
 
 @pytest.mark.parametrize("line", ["depth_scale: 7.0", "depth_scale: many", "depth_offset_m: .nan"])
-def test_a_kept_calibration_that_cannot_be_is_refused(tmp_path: Path, line: str) -> None:
+def test_stored_calibration_implausible_is_refused(tmp_path: Path, line: str) -> None:
     stored(tmp_path, SERIAL, 3, scale=1.01, offset_m=0.002)
     path = list_calibration_files(tmp_path, SERIAL)[0]
     name = line.split(":")[0]

@@ -50,7 +50,7 @@ def shown() -> list[Frame]:
     return [studio.frame(scene, k, 100.0 + 0.5 * k) for k in range(8)]
 
 
-def stretched(frames: Sequence[Frame], share: float) -> list[Frame]:
+def scale_depth(frames: Sequence[Frame], share: float) -> list[Frame]:
     """The same with depth off by a share."""
     return [replace(frame, depth_unit_m=frame.depth_unit_m * share) for frame in frames]
 
@@ -63,7 +63,7 @@ def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0)
     return CardCheck((NOW + timedelta(days=day)).isoformat(), "77", reading, "x")
 
 
-def test_the_places_of_the_discs_have_the_figures_of_the_card() -> None:
+def test_card_disc_positions_have_its_dimensions() -> None:
     np.testing.assert_allclose(
         measure_dimensions(disc_positions_m()), [one.true_value for one in DIMENSIONS], atol=1e-9
     )
@@ -71,7 +71,7 @@ def test_the_places_of_the_discs_have_the_figures_of_the_card() -> None:
     np.testing.assert_allclose(measure_dimensions(turned), [one.true_value for one in DIMENSIONS], atol=1e-6)
 
 
-def test_a_right_camera_is_within_its_limits(shown: list[Frame]) -> None:
+def test_card_of_a_good_camera_is_within_tolerance(shown: list[Frame]) -> None:
     reading = measure_card(shown, LENS, "card")
     assert reading.frames_used == len(shown)
     assert reading.has_valid_angles
@@ -80,7 +80,7 @@ def test_a_right_camera_is_within_its_limits(shown: list[Frame]) -> None:
     assert reading.distance_m == pytest.approx(0.59, abs=0.03)
 
 
-def test_before_a_live_camera_only_steady_pictures_count(shown: list[Frame]) -> None:
+def test_card_live_counts_steady_frames_only(shown: list[Frame]) -> None:
     watch = CardMeasurement(LENS, only_steady=True)
     seen = [watch.process_frame(frame) for frame in shown[:3]]
     assert [look.frames_used for look in seen if look is not None] == [1, 2, 3]
@@ -101,19 +101,19 @@ def test_before_a_live_camera_only_steady_pictures_count(shown: list[Frame]) -> 
 
 
 @pytest.mark.parametrize("share", [0.98, 1.02])
-def test_a_camera_whose_depth_is_two_percent_off_is_told(shown: list[Frame], share: float) -> None:
-    reading = measure_card(stretched(shown, share), LENS, "card")
+def test_card_depth_error_of_two_percent_is_out_of_tolerance(shown: list[Frame], share: float) -> None:
+    reading = measure_card(scale_depth(shown, share), LENS, "card")
     assert reading.scale == pytest.approx(share, abs=0.004)
     assert not reading.has_valid_lengths
     assert reading.has_valid_angles, "a pure scale leaves angles right"
 
 
-def test_a_wrong_focal_length_is_told_too(shown: list[Frame]) -> None:
+def test_card_wrong_focal_length_is_out_of_tolerance(shown: list[Frame]) -> None:
     wide = Camera(1.05 * LENS.fx_px, 1.05 * LENS.fy_px, LENS.cx_px, LENS.cy_px, distortion=LENS.distortion)
     assert not measure_card(shown, wide, "card").has_valid_lengths
 
 
-def test_without_the_whole_card_nothing_is_measured(shown: list[Frame]) -> None:
+def test_card_incomplete_is_refused(shown: list[Frame]) -> None:
     hidden = [replace(frame, color_rgb=frame.color_rgb[::1].copy()) for frame in shown]
     for frame in hidden:
         frame.color_rgb[:200] = 230
@@ -122,7 +122,7 @@ def test_without_the_whole_card_nothing_is_measured(shown: list[Frame]) -> None:
 
 
 @pytest.mark.parametrize("paper", PAPER_MM)
-def test_card_and_wedge_fit_the_paper_and_fold_up(paper: Paper) -> None:
+def test_card_sheets_fit_the_paper_and_fold(paper: Paper) -> None:
     for sheet in card_sheets(paper):
         discs = [mark for mark in sheet.items if isinstance(mark, SheetDisc)]
         assert len(discs) == 3
@@ -133,7 +133,7 @@ def test_card_and_wedge_fit_the_paper_and_fold_up(paper: Paper) -> None:
         assert any(isinstance(mark, SheetText) and "100 mm" in mark.text for mark in sheet.items)
 
 
-def test_verdict_sentence_of_a_camera_that_is_out_says_what_is_off() -> None:
+def test_verdict_sentence_out_of_tolerance_names_the_error() -> None:
     said = verdict_sentence(check(0).reading)
     assert said == "The camera measures right: 0.6° and 0.8 mm off at most; the limits are 2.0° and 2.5 mm."
     assert "all lengths are 2.0 % too long" in verdict_sentence(check(0, length=2.4, scale=1.02).reading)
@@ -147,7 +147,7 @@ LINE_OF_0_2_0 = (
 )
 
 
-def test_read_checks_of_a_torn_file_gives_the_others(tmp_path: Path) -> None:
+def test_read_checks_of_a_damaged_file_returns_the_others(tmp_path: Path) -> None:
     path = checks_path(tmp_path, "77")
     add_check(path, check(0))
     with path.open("ab") as file:
@@ -159,7 +159,7 @@ def test_read_checks_of_a_torn_file_gives_the_others(tmp_path: Path) -> None:
     assert path.stat().st_mode & 0o077 == 0
 
 
-def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> None:
+def test_examine_cameras_names_age_of_calibration_and_check(tmp_path: Path) -> None:
     assert [finding.state for finding in examine_cameras(tmp_path, NOW)] == ["warning"]
     path = new_calibration_path(tmp_path, "77", NOW)
     path.parent.mkdir()
@@ -183,7 +183,7 @@ def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> No
     assert (later.state, later.remedy) == ("warning", "Run: carpus check-card: it was calibrated since.")
 
 
-def test_check_status_after_a_calibration_is_not_out(tmp_path: Path) -> None:
+def test_check_status_after_a_calibration_is_within_tolerance(tmp_path: Path) -> None:
     nothing = check_status(tmp_path, "77", NOW)
     assert (nothing.last_check, nothing.is_out_of_tolerance, nothing.is_due) == (None, False, True)
     for day, scale in ((0, 1.0), (4, 1.02)):
@@ -198,7 +198,7 @@ def test_check_status_after_a_calibration_is_not_out(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("qapp")
-def test_the_command_prints_measures_and_keeps(
+def test_check_card_command_prints_measures_and_saves(
     shown: list[Frame], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pdf = tmp_path / "card.pdf"
@@ -208,7 +208,7 @@ def test_the_command_prints_measures_and_keeps(
         path = tmp_path / f"{k}.carpusraw"
         info = SourceInfo("Xtion", LENS, True, None, 2.0, {"serial": "77"}, recorded=check(k).checked_at)
         with RawWriter(path, info) as writer:
-            for frame in stretched(shown, share):
+            for frame in scale_depth(shown, share):
                 writer.append_frame(frame)
         capsys.readouterr()
         assert main(["check-card", str(path)]) == int(share != 1.0)
@@ -225,7 +225,7 @@ def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:
     assert main(["check-card", str(tmp_path), "--card", str(tmp_path / "c.pdf")]) == 2
 
 
-def test_a_reading_knows_its_largest_errors() -> None:
+def test_card_reading_largest_errors() -> None:
     measured = np.array([30.5, 48.0, 90.1, 80.4, 119.0, 25.2])
     reading = CardReading(measured, np.zeros(6), 1.0, 0.6, 9, 9)
     assert reading.angle_error_deg == pytest.approx(2.0)

@@ -22,14 +22,14 @@ def sine(time_s: FloatArray) -> FloatArray:
     return 40.0 * np.sin(2.0 * np.pi * time_s / 3.224)
 
 
-def hand(time_s: FloatArray) -> FloatArray:
+def hand_curve(time_s: FloatArray) -> FloatArray:
     """Repetitions that differ a little, as people's do."""
     phase = 2.0 * np.pi * time_s / 3.2
     bent = 40.0 * np.sin(phase + 0.4 * np.sin(time_s / 3.0)) * (1.0 + 0.1 * np.sin(0.7 * time_s))
     return np.asarray(bent + 5.0 * np.cos(2.0 * phase))
 
 
-def curves(
+def make_curves(
     way: Callable[[FloatArray], FloatArray], lag_s: float, *, length_s: float = 30.0, drift: float = 0.0,
     sign: float = 1.0, noise_deg: float = 0.3,
 ) -> AlignmentCurves:  # fmt: skip
@@ -41,23 +41,23 @@ def curves(
 
 
 @pytest.mark.parametrize(("lag_s", "noise_deg"), [(3.0, 0.3), (-1.6, 0.3), (1.2, 15.0)])
-def test_a_lag_longer_than_half_a_repetition_is_found(lag_s: float, noise_deg: float) -> None:
-    found = find_shift(curves(hand, lag_s, noise_deg=noise_deg), 10.0)
+def test_find_shift_finds_a_lag_beyond_half_a_repetition(lag_s: float, noise_deg: float) -> None:
+    found = find_shift(make_curves(hand_curve, lag_s, noise_deg=noise_deg), 10.0)
     assert found.lag_s == pytest.approx(lag_s, abs=0.02)
     assert found.match > 0.8
     if noise_deg < 1.0:
         assert found.rivals == ()
 
 
-def test_a_turned_sign_is_no_shift_of_half_a_repetition() -> None:
-    for way, lag_s in ((sine, 0.0), (hand, 0.4)):
-        found = find_shift(curves(way, lag_s, sign=-1.0), 10.0)
+def test_find_shift_opposite_sign_is_no_shift() -> None:
+    for way, lag_s in ((sine, 0.0), (hand_curve, 0.4)):
+        found = find_shift(make_curves(way, lag_s, sign=-1.0), 10.0)
         assert found.lag_s == pytest.approx(lag_s, abs=0.01)
         assert found.match < -0.99
 
 
-def test_one_turned_sign_of_two_is_seen_all_the_same() -> None:
-    one, other = curves(hand, 0.4), curves(hand, 0.4, sign=-1.0)
+def test_find_shift_one_opposite_sign_of_two_is_found() -> None:
+    one, other = make_curves(hand_curve, 0.4), make_curves(hand_curve, 0.4, sign=-1.0)
     both = replace(
         one,
         values=np.hstack((one.values, other.values)),
@@ -66,8 +66,8 @@ def test_one_turned_sign_of_two_is_seen_all_the_same() -> None:
     assert find_shift(both, 10.0).lag_s == pytest.approx(0.4, abs=0.01)
 
 
-def test_what_repeats_itself_exactly_has_rivals_which_are_named() -> None:
-    found = find_shift(curves(sine, 3.0), 10.0)
+def test_find_shift_periodic_curve_has_rivals() -> None:
+    found = find_shift(make_curves(sine, 3.0), 10.0)
     named = [found.lag_s, *(later_s for later_s, _ in found.rivals)]
     assert any(abs(later_s - 3.0) < 0.01 for later_s in named)
     assert abs(found.lag_s) == min(map(abs, named)), "of equals the smallest"
@@ -75,8 +75,8 @@ def test_what_repeats_itself_exactly_has_rivals_which_are_named() -> None:
     assert found.has_more_rivals
 
 
-def test_drift_and_a_turned_sign_do_not_hide_behind_a_shift() -> None:
-    one, other = (curves(sine, 0.2, length_s=30.0, drift=0.01, sign=sign) for sign in (1.0, -1.0))
+def test_residual_drift_with_opposite_sign_is_found() -> None:
+    one, other = (make_curves(sine, 0.2, length_s=30.0, drift=0.01, sign=sign) for sign in (1.0, -1.0))
     both = replace(
         one,
         values=np.hstack((other.values, 0.2 * one.values)),
@@ -88,7 +88,7 @@ def test_drift_and_a_turned_sign_do_not_hide_behind_a_shift() -> None:
         assert found.drift_free_lag_s == pytest.approx(0.2, abs=0.02)
 
 
-def test_all_shifts_at_once_are_what_each_is_by_itself() -> None:
+def test_correlations_equal_those_of_each_lag() -> None:
     rng = np.random.default_rng(3)
     a, b = (np.cumsum(rng.normal(0.0, 1.0, count)) + 1e3 for count in (300, 380))
     a[40:90], b[:7], b[200:230] = np.nan, np.nan, np.nan
@@ -105,14 +105,14 @@ def test_all_shifts_at_once_are_what_each_is_by_itself() -> None:
             assert np.isnan(match)
 
 
-def test_the_end_of_the_search_is_said() -> None:
-    assert find_shift(curves(hand, 3.0), 2.9).is_at_search_limit
-    assert not find_shift(curves(hand, 3.0), 10.0).is_at_search_limit
+def test_find_shift_at_the_search_limit_is_flagged() -> None:
+    assert find_shift(make_curves(hand_curve, 3.0), 2.9).is_at_search_limit
+    assert not find_shift(make_curves(hand_curve, 3.0), 10.0).is_at_search_limit
 
 
 @pytest.mark.parametrize("drift", [0.01, -0.004])
-def test_drift_is_found_with_the_lag_that_goes_with_it(drift: float) -> None:
-    both = curves(hand, 0.5, length_s=60.0, drift=drift)
+def test_residual_drift_is_found_with_its_lag(drift: float) -> None:
+    both = make_curves(hand_curve, 0.5, length_s=60.0, drift=drift)
     found = with_residual_drift(both, find_shift(both, 10.0))
     assert found.residual_drift == pytest.approx(drift, abs=2e-4)
     assert found.drift_free_lag_s == pytest.approx(0.5, abs=0.01)
@@ -122,15 +122,15 @@ def test_drift_is_found_with_the_lag_that_goes_with_it(drift: float) -> None:
 
 
 @pytest.mark.parametrize("noise_deg", [0.3, 10.0])
-def test_clocks_that_agree_have_no_drift(noise_deg: float) -> None:
-    both = curves(hand, 0.5, length_s=60.0, noise_deg=noise_deg)
+def test_residual_drift_of_equal_clocks_is_none(noise_deg: float) -> None:
+    both = make_curves(hand_curve, 0.5, length_s=60.0, noise_deg=noise_deg)
     assert np.isnan(with_residual_drift(both, find_shift(both, 10.0)).residual_drift)
-    short = curves(hand, 0.5, length_s=8.0, drift=0.01)
+    short = make_curves(hand_curve, 0.5, length_s=8.0, drift=0.01)
     assert np.isnan(with_residual_drift(short, find_shift(short, 10.0)).residual_drift), "too short to tell"
 
 
-def test_a_lag_beyond_the_search_has_its_best_upright_match() -> None:
-    found = find_shift(curves(lambda time_s: np.where(time_s > 4.0, sine(time_s), 0.0), 5.0), 4.0)
+def test_find_shift_lag_beyond_search_gives_same_sign_shift() -> None:
+    found = find_shift(make_curves(lambda time_s: np.where(time_s > 4.0, sine(time_s), 0.0), 5.0), 4.0)
     assert found.match < 0.0
     assert 0.0 < found.same_sign_shift[1] < 1.0
     assert found.max_shift_s == 4.0

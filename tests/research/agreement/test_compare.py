@@ -41,7 +41,7 @@ def session() -> Session:
     return replace(made, status=np.zeros(len(made), dtype=np.int64))
 
 
-def other(session: Session, shift_s: float, offset_deg: float = 0.0, rate_hz: float = 100.0) -> Reference:
+def other_session(session: Session, shift_s: float, offset_deg: float = 0.0, rate_hz: float = 100.0) -> Reference:
     """The session's own curve at another rate, later by ``shift_s``."""
     time_s = session.timestamp_s - session.timestamp_s[0]
     there_s = np.arange(max(0.0, shift_s), time_s[-1] + min(0.0, shift_s), 1.0 / rate_hz)
@@ -54,9 +54,9 @@ def other(session: Session, shift_s: float, offset_deg: float = 0.0, rate_hz: fl
 
 
 @pytest.mark.parametrize("later", [34, -121])
-def test_a_shift_and_an_offset_are_found(session: Session, later: int) -> None:
+def test_compare_finds_shift_and_offset(session: Session, later: int) -> None:
     """A reference that began so many of its samples earlier: what was before does not matter."""
-    reference = other(session, 0.0, offset_deg=-3.0)
+    reference = other_session(session, 0.0, offset_deg=-3.0)
     angles = reference.angles_rad
     if later > 0:
         angles = {name: np.concatenate((np.full(later, v[0]), v)) for name, v in angles.items()}
@@ -71,8 +71,8 @@ def test_a_shift_and_an_offset_are_found(session: Session, later: int) -> None:
     assert flexion.correlation > 0.999
 
 
-def test_a_turned_sign_is_said_and_not_shifted_away(session: Session) -> None:
-    right = other(session, 0.0)
+def test_compare_opposite_sign_is_remarked(session: Session) -> None:
+    right = other_session(session, 0.0)
     turned = replace(right, angles_rad=dict(right.angles_rad) | {"flexion": -right.angles_rad["flexion"]})
     found = compare_session(session, turned)
     assert found.shift.lag_s == pytest.approx(0.0, abs=0.01)
@@ -87,8 +87,8 @@ def test_a_turned_sign_is_said_and_not_shifted_away(session: Session) -> None:
 
 
 @pytest.mark.parametrize("factor", [math.pi / 180.0, 180.0 / math.pi])
-def test_a_wrong_unit_is_said_and_its_error_not_folded(session: Session, factor: float) -> None:
-    right = other(session, 0.0)
+def test_compare_wrong_unit_is_remarked(session: Session, factor: float) -> None:
+    right = other_session(session, 0.0)
     found = compare_session(
         session, replace(right, angles_rad={name: factor * v for name, v in right.angles_rad.items()})
     )
@@ -98,22 +98,22 @@ def test_a_wrong_unit_is_said_and_its_error_not_folded(session: Session, factor:
     assert not any("as far as Carpus" in remark for remark in compare_session(session, right).remarks)
 
 
-def test_a_reference_of_whole_turns_more_agrees(session: Session) -> None:
-    right = other(session, 0.0)
+def test_compare_whole_turns_agree(session: Session) -> None:
+    right = other_session(session, 0.0)
     wrapped = {name: np.mod(v, 2.0 * math.pi) for name, v in right.angles_rad.items()}
     for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
         found = compare_session(session, replace(right, angles_rad=angles), lag_s=0.0)
         assert all(one.agreement_deg.largest_difference < 2.0 for one in found.pairs)
 
 
-def test_a_lag_that_is_known_is_taken(session: Session) -> None:
-    found = compare_session(session, other(session, 0.0), lag_s=0.4)
+def test_compare_given_lag_is_used(session: Session) -> None:
+    found = compare_session(session, other_session(session, 0.0), lag_s=0.4)
     assert found.shift.is_given
     assert found.shift.lag_s == 0.4
     assert next(one for one in found.pairs if one.name == "flexion").agreement_deg.sd > 5.0
 
 
-def test_the_session_agrees_with_its_own_exports(session: Session, tmp_path: Path) -> None:
+def test_compare_session_with_its_exports_agrees(session: Session, tmp_path: Path) -> None:
     take = take_of(replace(session, path=tmp_path / "s.h5"), "s")
     mot.write(take, tmp_path)
     found = compare_session(session, read_reference(tmp_path / "s.mot"))
@@ -123,7 +123,7 @@ def test_the_session_agrees_with_its_own_exports(session: Session, tmp_path: Pat
 
 
 @pytest.mark.parametrize("kind", ["c3d", "trc"])
-def test_points_are_turned_onto_the_session_as_one_body(session: Session, kind: str, tmp_path: Path) -> None:
+def test_compare_points_are_aligned_rigidly(session: Session, kind: str, tmp_path: Path) -> None:
     turn = so3.exp(np.array([0.4, -1.1, 0.3]))
     # A palm that is one rigid body, as optical discs on a splint are, moved as the session's angles say.
     calibration = session.calibration
@@ -146,7 +146,7 @@ def test_points_are_turned_onto_the_session_as_one_body(session: Session, kind: 
     assert flexion.correlation > 0.999
 
 
-def test_a_table_with_a_column_map(session: Session, tmp_path: Path) -> None:
+def test_compare_table_with_column_map_agrees(session: Session, tmp_path: Path) -> None:
     path = tmp_path / "optical.csv"
     time_s = session.timestamp_s - session.timestamp_s[0]
     with path.open("w", newline="", encoding="utf-8") as file:
@@ -163,7 +163,7 @@ def test_a_table_with_a_column_map(session: Session, tmp_path: Path) -> None:
         read_reference(path, {"time": "Zeit", "flexion": "NoSuch"})
 
 
-def test_readings_of_a_goniometer(session: Session, tmp_path: Path) -> None:
+def test_compare_goniometer_readings_agree(session: Session, tmp_path: Path) -> None:
     held = np.zeros_like(session.motion.angles_rad)
     time_s = session.timestamp_s - session.timestamp_s[0]
     held[:, 1] = np.radians(10.0 * np.floor(time_s / 2.0))
@@ -183,7 +183,7 @@ def test_readings_of_a_goniometer(session: Session, tmp_path: Path) -> None:
     assert found.shift is None
 
 
-def test_a_goniometer_on_the_forearm_is_read_from_thumb_up(session: Session, tmp_path: Path) -> None:
+def test_compare_forearm_goniometer_counts_from_thumb_up(session: Session, tmp_path: Path) -> None:
     held = np.zeros_like(session.motion.angles_rad)
     time_s = session.timestamp_s - session.timestamp_s[0]
     held[:, 2] = np.radians(30.0 * np.floor(time_s / 4.0))  # palm down, 30 and 60 degrees up from there
@@ -196,7 +196,7 @@ def test_a_goniometer_on_the_forearm_is_read_from_thumb_up(session: Session, tmp
     assert np.degrees(turned.reference_rad) == pytest.approx([0.0, 30.0, 60.0]), "a pair has the angle of the files"
 
 
-def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
+def test_compare_reading_without_time_uses_the_session_range(session: Session) -> None:
     figures = compute_session_results(session)
     row = figures.find("flexion", "flexion")
     readings = tuple(
@@ -207,14 +207,14 @@ def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
 
 
 @pytest.mark.filterwarnings("error")
-def test_a_reference_that_holds_nothing_is_refused_in_one_sentence(session: Session) -> None:
+def test_compare_empty_reference_is_refused(session: Session) -> None:
     unknown = {"flexion": np.full(900, np.nan)}
     for times_s, angles in ((np.empty(0), {"flexion": np.empty(0)}), (np.arange(900) / 30.0, unknown)):
         with pytest.raises(ReferenceUnsuited, match="in common"):
             compare_session(session, Reference(Path("x.mot"), "angles", times_s, angles))
 
 
-def test_another_movement_is_not_compared(session: Session) -> None:
+def test_compare_another_movement_is_refused(session: Session) -> None:
     rng = np.random.default_rng(2)
     noise = {"flexion": np.cumsum(rng.normal(size=3000)) * 0.01}
     with pytest.raises(ReferenceUnsuited):
@@ -225,7 +225,7 @@ def test_another_movement_is_not_compared(session: Session) -> None:
         )
 
 
-def test_the_command_writes_tables_and_plots(tmp_path: Path, command: Command) -> None:
+def test_compare_command_writes_tables_and_plots(tmp_path: Path, command: Command) -> None:
     path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
     done = command("compare", path, path, "--output", out)
     assert (done.code, "flexion" in done.out) == (0, True)
@@ -237,9 +237,7 @@ def test_the_command_writes_tables_and_plots(tmp_path: Path, command: Command) -
     assert "Limit" not in done.out
 
 
-def test_the_commands_plots_read_back_as_png_and_pdf_with_the_limit_set_before(
-    tmp_path: Path, command: Command
-) -> None:
+def test_compare_command_plots_show_the_limit(tmp_path: Path, command: Command) -> None:
     path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
     done = command("compare", path, path, "--limit", "5", "--output", out)
     assert "Limit        flexion agrees within 5°" in done.out.splitlines()
@@ -255,7 +253,7 @@ def test_the_commands_plots_read_back_as_png_and_pdf_with_the_limit_set_before(
 
 
 @needs_data
-def test_six_encodings_of_one_trial_read_alike() -> None:
+def test_reference_six_encodings_read_alike() -> None:
     tracks = [read_c3d(path) for path in sorted((DATA / "c3d").glob("c3dorg_sample01_*.c3d"))]
     assert len(tracks) == 6
     for track in tracks:
@@ -265,7 +263,7 @@ def test_six_encodings_of_one_trial_read_alike() -> None:
 
 
 @needs_data
-def test_files_of_other_programs_are_read() -> None:
+def test_reference_files_of_other_programs_are_read() -> None:
     for path in sorted((DATA / "trc").glob("*.trc")):
         reference = read_reference(path, markers={})
         assert reference.unused, "markers of a whole body are none of the discs"
@@ -276,13 +274,13 @@ def test_files_of_other_programs_are_read() -> None:
 
 @pytest.mark.parametrize("name", ["x.c3d", "x.trc", "x.mot", "x.csv", "x.xyz"])
 @pytest.mark.parametrize("content", [b"", b"nonsense\n1,2\n", bytes(range(256)) * 8])
-def test_what_is_no_reference_is_said_in_a_sentence(name: str, content: bytes, tmp_path: Path) -> None:
+def test_reference_invalid_file_is_refused(name: str, content: bytes, tmp_path: Path) -> None:
     (tmp_path / name).write_bytes(content)
     with pytest.raises(ReferenceUnreadable):
         read_reference(tmp_path / name)
 
 
-def test_drift_over_minutes_is_no_other_movement() -> None:
+def test_compare_drift_over_minutes_is_accepted() -> None:
     time_s = np.arange(0.0, 140.0, 1 / 30)
     mine = np.sin(np.pi * time_s)
     there_s = np.arange(0.0, 140.0, 0.01)
@@ -296,14 +294,14 @@ def test_drift_over_minutes_is_no_other_movement() -> None:
 
 
 @pytest.mark.parametrize(("match", "suits"), [(0.51, True), (-0.51, True), (0.49, False)])
-def test_curves_that_match_by_less_than_a_half_are_no_same_movement(match: float, suits: bool) -> None:
+def test_compare_match_below_a_half_is_refused(match: float, suits: bool) -> None:
     time_s = np.arange(0.0, 10.0, 0.1)
     curves = AlignmentCurves(time_s, time_s[:, None], time_s, time_s[:, None], ignores_sign=True)
     with nullcontext() if suits else pytest.raises(ReferenceUnsuited):
         _check_match(Reference(Path("x.mot"), "angles"), curves, ClockShift(0.0, match))
 
 
-def test_against_each_other_may_be_a_shift_beyond_the_search() -> None:
+def test_compare_opposed_curves_remark_a_larger_shift() -> None:
     against = ClockShift(
         -0.5, -0.98, ((1.0, 0.97),), has_more_rivals=True, same_sign_shift=(1.0, 0.97), max_shift_s=10.0
     )

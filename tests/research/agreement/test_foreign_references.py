@@ -21,7 +21,7 @@ TIME_S = np.arange(60) / 30.0
 FLEXION_DEG = np.round(40.0 * np.sin(2.0 * TIME_S) - 5.0, 3)
 
 
-def rows(separator: str = ",", decimal: str = ".", times: list[str] | None = None, minus: str = "-") -> str:
+def format_rows(separator: str = ",", decimal: str = ".", times: list[str] | None = None, minus: str = "-") -> str:
     said = times or [f"{t:.4f}" for t in TIME_S]
     pairs = [f"{t}{separator}{angle:.3f}" for t, angle in zip(said, FLEXION_DEG, strict=True)]
     return "".join(f"{pair.replace('.', decimal).replace('-', minus)}\n" for pair in pairs)
@@ -29,51 +29,52 @@ def rows(separator: str = ",", decimal: str = ".", times: list[str] | None = Non
 
 CLOCK = [f"23:59:{59 + t:06.3f}" if t < 1.0 else f"00:00:{t - 1.0:06.3f}" for t in TIME_S]
 TABLES = {
-    "plain": "time,flexion\n" + rows(),
-    "blank after the comma": "time, flexion\n" + rows(", "),
-    "sep": "sep=;\ntime;flexion\n" + rows(";", ","),
-    "lines before": "Some Logger\nOperator,Jones\nRate,30\nTrial,3\n\ntime,flexion\n" + rows(),
-    "units": "Zeit (s);Flexion (°)\n" + rows(";", ","),
-    "units below": "time,flexion\ns,deg\n" + rows(),
-    "milliseconds": "Time [ms];flexion\n" + rows(";", times=[f"{1e3 * t:.1f}" for t in TIME_S]),
-    "milliseconds unsaid": "time;flexion\n" + rows(";", times=[f"{1e3 * t:.1f}" for t in TIME_S]),
-    "clock past midnight": "time,flexion\n" + rows(times=CLOCK),
-    "dates": "time,flexion_deg\n" + rows(times=[f"2026-11-20 10:00:{t:09.6f}" for t in TIME_S]).replace("−", "-"),
-    "minus": "time,flexion\n" + rows(minus="\N{MINUS SIGN}"),
-    "tabs": "time\tflexion\tnote\n" + rows("\t", ","),
+    "plain": "time,flexion\n" + format_rows(),
+    "blank after the comma": "time, flexion\n" + format_rows(", "),
+    "sep": "sep=;\ntime;flexion\n" + format_rows(";", ","),
+    "lines before": "Some Logger\nOperator,Jones\nRate,30\nTrial,3\n\ntime,flexion\n" + format_rows(),
+    "units": "Zeit (s);Flexion (°)\n" + format_rows(";", ","),
+    "units below": "time,flexion\ns,deg\n" + format_rows(),
+    "milliseconds": "Time [ms];flexion\n" + format_rows(";", times=[f"{1e3 * t:.1f}" for t in TIME_S]),
+    "milliseconds unsaid": "time;flexion\n" + format_rows(";", times=[f"{1e3 * t:.1f}" for t in TIME_S]),
+    "clock past midnight": "time,flexion\n" + format_rows(times=CLOCK),
+    "dates": "time,flexion_deg\n"
+    + format_rows(times=[f"2026-11-20 10:00:{t:09.6f}" for t in TIME_S]).replace("−", "-"),
+    "minus": "time,flexion\n" + format_rows(minus="\N{MINUS SIGN}"),
+    "tabs": "time\tflexion\tnote\n" + format_rows("\t", ","),
 }
 
 
-def read(folder: Path, text: str, encoding: str = "utf-8") -> Reference:
+def read_text(folder: Path, text: str, encoding: str = "utf-8") -> Reference:
     (folder / "r.csv").write_bytes(text.encode(encoding))
     return read_reference(folder / "r.csv")
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_a_table_of_any_form_gives_the_same_numbers(name: str, tmp_path: Path) -> None:
-    found = read(tmp_path, TABLES[name])
+def test_reference_table_forms_read_alike(name: str, tmp_path: Path) -> None:
+    found = read_text(tmp_path, TABLES[name])
     assert np.degrees(found.angles_rad["flexion"]) == pytest.approx(FLEXION_DEG)
     assert found.time_s - found.time_s[0] == pytest.approx(TIME_S, abs=6e-4)
     assert len(found.remarks) == (name in ("milliseconds unsaid", "units below"))
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "cp1252"])
-def test_a_table_in_any_encoding_is_read(encoding: str, tmp_path: Path) -> None:
-    found = read(tmp_path, TABLES["units"], encoding)
+def test_reference_table_encodings_are_read(encoding: str, tmp_path: Path) -> None:
+    found = read_text(tmp_path, TABLES["units"], encoding)
     assert np.degrees(found.angles_rad["flexion"]) == pytest.approx(FLEXION_DEG)
 
 
-def test_cells_that_are_no_number_are_counted_and_said(tmp_path: Path) -> None:
+def test_reference_non_numeric_cells_are_remarked(tmp_path: Path) -> None:
     text = TABLES["plain"].splitlines()
     text[3], text[5], text[7] = "0.0667,#DIV/0!", "0.1333,", "0.2000,fell"
-    found = read(tmp_path, "\n".join(text))
+    found = read_text(tmp_path, "\n".join(text))
     assert np.isnan(found.angles_rad["flexion"]).nonzero()[0].tolist() == [2, 4, 6]
     assert found.remarks == ("flexion: cells that are no number are left out (2), the first is “#DIV/0!” in line 4",)
 
 
-def test_a_row_at_the_time_before_is_left_out_and_said(tmp_path: Path) -> None:
+def test_reference_row_with_equal_time_is_excluded(tmp_path: Path) -> None:
     text = TABLES["plain"].splitlines()
-    found = read(tmp_path, "\n".join([*text[:4], text[3], *text[4:]]))
+    found = read_text(tmp_path, "\n".join([*text[:4], text[3], *text[4:]]))
     assert len(found.time_s) == len(TIME_S)
     assert "left out (1)" in found.remarks[0]
 
@@ -86,12 +87,12 @@ def test_a_row_at_the_time_before_is_left_out_and_said(tmp_path: Path) -> None:
         ("when,flexion,other", "which of when, flexion, other"),
     ],
 )
-def test_what_fits_twice_or_not_at_all_is_listed(head: str, told: str, tmp_path: Path) -> None:
+def test_reference_ambiguous_names_are_listed(head: str, told: str, tmp_path: Path) -> None:
     with pytest.raises(ReferenceUnreadable, match=told.replace("(", r"\(").replace(")", r"\)")):
-        read(tmp_path, head + "\n" + "0,1,2\n0.1,2,3\n")
+        read_text(tmp_path, head + "\n" + "0,1,2\n0.1,2,3\n")
 
 
-def test_the_second_column_of_a_name_can_be_chosen(tmp_path: Path) -> None:
+def test_reference_second_column_can_be_chosen(tmp_path: Path) -> None:
     (tmp_path / "r.csv").write_text("time,flexion,flexion\n0,1,20\n0.1,2,30\n", encoding="utf-8")
     found = read_reference(tmp_path / "r.csv", {"flexion": "-flexion #2"})
     assert np.degrees(found.angles_rad["flexion"]) == pytest.approx([-20.0, -30.0])
@@ -101,7 +102,7 @@ def test_the_second_column_of_a_name_can_be_chosen(tmp_path: Path) -> None:
     ("left", "right"),
     [("flexion_l", "flexion_r"), ("wrist_flexion_left", "Right:Flexion"), ("Flexion links (°)", "Flexion rechts (°)")],
 )
-def test_of_both_hands_columns_that_of_the_session_is_taken_and_said(left: str, right: str, tmp_path: Path) -> None:
+def test_reference_columns_of_both_hands_use_the_session_hand(left: str, right: str, tmp_path: Path) -> None:
     (tmp_path / "r.csv").write_text(f"time,{left},{right}\n0,1,20\n0.1,2,30\n", encoding="utf-8")
     for hand, first in (("left", 1.0), ("right", 20.0)):
         found = read_reference(tmp_path / "r.csv", hand=hand)  # type: ignore[arg-type]
@@ -128,7 +129,7 @@ def write_trc(path: Path, time_s: FloatArray, markers: dict[str, FloatArray]) ->
     return path
 
 
-def test_two_hands_in_one_file_and_gaps_of_zeros(tmp_path: Path) -> None:
+def test_reference_points_of_two_hands_with_zero_gaps_are_read(tmp_path: Path) -> None:
     made = session()
     time_s = made.timestamp_s - made.timestamp_s[0]
     own = {name: 1e3 * made.markers.position_cam_m[:, k] for k, name in enumerate(PALM_MARKERS)}
@@ -154,7 +155,7 @@ def test_two_hands_in_one_file_and_gaps_of_zeros(tmp_path: Path) -> None:
         read_reference(path, markers={"WRIST": "R:PALM"})
 
 
-def test_markers_that_stay_apart_are_said(tmp_path: Path) -> None:
+def test_compare_residual_between_markers_is_remarked(tmp_path: Path) -> None:
     made = session()
     own = {name: 1e3 * made.markers.position_cam_m[:, k] for k, name in enumerate(PALM_MARKERS)}
     own["MCP2"], own["MCP5"] = own["MCP5"], own["MCP2"]
@@ -166,27 +167,27 @@ def test_markers_that_stay_apart_are_said(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_one_or_two_readings_print_their_pairs(count: int, tmp_path: Path) -> None:
+def test_compare_one_or_two_readings_print_pairs(count: int, tmp_path: Path) -> None:
     made = session()
     text = "movement;reading (°)\n" + "flexion;47,5\nextension;49\n".splitlines(keepends=True)[0] * count
-    compared = compare_session(made, read(tmp_path, text), figures=compute_session_results(made))
+    compared = compare_session(made, read_text(tmp_path, text), figures=compute_session_results(made))
     said = "\n".join(format_comparison(compared))
     assert said.count("47.50") == count
     assert "nan" not in said.lower()
     assert "fewer than 3 pairs" in said
 
 
-def test_what_is_there_is_listed_when_no_angle_fits(tmp_path: Path) -> None:
+def test_reference_without_angles_lists_its_columns(tmp_path: Path) -> None:
     with pytest.raises(ReferenceUnsuited, match="it has Knie, Hüfte"):
-        compare_session(session(), read(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
+        compare_session(session(), read_text(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
 
 
 @pytest.mark.parametrize("text", ["", "a", "1.2.3", "1_000", "inf", "12:30", "=1+1"])
-def test_what_is_no_number_is_none(text: str) -> None:
+def test_parse_number_non_numeric_is_nan(text: str) -> None:
     assert np.isnan(parse_number(text))
 
 
-def test_a_table_of_a_spreadsheet_is_read_with_any_separator(tmp_path: Path) -> None:
+def test_reference_table_separators_are_read(tmp_path: Path) -> None:
     (tmp_path / "t.csv").write_text("\ufeffPerson;Session;Reference\n1;s 1.h5;r,1.csv\n", encoding="utf-8")
     table = read_table(tmp_path / "t.csv", ("person", "session", "reference"))
     assert table.row(0) == {"person": "1", "session": "s 1.h5", "reference": "r,1.csv"}

@@ -47,7 +47,7 @@ def readings(rng: np.random.Generator, people: int, times: int, error: float, ra
     return truth + rng.normal(0.0, error, (people, times)) + rng.normal(0.0, rater, (1, times))
 
 
-def test_the_error_that_was_put_in_is_found() -> None:
+def test_retest_recovers_the_simulated_error() -> None:
     found = compute_retest(readings(np.random.default_rng(1), 4000, 3, 2.5).tolist())
     assert found.sem == pytest.approx(2.5, abs=0.05)
     assert found.mdc95 == pytest.approx(1.96 * math.sqrt(2.0) * found.sem)
@@ -55,14 +55,14 @@ def test_the_error_that_was_put_in_is_found() -> None:
     assert abs(found.systematic_change) < 0.2
 
 
-def test_two_times_are_the_differences_of_the_reference() -> None:
+def test_retest_of_two_equals_the_reference() -> None:
     pairs = readings(np.random.default_rng(2), 11, 2, 3.0)
     difference = pairs[:, 1] - pairs[:, 0]
     assert compute_retest(pairs.tolist()).sem == pytest.approx(math.sqrt(float((difference**2).mean()) / 2.0))
 
 
 @pytest.mark.parametrize(("times", "rater"), [(2, 0.0), (3, 0.0), (4, 2.0)])
-def test_the_interval_holds_the_truth_as_often_as_it_says(times: int, rater: float) -> None:
+def test_retest_interval_has_its_coverage(times: int, rater: float) -> None:
     rng = np.random.default_rng(times)
     true = math.hypot(2.0, rater)
     found = [compute_retest(readings(rng, 12, times, 2.0, rater).tolist()) for _ in range(600)]
@@ -71,7 +71,7 @@ def test_the_interval_holds_the_truth_as_often_as_it_says(times: int, rater: flo
     assert (0.93 if rater == 0.0 else 0.85) <= held <= 0.975
 
 
-def test_raters_who_differ_are_in_the_error_and_apart_from_it() -> None:
+def test_retest_rater_differences_are_in_sem_not_in_intra_rater() -> None:
     rng = np.random.default_rng(3)
     values, names = [], []
     for truth in rng.normal(60.0, 8.0, 500):
@@ -84,7 +84,7 @@ def test_raters_who_differ_are_in_the_error_and_apart_from_it() -> None:
     assert found.sem > 2.4
 
 
-def test_without_raters_nothing_is_said_of_one() -> None:
+def test_retest_without_raters_has_no_intra_rater_sem() -> None:
     values = [[60.0, 62.0, 61.0], [71.0, 70.0, 73.0], [55.0, 58.0, 54.0]]
     assert math.isnan(compute_retest(values).intra_rater_sem), "it would be the overall SEM under another name"
     assert math.isnan(compute_retest(values, [["MK"] * 3] * 3).intra_rater_sem)
@@ -92,13 +92,13 @@ def test_without_raters_nothing_is_said_of_one() -> None:
     assert compute_retest(values, mixed).intra_rater_sem == pytest.approx(math.sqrt((2.0 + 0.5) / 2))
 
 
-def test_people_measured_once_and_unknown_values_take_no_part() -> None:
+def test_retest_excludes_single_and_unknown_readings() -> None:
     found = compute_retest([[60.0, 62.0], [71.0], [55.0, math.nan], [64.0, 66.0, 65.0], [70.0, 71.0]])
     assert (found.people, found.readings) == (3, 7)
     assert math.isnan(compute_retest([[60.0, 61.0]]).sem)
 
 
-def written(folder: Path, person: int, time: int, when: datetime, reach_deg: float) -> Path:
+def write_session(folder: Path, person: int, time: int, when: datetime, reach_deg: float) -> Path:
     """Flexion to and fro by ``reach_deg`` to both sides, four times."""
     header = new_header(
         hand="right", protocol=make_calibration().clicks.protocol, subject_id=f"P{person:02d}",
@@ -130,8 +130,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         for time in (1, 2):
             if (person, time) != (11, 2):
                 when = FIRST + timedelta(days=7 * (time - 1), hours=person)
-                written(folder, person, time, when, reach + rng.normal(0.0, 1.0))
-    written(folder, 1, 3, FIRST + timedelta(days=40), 70.0)
+                write_session(folder, person, time, when, reach + rng.normal(0.0, 1.0))
+    write_session(folder, 1, 3, FIRST + timedelta(days=40), 70.0)
     return folder
 
 
@@ -140,7 +140,7 @@ def measured(folder: Path) -> list[SessionResults]:
     return [compute_session_results(read_session(path)) for path in sorted(folder.glob("*.h5"))]
 
 
-def test_sessions_make_a_study(measured: list[SessionResults]) -> None:
+def test_analyse_retests_builds_a_study(measured: list[SessionResults]) -> None:
     (one,) = analyse_retests(measured)
     assert (one.people, one.sessions) == (10, 20)
     assert sorted(left.reason for left in one.excluded) == ["once", "too_late"]
@@ -153,7 +153,7 @@ def test_sessions_make_a_study(measured: list[SessionResults]) -> None:
     assert one.results[("flexion", "flexion")].sem == pytest.approx(expected)
 
 
-def test_the_command_stores_limits_that_reports_name(
+def test_retest_command_stores_limits_for_reports(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
 ) -> None:
     monkeypatch.setenv("CARPUS_DATA", str(tmp_path))
@@ -175,7 +175,7 @@ def test_the_command_stores_limits_that_reports_name(
     assert all(said in words for said in ("measured by this clinic on", "with 10 people", f"error {own:.0f}°"))
 
 
-def test_few_people_put_nothing_in_force(
+def test_retest_command_few_people_set_no_limits(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
 ) -> None:
     monkeypatch.setenv("CARPUS_DATA", str(tmp_path))
@@ -188,12 +188,12 @@ def test_few_people_put_nothing_in_force(
     assert command("retest", paths[0]).code == 1
 
 
-def limits(mdc_deg: float, people: int = 12) -> ErrorLimits:
+def make_limits(mdc_deg: float, people: int = 12) -> ErrorLimits:
     one = MeasuredLimit("flexion", "arc", people, mdc_deg / 2.77, (1.0, 4.0), mdc_deg, (2.0, 9.0))
     return ErrorLimits((RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", people, 2 * people, 2, (one,)),))
 
 
-def test_a_change_is_judged_by_the_clinics_limit(measured: list[SessionResults]) -> None:
+def test_comparison_uses_the_clinics_limit(measured: list[SessionResults]) -> None:
     before = measured[0]
     after = with_ranges(before, lambda row: {"mean": row.mean + 9.0})
     after = replace(after, when=before.when + timedelta(days=1), recording_id="other")
@@ -204,16 +204,16 @@ def test_a_change_is_judged_by_the_clinics_limit(measured: list[SessionResults])
         return found["arc"].verdict, round(found["arc"].limit_deg, 1)
 
     assert arc(ErrorLimits()) == ("no_change", 14.1)
-    assert arc(limits(6.6)) == ("improved", 7.0)
-    assert arc(limits(9.0)) == ("no_change", 9.0)
-    assert arc(limits(6.6, people=9)) == ("no_change", 14.1)
-    other_order = replace(limits(6.6).studies[0], angle_order="isb")
+    assert arc(make_limits(6.6)) == ("improved", 7.0)
+    assert arc(make_limits(9.0)) == ("no_change", 9.0)
+    assert arc(make_limits(6.6, people=9)) == ("no_change", 14.1)
+    other_order = replace(make_limits(6.6).studies[0], angle_order="isb")
     assert arc(ErrorLimits((other_order,))) == ("no_change", 14.1)
 
 
-def test_limits_are_read_as_stored_and_a_new_study_takes_the_place_of_its_like(tmp_path: Path) -> None:
+def test_error_limits_are_read_back_and_replaced_by_kind(tmp_path: Path) -> None:
     assert read_limits(tmp_path) == ErrorLimits()
-    old, new = limits(6.6).studies[0], limits(5.0).studies[0]
+    old, new = make_limits(6.6).studies[0], make_limits(5.0).studies[0]
     other = replace(old, exercise="WRIST_RU")
     save_limits(tmp_path, [old, other])
     assert read_limits(tmp_path).studies == (old, other)
@@ -222,8 +222,8 @@ def test_limits_are_read_as_stored_and_a_new_study_takes_the_place_of_its_like(t
     assert [path.name for path in tmp_path.iterdir()] == [LIMITS_FILE]
 
 
-def test_a_damaged_file_is_told(tmp_path: Path) -> None:
-    save_limits(tmp_path, limits(6.6).studies)
+def test_error_limits_damaged_file_is_refused(tmp_path: Path) -> None:
+    save_limits(tmp_path, make_limits(6.6).studies)
     negative = json.loads((tmp_path / LIMITS_FILE).read_text())
     negative["studies"][0]["limits"][0]["mdc95_deg"] = -3
     nothing = '{"format": "carpus-error-limits", "format_version": 1, "studies": [{}]}'
@@ -233,11 +233,11 @@ def test_a_damaged_file_is_told(tmp_path: Path) -> None:
             read_limits(tmp_path)
 
 
-def words_of(widget: QWidget) -> str:
+def collect_texts(widget: QWidget) -> str:
     return " ".join(text.text() for text in widget.findChildren(Text) if not text.isHidden())
 
 
-def test_the_settings_compute_limits_from_a_folder_and_put_them_into_force(
+def test_settings_compute_and_store_error_limits(
     open_desktop: Callable[..., Desktop], qtbot: QtBot, folder: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     study = tmp_path / "study"
@@ -253,7 +253,7 @@ def test_the_settings_compute_limits_from_a_folder_and_put_them_into_force(
     settings.screen.retest_button.click()
     assert not settings.screen.retest_button.isEnabled()
     qtbot.waitUntil(settings.retest_dialog.isVisible)
-    said = words_of(settings.retest_dialog)
+    said = collect_texts(settings.retest_dialog)
     for piece in (
         "People: 10, sessions: 20.", "1 (measured once)", "1 (more than 14 days later)", "cannot be read: 1",
     ):  # fmt: skip
@@ -263,10 +263,10 @@ def test_the_settings_compute_limits_from_a_folder_and_put_them_into_force(
     qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies))
     (stored,) = read_limits(tmp_path / "data").studies
     assert (stored.people, stored.made) == (10, "2026-11-27")
-    qtbot.waitUntil(lambda: "On 27 Nov 2026 with 10 people in 20 sessions" in words_of(settings.screen))
+    qtbot.waitUntil(lambda: "On 27 Nov 2026 with 10 people in 20 sessions" in collect_texts(settings.screen))
 
 
-def test_few_and_simulated_people_give_no_limits(measured: list[SessionResults]) -> None:
+def test_retest_few_or_simulated_people_are_not_usable(measured: list[SessionResults]) -> None:
     people = [one for one in measured if one.subject_id != "P11"]
     assert [one.is_usable for one in analyse_retests(people)] == [True]
     assert [one.is_usable for one in analyse_retests([one for one in people if one.subject_id != "P10"])] == [False]

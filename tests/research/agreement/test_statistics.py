@@ -20,7 +20,7 @@ from carpus.core.research.agreement.statistics import (
 )
 
 
-def test_known_differences_give_known_figures() -> None:
+def test_agreement_of_known_differences_is_exact() -> None:
     reference = np.array([10.0, 20.0, 30.0, 40.0, 50.0])
     difference = np.array([1.0, 3.0, 2.0, 4.0, 0.0])
     found = compute_agreement(reference + difference, reference, waveform=False)
@@ -35,14 +35,14 @@ def test_known_differences_give_known_figures() -> None:
     assert math.isnan(found.cmc)
 
 
-def test_what_is_not_known_is_left_out_in_pairs() -> None:
+def test_agreement_unknown_values_are_removed_in_pairs() -> None:
     a, b = np.array([1.0, np.nan, 3.0, 4.0, 6.0]), np.array([1.0, 2.0, np.nan, 4.0, 5.0])
     assert compute_agreement(a, b, waveform=False).count == 3
     assert math.isnan(compute_agreement(a[:2], b[:2]).bias)
 
 
 @given(st.floats(-20, 20), st.integers(0, 1000))
-def test_a_constant_offset_is_bias_and_nothing_else(offset: float, seed: int) -> None:
+def test_agreement_constant_offset_is_bias_only(offset: float, seed: int) -> None:
     wave = 30.0 * np.sin(np.linspace(0, 20, 300)) + np.random.default_rng(seed).normal(size=300)
     found = compute_agreement(wave + offset, wave)
     assert found.bias == pytest.approx(offset, abs=1e-9)
@@ -52,7 +52,7 @@ def test_a_constant_offset_is_bias_and_nothing_else(offset: float, seed: int) ->
         assert found.icc < 1.0, "absolute agreement sees an offset that correlation does not"
 
 
-def test_neighbours_in_time_count_for_less() -> None:
+def test_effective_sample_size_falls_with_autocorrelation() -> None:
     rng = np.random.default_rng(3)
     noise = rng.normal(size=4000)
     assert effective_sample_size(noise) > 2500
@@ -60,7 +60,7 @@ def test_neighbours_in_time_count_for_less() -> None:
     assert len(slow) / 40 < effective_sample_size(slow) < len(slow) / 10
 
 
-def test_the_interval_of_an_icc_holds_the_true_one() -> None:
+def test_icc_interval_has_its_coverage() -> None:
     rng = np.random.default_rng(11)
     held = 0
     for _ in range(200):
@@ -71,14 +71,14 @@ def test_the_interval_of_an_icc_holds_the_true_one() -> None:
     assert 180 <= held <= 199
 
 
-def test_waveforms_that_have_nothing_in_common_have_no_cmc() -> None:
+def test_cmc_of_unrelated_waveforms_is_nan() -> None:
     x = np.linspace(0, 20, 500)
     assert math.isnan(cmc(np.sin(x), -np.sin(x)))
     assert cmc(np.sin(x), np.sin(x) + 0.01) > 0.99
 
 
 @pytest.mark.parametrize("raters", [2, 4])
-def test_consistency_is_what_a_table_of_variances_gives(raters: int) -> None:
+def test_icc_3_1_matches_the_variance_table(raters: int) -> None:
     """ICC(3,1) and its interval by the two-way table, written out (McGraw and Wong 1996, table 7)."""
     rng = np.random.default_rng(raters)
     table = rng.normal(0.0, 3.0, (12, 1)) + rng.normal(0.0, 1.0, (12, raters)) + np.arange(raters)
@@ -97,7 +97,7 @@ def test_consistency_is_what_a_table_of_variances_gives(raters: int) -> None:
 
 
 @pytest.mark.parametrize("correlation", [-0.995, -0.9, -0.5, -0.1])
-def test_the_interval_of_a_negative_icc_lies_about_it_and_holds_the_true_one(correlation: float) -> None:
+def test_icc_interval_of_a_negative_icc_has_its_coverage(correlation: float) -> None:
     rng = np.random.default_rng(3)
     held = [0, 0]
     for _ in range(200):
@@ -111,7 +111,7 @@ def test_the_interval_of_a_negative_icc_lies_about_it_and_holds_the_true_one(cor
     assert held[1] >= 180
 
 
-def test_curves_that_run_against_each_other_are_called_so() -> None:
+def test_agreement_opposed_curves_are_opposite() -> None:
     wave = 30.0 * np.sin(np.linspace(0.0, 60.0, 1800))
     noise = np.random.default_rng(1).normal(0.0, 2.0, 1800)
     turned = compute_agreement(-wave + noise, wave)
@@ -122,7 +122,7 @@ def test_curves_that_run_against_each_other_are_called_so() -> None:
     assert not compute_agreement(wave + noise, wave).is_opposite
 
 
-def test_people_whose_true_value_varies_have_both_variances_in_their_limits() -> None:
+def test_pooled_limits_contain_both_variances() -> None:
     """Against Bland and Altman's analysis of variance (2007, section 3), by hand, for as many pairs of each."""
     rng = np.random.default_rng(8)
     people, each = 12, 5
@@ -142,7 +142,7 @@ def test_people_whose_true_value_varies_have_both_variances_in_their_limits() ->
     assert np.ptp(found.bias_interval) > 1.5 * np.ptp(pooled.bias_interval)
 
 
-def test_intervals_of_peoples_limits_hold_the_truth_as_often_as_they_say() -> None:
+def test_pooled_intervals_have_their_coverage() -> None:
     rng = np.random.default_rng(5)
     held = [0, 0, 0]
     true = 1.96 * math.hypot(1.5, 1.0)
@@ -156,7 +156,7 @@ def test_intervals_of_peoples_limits_hold_the_truth_as_often_as_they_say() -> No
     assert all(275 <= one <= 297 for one in held), held
 
 
-def test_few_people_say_nothing() -> None:
+def test_pooled_agreement_of_few_people_is_unknown() -> None:
     one = np.arange(5.0)
     found, between = compute_pooled_agreement([one, one + 1.0], [one, one])
     assert math.isnan(found.bias)
@@ -164,7 +164,7 @@ def test_few_people_say_nothing() -> None:
 
 
 @pytest.mark.parametrize("each", [1, 2])
-def test_people_with_one_or_two_readings_count(each: int) -> None:
+def test_pooled_agreement_counts_people_with_few_readings(each: int) -> None:
     rng = np.random.default_rng(0)
     truth = rng.normal(50.0, 10.0, (30, each))
     theirs = truth + rng.normal(1.0, 2.0, (30, each))
@@ -183,7 +183,7 @@ def test_people_with_one_or_two_readings_count(each: int) -> None:
     assert compute_pooled_agreement(few, [one - 1.0 for one in few], waveform=False)[1].people == 30
 
 
-def test_two_that_stand_still_have_no_icc() -> None:
+def test_icc_of_constant_readings_is_nan() -> None:
     found = compute_agreement(np.zeros(50), np.ones(50))
     assert math.isnan(found.icc)
     assert math.isnan(found.icc_3_1)

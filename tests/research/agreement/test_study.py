@@ -60,7 +60,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return root
 
 
-def test_the_furthest_shift_and_what_was_left_out_reach_every_session(
+def test_study_passes_shift_and_choices_to_every_session(
     folder: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[dict[str, Any]] = []
@@ -77,7 +77,7 @@ def test_the_furthest_shift_and_what_was_left_out_reach_every_session(
     assert all(how["max_shift_s"] == 0.5 and how["choices"] is left_out for how in asked)
 
 
-def test_people_count_alike_and_all_is_in_one_table(folder: Path, tmp_path: Path, command: Command) -> None:
+def test_study_weights_people_alike_in_one_table(folder: Path, tmp_path: Path, command: Command) -> None:
     out = tmp_path / "out"
     done = command("compare", "--study", folder / "all.csv", "--output", out)
     assert done.code == 0
@@ -101,7 +101,7 @@ def test_people_count_alike_and_all_is_in_one_table(folder: Path, tmp_path: Path
     assert all(len(one["reference_sha256"]) == 64 for one in said_by_json["sessions"])
 
 
-def test_what_cannot_be_compared_is_left_out_and_told(folder: Path, tmp_path: Path, command: Command) -> None:
+def test_study_excludes_incomparable_rows_with_reason(folder: Path, tmp_path: Path, command: Command) -> None:
     turned = reference(folder / "turned.csv", folder / "anna-0.h5", 0.0, sign=-1.0)
     rows = [
         ("anna", "anna-0.h5", turned.name), ("bert", "bert-0.h5", "bert-0.csv"), ("cleo", "none.h5", "cleo-0.csv"),
@@ -120,7 +120,7 @@ def test_what_cannot_be_compared_is_left_out_and_told(folder: Path, tmp_path: Pa
 _HEAD = "person,session,reference,drift_percent,lag_s\n"
 
 
-def test_what_is_no_table_of_a_study_is_said(tmp_path: Path, command: Command) -> None:
+def test_study_table_invalid_is_refused(tmp_path: Path, command: Command) -> None:
     for text in (
         "", "person,session\n1,2\n", "person,session,reference\n,a.h5,b.csv\n", "\x00\x01",
         f"{_HEAD}a,a.h5,b.csv,400,\n", f"{_HEAD}a,a.h5,b.csv,,nan\n",
@@ -132,7 +132,7 @@ def test_what_is_no_table_of_a_study_is_said(tmp_path: Path, command: Command) -
     assert command("compare", "--study", tmp_path / "t.csv", "--lag", "1").code == 2
 
 
-def test_who_is_not_in_the_figures_of_all_is_named() -> None:
+def test_study_names_people_outside_the_pooled_values() -> None:
     nothing = AnglePairs("flexion", np.zeros(0), np.zeros(0), np.zeros(0), NO_AGREEMENT)
     few = PooledAngle(nothing, VarianceComponents(2, math.nan, math.nan), 3, ("anna", "bert"), 3)
     assert "anna, bert" in _pooling_remarks(few)[0]
