@@ -120,9 +120,9 @@ def _sample_pen_marks(scene: Scene) -> Iterator[FalseBlob]:
     """Draw dots of a blue pen beside the markers, there all the time."""
     spec = scene.spec
     rng = spec.generator(RandomStream.WORN)
-    discs = scene.patient.anatomy.palm_disc_m * [1.0, -1.0 if spec.hand == "left" else 1.0, 1.0]
+    markers = scene.patient.anatomy.palm_disc_m * [1.0, -1.0 if spec.hand == "left" else 1.0, 1.0]
     for _ in range(spec.pen_marks):
-        disc = discs[int(rng.integers(len(discs)))]
+        disc = markers[int(rng.integers(len(markers)))]
         away_m, way = rng.uniform(*_PEN_AWAY_M), rng.uniform(0.0, 2.0 * math.pi)
         place = disc + away_m * np.array([math.cos(way), math.sin(way), 0.0])
         place[2] = scene.skin.palm_height_m(place[:2])
@@ -155,14 +155,14 @@ def _sample_blob(scene: Scene, rng: np.random.Generator, start_s: float, end_s: 
 
 def _sample_palm_point(scene: Scene, rng: np.random.Generator) -> FloatArray | None:
     """Draw a point of the back of the palm in W2, clear of the markers; None if none is found."""
-    discs = scene.patient.anatomy.palm_disc_m.copy()
+    markers = scene.patient.anatomy.palm_disc_m.copy()
     if scene.spec.hand == "left":
-        discs[:, 1] *= -1.0
+        markers[:, 1] *= -1.0
     for _ in range(20):
         share = rng.dirichlet(np.ones(len(PALM_MARKERS)))
-        point = share @ discs
+        point = share @ markers
         point[2] = scene.skin.palm_height_m(point[:2])
-        if np.linalg.norm(discs - point, axis=1).min() > _BLOB_GAP_TO_DISC_M:
+        if np.linalg.norm(markers - point, axis=1).min() > _BLOB_GAP_TO_DISC_M:
             return np.asarray(point)
     return None
 

@@ -114,9 +114,8 @@ class _MotionBuilder:
 
     def wrist_target(self, deviation: float = 0.0, flexion: float = 0.0, supination: float = 0.0) -> FloatArray:
         """Return wrist angles from shares of their full range."""
-        return self.range_share * np.array(
-            [deviation * DEVIATION_RAD, flexion * FLEXION_RAD, supination * SUPINATION_RAD]
-        )
+        angles = (deviation * DEVIATION_RAD, flexion * FLEXION_RAD, supination * SUPINATION_RAD)
+        return self.range_share * np.array(angles)
 
 
 def _build_rest(builder: _MotionBuilder) -> None:

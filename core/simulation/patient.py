@@ -70,15 +70,15 @@ def sample_patient(spec: RecordingSpec) -> SimulatedPatient:
         skin_offsets=spec.skin_offsets,
         nail_discs=True,
     )
-    discs = average.palm_disc_m + size * _MARKER_POSITION_SD_M * rng.normal(size=(6, 3))
-    discs = discs - discs[0]
-    discs = discs @ wrist_axes(discs, dorsal_direction=np.array([0.0, 0.0, 1.0]))
+    markers = average.palm_disc_m + size * _MARKER_POSITION_SD_M * rng.normal(size=(6, 3))
+    markers = markers - markers[0]
+    markers = markers @ wrist_axes(markers, dorsal_direction=np.array([0.0, 0.0, 1.0]))
     flesh = rng.normal(1.0, _FLESH_SD)
     depth = (average.palm_disc_m - average.palm_joint_m)[:, 2] * rng.normal(flesh, _OFFSET_SD, 6)
     anatomy = dataclasses.replace(
         average,
-        palm_disc_m=discs,
-        palm_joint_m=discs - np.outer(depth, [0.0, 0.0, 1.0]),
+        palm_disc_m=markers,
+        palm_joint_m=markers - np.outer(depth, [0.0, 0.0, 1.0]),
         fan_rad=average.fan_rad + np.radians(rng.normal(0.0, [3.0, 1.5, 1.0, 1.5, 1.5])),
         thumb_roll_rad=float(np.radians(np.clip(rng.normal(*_THUMB_ROLL_DEG), 44.0, 62.0))),
         thumb_length_m=average.thumb_length_m * rng.normal(1.0, _SEGMENT_SD, 3),
@@ -145,14 +145,14 @@ def sample_wide_anatomy(patient: SimulatedPatient, spec: RecordingSpec) -> Simul
         return np.asarray(usual_m * np.clip(rng.normal(flesh, _HEIGHT_SD, usual_m.shape), *_HEIGHT_RANGE))
 
     depth = heights((usual.palm_disc_m - usual.palm_joint_m)[:, 2]) + swelling_m
-    discs = usual.palm_disc_m * [1.0, rng.uniform(*_BREADTH), rng.uniform(*_ARCH)]
-    discs = discs + size * _JOINT_SD_M * rng.normal(size=(6, 3))
-    discs = discs - discs[0]
-    discs = discs @ wrist_axes(discs, dorsal_direction=np.array([0.0, 0.0, 1.0]))
+    markers = usual.palm_disc_m * [1.0, rng.uniform(*_BREADTH), rng.uniform(*_ARCH)]
+    markers = markers + size * _JOINT_SD_M * rng.normal(size=(6, 3))
+    markers = markers - markers[0]
+    markers = markers @ wrist_axes(markers, dorsal_direction=np.array([0.0, 0.0, 1.0]))
     anatomy = dataclasses.replace(
         usual,
-        palm_disc_m=discs,
-        palm_joint_m=discs - np.outer(depth, [0.0, 0.0, 1.0]),
+        palm_disc_m=markers,
+        palm_joint_m=markers - np.outer(depth, [0.0, 0.0, 1.0]),
         fan_rad=usual.fan_rad + rng.normal(0.0, _FAN_SD_RAD, 5),
         thumb_offset_m=heights(usual.thumb_offset_m) * digit_swelling,
         finger_offset_m=heights(usual.finger_offset_m) * digit_swelling,

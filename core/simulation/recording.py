@@ -62,18 +62,18 @@ class SimulatedRecording:
 
     def render_clean(self, i: int) -> CleanImage:
         """Render frame i without sensor noise; depth at its own, later time."""
-        t = float(self.times.color_s[i])
-        picture = self._renderer.render(t, self._is_covered[i])
-        for offset_s in self._blur_offsets(i):
-            other = self._renderer.render(t + offset_s, self._is_covered[i])
-            picture = dataclasses.replace(picture, color=picture.color + other.color)
-        count = 1 + len(self._blur_offsets(i))
-        if count > 1:
-            picture = dataclasses.replace(picture, color=picture.color / np.float32(count))
-        depth_time = float(self.times.depth_s[i])
-        if self._max_marker_motion_m(t, depth_time) > 1e-4:
-            picture = dataclasses.replace(picture, depth_m=self._renderer.render_depth(depth_time, self._is_covered[i]))
-        return picture
+        time_s, depth_time_s = float(self.times.color_s[i]), float(self.times.depth_s[i])
+        image = self._renderer.render(time_s, self._is_covered[i])
+        offsets_s = self._blur_offsets(i)
+        for offset_s in offsets_s:
+            other = self._renderer.render(time_s + offset_s, self._is_covered[i])
+            image = dataclasses.replace(image, color=image.color + other.color)
+        if offsets_s:
+            image = dataclasses.replace(image, color=image.color / np.float32(1 + len(offsets_s)))
+        if self._max_marker_motion_m(time_s, depth_time_s) > 1e-4:
+            depth_m = self._renderer.render_depth(depth_time_s, self._is_covered[i])
+            image = dataclasses.replace(image, depth_m=depth_m)
+        return image
 
     def visible_share(self, i: int) -> FloatArray:
         """Return the visible share (M,) of each marker's paper in frame i."""
@@ -86,14 +86,13 @@ class SimulatedRecording:
     def frames(self) -> Iterator[Frame]:
         for i in range(len(self)):
             color, depth = self.apply_sensor(i, self.render_clean(i))
-            yield Frame(
-                i, float(self.truth.timestamp_s[i]), color, depth, DEPTH_UNIT_M, int(self.times.dropped_before[i])
-            )
+            timestamp_s, dropped = float(self.truth.timestamp_s[i]), int(self.times.dropped_before[i])
+            yield Frame(i, timestamp_s, color, depth, DEPTH_UNIT_M, dropped)
 
     def _max_marker_motion_m(self, from_s: float, to_s: float) -> float:
         """Return the motion of the fastest marker between two times."""
-        discs = self.scene.markers_w0_m(self.scene.pose(np.array([from_s, to_s])))
-        return float(np.linalg.norm(discs[1] - discs[0], axis=-1).max())
+        markers = self.scene.markers_w0_m(self.scene.pose(np.array([from_s, to_s])))
+        return float(np.linalg.norm(markers[1] - markers[0], axis=-1).max())
 
     def _blur_offsets(self, i: int) -> list[float]:
         """Return further times around the middle of the exposure that blur the image."""
@@ -129,7 +128,7 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     More than one of the ``workers`` render in separate processes with the same result. Raises :class:`OutputExists` if
     the folder holds a recording, or :class:`OutputNotWritable`.
     """
-    pictures = SimulatedRecording(spec)
+    recording = SimulatedRecording(spec)
     is_new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -140,9 +139,9 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
     except OSError as cause:
         raise write_fault(folder, cause) from cause
     try:
-        return _write_recording(pictures, folder, progress, workers)
+        return _write_recording(recording, folder, progress, workers)
     except BaseException:
-        # Half a recording is none; the next try finds its place free.
+        # Remove an incomplete recording, so that the next try finds the folder free.
         for path in [folder] if is_new else [folder / name for name in _RECORDING_FILES]:
             if path.is_dir():
                 shutil.rmtree(path, ignore_errors=True)
@@ -169,7 +168,9 @@ def _write_recording(recording: SimulatedRecording, folder: Path, progress: Prog
     try:
         (folder / CLICKS_FILE).write_text(clicks_json(clicks), encoding="utf-8")
         write_truth(folder / TRUTH_FILE, truth, clicks)
-        _write_lists(folder, lists)
+        for kind, title, name in (("rgb", "color images", COLOR_LIST), ("depth", "depth maps", DEPTH_LIST)):
+            text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
+            (folder / name).write_text(text, encoding="utf-8")
     except OSError as cause:
         raise write_fault(folder, cause) from cause
     return truth
@@ -210,16 +211,16 @@ def render_cached(
 @contextlib.contextmanager
 def _render_frames(recording: SimulatedRecording, folder: Path, workers: int) -> Iterator[Iterator[FloatArray]]:
     """Render and write every frame; yields the visible shares in order."""
-    helpers = _create_worker_pool(recording.spec, folder, workers) if workers > 1 else None
-    if helpers is not None:
-        with helpers as processes:
+    pool = _create_worker_pool(recording.spec, folder, workers) if workers > 1 else None
+    if pool is not None:
+        with pool as processes:
             try:
                 yield processes.map(_render_in_worker, range(len(recording)), chunksize=4)
             finally:
                 processes.shutdown(cancel_futures=True)
     else:
-        with ThreadPoolExecutor(2) as pool:
-            yield _render_ahead(recording, folder, pool)
+        with ThreadPoolExecutor(2) as threads:
+            yield _render_ahead(recording, folder, threads)
 
 
 def _create_worker_pool(spec: RecordingSpec, folder: Path, workers: int) -> ProcessPoolExecutor | None:
@@ -249,14 +250,14 @@ _WORKER_STATE: list[tuple[SimulatedRecording, Path]] = []
 
 
 def _init_worker(spec: RecordingSpec, folder: Path) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C reaches all: who asked for pictures says when to stop
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C reaches all processes: the parent stops them
     _WORKER_STATE.append((SimulatedRecording(spec), folder))
 
 
 def _render_in_worker(i: int) -> FloatArray:
-    pictures, folder = _WORKER_STATE[0]
-    clean = pictures.render_clean(i)
-    _write_images(pictures, i, clean, folder)
+    recording, folder = _WORKER_STATE[0]
+    clean = recording.render_clean(i)
+    _write_images(recording, i, clean, folder)
     return clean.visible_share
 
 
@@ -269,24 +270,15 @@ def _image_names(recording: SimulatedRecording, i: int) -> dict[str, str]:
 def _write_images(recording: SimulatedRecording, i: int, clean: CleanImage, folder: Path) -> None:
     color, depth = recording.apply_sensor(i, clean)
     files = _image_names(recording, i)
-    for path, picture in (
-        (folder / files["rgb"], cv2.cvtColor(color, cv2.COLOR_RGB2BGR)),
-        (folder / files["depth"], depth),
-    ):
-        is_coded, data = cv2.imencode(".png", picture, _PNG_LEVEL)
+    for kind, image in (("rgb", cv2.cvtColor(color, cv2.COLOR_RGB2BGR)), ("depth", depth)):
+        path = folder / files[kind]
+        is_coded, data = cv2.imencode(".png", image, _PNG_LEVEL)
         if not is_coded:
             raise OutputNotWritable(path, "picture cannot be coded")
         try:
             path.write_bytes(data.tobytes())
         except OSError as cause:
             raise write_fault(path, cause) from cause
-
-
-def _write_lists(folder: Path, lists: dict[str, list[str]]) -> None:
-    titles = {"rgb": ("color images", COLOR_LIST), "depth": ("depth maps", DEPTH_LIST)}
-    for kind, (title, name) in titles.items():
-        text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
-        (folder / name).write_text(text, encoding="utf-8")
 
 
 class SimulatedSource:

@@ -65,9 +65,9 @@ class Scene:
         self._last_skin_markers: tuple[HandPose, tuple[FloatArray, FloatArray]] | None = None
         self._markers_follow_skin = not self.tissue.is_rigid or bool(self.patient.placement_error_m.any())
         self._palm_normals = self.skin.palm_normals()
-        self._skin_height_change_m = (
-            self._compute_skin_height_change_m() if spec.skin_movement_mm > 0.0 else np.zeros((2, 6))
-        )
+        self._skin_height_change_m = np.zeros((2, 6))
+        if spec.skin_movement_mm > 0.0:
+            self._skin_height_change_m = self._compute_skin_height_change_m()
         rng = spec.generator(RandomStream.SCENE)
         focal_px = 525.0 * rng.uniform(0.98, 1.02)
         self.camera = Camera(
@@ -81,12 +81,12 @@ class Scene:
     def pose(self, time_s: FloatArray) -> HandPose:
         """Return the pose at times (N,) after the first frame."""
         angles = self.motion.wrist_angles_rad(time_s)
-        carry = self.motion.arm_displacement_m(time_s)
+        arm = self.motion.arm_displacement_m(time_s)
         rotation = rotation_from_angles(angles, self.spec.hand)
         joint = self.patient.wrist_joint_m
-        position = joint - rotation @ joint + carry
+        position = joint - rotation @ joint + arm
         joints, tissue = self.motion.joint_angles_rad(time_s), self._tissue_movement.evaluate(time_s)
-        return HandPose(rotation, position, angles, joints, carry, tissue)
+        return HandPose(rotation, position, angles, joints, arm, tissue)
 
     def markers_w0_m(self, pose: HandPose) -> FloatArray:
         """Return all 21 marker centres in W0, (N, 21, 3)."""
@@ -138,12 +138,12 @@ class Scene:
 
     def _compute_skin_markers_w(self, pose: HandPose) -> tuple[FloatArray, FloatArray]:
         anatomy, tissue = self.patient.anatomy, pose.tissue
-        discs = disc_centres(anatomy, pose.joint_angles_rad)
-        discs = discs + self._displacement_m(segment_frames(anatomy, pose.joint_angles_rad), tissue.glide_m)
+        markers = disc_centres(anatomy, pose.joint_angles_rad)
+        markers = markers + self._displacement_m(segment_frames(anatomy, pose.joint_angles_rad), tissue.glide_m)
         share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
-        discs[:, list(PALM_SITES), 0] += self._skin_shift_m(share)[..., 0]
+        markers[:, list(PALM_SITES), 0] += self._skin_shift_m(share)[..., 0]
         cones = self.skin.cones_w(pose.joint_angles_rad, tissue)
-        return project_to_surface(self.skin.cup_points(discs, tissue.cup_rad), cones)
+        return project_to_surface(self.skin.cup_points(markers, tissue.cup_rad), cones)
 
     def _displacement_m(self, bones: SegmentFrames, glide_m: FloatArray) -> FloatArray:
         """Return displacements (N, 21, 3) of an uncupped hand: placement errors and glides (N, 21)."""
@@ -178,17 +178,13 @@ class Scene:
 
     def _compute_skin_height_change_m(self) -> FloatArray:
         """Return the rise (2, 6) of the skin under the palm's markers at full extension and flexion."""
-        discs = disc_centres(self.patient.anatomy, np.zeros(17))[list(PALM_SITES)]
+        markers = disc_centres(self.patient.anatomy, np.zeros(17))[list(PALM_SITES)]
         along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
-        return np.array(
-            [
-                [
-                    self.skin.palm_height_m(disc[:2] + [side * step, 0.0]) - disc[2]
-                    for disc, step in zip(discs, along, strict=True)
-                ]
-                for side in (-1.0, 1.0)
-            ]
-        )
+
+        def rise_m(marker: FloatArray, step_m: float) -> float:
+            return float(self.skin.palm_height_m(marker[:2] + [step_m, 0.0]) - marker[2])
+
+        return np.array([[rise_m(*pair) for pair in zip(markers, side * along, strict=True)] for side in (-1.0, 1.0)])
 
     def marker_frame(self) -> tuple[FloatArray, FloatArray]:
         """Return axes (3, 3) and origin (3,) of the markers' W of the first frame in that of the bones.
@@ -213,15 +209,12 @@ class Scene:
 
     def cones_cam(self, pose: HandPose, i: int) -> Cones:
         """Return the skin of hand and forearm at the i-th time in the camera."""
-        hand = self._hand_cones_w(pose, i).transform(pose.rotation_w2_w0[i], pose.position_m[i])
+        tissue = None if self.tissue.is_rigid else pose.tissue.select(i)
+        hand = self.skin.cones_w(pose.joint_angles_rad[i], tissue)
+        hand = hand.transform(pose.rotation_w2_w0[i], pose.position_m[i])
         supination = side_sign(self.spec.hand) * float(pose.angles_rad[i, 2])
         forearm = self.skin.forearm_cones_w0(supination).transform(np.eye(3), pose.arm_displacement_m[i])
         return join_cones(hand, forearm).transform(self.rotation_w0_cam, self.translation_w0_cam_m)
-
-    def _hand_cones_w(self, pose: HandPose, i: int) -> Cones:
-        """Skin of the hand at the i-th time, in W."""
-        tissue = None if self.tissue.is_rigid else pose.tissue.select(i)
-        return self.skin.cones_w(pose.joint_angles_rad[i], tissue)
 
     def _lowest_point_m(self) -> float:
         """Return the height in W0 of the lowest point of the skin."""
@@ -243,7 +236,7 @@ class Scene:
         yaw = math.radians(rng.uniform(-20.0, 20.0) if self.spec.yaw_deg is None else self.spec.yaw_deg)
         drawn_tilt, heading = rng.uniform(0.0, 10.0), rng.uniform(-math.pi, math.pi)
         if self.spec.marker_protocol.has_fingers:
-            # The thumb's discs face sideways: its side of the hand is turned up so that they can be clicked.
+            # The thumb's markers face sideways: its side of the hand is turned up so that they are visible.
             drawn_tilt, heading = 0.6 * drawn_tilt + 6.0, 0.2 * heading
             if self.spec.hand == "left":
                 heading += math.pi
@@ -265,12 +258,12 @@ class Scene:
         pose = self.pose(times)
         if self.spec.leaves_picture:
             pose = self.pose(times[times < 0.4 * self.spec.seconds])
-        discs = self.markers_w0_m(pose).reshape(-1, 3) @ self.rotation_w0_cam.T
-        middle = 0.5 * (discs.min(axis=0) + discs.max(axis=0))
+        markers = self.markers_w0_m(pose).reshape(-1, 3) @ self.rotation_w0_cam.T
+        middle = 0.5 * (markers.min(axis=0) + markers.max(axis=0))
         wrist = self.markers_w0_m(pose)[0, 0] @ self.rotation_w0_cam.T
         translation = np.array([-middle[0], -middle[1], distance_m - wrist[2]])
         translation[:2] += shift_m
-        pixel = self.camera.project(discs + translation)
+        pixel = self.camera.project(markers + translation)
         size = np.array([self.camera.width_px, self.camera.height_px])
         too_low = np.maximum(_PICTURE_MARGIN_PX - pixel.min(axis=0), 0.0)
         too_high = np.maximum(pixel.max(axis=0) - (size - 1 - _PICTURE_MARGIN_PX), 0.0)

@@ -86,7 +86,7 @@ def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
         _change_frame(at, axes, origin, spec.hand) for at in (pose, scene.pose(t - _STEP_S), scene.pose(t + _STEP_S))
     )
     rows = protocol_rows(spec)
-    discs_cam = scene.to_camera(scene.markers_w0_m(pose)[:, rows])
+    markers_cam = scene.to_camera(scene.markers_w0_m(pose)[:, rows])
     joint_names = spec.marker_protocol.joint_names(spec.dip == "free")
     columns = [scene.motion.joint_names.index(name) for name in joint_names]
     joint_velocity = (after.joint_angles_rad - before.joint_angles_rad) / (2.0 * _STEP_S)
@@ -105,8 +105,8 @@ def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
         joint_angles_rad=pose.joint_angles_rad[:, columns],
         joint_velocity_rad_s=joint_velocity[:, columns],
         joint_position_w0_m=(scene.joints_w0_m(pose)[:, rows] - origin) @ axes,
-        marker_position_cam_m=discs_cam,
-        marker_px=scene.camera.project(discs_cam),
+        marker_position_cam_m=markers_cam,
+        marker_px=scene.camera.project(markers_cam),
         visible_share=np.full((len(t), len(rows)), np.nan),
         marker_position_w0_m=(scene.markers_w0_m(scene.pose(np.zeros(1)))[0, rows] - origin) @ axes,
         rotation_w0_cam=scene.rotation_w0_cam @ axes,
