@@ -147,7 +147,6 @@ REACHED_OTHERWISE = {
     "app.commands": "by the name of a command",
     "core.session.reading_process": "in a process of its own",
     "core.records.migrations": "by Alembic",
-    "core.tracking.filter.state_model": "the whole state in one place, for readers, which its test holds",
 }
 
 

@@ -37,9 +37,9 @@ MOST_MEDIAN_MS = 1.3
 WRIST_PARTS = (
     (hand_filter, "associate_and_update", "association"),
     (palm_association, "associate_jointly", "joint"),
-    (hand_filter, "predicted_ahead", "filter"),
-    (hand_filter, "reset_and_levelled", "surface"),
-    (track, "surface_samples", "surface"),
+    (hand_filter, "predict_measurement_ahead", "filter"),
+    (hand_filter, "fit_surface", "surface"),
+    (track, "sample_surface", "surface"),
     (hand_filter, "find_palm", "find"),
 )
 """Where the parts of a frame are called, and what they are part of; within others: ``joint`` and ``find``."""

@@ -32,9 +32,9 @@ MOST_MEDIAN_MS, MOST_P95_MS = 3.0, 6.0
 
 PARTS = (
     (hand_filter, "associate_and_update", "association"),
-    (digit_association, "_digit_jointly", "association"),
-    (hand_filter, "reset_and_levelled", "surface"),
-    (track, "surface_samples", "surface"),
+    (digit_association, "_associate_digit_jointly", "association"),
+    (hand_filter, "fit_surface", "surface"),
+    (track, "sample_surface", "surface"),
 )
 
 
