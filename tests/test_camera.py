@@ -34,7 +34,7 @@ def test_back_projection_undoes_projection() -> None:
     assert np.allclose(CAMERA.backproject(CAMERA.project(there), there[..., 2]), there, atol=1e-12)
 
 
-def test_a_point_of_unknown_depth_is_unknown_whole() -> None:
+def test_backproject_unknown_depth_is_nan() -> None:
     back = CAMERA.backproject(np.array([[300.0, 200.0]]), np.array([np.nan]))
     assert np.isnan(back).all()
 
@@ -93,6 +93,6 @@ def test_a_lens_without_distortion_leaves_pixels_alone() -> None:
     assert LENS.is_distorted
 
 
-def test_no_pixels_are_no_trouble() -> None:
+def test_camera_empty_pixels_are_allowed() -> None:
     assert LENS.undistort(np.empty((0, 2))).shape == (0, 2)
     assert LENS.distort(np.empty((0, 2))).shape == (0, 2)

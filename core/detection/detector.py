@@ -11,8 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.compiled.blobs import BlobWindows
-from carpus.core.detection import appearance
-from carpus.core.detection.appearance import MarkerAppearance, build_paper_mask, classify_paper_colors
+from carpus.core.detection.appearance import (
+    BINS,
+    MarkerAppearance,
+    backproject_histogram,
+    build_paper_mask,
+    classify_paper_colors,
+    to_hsv,
+)
 from carpus.core.detection.components import find_components
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import get_stencil
@@ -46,13 +52,13 @@ class ColorTable:
 class Detector:
     """Finds blobs of the learnt colour. Keeps no memory between frames."""
 
-    def __init__(self, looks: MarkerAppearance, camera: Camera, settings: DetectionSettings) -> None:
-        self._appearance = looks
+    def __init__(self, appearance: MarkerAppearance, camera: Camera, settings: DetectionSettings) -> None:
+        self._appearance = appearance
         self._camera = camera
         self._settings = settings
-        self._table, self._is_paper = _build_color_table(looks), classify_paper_colors(looks)
-        self._min_area = settings.least_area * looks.min_area_share
-        self._max_area = settings.most_area * looks.max_area_share
+        self._table, self._is_paper = _build_color_table(appearance), classify_paper_colors(appearance)
+        self._min_area = settings.least_area * appearance.min_area_share
+        self._max_area = settings.most_area * appearance.max_area_share
 
     def compute_search_region(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
         """Return the rectangle that holds all predicted discs with their uncertainty.
@@ -85,7 +91,7 @@ class Detector:
         rows, columns = slice(region.top, region.bottom), slice(region.left, region.right)
         color = frame.color_rgb[rows, columns]
         raw = None if frame.depth_raw is None else frame.depth_raw[rows, columns]
-        hsv, sensor = appearance.to_hsv(color), self._camera.sensor
+        hsv, sensor = to_hsv(color), self._camera.sensor
         mask = build_paper_mask(hsv, self._is_paper, self._appearance.min_brightness)
         blobs = find_components(
             mask, lambda at: self._estimate_radius(raw, frame.depth_unit_m, at), self._min_area, self._max_area
@@ -120,11 +126,11 @@ class Detector:
         """Return the rectangle about the paper on skin, None when there is no paper."""
         coarse = COARSE_FACTOR
         small = cv2.resize(color_rgb, None, fx=1 / coarse, fy=1 / coarse, interpolation=cv2.INTER_AREA)
-        hsv = appearance.to_hsv(np.asarray(small, dtype=np.uint8))
-        paper = appearance.backproject_histogram(hsv, self._appearance.paper_lookup) >= PAPER_LEVEL
+        hsv = to_hsv(np.asarray(small, dtype=np.uint8))
+        paper = backproject_histogram(hsv, self._appearance.paper_lookup) >= PAPER_LEVEL
         if not paper.any():
             return None
-        skin = appearance.backproject_histogram(hsv, self._appearance.skin_lookup) >= SKIN_LEVEL
+        skin = backproject_histogram(hsv, self._appearance.skin_lookup) >= SKIN_LEVEL
         near_skin = cv2.dilate(skin.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
         row, column = np.nonzero(paper & near_skin)
         if row.size == 0:
@@ -138,13 +144,12 @@ class Detector:
         ).clip(color_rgb.shape[1], color_rgb.shape[0])
 
 
-def _build_color_table(marker_appearance: MarkerAppearance) -> ColorTable:
-    bins = appearance.BINS
-    look = np.arange(1 << 16)
-    hue, saturation = np.minimum((look & 255) * bins // 180, bins - 1), (look >> 8) * bins // 256
-    coarse = marker_appearance.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
+def _build_color_table(appearance: MarkerAppearance) -> ColorTable:
+    code = np.arange(1 << 16)
+    hue, saturation = np.minimum((code & 255) * BINS // 180, BINS - 1), (code >> 8) * BINS // 256
+    coarse = appearance.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
     return ColorTable(
         ((hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)).astype(np.uint8),
-        marker_appearance.skin_lookup[hue, saturation] >= SKIN_LEVEL,
+        appearance.skin_lookup[hue, saturation] >= SKIN_LEVEL,
         np.sqrt(coarse.ravel()),
     )

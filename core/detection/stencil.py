@@ -74,8 +74,8 @@ def _build_stencil(quarters: int, edge_px: int) -> Stencil:
     angle = np.arctan2(row, column)
     width = 2.0 * np.pi / WEDGES
     middle = np.arange(WEDGES) * width
-    apart = np.abs((angle - middle[:, None] + np.pi) % (2.0 * np.pi) - np.pi)
-    is_seen = width + 1e-9 >= apart[:, rim].T
+    angle_difference = np.abs((angle - middle[:, None] + np.pi) % (2.0 * np.pi) - np.pi)
+    is_seen = width + 1e-9 >= angle_difference[:, rim].T
     return Stencil(
         np.stack((row, column), axis=1).astype(np.int32),
         slice_below(core),
@@ -83,5 +83,5 @@ def _build_stencil(quarters: int, edge_px: int) -> Stencil:
         slice_below(max(edge_px, core)),
         rim,
         np.ascontiguousarray(is_seen, dtype=np.float64),
-        apart.argmin(axis=0).astype(np.uint8),
+        angle_difference.argmin(axis=0).astype(np.uint8),
     )

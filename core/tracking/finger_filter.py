@@ -101,21 +101,16 @@ class FingerFilter:
 
     def accept(self, posterior: DigitPosterior, timestamp_s: float, dt_s: float) -> FingerStep:
         """Accept an update; return what the smoother needs of it."""
-        named = posterior.update
         self.history.update(posterior, dt_s, self._settings)
-        kept, merged, misread = self.model.apply_joint_limits(named.update.mixture, self.estimates)
-        self.history.missing_frames[misread] = MAX_MISSING_FRAMES
-        self._set_estimates(kept, merged)
-        begins, self._is_at_start = self._is_at_start, False
+        updated = posterior.update
+        estimates, merged, is_misread = self.model.apply_joint_limits(updated.update.mixture, self.estimates)
+        self.history.missing_frames[is_misread] = MAX_MISSING_FRAMES
+        self._set_estimates(estimates, merged)
+        is_at_start, self._is_at_start = self._is_at_start, False
         return FingerStep(
-            timestamp_s,
-            named.measured,
-            named.variance,
-            posterior.blob >= 0,
-            posterior.postures,
-            begins,
+            timestamp_s, updated.measured, updated.variance, posterior.blob >= 0, posterior.postures, is_at_start,
             posterior.knuckle_flexion,
-        )
+        )  # fmt: skip
 
     def read_joints(self, posterior: DigitPosterior) -> JointState:
         """Return the joints after an update was accepted."""

@@ -19,7 +19,7 @@ def random_hsv(seed: int, hue: tuple[int, int] = (0, 180)) -> ByteImage:
     return hsv.astype(np.uint8)
 
 
-def test_histogram_counts_what_the_mask_shows() -> None:
+def test_histogram_counts_the_masked_pixels() -> None:
     hsv = random_hsv(0)
     mask = np.random.default_rng(1).random((20, 30)) < 0.4
     found = ch.compute_histogram(hsv, mask)
@@ -29,13 +29,13 @@ def test_histogram_counts_what_the_mask_shows() -> None:
     assert np.allclose(found, counts / mask.sum())
 
 
-def test_nothing_shown_is_an_empty_histogram_not_a_division_by_zero() -> None:
+def test_histogram_empty_mask_is_zero() -> None:
     assert np.array_equal(
         ch.compute_histogram(random_hsv(0), np.zeros((20, 30), dtype=bool)), np.zeros((ch.BINS, ch.BINS))
     )
 
 
-def test_smoothing_keeps_the_sum_and_wraps_the_hue() -> None:
+def test_histogram_smoothing_keeps_the_sum_and_wraps_hue() -> None:
     """Red lies at both ends of the hue circle: smoothed, one end reaches the other."""
     hsv = np.full((4, 4, 3), 128, dtype=np.uint8)
     hsv[..., 0] = 179
@@ -47,14 +47,14 @@ def test_smoothing_keeps_the_sum_and_wraps_the_hue() -> None:
 
 @settings(deadline=None, max_examples=30)
 @given(st.integers(0, 1000), st.integers(0, 1000))
-def test_coefficient_is_opencvs(a: int, b: int) -> None:
+def test_bhattacharyya_is_opencvs(a: int, b: int) -> None:
     mask = np.ones((20, 30), dtype=bool)
     one, other = ch.compute_histogram(random_hsv(a, (0, 60)), mask), ch.compute_histogram(random_hsv(b, (20, 90)), mask)
     distance = cv2.compareHist(one.astype(np.float32), other.astype(np.float32), cv2.HISTCMP_BHATTACHARYYA)
     assert float(ch.compute_bhattacharyya(one.ravel(), other.ravel())) == pytest.approx(1.0 - distance**2, abs=1e-4)
 
 
-def test_back_projection_is_a_look_in_the_table() -> None:
+def test_backprojection_is_a_table_lookup() -> None:
     hsv = random_hsv(2)
     table = np.random.default_rng(3).integers(0, 256, (ch.BINS, ch.BINS)).astype(np.float32)
     found = ch.backproject_histogram(hsv, table)
@@ -62,7 +62,7 @@ def test_back_projection_is_a_look_in_the_table() -> None:
     assert np.array_equal(found, table[at_hue, hsv[..., 1].astype(int) * ch.BINS // 256].astype(np.uint8))
 
 
-def test_brightness_does_not_enter() -> None:
+def test_histogram_ignores_brightness() -> None:
     color = np.full((8, 8, 3), (40, 90, 180), dtype=np.uint8)
     mask = np.ones((8, 8), dtype=bool)
     bright, dim = (

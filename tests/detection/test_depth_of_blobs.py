@@ -36,7 +36,7 @@ def on_disc() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     return rows, columns
 
 
-def test_good_depth_is_believed() -> None:
+def test_depth_of_blob_good_readings_are_used() -> None:
     found = detected(depth_picture())
     assert found.depth_m == pytest.approx(DISTANCE_M, abs=2e-4)
     # By the book the reading has 1.425e-3 z^2, and readings a few pixels apart are one.
@@ -44,7 +44,7 @@ def test_good_depth_is_believed() -> None:
 
 
 @pytest.mark.parametrize(("share_missing", "is_believed"), [(0.0, True), (0.5, True), (0.85, False), (1.0, False)])
-def test_holes_are_borne_up_to_seven_tenths(share_missing: float, is_believed: bool) -> None:
+def test_depth_of_blob_tolerates_holes_up_to_seven_tenths(share_missing: float, is_believed: bool) -> None:
     depth = depth_picture()
     rows, columns = on_disc()
     holes = np.random.default_rng(1).permutation(len(rows))[: round(share_missing * len(rows))]
@@ -57,7 +57,7 @@ def test_holes_are_borne_up_to_seven_tenths(share_missing: float, is_believed: b
     assert np.isfinite(np.delete(found.depth_m, DISC)).all()
 
 
-def test_finger_and_table_mixed_are_not_believed() -> None:
+def test_depth_of_blob_mixed_surfaces_have_no_depth() -> None:
     """Half the disc's readings are of something five centimetres behind."""
     depth = depth_picture()
     rows, columns = on_disc()
@@ -68,7 +68,7 @@ def test_finger_and_table_mixed_are_not_believed() -> None:
     assert np.isfinite(np.delete(found.depth_m, DISC)).all()
 
 
-def test_a_few_strange_readings_do_not_pull() -> None:
+def test_depth_of_blob_few_outliers_do_not_shift_it() -> None:
     depth = depth_picture()
     rows, columns = on_disc()
     strange = np.random.default_rng(2).permutation(len(rows))[: len(rows) // 7]
@@ -77,7 +77,7 @@ def test_a_few_strange_readings_do_not_pull() -> None:
     assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
 
 
-def test_a_reading_far_from_a_discs_others_is_no_part_of_its_depth() -> None:
+def test_depth_of_blob_far_reading_is_excluded() -> None:
     depth = depth_picture()
     for u, v in np.rint(PALM_PX).astype(int):
         depth[v + 1, u] += 0.4  # not the middle, where the disc's size is looked up
@@ -95,7 +95,7 @@ def at_the_edge_of_the_surface(depth: FloatArray) -> None:
 
 
 @pytest.mark.parametrize(("lies", "times"), [(sloped, 1.2), (at_the_edge_of_the_surface, 1.3)])
-def test_a_disc_on_a_slope_or_edge_is_believed_less(lies: Callable[[FloatArray], None], times: float) -> None:
+def test_depth_of_blob_on_a_slope_has_a_larger_sd(lies: Callable[[FloatArray], None], times: float) -> None:
     depth = depth_picture()
     lies(depth)
     flat, found = detected(depth_picture()), detected(depth)
@@ -103,7 +103,7 @@ def test_a_disc_on_a_slope_or_edge_is_believed_less(lies: Callable[[FloatArray],
     assert found.depth_sd_m[DISC] > times * flat.depth_sd_m[DISC]
 
 
-def test_depths_are_told_in_metres_whatever_the_unit() -> None:
+def test_depth_of_blob_is_in_metres_for_any_unit() -> None:
     rng = np.random.default_rng(3)
     shown = frame(picture(PALM_PX, Look(), rng), depth_picture())
     assert shown.depth_raw is not None

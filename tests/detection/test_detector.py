@@ -71,7 +71,9 @@ def all_found(found: Detections, true_px: FloatArray, within_px: float = 0.5) ->
 @pytest.mark.parametrize("light", [0.4, 1.0, 1.25])
 @pytest.mark.parametrize("skin", [SKIN, DARK_SKIN])
 @pytest.mark.parametrize("paper", PAPERS)
-def test_centres_are_good_to_a_tenth_of_a_pixel(paper: str, skin: tuple[int, int, int], light: float) -> None:
+def test_detector_centres_are_accurate_to_a_tenth_of_a_pixel(
+    paper: str, skin: tuple[int, int, int], light: float
+) -> None:
     """Any paper, any skin, dim and bright, with colour halved across as the camera does."""
     rng = np.random.default_rng(1)
     look = Look(paper=PAPERS[paper], skin=skin, light=light)
@@ -85,7 +87,7 @@ def test_centres_are_good_to_a_tenth_of_a_pixel(paper: str, skin: tuple[int, int
     assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.1
 
 
-def test_shading_does_not_pull_the_centres() -> None:
+def test_detector_shading_does_not_shift_centres() -> None:
     """Half the light gone across the hand; without noise, so that only the pull is left."""
     look = Look(shading=0.5, noise=0.0, chroma=False)
     detector = detector_for(look)
@@ -98,7 +100,7 @@ def test_shading_does_not_pull_the_centres() -> None:
     assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.05
 
 
-def test_areas_and_depths_are_those_of_the_discs() -> None:
+def test_detector_areas_and_depths_match_the_discs() -> None:
     found = detector_for().detect(seen(3))
     assert found.area_px == pytest.approx(np.pi * RADIUS_PX**2, rel=0.1)
     assert (found.similarity > 0.0).all()
@@ -108,25 +110,25 @@ def test_areas_and_depths_are_those_of_the_discs() -> None:
     assert (found.depth_sd_m < 0.004).all()
 
 
-def test_without_depth_blobs_have_none() -> None:
+def test_detector_without_depth_gives_nan_depths() -> None:
     found = detector_for().detect(replace(seen(17), depth_raw=None))
     assert all_found(found, PALM_PX)
     assert np.isnan(found.depth_m).all()
     assert np.isnan(found.depth_sd_m).all()
 
 
-def test_tilted_discs_are_found_where_their_middle_is() -> None:
+def test_detector_tilted_discs_are_found_at_their_centre() -> None:
     assert all_found(detector_for().detect(seen(4, PALM_PX + 0.4, squeeze=0.5)), PALM_PX + 0.4, within_px=0.2)
 
 
 @pytest.mark.parametrize("light", [0.5, 1.2])
-def test_other_light_than_at_calibration_is_no_trouble(light: float) -> None:
+def test_detector_tolerates_other_light(light: float) -> None:
     assert all_found(detector_for().detect(seen(11, look=Look(light=light))), PALM_PX)
 
 
 @pytest.mark.parametrize("gap_px", [-0.5, 0.0, 0.8])
 @pytest.mark.parametrize("direction_deg", [0.0, 35.0, 90.0])
-def test_touching_discs_are_taken_apart(gap_px: float, direction_deg: float) -> None:
+def test_detector_touching_discs_are_separated(gap_px: float, direction_deg: float) -> None:
     away = (2.0 * RADIUS_PX + gap_px) * np.array([np.cos(np.radians(direction_deg)), np.sin(np.radians(direction_deg))])
     true = PALM_PX.copy()
     true[1] = [150.2, 145.6]
@@ -138,7 +140,7 @@ def test_touching_discs_are_taken_apart(gap_px: float, direction_deg: float) -> 
     assert np.linalg.norm(error[2:], axis=1).max() < 0.3
 
 
-def test_three_in_a_row_are_taken_apart() -> None:
+def test_detector_three_discs_in_a_row_are_separated() -> None:
     true = PALM_PX.copy()
     true[:3] = [[130.0, 150.0], [130.0 + 2.05 * RADIUS_PX, 150.0], [130.0 + 4.1 * RADIUS_PX, 150.0]]
     found = detector_for().detect(seen(6, true))
@@ -162,7 +164,7 @@ NO_MARKERS = {
 
 
 @pytest.mark.parametrize("case", NO_MARKERS)
-def test_what_else_is_in_the_picture_is_no_marker(case: str) -> None:
+def test_detector_other_objects_are_no_markers(case: str) -> None:
     paper, others = NO_MARKERS[case]
     look = Look(paper=PAPERS[paper])
     extras = [Extra(pixel, radius_px, PAPERS[color]) for pixel, radius_px, color in others]
@@ -171,7 +173,7 @@ def test_what_else_is_in_the_picture_is_no_marker(case: str) -> None:
         assert all_found(detector_for(look).detect(shown, region), PALM_PX)
 
 
-def test_only_the_region_given_is_searched() -> None:
+def test_detector_searches_the_region_only() -> None:
     detector, shown = detector_for(), seen(12)
     upper = Region(100, 80, 215, 130)
     found = detector.detect(shown, upper)
@@ -183,7 +185,7 @@ def test_only_the_region_given_is_searched() -> None:
     assert len(detector.detect(shown, Region(-50, -50, 1000, 1000))) == 6
 
 
-def test_predicted_region_holds_every_disc_and_little_more() -> None:
+def test_search_region_holds_every_disc_and_little_more() -> None:
     detector = detector_for()
     covariance = np.broadcast_to(4.0 * np.eye(2), (6, 2, 2))
     region = detector.compute_search_region(PALM_PX, covariance, np.full(6, DISTANCE_M))
@@ -196,7 +198,7 @@ def test_predicted_region_holds_every_disc_and_little_more() -> None:
     assert wider.bottom > region.bottom
 
 
-def test_an_unsure_hand_is_looked_for_only_so_far_away(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_search_region_large_covariance_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("carpus.core.detection.detector.MAX_SEARCH_RADIUS_PX", 60.0)
     settings = DetectionSettings()
     detector = Detector(learnt(BLUE, np.random.default_rng(13))[0], CAMERA, settings)
@@ -212,14 +214,14 @@ def test_an_unsure_hand_is_looked_for_only_so_far_away(monkeypatch: pytest.Monke
     assert found[1].bottom - found[1].top == pytest.approx(2.0 * reach_px, abs=2.5)
 
 
-def test_a_place_that_is_not_known_has_no_region() -> None:
+def test_search_region_nan_is_an_error() -> None:
     pixel = PALM_PX.copy()
     pixel[-1, 0] = np.nan
     with pytest.raises(ValueError, match="NaN"):
         detector_for().compute_search_region(pixel, np.broadcast_to(np.eye(2), (6, 2, 2)), np.full(6, DISTANCE_M))
 
 
-def test_a_depth_picture_of_another_size_is_refused() -> None:
+def test_detector_depth_of_another_size_is_an_error() -> None:
     """Its readings lie elsewhere: as many pixels on they would be another place's."""
     shown = seen(4)
     assert shown.depth_raw is not None
@@ -228,7 +230,7 @@ def test_a_depth_picture_of_another_size_is_refused() -> None:
             detector_for().detect(replace(shown, depth_raw=raw))
 
 
-def test_of_too_many_blobs_the_largest_are_told() -> None:
+def test_detector_too_many_blobs_keeps_the_largest() -> None:
     detector = Detector(detector_for()._appearance, CAMERA, replace(SETTINGS, most_blobs=4))
     extras = [Extra((float(u), float(v)), 3.2, PAPERS["blue"]) for u, v in ((140, 140), (160, 140), (180, 140))]
     found = detector.detect(seen(5, extras=extras), WHOLE)
@@ -236,7 +238,7 @@ def test_of_too_many_blobs_the_largest_are_told() -> None:
     assert found.area_px.min() > 45.0
 
 
-def test_paper_looks_as_opencv_projects_it_back() -> None:
+def test_paper_mask_is_opencvs_backprojection() -> None:
     looks, hsv = detector_for()._appearance, to_hsv(seen(6).color_rgb)
     likely = cv2.calcBackProject([hsv], [0, 1], looks.paper_lookup, [0.0, 180.0, 0.0, 256.0], 1.0)
     expected = ((likely > 127.5) & (hsv[..., 2] > looks.min_brightness)).astype(np.uint8)
@@ -255,7 +257,7 @@ def taken_apart(is_blob: NDArray[np.bool_], radius_px: float) -> FloatArray:
 @pytest.mark.parametrize(
     ("apart_radii", "bar_radii", "parts"), [(0.7, 0.0, 1), (1.3, 0.0, 2), (0.0, 2.65, 1), (0.0, 3.0, 2)]
 )
-def test_a_blob_longer_than_a_disc_is_taken_apart(apart_radii: float, bar_radii: float, parts: int) -> None:
+def test_detector_long_blob_is_separated(apart_radii: float, bar_radii: float, parts: int) -> None:
     """Two discs over each other by their scatter, a bar by its length: beyond 2.8 radii it is more than one disc."""
     radius_px = 20.0
     v, u = np.mgrid[:120, :160]
@@ -268,7 +270,7 @@ def test_a_blob_longer_than_a_disc_is_taken_apart(apart_radii: float, bar_radii:
 
 
 @pytest.mark.parametrize(("discs", "parts"), [(2, 2), (3, 3), (4, 4), (7, 1)])
-def test_a_row_of_small_discs_with_blurred_edges_is_taken_apart(discs: int, parts: int) -> None:
+def test_detector_blurred_row_of_small_discs_is_separated(discs: int, parts: int) -> None:
     """Four knuckles of a small hand run together, larger than at their distance; a sleeve is longer."""
     radius_px = 4.2
     centre = np.array([[30.0 + 2.4 * radius_px * i, 40.0 - 2.0 * np.sin(i)] for i in range(discs)])
@@ -280,14 +282,14 @@ def test_a_row_of_small_discs_with_blurred_edges_is_taken_apart(discs: int, part
         assert np.abs(found[np.argsort(found[:, 0])] - centre).max() < 0.3 * radius_px
 
 
-def test_nothing_is_found_where_nothing_is() -> None:
+def test_detector_empty_image_gives_no_blobs() -> None:
     depth = depth_picture(np.random.default_rng(14))
     assert len(detector_for().detect(seen(14, np.empty((0, 2))))) == 0
     assert len(detector_for().detect(frame(np.zeros((240, 320, 3), dtype=np.uint8), depth))) == 0
     assert len(detector_for().detect(frame(np.full((240, 320, 3), 255, dtype=np.uint8), None))) == 0
 
 
-def test_covered_discs_are_left_out_and_half_covered_ones_are_small() -> None:
+def test_detector_half_covered_discs_have_small_areas() -> None:
     shown, half = seen(15, PALM_PX[1:]), PALM_PX[1]
     shown.color_rgb[int(half[1]) - 8 : int(half[1]) + 9, int(half[0]) + 1 : int(half[0]) + 9] = TABLE
     found = detector_for().detect(shown)
@@ -298,7 +300,7 @@ def test_covered_discs_are_left_out_and_half_covered_ones_are_small() -> None:
     assert found.area_px[near.argmin()] < 0.8 * np.pi * RADIUS_PX**2
 
 
-def test_a_disc_at_the_rim_of_the_picture_is_no_trouble() -> None:
+def test_detector_disc_at_the_image_border_is_tolerated() -> None:
     true = PALM_PX + [0.0, 48.5]  # the lowest is half outside
     found = detector_for().detect(seen(16, true))
     assert np.abs(matched(found.pixel, true[1:])).max() < 0.3
@@ -307,7 +309,7 @@ def test_a_disc_at_the_rim_of_the_picture_is_no_trouble() -> None:
 
 
 @pytest.mark.parametrize("times", [2, 3])
-def test_a_finer_picture_or_a_nearer_hand_shows_larger_discs(times: int) -> None:
+def test_detector_scales_with_resolution_and_distance(times: int) -> None:
     """Discs wider than the sensor's own window, as in 1280 x 1024 pictures or with a hand nearer than 0.34 m."""
     size = (CAMERA.width_px * times, CAMERA.height_px * times)
     camera = Camera(525.0 * times, 525.0 * times, 159.5 * times, 119.5 * times, *size)
@@ -323,7 +325,7 @@ def test_a_finer_picture_or_a_nearer_hand_shows_larger_discs(times: int) -> None
     assert np.abs(found.depth_m - DISTANCE_M).max() < 0.002
 
 
-def test_smaller_discs_are_followed_when_they_were_clicked() -> None:
+def test_detector_small_discs_are_found_when_clicked() -> None:
     """A child's 8 mm discs: what a disc measures is learnt, too."""
     radius = RADIUS_PX * 8.0 / 12.0
     looks, _ = learn_appearance(seen(19, radius_px=radius), PALM_PX + 0.5, CAMERA, SETTINGS)
@@ -332,7 +334,7 @@ def test_smaller_discs_are_followed_when_they_were_clicked() -> None:
 
 
 @pytest.mark.parametrize("click_error_px", [0.0, 3.5])
-def test_colours_are_learnt_also_from_clicks_beside_the_discs(click_error_px: float) -> None:
+def test_learn_appearance_tolerates_clicks_beside_discs(click_error_px: float) -> None:
     rng = np.random.default_rng(20)
     angle = rng.uniform(0.0, 2.0 * np.pi, 6)
     clicks = PALM_PX + click_error_px * np.stack((np.cos(angle), np.sin(angle)), axis=1)
@@ -351,7 +353,7 @@ def test_detector_keeps_no_memory() -> None:
     assert np.array_equal(first.depth_m, again.depth_m)
 
 
-def test_settings_name_the_least_share_of_skin() -> None:
+def test_detection_settings_skin_share_limits_blobs() -> None:
     """With no skin asked for, the disc on the table counts; the rule is the setting's, not hidden."""
     looks, _ = learnt(BLUE, np.random.default_rng(23))
     on_table = seen(23, extras=[Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"])])

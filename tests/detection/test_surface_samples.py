@@ -13,14 +13,14 @@ FULL = Frame(0, 0.0, np.zeros((480, 640, 3), np.uint8), np.full((480, 640), 700,
 
 
 @pytest.mark.parametrize("shift_px", [0.0, 0.7, 1.9])
-def test_the_lattice_of_the_back_stays_where_it_is_while_the_hand_moves(shift_px: float) -> None:
+def test_surface_lattice_is_fixed_in_the_image(shift_px: float) -> None:
     corners = np.array([[300.0, 200.0], [340.0, 205.0], [345.0, 260.0], [298.0, 255.0]]) + shift_px
     found = sample_surface(FULL, corners)
     assert found is not None
     assert not np.any(found.pixel % SURFACE_SAMPLE_STEP_PX)
 
 
-def test_of_too_many_readings_about_the_fingers_those_nearest_to_a_disc_are_taken(
+def test_finger_samples_too_many_keeps_the_nearest(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     discs = np.array([[300.0, 200.0], [360.0, 210.0]])

@@ -28,7 +28,7 @@ def after(seconds: float, residual: tuple[float, float, float], dt_s: float = DT
     return np.asarray(factor[0])
 
 
-def test_what_goes_wrong_sideways_makes_both_pixels_unsure_and_leaves_the_depth() -> None:
+def test_adapt_noise_pixel_residual_raises_both_pixels_only() -> None:
     u, v, depth = after(0.2, (3.0, 0.0, 1.0))
     assert u == pytest.approx(v)
     assert u > 1.5
@@ -36,17 +36,17 @@ def test_what_goes_wrong_sideways_makes_both_pixels_unsure_and_leaves_the_depth(
     assert after(0.2, (1.0, 1.0, 3.0))[2] > 1.5
 
 
-def test_residuals_of_either_pixel_are_averaged_not_added() -> None:
+def test_adapt_noise_averages_both_pixels() -> None:
     assert after(1.0, (math.sqrt(2.0), 0.0, 1.0))[:2] == pytest.approx([1.0, 1.0])
     assert after(1.0, (1.0, 1.0, 1.0)) == pytest.approx([1.0, 1.0, 1.0])
 
 
-def test_noise_is_judged_over_half_a_second_whatever_the_rate_of_pictures() -> None:
+def test_adapt_noise_time_constant_is_independent_of_frame_rate() -> None:
     assert after(0.5, (1.5, 1.5, 1.0))[0] == pytest.approx(math.exp(1.25), rel=0.12)
     assert after(0.5, (1.5, 1.5, 1.0), DT_S / 4.0)[0] == pytest.approx(math.exp(1.25), rel=0.03)
 
 
-def test_factors_stay_within_their_bounds_and_unmeasured_ones_where_they_were() -> None:
+def test_adapt_noise_factors_stay_in_bounds() -> None:
     assert after(5.0, (20.0, 20.0, 20.0)) == pytest.approx(np.full(3, NOISE.most_adapted))
     assert after(5.0, (0.0, 0.0, 0.0)) == pytest.approx(np.full(3, NOISE.least_adapted))
     factor = np.array([[2.0, 2.0, 3.0]])
@@ -57,7 +57,7 @@ def test_factors_stay_within_their_bounds_and_unmeasured_ones_where_they_were() 
 
 
 @pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.kind)
-def test_a_depth_is_worth_what_the_still_hand_showed_and_what_stays_besides(sensor: DepthSensor) -> None:
+def test_depth_variance_has_scatter_and_bias(sensor: DepthSensor) -> None:
     """Twice the book's scatter is four times its variance; the sensor's pattern and a steep slope come on top."""
     settings = TrackerSettings(noise=replace(NOISE, depth_ratio=2.0))
     area, steep_m = np.full(2, math.pi * 25.0), 0.002
@@ -87,8 +87,6 @@ def sizes(pictures: int, known: float, seen: float) -> float:
         pytest.param(1, math.nan, 80.0, 80.0, 80.0, id="given by the first picture"),
     ],
 )
-def test_the_size_of_a_disc_is_what_is_seen_of_it(
-    pictures: int, known: float, seen: float, low: float, high: float
-) -> None:
+def test_disc_areas_follow_what_is_measured(pictures: int, known: float, seen: float, low: float, high: float) -> None:
     assert low <= sizes(pictures, known, seen) <= high
     assert math.isnan(sizes(pictures, math.nan, math.nan))

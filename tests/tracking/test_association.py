@@ -52,7 +52,7 @@ odds_tables = st.integers(1, 4).flatmap(
 
 @settings(deadline=None, max_examples=200)
 @given(odds_tables)
-def test_resolved_names_are_the_best_of_all(odds: FloatArray) -> None:
+def test_assign_blobs_is_the_best_of_all_assignments(odds: FloatArray) -> None:
     assigned = assign_blobs(odds)
     used = assigned[assigned >= 0]
     assert len(set(used)) == len(used), "no blob twice"
@@ -90,7 +90,7 @@ def own_of(covariance: FloatArray) -> FloatArray:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_posterior_is_equation_12(seed: int) -> None:
+def test_log_odds_give_equation_12(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed)
     own = own_of(covariance)
     odds = log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
@@ -114,7 +114,7 @@ def test_posterior_is_equation_12(seed: int) -> None:
         assert np.allclose(found[i], np.array(weight) / np.sum(weight), atol=1e-9)
 
 
-def test_no_blobs_get_no_names() -> None:
+def test_assign_blobs_without_blobs_is_empty() -> None:
     mean, covariance, _, _ = scene(0)
     own = own_of(covariance)
     odds = log_odds(mean.reshape(3, 3), own, np.empty((0, 3)), np.empty((0, 3)), RES_PX2, OUTLIER, SETTINGS)
@@ -122,7 +122,7 @@ def test_no_blobs_get_no_names() -> None:
     assert association_posterior(odds.value).shape == (0, 4)
 
 
-def test_clutter_density_decides_between_a_far_marker_and_nothing() -> None:
+def test_assign_blobs_clutter_density_decides() -> None:
     """A blob four standard deviations off is the marker in a large picture and clutter in a small one."""
     own = np.diag([4.0, 4.0, 1e-6])[None]
     blob, noise = np.array([[308.0, 200.0, np.nan]]), np.array([[0.01, 0.01, 1e-6]])
@@ -136,7 +136,7 @@ def test_clutter_density_decides_between_a_far_marker_and_nothing() -> None:
 
 
 @pytest.mark.parametrize(("off_sd", "taken"), [(4.8, 0), (5.2, -1)])
-def test_beyond_the_gate_a_blob_has_no_name_however_little_clutter_there_is(off_sd: float, taken: int) -> None:
+def test_assign_blobs_beyond_the_gate_is_never_associated(off_sd: float, taken: int) -> None:
     """One by one and jointly: by its density alone a blob 5.2 standard deviations off a sure place would be its."""
     mean, covariance = np.array([300.0, 200.0, 0.7]), np.diag([0.01, 0.01, 1e-8])
     blob, noise = np.array([[300.0 + 0.1 * off_sd, 200.0, np.nan]]), np.array([[1e-9, 1e-9, 1e-12]])
@@ -219,7 +219,7 @@ def as_key(assigned: NDArray[np.int64], with_depth: NDArray[np.bool_]) -> tuple[
 
 
 @pytest.mark.parametrize("seed", range(15))
-def test_joint_names_are_the_best_of_all_with_a_wide_beam(seed: int) -> None:
+def test_associate_jointly_wide_beam_is_the_best_of_all(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed, clutter=seed % 3)
     found = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS, beam=10_000)
     scores = all_scores(mean, covariance, blobs, noise)
@@ -230,7 +230,7 @@ def test_joint_names_are_the_best_of_all_with_a_wide_beam(seed: int) -> None:
     assert found.log_posterior == pytest.approx(max(scores.values()), abs=1e-6)
 
 
-def test_the_usual_beam_finds_the_best_names_almost_always() -> None:
+def test_associate_jointly_default_beam_is_almost_always_best() -> None:
     fell_short = 0
     for seed in range(100):
         mean, covariance, blobs, noise = scene(1000 + seed, clutter=2)
@@ -242,7 +242,7 @@ def test_the_usual_beam_finds_the_best_names_almost_always() -> None:
     assert fell_short <= 3
 
 
-def test_joint_names_see_what_single_ones_cannot() -> None:
+def test_associate_jointly_corrects_separate_association() -> None:
     """A palm that jumped beside a false blob: each disc lies near another's prediction, all together make sense."""
     mean = np.concatenate([[u, 200.0, 0.7] for u in (300.0, 310.0, 324.0)])
     together = np.kron(np.ones((3, 3)), np.diag([36.0, 1.0, 1e-5]))
@@ -256,7 +256,7 @@ def test_joint_names_see_what_single_ones_cannot() -> None:
     assert list(single) != [0, 1, 2]
 
 
-def test_blobs_of_strange_depth_are_named_by_their_pixels() -> None:
+def test_association_outlier_depth_uses_the_pixel() -> None:
     """A disc whose depth is the table's keeps its name, and its depth is not believed."""
     mean, covariance = np.array([300.0, 200.0, 0.70]), np.diag([1.0, 1.0, 1e-6])
     blob, noise = np.array([[300.5, 200.0, 0.75]]), np.array([[0.01, 0.01, 1e-6]])
@@ -267,7 +267,7 @@ def test_blobs_of_strange_depth_are_named_by_their_pixels() -> None:
     assert as_key(jointly.assigned, jointly.with_depth) == ((0,), (False,))
 
 
-def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:
+def test_joint_compatibility_rejects_an_improbable_nis() -> None:
     assert is_jointly_compatible(float("nan"), 0, SETTINGS)
     for dof in (1, 6, 18, 63):
         limit = chi2.isf(5e-4, dof)
@@ -276,7 +276,7 @@ def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:
 
 
 @pytest.mark.parametrize("chance", [0.05, 0.5, 0.99, 0.9995, 1.0 - 1e-9, 1.0])
-def test_quantiles_of_chi_squared_are_those_of_scipy(chance: float) -> None:
+def test_chi2_quantiles_are_scipys(chance: float) -> None:
     quantiles = chi2_quantiles(chance)
     assert quantiles[0] == np.inf
     np.testing.assert_allclose(quantiles[1:], chi2.ppf(chance, np.arange(1, len(quantiles))), rtol=1e-12)

@@ -17,7 +17,7 @@ DT_S = 1.0 / 30.0
 NONE = np.zeros(3, dtype=bool)
 
 
-def test_a_disc_passed_over_for_long_is_doubted_by_name() -> None:
+def test_consistency_marker_unused_for_long_is_doubted() -> None:
     watch = ConsistencyTest(3)
     over = np.array([False, True, False])
     said = [watch.update(DT_S, over, 10.0, 10, 0) for _ in range(12)]
@@ -27,7 +27,7 @@ def test_a_disc_passed_over_for_long_is_doubted_by_name() -> None:
     assert not watch.update(DT_S, NONE, 10.0, 10, 0).is_any, "and no longer, once it is used"
 
 
-def test_innovations_outside_their_bounds_widen_what_is_stated() -> None:
+def test_consistency_nis_beyond_bound_widens_the_sd() -> None:
     watch = ConsistencyTest(3)
     one = watch.update(DT_S, NONE, 200.0, 10, 2)
     assert not one.is_any or one.sd_factor < 3.0, "one surprise is not enough"
@@ -39,14 +39,14 @@ def test_innovations_outside_their_bounds_widen_what_is_stated() -> None:
     assert not watch.update(DT_S, NONE, 10.0, 10, 0).is_any
 
 
-def test_nothing_measured_is_no_contradiction() -> None:
+def test_consistency_without_measurement_is_no_doubt() -> None:
     watch = ConsistencyTest(3)
     for _ in range(60):
         doubt = watch.update(DT_S, NONE, float("nan"), 0, 0)
     assert not doubt.is_any
 
 
-def test_only_a_free_blob_at_the_place_and_depth_is_passed_over() -> None:
+def test_unused_markers_need_a_free_blob_at_place_and_depth() -> None:
     disc_m = CAMERA.backproject(np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7]))
 
     def over(assigned: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
@@ -72,7 +72,7 @@ def misclicked() -> Calibration:
     return replace(right, marker_position_w0_m=discs)
 
 
-def test_what_a_person_says_of_a_spot_holds_from_then_on() -> None:
+def test_operator_label_holds_from_the_next_frame() -> None:
     """The true middle knuckle is shown to a tracker that was told another; the spot beside the hand is no disc."""
     motion, rng = swing(1, 35.0, 0.4), np.random.default_rng(1)
     tracker = Tracker(misclicked(), CAMERA, TrackerSettings())

@@ -9,7 +9,7 @@ from carpus.core.session.values import Motion
 from tests.measures.tracked import tracked
 
 
-def test_joint_centres_bend_at_the_end_joint_by_two_thirds_of_the_middle_one() -> None:
+def test_joint_centres_coupled_dip_bend_by_two_thirds_of_pip() -> None:
     take = tracked("hook", 4.0, 0.4, discs="hand21")
     for motion in (take.causal, take.smoothed):
         bends_as_coupled(motion, list(take.truth.joint_names))

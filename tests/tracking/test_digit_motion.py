@@ -36,7 +36,7 @@ def after(seconds: float, dt_s: float) -> ModeMixture:
 
 
 @pytest.mark.parametrize("dt_s", [1.0 / 30.0, 0.1])
-def test_an_end_joint_returns_to_where_the_middle_one_has_it_and_strays_about_there(dt_s: float) -> None:
+def test_digit_motion_coupled_dip_returns_to_pip_with_its_scatter(dt_s: float) -> None:
     soon, late = after(SETTLES_S, dt_s), after(10.0 * SETTLES_S, dt_s)
     assert soon.mean[1:, :, END_JOINT] == pytest.approx(0.3 / np.e, rel=1e-2)
     assert late.mean[1:, :, END_JOINT] == pytest.approx(0.0, abs=1e-3)
@@ -44,13 +44,13 @@ def test_an_end_joint_returns_to_where_the_middle_one_has_it_and_strays_about_th
     assert np.sqrt(variance) == pytest.approx(STRAYS_RAD, rel=1e-3), "in every mode alike, however often it is asked"
 
 
-def test_other_joints_go_where_they_like() -> None:
+def test_digit_motion_free_joints_keep_their_rate() -> None:
     late = after(10.0 * SETTLES_S, 0.1)
     assert late.mean[0, :, END_JOINT] == pytest.approx(0.3)
     assert (late.covariance[0, :, END_JOINT, END_JOINT] > 1.0).all()
 
 
-def test_a_step_for_looking_back_is_the_step_that_was_taken() -> None:
+def test_digit_transition_for_smoothing_is_that_of_the_filter() -> None:
     forward, noise = motion().compute_transition(0.1, np.ones(N_DIGITS), None)
     mixture = after(0.1, 0.1)
     start = np.zeros((N_DIGITS, DIGIT_SIZE))

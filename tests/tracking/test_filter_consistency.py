@@ -76,14 +76,14 @@ def told(**noise: float) -> TrackerSettings:
 @pytest.mark.parametrize(
     "name", few(["rest", "slow flexion", "fast deviation", "slow deviation", "slow pro/supination"], 3)
 )
-def test_filter_is_neither_bold_nor_timid(name: str) -> None:
+def test_filter_nees_is_consistent(name: str) -> None:
     nis, turn, place = consistency(MOTIONS[name], told())
     assert 0.7 < nis < 1.1
     assert 0.6 < turn < 1.25
     assert 0.6 < place < 1.25
 
 
-def test_noise_twice_as_large_as_stated_is_found_out() -> None:
+def test_filter_nees_detects_doubled_noise() -> None:
     """Without the watch on the residuals the filter would be far too bold."""
     blind = consistency(MOTIONS["slow flexion"], told(most_adapted=1.0, least_adapted=1.0, outlier_sd=1e3), noise=2.0)
     watchful = consistency(MOTIONS["slow flexion"], told(), noise=2.0)

@@ -67,7 +67,7 @@ def state_of(anatomy: HandAnatomy, joints: FloatArray) -> FloatArray:
 
 @pytest.mark.parametrize("dip_free", [False, True])
 @pytest.mark.parametrize("seed", range(5))
-def test_discs_and_joints_are_those_of_the_plain_chains(seed: int, dip_free: bool) -> None:
+def test_digit_discs_and_joints_match_plain_chains(seed: int, dip_free: bool) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
     bone, normal, chain, disc_m = place_digits(state, roots)
@@ -84,7 +84,7 @@ def test_discs_and_joints_are_those_of_the_plain_chains(seed: int, dip_free: boo
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_slope_by_the_constants_is_that_of_small_differences(seed: int) -> None:
+def test_digit_slope_by_constants_matches_finite_differences(seed: int) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free=True)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
     mean = np.zeros((N_DIGITS, DIGIT_SIZE))
@@ -100,7 +100,7 @@ def test_slope_by_the_constants_is_that_of_small_differences(seed: int) -> None:
         assert np.allclose(slope[..., column], by_difference, atol=1e-8), constant
 
 
-def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
+def test_digit_linearisation_of_a_sure_state_is_the_projection() -> None:
     """As the covariance goes to nothing, the statistical line becomes the tangent."""
     anatomy, joints = hand(1), angles(1, dip_free=True)
     roots = anatomy.palm_disc_m[1:]
@@ -134,7 +134,7 @@ def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
 
 
 @pytest.mark.parametrize("dip_free", [False, True])
-def test_slots_hold_the_angles_and_give_them_back(dip_free: bool) -> None:
+def test_joint_angle_map_inverts_the_slots(dip_free: bool) -> None:
     joints = angles(7, dip_free)
     reading = JointAngleMap.from_digits(dip_free)
     assert np.allclose(reading.compute_angles(slots_of(joints)), joints, atol=1e-14)
@@ -148,7 +148,7 @@ def test_slots_hold_the_angles_and_give_them_back(dip_free: bool) -> None:
         assert by_name["DIP4_flexion"] == pytest.approx(4.0 / 9.0 * 3.0 + 4.0)
 
 
-def test_every_joint_is_measured_by_the_disc_on_it_and_the_next() -> None:
+def test_direct_markers_are_at_the_joint_and_the_next() -> None:
     for name, (at, past) in zip(joint_angle_names(True), direct_marker_rows(HAND21, True), strict=True):
         assert HAND21.markers[at] == name.split("_")[0]
         assert HAND21.markers[past][-1] == name.split("_")[0][-1]
@@ -164,9 +164,7 @@ def test_every_joint_is_measured_by_the_disc_on_it_and_the_next() -> None:
         (0, (0.0, -0.029, 0.0), True), (0, (0.0, -0.031, 0.0), False),
     ],
 )  # fmt: skip
-def test_a_disc_is_a_digit_s_within_its_length_and_a_little(
-    digit: int, off_m: tuple[float, ...], is_reached: bool
-) -> None:
+def test_is_in_reach_allows_a_digits_length_and_margin(digit: int, off_m: tuple[float, ...], is_reached: bool) -> None:
     """15 mm beyond it, 20 mm behind its root and 50 mm above the palm; of the thumb 30 mm across it."""
     roots = np.array([[0.0, float(k), 0.0] for k in range(N_DIGITS)])  # so far apart that one reaches no other's
     state = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS))

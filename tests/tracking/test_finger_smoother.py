@@ -59,7 +59,7 @@ def smoothed(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
     return np.array(list(rows)), np.array([v[0] for v in values]), np.array([v[1] for v in values])
 
 
-def test_piece_by_piece_is_as_good_as_at_once() -> None:
+def test_smoothing_in_pieces_is_as_good_as_at_once() -> None:
     names = joint_angle_names()
     truth = sequence().truth
     at_s, whole, whole_sd = smoothed(in_pieces=False)
@@ -72,7 +72,7 @@ def test_piece_by_piece_is_as_good_as_at_once() -> None:
     assert np.median(np.abs(pieces - whole)[:, bending] / whole_sd[:, bending]) < 0.35
 
 
-def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
+def test_smoother_record_discard_removes_finger_steps() -> None:
     blobs = sequence()
     tracker = tracker_of(blobs)
     for i in range(40):
@@ -81,7 +81,7 @@ def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
     assert len(tracker.record.history) == len(tracker.record.finger_history) == 1
 
 
-def test_a_piece_goes_on_from_where_the_one_before_was_forgotten() -> None:
+def test_smoother_record_next_piece_starts_where_the_last_ended() -> None:
     blobs = sequence()
     tracker, times_s = tracker_of(blobs), blobs.truth.timestamp_s
     for i in range(6):
@@ -98,7 +98,7 @@ def test_a_piece_goes_on_from_where_the_one_before_was_forgotten() -> None:
     assert len(tracker.smooth()) == 2
 
 
-def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break_nothing() -> None:
+def test_finger_smoother_restart_carries_back_anatomy_only() -> None:
     blobs = sequence()
     tracker = tracker_of(blobs)
     for i in range(3):
@@ -144,7 +144,7 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
 
 
 @pytest.mark.parametrize("gap_s", few([0.4, 2.5, 0.25, 1.0], 2))
-def test_gaps_between_pictures_leave_every_joint_within_reach(gap_s: float) -> None:
+def test_finger_smoother_gaps_keep_joints_within_limits(gap_s: float) -> None:
     """A busy computer measures few pictures: what a rate had done by then must not be taken for turns of a joint."""
     blobs = sequence()
     times = blobs.truth.timestamp_s

@@ -44,7 +44,7 @@ def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list
     ], seen
 
 
-def test_looked_for_anew_the_hand_is_found_and_its_fingers_are_as_long_as_was_learnt() -> None:
+def test_fingers_reacquired_hand_keeps_learnt_lengths() -> None:
     seen = sequence()
     tracker, times_s = tracker_of(seen), seen.truth.timestamp_s
     for row in range(60):
@@ -60,7 +60,7 @@ def test_looked_for_anew_the_hand_is_found_and_its_fingers_are_as_long_as_was_le
     np.testing.assert_allclose(after.kinematics.angles_rad, before.kinematics.angles_rad, atol=0.03)
 
 
-def test_fingers_that_rest_are_slow_and_fingers_out_of_sight_may_be_fast() -> None:
+def test_finger_speeds_hidden_joints_may_be_fast() -> None:
     settings = TrackerSettings()
     fingers = FingerFilter(calibrated(sequence()), sequence().truth.camera, settings)
     assert fingers.joint_speeds == (0.0, 0.0)
@@ -68,7 +68,7 @@ def test_fingers_that_rest_are_slow_and_fingers_out_of_sight_may_be_fast() -> No
     assert 0.5 < min(fingers.joint_speeds) <= max(fingers.joint_speeds) <= settings.tissue.fastest_rad_s
 
 
-def test_speeds_are_of_the_thumbs_base_and_the_fingers_knuckles_alone() -> None:
+def test_finger_speeds_are_of_thumb_base_and_mcp() -> None:
     fingers = FingerFilter(calibrated(sequence()), sequence().truth.camera, TrackerSettings())
     mean = fingers.estimates.mean.copy()
     mean[1:, :, RATES] = [3.0, 0.5, 3.0, 3.0, 3.0]
@@ -95,7 +95,7 @@ def weighed(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior
     return trial, trial.update.update.mixture.merge()[0] - fingers.model.neutral_mixture().merge()[0]
 
 
-def test_discs_share_what_the_palm_may_be_off_by() -> None:
+def test_digit_discs_share_the_palms_error() -> None:
     """All discs to one side is an unsure palm's error; some to one and some to the other is not."""
     aside, apart = (weighed(5e-3, off_px)[0] for off_px in ((1.0, 1.0), (1.0, -1.0)))
     assert np.count_nonzero(aside.blob >= 0) == np.count_nonzero(apart.blob >= 0) == 15
@@ -103,7 +103,7 @@ def test_discs_share_what_the_palm_may_be_off_by() -> None:
     assert aside.nis < 0.5 * weighed(1e-4, (1.0, 1.0))[0].nis
 
 
-def test_a_share_of_what_a_picture_says_of_the_anatomy_is_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_fingers_anatomy_learns_its_share_per_frame(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(finger_model, "LEARNING_SHARE", 0.2)
     fifth = weighed(1e-5, (0.3, -0.3))[1][:, ANATOMY]
     monkeypatch.setattr(finger_model, "LEARNING_SHARE", 1.0)
@@ -112,7 +112,7 @@ def test_a_share_of_what_a_picture_says_of_the_anatomy_is_believed(monkeypatch: 
     assert fifth == pytest.approx(0.2 * whole, rel=0.1, abs=1e-6)
 
 
-def test_a_finger_that_hides_is_unsure_at_once_and_knows_nothing_soon() -> None:
+def test_fingers_hidden_joint_sd_grows_to_its_range() -> None:
     pip, dip, tip = (HAND21.markers.index(name) for name in ("PIP3", "DIP3", "TIP3"))
     hidden_from = 30
     frames, _ = frames_of(dict.fromkeys(range(hidden_from, 60), (pip, dip, tip)))
@@ -126,7 +126,7 @@ def test_a_finger_that_hides_is_unsure_at_once_and_knows_nothing_soon() -> None:
     assert index_deg < 0.6 * sd_deg[hidden_from + 10]
 
 
-def test_joint_centres_and_tips_of_a_frame_are_where_they_are() -> None:
+def test_fingers_joint_centres_and_tips_match_the_truth() -> None:
     frames, seen = frames_of({})
     position = np.array([frame.kinematics.joint_position_m for frame in frames])
     off_mm = 1e3 * np.linalg.norm(position - seen.truth.joint_position_w0_m[: len(frames)], axis=-1)
@@ -139,7 +139,7 @@ def test_joint_centres_and_tips_of_a_frame_are_where_they_are() -> None:
     assert np.ptp(bone) < 0.002
 
 
-def test_a_lost_hand_has_no_joints_and_is_found_again() -> None:
+def test_fingers_lost_hand_has_no_joints_until_found() -> None:
     everything = tuple(range(len(HAND21.markers)))
     frames, seen = frames_of(dict.fromkeys(range(20, 80), everything), count=100)
     lost = [frame for frame in frames if frame.status is TrackStatus.LOST]
@@ -151,7 +151,7 @@ def test_a_lost_hand_has_no_joints_and_is_found_again() -> None:
     assert np.median(error_deg) < 3.0
 
 
-def test_a_long_pause_without_pictures_bends_no_finger_further() -> None:
+def test_fingers_long_gap_stays_within_limits() -> None:
     """The camera stood still for twelve seconds while the fingers closed: their rates are not carried over them."""
     still = sequence()
     tracker = tracker_of(still)
@@ -166,7 +166,7 @@ def test_a_long_pause_without_pictures_bends_no_finger_further() -> None:
     assert frame.status is TrackStatus.TRACKED
 
 
-def test_where_no_disc_was_measured_the_innovation_is_not_known() -> None:
+def test_fingers_without_measurement_have_no_nis() -> None:
     everything = tuple(range(len(HAND21.markers)))
     frames, _ = frames_of({40: everything, 41: everything}, 44)
     assert [frame.status for frame in frames[40:42]] == [TrackStatus.PREDICTED] * 2

@@ -24,7 +24,7 @@ def tracked(request: pytest.FixtureRequest) -> Tracked:
         return row, [run_on_blobs(row, row.spec(number, FIRST_SEED)) for number in range(HANDS)]
 
 
-def test_joints_that_are_seen_are_right(tracked: Tracked) -> None:
+def test_joints_measured_are_accurate(tracked: Tracked) -> None:
     row, runs = tracked
     assert row.limits is not None
     for group, limit_deg in (MOST_RMSE_DEG[row.limits] | MOST_RMSE_ALWAYS).items():
@@ -33,7 +33,7 @@ def test_joints_that_are_seen_are_right(tracked: Tracked) -> None:
     assert sum(run.missed for run in runs) < 0.01 * sum(run.shown for run in runs)
 
 
-def test_joints_seen_err_by_what_is_said(tracked: Tracked) -> None:
+def test_joints_measured_err_within_the_stated_sd(tracked: Tracked) -> None:
     """Errors that stay with a disc are part of the heights, in both kinds of chain, and are counted once."""
     _, runs = tracked
     for group in FLEXION:
@@ -48,7 +48,7 @@ def test_joints_seen_err_by_what_is_said(tracked: Tracked) -> None:
         assert figures(runs, group).all_inside > 0.85, group
 
 
-def test_joints_hidden_say_so(tracked: Tracked) -> None:
+def test_joints_hidden_have_a_large_sd(tracked: Tracked) -> None:
     _, runs = tracked
     for group in FLEXION:
         found = figures(runs, group)
@@ -59,7 +59,7 @@ def test_joints_hidden_say_so(tracked: Tracked) -> None:
 
 
 @pytest.mark.parametrize("first", [13_500_000, pytest.param(FIRST_SEED, marks=pytest.mark.thorough)])
-def test_a_hand_found_again_is_where_it_says(first: int) -> None:
+def test_hand_reacquired_errs_within_the_stated_sd(first: int) -> None:
     """Expected anywhere in their range, fingers come back to postures far from where the line was drawn, and blobs that
     are no discs lie where discs might. Fingers come into the picture first: four of their discs are no palm."""
     row = next(row for row in ROWS if row.name == "leaves and returns")

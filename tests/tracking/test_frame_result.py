@@ -18,7 +18,7 @@ from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
 from tests.tracking.sequences import tracker_of
 
 
-def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> None:
+def test_row_unused_marker_is_doubted_until_reset() -> None:
     settings = TrackerSettings()
     own = HandFilter(calibration(), CAMERA, settings)
     results = OutputRowBuilder(WRIST6, own.order, None, own.readout, settings)
@@ -44,7 +44,7 @@ def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> 
     np.testing.assert_allclose(row(101).measured_share, 5.0 / 6.0 * 2.0 / 3.0)
 
 
-def test_a_picture_in_which_nothing_was_measured_has_no_nis() -> None:
+def test_row_without_measurement_has_no_nis() -> None:
     sequence = measurement_sequence(RecordingSpec(seed=3, protocol="hand21", motion="rest", seconds=1.5))
     tracker = tracker_of(sequence)
     times_s = sequence.truth.timestamp_s

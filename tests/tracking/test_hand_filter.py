@@ -43,7 +43,7 @@ def run(own: HandFilter, frames: int = 40) -> None:
         own.accept(posterior, scan, is_seen=True, is_linked=True)
 
 
-def test_what_was_learnt_of_the_palm_outlives_a_lost_track() -> None:
+def test_hand_filter_lost_track_keeps_the_learnt_palm() -> None:
     own = HandFilter(calibration(sd_m=2e-3), CAMERA, TrackerSettings())
     calibrated = own.estimate_from_found(FOUND)
     run(own)
@@ -58,7 +58,7 @@ def test_what_was_learnt_of_the_palm_outlives_a_lost_track() -> None:
     assert not np.any(own.predict(0.0).nominal.value[SHAPE])
 
 
-def test_a_palm_is_looked_for_with_its_discs_where_skin_may_have_carried_them(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hand_filter_search_allows_for_the_skins_scatter(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[Any] = []
     monkeypatch.setattr(hand_filter, "find_palm", lambda *arguments: asked.append(arguments))
     settings = TrackerSettings()
@@ -68,7 +68,7 @@ def test_a_palm_is_looked_for_with_its_discs_where_skin_may_have_carried_them(mo
     assert np.linalg.eigvalsh(asked[0][2] - by_skin).min() > 0.0
 
 
-def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
+def test_hand_filter_collinear_discs_fade_the_rate_about_their_line() -> None:
     own = HandFilter(calibration(), CAMERA, TrackerSettings(use_surface=False))
     run(own, 10)
     posterior, scan = updated(own, 10 * DT_S, swing(1, 40.0, 1.0)(10 * DT_S), (WRIST, CMC1, MCP2))
@@ -87,7 +87,7 @@ def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
     assert own.is_rotation_observed, "what was not seen before is none of a hand found anew"
 
 
-def test_a_scan_without_blobs_is_one_of_nothing() -> None:
+def test_scan_without_blobs_has_none() -> None:
     own = HandFilter(calibration(), CAMERA, TrackerSettings())
     predicted = own.predict(0.0)
     scan = own.build_scan(predicted, blobs(Pose()), 0.0, 0.0).without_blobs()
@@ -97,7 +97,7 @@ def test_a_scan_without_blobs_is_one_of_nothing() -> None:
     assert (posterior.palm.assigned == -1).all()
 
 
-def test_a_prediction_is_worked_out_once_and_of_another_time_anew() -> None:
+def test_hand_filter_prediction_is_computed_once_per_time() -> None:
     own = HandFilter(calibration(), CAMERA, TrackerSettings())
     run(own, 10)
     first = own.predict(DT_S)
@@ -123,7 +123,7 @@ def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     return HandFilter(replace(known, surface=surface), seen.truth.camera, settings), seen.detections[0]
 
 
-def test_of_a_lost_hand_the_fingers_may_be_anywhere() -> None:
+def test_hand_filter_lost_hand_has_diffuse_fingers() -> None:
     own, _ = with_fingers(use_surface=False)
     assert own.fingers is not None
     assert own.fingers.joint_speeds == (0.0, 0.0)
@@ -131,7 +131,7 @@ def test_of_a_lost_hand_the_fingers_may_be_anywhere() -> None:
     assert min(own.fingers.joint_speeds) > 0.5
 
 
-def test_the_skin_moves_while_the_joints_beneath_it_do() -> None:
+def test_hand_filter_skin_moves_with_the_joints_beneath() -> None:
     own, _ = with_fingers(use_surface=True)
     assert own.fingers is not None
     rest = np.diagonal(own.predict(DT_S).nominal.covariance)[SKIN]
@@ -142,7 +142,7 @@ def test_the_skin_moves_while_the_joints_beneath_it_do() -> None:
 
 
 @pytest.mark.parametrize("use_surface", [False, True])
-def test_an_accepted_step_tells_how_fast_the_digits_moved_where_the_skin_goes_by_it(use_surface: bool) -> None:
+def test_hand_filter_step_has_digit_speeds_where_tissue_needs_them(use_surface: bool) -> None:
     own, found = with_fingers(use_surface)
     assert own.fingers is not None
     own.fingers.reset_joints()

@@ -44,14 +44,14 @@ def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:
     return math.degrees(after.mean[INDEX, 0, PIP]), math.degrees(sd)
 
 
-def test_an_angle_well_inside_is_left_alone() -> None:
+def test_joint_limits_far_inside_change_nothing() -> None:
     before = estimate(60.0, 5.0)
     after = apply_soft_limits(before, before.mean[:, 0, :N_SLOTS])
     assert after.mean[INDEX, 0, PIP] == before.mean[INDEX, 0, PIP]
     assert np.array_equal(after.covariance, before.covariance)
 
 
-def test_far_outside_a_limit_acts_as_a_measurement_of_it() -> None:
+def test_joint_limits_far_outside_act_as_a_measurement() -> None:
     """PIP ends at 125 degrees; believed at 175 give or take 10, the step of 3 degrees has the last word."""
     limit, sd = 125.0, 10.0
     soft = math.degrees(LIMIT_SD_RAD)
@@ -62,20 +62,20 @@ def test_far_outside_a_limit_acts_as_a_measurement_of_it() -> None:
     assert after_sd < 0.5 * sd
 
 
-def test_a_sure_angle_outside_stays_outside() -> None:
+def test_joint_limits_sure_angle_outside_stays_outside() -> None:
     """A hypermobile finger that is well seen is reported as it is."""
     angle, _ = pulled(-25.0, 0.5)
     assert -25.0 < angle < -24.0
 
 
-def test_an_angle_of_which_little_is_known_stays_within_its_range() -> None:
+def test_joint_limits_unknown_angle_stays_within_range() -> None:
     low, high = (math.degrees(bound) for bound in HARD_LIMITS_RAD["PIP2_flexion"])
     angle, sd = pulled(120.0, 40.0)
     assert low + sd < angle < high - 0.5 * sd
     assert 10.0 < sd < (high - low) / math.sqrt(12.0)
 
 
-def test_the_truncated_normal_is_that_of_sampling() -> None:
+def test_joint_limits_moments_match_sampling() -> None:
     """Mean and variance of a Gaussian times a soft step, by a million samples."""
     rng = np.random.default_rng(3)
     mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(LIMIT_SD_RAD)
@@ -86,7 +86,7 @@ def test_the_truncated_normal_is_that_of_sampling() -> None:
     assert after_sd == pytest.approx(float(kept.std()), rel=0.02)
 
 
-def test_abduction_has_less_room_in_a_bent_finger() -> None:
+def test_joint_limits_abduction_shrinks_with_flexion() -> None:
     slots = np.zeros((N_DIGITS, N_SLOTS))
     straight = slot_limits_rad(slots)[INDEX, 0]
     slots[INDEX, 1] = math.radians(60.0)
@@ -95,7 +95,7 @@ def test_abduction_has_less_room_in_a_bent_finger() -> None:
     assert np.allclose(np.degrees(bent), [-15.0, 15.0])
 
 
-def test_what_lies_outside_is_told_with_its_sign() -> None:
+def test_limit_excess_has_a_sign() -> None:
     slots = np.zeros((N_DIGITS, N_SLOTS))
     slots[INDEX, 2], slots[2, 1] = math.radians(130.0), math.radians(-50.0)
     off = np.degrees(compute_limit_excess(slots))
@@ -104,7 +104,7 @@ def test_what_lies_outside_is_told_with_its_sign() -> None:
     assert np.count_nonzero(off) == 2
 
 
-def test_the_end_joint_is_what_its_slot_adds_to_its_share_of_the_middle_one() -> None:
+def test_joint_limits_dip_is_its_slot_plus_two_thirds_of_pip() -> None:
     low, high = HARD_LIMITS_RAD["DIP2_flexion"]
     slots = np.zeros((N_DIGITS, N_SLOTS))
     slots[INDEX, 2] = math.radians(60.0)
@@ -114,7 +114,7 @@ def test_the_end_joint_is_what_its_slot_adds_to_its_share_of_the_middle_one() ->
     assert np.degrees(compute_limit_excess(slots)[INDEX, 3]) == pytest.approx(-7.0)
 
 
-def test_what_is_known_of_an_angle_by_its_limits_alone() -> None:
+def test_range_sd_is_that_of_a_uniform_angle() -> None:
     low, high = HARD_LIMITS_RAD["MCP3_flexion"]
     assert MID_RANGE_RAD[2, 1] == pytest.approx(0.5 * (low + high))
     assert RANGE_SD_RAD[2, 1] == pytest.approx((high - low) / math.sqrt(12.0))
@@ -122,7 +122,7 @@ def test_what_is_known_of_an_angle_by_its_limits_alone() -> None:
 
 
 @pytest.mark.parametrize("pip_deg", [112.0, 118.0])
-def test_a_limit_is_felt_from_three_standard_deviations_off(pip_deg: float) -> None:
+def test_joint_limits_act_within_three_sd(pip_deg: float) -> None:
     """125 degrees less 3 times 5 and the step of 3."""
     angle, _ = pulled(pip_deg, 5.0)
     assert angle < pip_deg
@@ -130,7 +130,7 @@ def test_a_limit_is_felt_from_three_standard_deviations_off(pip_deg: float) -> N
 
 
 @pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])
-def test_a_digit_surely_30_degrees_beyond_a_limit_was_misread(beyond_deg: float, is_misread: bool) -> None:
+def test_joint_limits_digit_30_degrees_beyond_is_misread(beyond_deg: float, is_misread: bool) -> None:
     surely = estimate(math.degrees(HARD_LIMITS_RAD["PIP2_flexion"][1]) + beyond_deg, 0.01)
     _, _, misread = apply_and_check_limits(surely, MAX_BEYOND_RAD)
     assert misread.tolist() == [False, is_misread, False, False, False]

@@ -56,19 +56,19 @@ def bends(samples: SurfaceSamples) -> KnuckleFlexion:
 
 
 @pytest.mark.parametrize("flexion_deg", [10.0, 30.0, 50.0, 70.0])
-def test_the_bend_of_a_finger_that_lies_bare_is_found(flexion_deg: float) -> None:
+def test_knuckle_flexion_bare_finger_is_found(flexion_deg: float) -> None:
     found = bends(readings(flexion_deg))
     assert math.degrees(found.value_rad[INDEX]) == pytest.approx(flexion_deg, abs=8.0)
     assert not np.isfinite(np.delete(found.value_rad, INDEX)).any(), "only who was asked for"
 
 
-def test_where_nothing_is_read_nothing_is_said() -> None:
+def test_knuckle_flexion_without_readings_is_nan() -> None:
     far = SurfaceSamples(np.array([[10.0, 10.0]]), np.array([0.7]))
     found = bends(far)
     assert not found.is_any
 
 
-def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
+def test_knuckle_flexion_update_is_weak_and_leaves_other_digits() -> None:
     covariance = np.broadcast_to(0.3**2 * np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
     mixture = ModeMixture.from_gaussian(states(), covariance, 2)
     found = bends(readings(60.0))
@@ -84,7 +84,7 @@ def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
     assert np.allclose(once.covariance[others], mixture.covariance[others])
 
 
-def test_what_is_said_is_never_surer_than_frames_that_err_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_knuckle_flexion_variance_counts_correlated_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     alike, least_sd_rad = knuckle_flexion.CORRELATED_FRAMES, knuckle_flexion.MIN_SD_RAD
     found = bends(readings(50.0))
     monkeypatch.setattr(knuckle_flexion, "CORRELATED_FRAMES", 1.0)
@@ -103,7 +103,7 @@ def covered(at: float, off_m: float) -> SurfaceSamples:
     return SurfaceSamples(bare.pixel, bare.depth_m + off_m * hit)
 
 
-def test_where_the_table_is_seen_past_its_place_a_finger_is_not_and_what_is_before_it_may_be_another() -> None:
+def test_knuckle_flexion_free_space_excludes_a_finger() -> None:
     past, before = (bends(covered(0.75, off_m)) for off_m in (0.03, -0.03))
     assert math.degrees(past.value_rad[INDEX]) > 70.0, "so it is bent out of the way"
     assert not before.is_any

@@ -49,7 +49,7 @@ def is_covariance(p: FloatArray) -> bool:
 
 
 @pytest.mark.parametrize("name", SETTINGS)
-def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
+def test_tracker_random_input_keeps_a_valid_covariance(name: str) -> None:
     tracker = Tracker(calibration(), CAMERA, SETTINGS[name])
     statuses = []
     for i, (time_s, found) in enumerate(trouble(len(name), 190)):
@@ -78,7 +78,7 @@ def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
     assert [np.isnan(m.angles_rad).all() for m in smoothed] == [s is TrackStatus.LOST for s in statuses]
 
 
-def test_the_very_same_picture_for_a_minute_is_no_trouble() -> None:
+def test_tracker_same_frame_for_a_minute_is_stable() -> None:
     """A frozen camera: the same numbers thousands of times make the filter sure, not singular."""
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
     found = blobs(Pose(np.array([5.0, 20.0, -10.0])), np.random.default_rng(0))

@@ -47,7 +47,7 @@ def any_line(seed: int) -> Linearisation:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_prediction_is_f_p_f_plus_q(seed: int) -> None:
+def test_predict_mixture_is_f_p_f_plus_q(seed: int) -> None:
     rng, mixture = np.random.default_rng(seed), any_mixture(seed)
     forward, noise = rng.normal(size=(CHAINS, STATES, STATES)), positive(rng, CHAINS, MODES, size=STATES)
     found = predict_mixture(mixture, forward, noise)
@@ -60,7 +60,7 @@ def test_prediction_is_f_p_f_plus_q(seed: int) -> None:
     assert np.array_equal(found.probability, mixture.probability)
 
 
-def test_a_step_by_what_mixes_of_it_is_the_whole_step() -> None:
+def test_propagate_mixture_equals_the_full_transition() -> None:
     rng = np.random.default_rng(3)
     mixing, relaxing = 3, 2
     kept = np.ones((MODES, STATES))
@@ -86,7 +86,7 @@ def test_a_step_by_what_mixes_of_it_is_the_whole_step() -> None:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_correction_is_kalmans_with_what_was_not_measured_left_out(seed: int) -> None:
+def test_update_mixture_is_kalmans_without_nan_components(seed: int) -> None:
     rng, mixture, linearised = np.random.default_rng(seed), any_mixture(seed), any_line(seed)
     measured, variance = rng.normal(size=(CHAINS, SEEN)), rng.uniform(0.01, 2.0, (CHAINS, SEEN))
     shared = 0.05 * positive(rng, CHAINS, size=SEEN)
@@ -113,7 +113,7 @@ def test_correction_is_kalmans_with_what_was_not_measured_left_out(seed: int) ->
         assert not found.residual[c][~np.isfinite(measured[c])].any()
 
 
-def test_residuals_are_standard_normal_where_the_model_is_right() -> None:
+def test_update_mixture_residuals_are_standard_normal() -> None:
     rng = np.random.default_rng(5)
     mixture, linearised = any_mixture(1), any_line(1)
     mixture = ModeMixture(mixture.mean[:, :1], mixture.covariance[:, :1], np.ones((CHAINS, 1)))
@@ -131,7 +131,7 @@ def test_residuals_are_standard_normal_where_the_model_is_right() -> None:
     assert np.mean(found, axis=0) == pytest.approx(0.0, abs=0.06)
 
 
-def test_modes_mix_from_row_to_column() -> None:
+def test_mix_modes_goes_from_row_to_column() -> None:
     mixture, switch = any_mixture(2), np.array([[0.9, 0.1], [0.4, 0.6]])
     size = mixture.mean.shape[2]
     still, no_noise = np.tile(np.eye(size), (CHAINS, 1, 1)), np.zeros((CHAINS, MODES, size, size))
@@ -150,14 +150,14 @@ def test_modes_mix_from_row_to_column() -> None:
             assert np.allclose(blend.covariance[c, to], spread)
 
 
-def test_switching_stays_for_its_dwell_time_whatever_the_step() -> None:
+def test_mode_transition_matrix_keeps_the_dwell_time_at_any_step() -> None:
     one, three = mode_transition_matrix(3, 0.5, 0.1), mode_transition_matrix(3, 0.5, 0.3)
     assert np.allclose(one.sum(axis=1), 1.0)
     assert one[0, 0] ** 3 == pytest.approx(three[0, 0])
     assert np.array_equal(mode_transition_matrix(1, 0.5, 0.1), np.ones((1, 1)))
 
 
-def test_merged_is_the_mixtures_mean_and_covariance() -> None:
+def test_merge_is_the_mixtures_mean_and_covariance() -> None:
     mixture, rng = any_mixture(7), np.random.default_rng(8)
     mean, covariance = mixture.merge()
     mode = rng.choice(MODES, 200_000, p=mixture.probability[1])
@@ -169,7 +169,7 @@ def test_merged_is_the_mixtures_mean_and_covariance() -> None:
 
 
 @pytest.mark.parametrize("learning", [0.0, 0.3, 1.0])
-def test_slow_numbers_take_their_share_and_all_else_the_whole(learning: float) -> None:
+def test_partial_update_limits_the_given_rows_only(learning: float) -> None:
     mixture, linearised, rng = any_mixture(3), any_line(3), np.random.default_rng(4)
     measured, variance = rng.normal(size=(CHAINS, SEEN)), np.full((CHAINS, SEEN), 0.2)
     slow, fast = slice(3, STATES), slice(0, 3)
@@ -222,7 +222,7 @@ def estimates_of(trajectory: LinearTrajectory) -> dict[int, tuple[FloatArray, Fl
     return found
 
 
-def test_looking_back_is_the_least_squares_of_all_measurements() -> None:
+def test_smoother_equals_batch_least_squares() -> None:
     """A line of Gaussian steps and measurements, solved at once and by the recursion."""
     rng, steps, n, m = np.random.default_rng(2), 6, 3, 2
     forward, noise = rng.normal(size=(n, n)), positive(rng, size=n)

@@ -28,7 +28,7 @@ def shown(
     return hints.apply_labels(index, time_s, seen, lambda: at)
 
 
-def test_a_spot_that_is_named_is_followed_to_the_picture_that_hears_it() -> None:
+def test_operator_label_blob_is_followed_to_the_next_frame() -> None:
     hints = OperatorLabels(MARKERS)
     shown(hints, 0, 0.0, spots((50.0, 50.0), (199.0, 100.0)))
     hints.add(MarkerLabel(0, "MCP3", (200.0, 101.0)))
@@ -43,7 +43,7 @@ def test_a_spot_that_is_named_is_followed_to_the_picture_that_hears_it() -> None
 
 
 @pytest.mark.parametrize(("after_s", "is_heard"), [(0.9, True), (1.1, False)])
-def test_an_answer_waits_for_its_spot_and_no_longer(after_s: float, is_heard: bool) -> None:
+def test_operator_label_waits_for_its_blob_until_timeout(after_s: float, is_heard: bool) -> None:
     hints = OperatorLabels(MARKERS)
     shown(hints, 0, 0.0, spots((200.0, 100.0)))
     hints.add(MarkerLabel(0, "MCP3", (200.0, 100.0)))
@@ -55,7 +55,7 @@ def test_an_answer_waits_for_its_spot_and_no_longer(after_s: float, is_heard: bo
 
 
 @pytest.mark.parametrize(("after_s", "is_out"), [(0.99, True), (1.01, False)])
-def test_a_spot_that_is_no_disc_stays_left_out_for_its_time(after_s: float, is_out: bool) -> None:
+def test_rejected_blob_stays_excluded_for_its_time(after_s: float, is_out: bool) -> None:
     hints = OperatorLabels(MARKERS)
     both = spots((200.0, 100.0), (230.0, 100.0))
     shown(hints, 0, 0.0, both)
@@ -67,7 +67,7 @@ def test_a_spot_that_is_no_disc_stays_left_out_for_its_time(after_s: float, is_o
     assert shown(hints, 2, after_s * REJECTION_VALID_S, both).is_rejected.tolist() == [False, is_out]
 
 
-def test_a_marker_that_was_held_keeps_the_spot_nearer_to_it() -> None:
+def test_rejected_blob_yields_to_a_measured_marker() -> None:
     """What was no disc went out of sight beside its marker; what comes back nearer to a held one is that one's."""
     for is_held in (False, True):
         hints = OperatorLabels(MARKERS)
@@ -82,7 +82,7 @@ def test_a_marker_that_was_held_keeps_the_spot_nearer_to_it() -> None:
         assert found.is_rejected.tolist() == [not is_held]
 
 
-def test_of_a_lost_hand_a_spot_is_known_by_its_place_alone() -> None:
+def test_rejected_blob_of_a_lost_hand_is_found_by_position() -> None:
     hints, nowhere = OperatorLabels(MARKERS), np.full((2, 2), np.nan)
     seen = spots((230.0, 100.0))
     shown(hints, 0, 0.0, seen, nowhere)

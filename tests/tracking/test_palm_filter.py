@@ -87,14 +87,14 @@ def coasting(estimate: PalmEstimate, dt_s: float) -> PalmEstimate:
     return PalmEstimate(estimate.rotation_w2_w0 @ so3.exp(dt_s * estimate.rate_rad_s), value, estimate.covariance)
 
 
-def test_moved_and_error_to_are_inverse() -> None:
+def test_palm_estimate_add_error_inverts_compute_error() -> None:
     estimate = moving()
     error = 0.1 * np.random.default_rng(1).normal(size=SIZE)
     assert np.allclose(estimate.compute_error(estimate.add_error(error, estimate.covariance)), error, atol=1e-12)
 
 
 @pytest.mark.parametrize("dt_s", [0.005, 1.0 / 30.0, 0.5])
-def test_a_steps_transition_is_the_derivative_of_the_motion(dt_s: float) -> None:
+def test_palm_transition_is_the_derivative_of_the_motion(dt_s: float) -> None:
     estimate, step = moving(), 1e-5
     found = palm_transition(estimate.rate_rad_s, MOTION, dt_s)
     after = found.propagate(estimate, dt_s)
@@ -111,7 +111,7 @@ def test_a_steps_transition_is_the_derivative_of_the_motion(dt_s: float) -> None
         assert np.allclose(forward[:, i], (ahead - back) / (2.0 * step), atol=1e-6), i
 
 
-def test_a_second_brings_the_same_uncertainty_at_any_frame_rate() -> None:
+def test_palm_prediction_covariance_is_independent_of_frame_rate() -> None:
     """White acceleration has a density: it matters not into how many steps the time is cut."""
     start = initial_estimate(InitialSd(), 1e-6 * np.eye(21)).covariance
     ends = []
@@ -125,14 +125,14 @@ def test_a_second_brings_the_same_uncertainty_at_any_frame_rate() -> None:
     assert np.allclose(ends[1], ends[2], rtol=1e-6, atol=1e-12)
 
 
-def test_modes_scale_the_motion_and_leave_the_tissue() -> None:
+def test_palm_modes_scale_the_motion_only() -> None:
     found = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0)
     calm, lively = found.driven
     assert np.allclose(lively, 64.0 * calm)
     assert np.array_equal(*found.relaxing)
 
 
-def test_soft_tissue_settles_at_its_scatter_and_forgets() -> None:
+def test_soft_tissue_reaches_its_stationary_covariance() -> None:
     stationary = stationary_covariance(SoftTissue())
     tissue = np.r_[SKIN, RELIEF]
     assert np.linalg.eigvalsh(stationary[np.ix_(tissue, tissue)]).min() > 0.0
@@ -158,7 +158,7 @@ def modes_after(seconds: float, mode: int) -> ModeMixture:
     return ModeMixture(mixture.mean[:, own] + nominal, mixture.covariance[:, own], np.ones((1, 1)))
 
 
-def test_tissue_at_rest_keeps_what_is_displaced_at_home_it_has_none_and_moving_it_goes_anywhere() -> None:
+def test_soft_tissue_modes_keep_reset_or_drive_displacement() -> None:
     home, still, cup = (modes_after(2.0, mode) for mode in (HOME, STILL, CUP))
     sd_m = [np.sqrt(np.diagonal(mixture.covariance[0, 0])[SKIN]) for mixture in (home, still, cup)]
     assert home.mean[0, 0, SKIN] == pytest.approx(0.0, abs=1e-9)
@@ -169,7 +169,7 @@ def test_tissue_at_rest_keeps_what_is_displaced_at_home_it_has_none_and_moving_i
     assert sd_m[2][:6].max() < 2e-4, "and leaves wrist and thumb"
 
 
-def test_rest_is_seldom_left_and_motions_are_short() -> None:
+def test_soft_tissue_rest_is_long_and_motion_short() -> None:
     switch = RESTING.mode_transition_matrix(np.zeros(3), 1.0 / 30.0)
     assert switch.sum(axis=1) == pytest.approx(1.0)
     assert switch.min() >= 0.0
@@ -193,7 +193,7 @@ def pushed_by(digits: DigitSpeeds, turning_rad_s: float, seconds: float) -> Floa
     return np.asarray(np.sqrt(np.diagonal(mixture.covariance[0, away])[np.r_[SKIN, RELIEF]]))
 
 
-def test_where_fingers_are_seen_tissue_moves_as_far_as_the_joints_beneath_it() -> None:
+def test_soft_tissue_joint_driven_moves_with_the_joints() -> None:
     stationary = np.sqrt(np.diagonal(stationary_covariance(SoftTissue()))[np.r_[SKIN, RELIEF]])
     rest = pushed_by(DigitSpeeds(), 0.0, 2.0) / stationary
     assert rest[:18].max() < 0.15, "while they rest it creeps, and no more"
@@ -206,7 +206,7 @@ def test_where_fingers_are_seen_tissue_moves_as_far_as_the_joints_beneath_it() -
     assert (pushed_by(DigitSpeeds(), 1.5, 1.0) / stationary)[:3].min() > 0.9
 
 
-def test_skin_leaves_home_while_joints_turn() -> None:
+def test_soft_tissue_leaves_home_while_joints_turn() -> None:
     rest, grasp = (
         FOLLOWING.mode_transition_matrix(np.zeros(3), 1.0 / 30.0, digits)
         for digits in (DigitSpeeds(), DigitSpeeds(0, 2))
@@ -221,7 +221,7 @@ def test_skin_leaves_home_while_joints_turn() -> None:
     assert FOLLOWING.initial_probability[home].sum() > 0.9
 
 
-def test_tissue_that_came_home_was_pushed_there_from_anywhere() -> None:
+def test_tissue_noise_coming_home_is_driven() -> None:
     home, away = (int(np.flatnonzero((FOLLOWING.tissue_of == HOME) == is_home)[0]) for is_home in (True, False))
     stayed, came = np.zeros((2, FOLLOWING.modes, FOLLOWING.modes))
     stayed[home, home] = came[away, home] = 1.0
@@ -230,7 +230,7 @@ def test_tissue_that_came_home_was_pushed_there_from_anywhere() -> None:
     np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT_TISSUE, SOFT_TISSUE], atol=1e-15)
 
 
-def test_looking_back_tissue_moves_from_a_frame_on_as_the_digits_did_in_it() -> None:
+def test_palm_smoother_tissue_uses_the_frames_digit_speeds() -> None:
     vague = np.full(FOLLOWING.modes, 1.0 / FOLLOWING.modes)
     speeds = DigitSpeeds(fingers=2.0), DigitSpeeds(), DigitSpeeds()
     steps = [FilterStep(k / 30.0, moving(0), vague, k > 0, None, digits) for k, digits in enumerate(speeds)]
@@ -246,7 +246,7 @@ def test_looking_back_tissue_moves_from_a_frame_on_as_the_digits_did_in_it() -> 
     assert (fast_m2 > 1.5 * rest_m2).all()
 
 
-def test_what_came_after_tells_when_tissue_moved() -> None:
+def test_palm_smoother_later_frames_tell_the_mode() -> None:
     """Named by the last frame alone: the frame before cannot have been the arch's unless it is likely to stay so."""
     cup = int(np.flatnonzero(RESTING.tissue_of == CUP)[0])
     sure = np.full(RESTING.modes, 1e-6)
@@ -261,7 +261,7 @@ def test_what_came_after_tells_when_tissue_moved() -> None:
     assert all(joint.sum() == pytest.approx(1.0) for joint in went if joint is not None)
 
 
-def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
+def test_palm_measurement_is_the_projection_and_its_slope() -> None:
     estimate = replace(moving(3), covariance=1e-12 * np.eye(SIZE))
     linearised = linearised_about(estimate, VIEW, UnscentedParameters())
     discs = VIEW.discs_cam_m(estimate)
@@ -276,7 +276,7 @@ def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
         assert np.allclose(linearised.slope[0][:, i], (moved - expected) / step, rtol=2e-4, atol=2e-2), i
 
 
-def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter() -> None:
+def test_palm_measurement_is_filterpys_unscented_transform() -> None:
     """Mean, covariance and cross-covariance of what is seen, as filterpy's own sigma points of the pose give them."""
     estimate = moving(5)
     wide = estimate.covariance.copy()
@@ -305,7 +305,7 @@ def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter()
     assert np.allclose(linearised.value[0], other.Wm @ image, atol=1e-9)
 
 
-def test_recentring_moves_the_nominal_and_keeps_the_modes_where_they_are() -> None:
+def test_reset_error_moves_the_nominal_and_keeps_the_modes() -> None:
     rng, estimate = np.random.default_rng(9), moving(9)
     apart = 0.01 * rng.normal(size=(1, 2, SIZE))
     both = np.stack((estimate.covariance, 2 * estimate.covariance))[None]
@@ -318,13 +318,13 @@ def test_recentring_moves_the_nominal_and_keeps_the_modes_where_they_are() -> No
         assert np.allclose(there.compute_error(again), 0.0, atol=2e-6)
 
 
-def test_slowing_fades_the_velocities_alone() -> None:
+def test_fading_factors_change_velocities_only() -> None:
     kept = fading_factors(0.5)
     assert (kept[np.r_[VELOCITY, RATE]] == 0.5).all()
     assert (np.delete(kept, np.r_[VELOCITY, RATE]) == 1.0).all()
 
 
-def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
+def test_palm_smoother_gap_is_a_straight_line() -> None:
     """Known well at both ends and not at all between, a steadily turning hand was halfway in the middle."""
     wide, sharp = np.eye(SIZE) * 1e-2, np.eye(SIZE) * 1e-8
     steps = []
@@ -347,7 +347,7 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
         assert np.linalg.eigvalsh(estimate.covariance).min() > 0.0
 
 
-def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
+def test_palm_smoother_does_not_pass_a_new_track() -> None:
     steps = [FilterStep(0.1 * k, moving(k), np.full(2, 0.5), k not in (0, 2)) for k in range(4)]
     found = smooth_palm(steps, MOTION)
     assert found[0] is not steps[0].estimate
@@ -360,7 +360,7 @@ def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
     assert found[3] is steps[3].estimate
 
 
-def test_resting_tissue_is_averaged_away_by_no_number_of_pictures() -> None:
+def test_palm_smoother_resting_tissue_is_not_averaged_away() -> None:
     """What displaced tissue has wrong comes again in every picture: looking back states more than if all were new, in
     the same proportion everywhere, never more than live, and reads the same angles."""
     steps = [FilterStep(k / 30.0, moving(1), RESTING.initial_probability, k > 0) for k in range(30)]
@@ -378,7 +378,7 @@ def test_resting_tissue_is_averaged_away_by_no_number_of_pictures() -> None:
     assert smooth_palm(steps, RESTING)[-1] is steps[-1].estimate
 
 
-def test_looking_back_goes_by_the_step_that_was_made() -> None:
+def test_palm_smoother_uses_the_filters_step() -> None:
     """Its noise, the turns that nothing showed, the rate that it began with."""
     now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
     made = palm_transition(now.rate_rad_s, MOTION, 0.1, unseen)
@@ -401,7 +401,7 @@ PALM_M = np.array(
 )  # fmt: skip
 
 
-def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside_them_does() -> None:
+def test_unobserved_turns_knuckles_alone_hide_turn_about_their_line() -> None:
     assert find_unobserved_turns(PALM_M, 0.008) is None
     assert find_unobserved_turns(PALM_M[[0, 2, 3]], 0.008) is None
     unseen = find_unobserved_turns(PALM_M[2:], 0.008)
@@ -415,7 +415,7 @@ def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside
     assert np.trace(unseen) == pytest.approx(1.0)
 
 
-def test_two_discs_do_not_show_the_turn_about_their_line_and_fewer_show_none() -> None:
+def test_unobserved_turns_of_two_or_fewer_discs() -> None:
     line = (PALM_M[1] - PALM_M[0]) * [1.0, 1.0, 0.0]
     unseen = find_unobserved_turns(PALM_M[:2], 0.008)
     assert unseen is not None
@@ -426,7 +426,7 @@ def test_two_discs_do_not_show_the_turn_about_their_line_and_fewer_show_none() -
         np.testing.assert_array_equal(found, np.eye(3))
 
 
-def test_an_unseen_turn_is_pushed_as_a_hand_may_move_in_every_mode_and_no_other_is() -> None:
+def test_palm_motion_unobserved_turn_has_its_own_noise() -> None:
     unseen = np.diag([1.0, 0.0, 0.0])
     usual = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0).driven
     found = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0, unseen).driven
@@ -439,7 +439,7 @@ def test_an_unseen_turn_is_pushed_as_a_hand_may_move_in_every_mode_and_no_other_
         assert np.linalg.eigvalsh(found[mode]).min() > -1e-12
 
 
-def test_only_the_unseen_turning_fades() -> None:
+def test_fading_matrix_changes_unobserved_turning_only() -> None:
     kept = fading_matrix(0.8, np.diag([1.0, 0.0, 0.0]))
     value = np.arange(float(SIZE))
     faded = kept @ value

@@ -54,7 +54,7 @@ def looked_for(seen: Detections, side: Side = "right", about: TurnLimits = ANYHO
 
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("seed", few(range(12), 3))
-def test_palm_is_found_among_shuffled_blobs_and_clutter(side: Side, seed: int) -> None:
+def test_find_palm_among_shuffled_blobs_and_clutter(side: Side, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pose = some_pose(rng)
     found = looked_for(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), side)
@@ -68,7 +68,7 @@ def test_palm_is_found_among_shuffled_blobs_and_clutter(side: Side, seed: int) -
 
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("hidden", [(0,), (3,), (1, 5), (0, 3), (2, 4)])
-def test_four_or_five_discs_are_enough(side: Side, hidden: tuple[int, ...]) -> None:
+def test_find_palm_four_or_five_markers_are_enough(side: Side, hidden: tuple[int, ...]) -> None:
     rng = np.random.default_rng(20)
     found_right = 0
     for _ in range(10):
@@ -86,14 +86,14 @@ def test_four_or_five_discs_are_enough(side: Side, hidden: tuple[int, ...]) -> N
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_three_discs_are_not_enough(side: Side) -> None:
+def test_find_palm_three_markers_are_not_enough(side: Side) -> None:
     rng = np.random.default_rng(30)
     for _ in range(20):
         hidden = rng.choice(6, 3, replace=False)
         assert looked_for(blobs(some_pose(rng), rng, side=side, hidden=hidden), side) is None
 
 
-def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_find_palm_four_ill_fitting_blobs_give_none(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each lies within millimetres of its place, but across the finger no skin glides so far."""
     four = blobs(Pose(), hidden=(CMC1, MCP5))
     assert looked_for(four) is not None
@@ -105,7 +105,7 @@ def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it(monkeypatch: pyte
     assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW) is not None
 
 
-def test_three_discs_and_far_clutter_are_not_enough() -> None:
+def test_find_palm_three_markers_and_far_clutter_give_none() -> None:
     rng = np.random.default_rng(31)
     for _ in range(20):
         seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
@@ -113,7 +113,7 @@ def test_three_discs_and_far_clutter_are_not_enough() -> None:
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
+def test_find_palm_other_hand_gives_none(side: Side) -> None:
     """The mirrored palm: never all six; where enough match by chance, fewer than a real palm would."""
     other: Side = "left" if side == "right" else "right"
     rng = np.random.default_rng(40)
@@ -127,7 +127,7 @@ def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
 
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("hidden", range(6))
-def test_five_discs_of_the_other_hand_are_not_this_palm(side: Side, hidden: int) -> None:
+def test_find_palm_five_markers_of_the_other_hand_give_none(side: Side, hidden: int) -> None:
     other: Side = "left" if side == "right" else "right"
     rng = np.random.default_rng(45)
     for _ in range(8):
@@ -136,7 +136,7 @@ def test_five_discs_of_the_other_hand_are_not_this_palm(side: Side, hidden: int)
 
 
 @pytest.mark.parametrize("hidden", [(), (WRIST,), (MCP5,)])
-def test_what_is_named_by_the_other_hand_is_told_from_this_palm(hidden: tuple[int, ...]) -> None:
+def test_is_other_hand_separates_the_hands(hidden: tuple[int, ...]) -> None:
     """By whichever of its blobs were named, and however the hand lies; nothing of this palm is said to be the other."""
     rng = np.random.default_rng(46)
     told = {"right": 0, "left": 0}
@@ -151,7 +151,7 @@ def test_what_is_named_by_the_other_hand_is_told_from_this_palm(hidden: tuple[in
     assert told["right"] == 0
 
 
-def test_the_other_hand_in_the_picture_does_not_keep_this_one_from_being_found() -> None:
+def test_find_palm_other_hand_in_view_is_no_obstacle() -> None:
     rng = np.random.default_rng(47)
     own = blobs(Pose(), rng, hidden=(CMC1,))
     other = blobs(Pose(position_m=np.array([0.0, 0.2, 0.0])), rng, side="left")
@@ -160,7 +160,7 @@ def test_the_other_hand_in_the_picture_does_not_keep_this_one_from_being_found()
     assert np.linalg.norm(found.position_m) < 0.004
 
 
-def test_four_discs_are_named_rightly_or_not_at_all() -> None:
+def test_find_palm_four_markers_are_labelled_right_or_not_at_all() -> None:
     """Knuckles in a row look much like others, more so where skin has glided: what fits two ways is not taken."""
     rng = np.random.default_rng(44)
     glide = np.linalg.cholesky(stationary_covariance(SoftTissue())[SKIN, SKIN])
@@ -178,13 +178,13 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
 
 
 @pytest.mark.parametrize(("turned_deg", "is_one"), [(60.0, True), (106.0, True), (112.0, False), (170.0, False)])
-def test_a_palm_turned_further_than_a_hand_can_be_is_none(turned_deg: float, is_one: bool) -> None:
+def test_find_palm_beyond_turn_limits_gives_none(turned_deg: float, is_one: bool) -> None:
     turned, most_rad = blobs(Pose(np.array([turned_deg, 0.0, 0.0]))), MAX_TURN_RAD
     assert looked_for(turned) is not None
     assert (looked_for(turned, about=TurnLimits(np.eye(3), most_rad, most_rad)) is not None) == is_one
 
 
-def test_what_every_disc_shows_counts_for_more_than_the_turn_that_was_expected() -> None:
+def test_find_palm_all_markers_override_the_predicted_turn() -> None:
     turned = Pose(np.array([0.0, 60.0, 0.0]))
     about = TurnLimits(np.eye(3), 0.5, 1.9)
     assert looked_for(blobs(turned), about=about) is not None
@@ -192,7 +192,7 @@ def test_what_every_disc_shows_counts_for_more_than_the_turn_that_was_expected()
     assert looked_for(blobs(turned, hidden=[WRIST])) is not None
 
 
-def test_a_palm_that_shows_its_inside_is_not_taken() -> None:
+def test_find_palm_palmar_side_gives_none() -> None:
     """The same discs turned over: the back of the hand must face the camera."""
     rng = np.random.default_rng(41)
     for _ in range(10):
@@ -200,19 +200,19 @@ def test_a_palm_that_shows_its_inside_is_not_taken() -> None:
         assert looked_for(blobs(pose, rng)) is None
 
 
-def test_without_depth_nothing_is_found() -> None:
+def test_find_palm_without_depth_gives_none() -> None:
     assert looked_for(blobs(Pose(), np.random.default_rng(1), with_depth=False)) is None
     assert looked_for(Detections.none()) is None
 
 
-def test_two_palms_are_one_too_many() -> None:
+def test_find_palm_two_palms_give_none() -> None:
     """Two equal constellations far apart: neither is taken."""
     one, other = blobs(Pose()), blobs(Pose(position_m=np.array([0.0, 0.12, 0.0])))
     assert looked_for(together(one, other)) is None
     assert looked_for(one) is not None
 
 
-def test_with_many_blobs_the_likest_are_searched() -> None:
+def test_find_palm_many_blobs_searches_the_most_similar() -> None:
     rng = np.random.default_rng(42)
     seen = blobs(Pose(), rng, false_px=clutter(rng, 60))
     likeness = np.where(
@@ -224,7 +224,7 @@ def test_with_many_blobs_the_likest_are_searched() -> None:
 
 
 @pytest.mark.parametrize("hidden", [(), (0,), (0, 1), (1, 3)])
-def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
+def test_found_palm_covariance_covers_its_error(hidden: tuple[int, ...]) -> None:
     """Its errors are as large as stated, also about the line of the knuckles when only those show."""
     rng = np.random.default_rng(43)
     shown = np.setdiff1d(np.arange(6), hidden)
@@ -244,7 +244,7 @@ def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
     assert np.mean(np.array(squared) < 16.8) > 0.95  # 99 % of chi squared with six degrees of freedom
 
 
-def test_the_knuckles_alone_leave_the_turn_about_their_line_open() -> None:
+def test_found_palm_knuckles_leave_turn_about_their_line_open() -> None:
     knuckles = looked_for(blobs(Pose(), hidden=(0, 1)))
     whole = looked_for(blobs(Pose()))
     assert knuckles is not None

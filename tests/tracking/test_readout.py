@@ -35,7 +35,7 @@ def angles_sd_deg(sensor: DepthSensor) -> FloatArray:
     return np.degrees(moment.angles_sd_rad)
 
 
-def test_with_a_pair_of_eyes_the_tilt_is_as_unsure_as_six_discs_with_bumps() -> None:
+def test_readout_stereo_tilt_covariance_matches_six_biased_discs() -> None:
     area_px = np.array(math.pi * (RADIUS_M * DEFAULT_CAMERA.fx_px / AWAY_M) ** 2)
     sd_m = float(D435.disc_bias_sd_m(np.array(AWAY_M), area_px))
     flat = PALM_M - PALM_M.mean(axis=0)
@@ -49,5 +49,5 @@ def test_with_a_pair_of_eyes_the_tilt_is_as_unsure_as_six_discs_with_bumps() -> 
 
 
 @pytest.mark.parametrize("sensor", [PRIMESENSE, AZURE_KINECT], ids=lambda sensor: sensor.name)
-def test_other_kinds_count_it_elsewhere(sensor: DepthSensor) -> None:
+def test_readout_other_sensors_add_no_tilt_covariance(sensor: DepthSensor) -> None:
     assert (angles_sd_deg(sensor) < 1e-3).all()

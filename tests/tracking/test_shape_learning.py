@@ -26,7 +26,7 @@ from tests.tracking.test_palm_filter import linearised_about
 
 
 @pytest.mark.parametrize("news", [0.1, 1.0])
-def test_shape_takes_its_share_of_the_information(news: float) -> None:
+def test_shape_partial_update_takes_its_share(news: float) -> None:
     mean = shape_partial_update(news)
     moving = np.delete(np.arange(SIZE), np.arange(CALIBRATION_ERROR.start, CALIBRATION_ERROR.stop))
     assert (mean[moving] == 1.0).all()
@@ -34,7 +34,7 @@ def test_shape_takes_its_share_of_the_information(news: float) -> None:
     assert 2.0 * mean[CALIBRATION_ERROR] - mean[CALIBRATION_ERROR] ** 2 == pytest.approx(news), "of the information"
 
 
-def test_a_still_hand_tells_nothing_new_of_its_shape_and_a_moving_one_does() -> None:
+def test_shape_learning_still_hand_adds_little() -> None:
     disc_m = RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M
     assert compute_fresh_share(disc_m, disc_m, CAMERA) == 0.0
     per_px_m = MIDDLE_M[2] / CAMERA.fx_px
@@ -48,7 +48,7 @@ def test_a_still_hand_tells_nothing_new_of_its_shape_and_a_moving_one_does() -> 
     assert compute_fresh_share(disc_m, disc_m + [0.0, 0.0, 2.0 * step_m], CAMERA) > 0.8
 
 
-def test_errors_along_the_rays_move_no_pixel() -> None:
+def test_ray_covariances_move_no_pixel() -> None:
     found = ray_covariances(calibration(), np.full(6, 3e-4))
     for disc, covariance in zip(RIGHT_PALM_M, found, strict=True):
         spread, axes = np.linalg.eigh(covariance)
@@ -60,7 +60,7 @@ def test_errors_along_the_rays_move_no_pixel() -> None:
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
-def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -> None:
+def test_depth_bias_matrix_hides_its_share(share: float) -> None:
     """A disc believed 1 mm further away is expected that much further, less what its depth goes on being wrong."""
     view = HandFilter(calibration(), CAMERA, TrackerSettings(shape_hidden=share)).view
     further = np.zeros((6, 3))
@@ -76,7 +76,7 @@ def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -
     assert np.array_equal(depth_bias_matrix(calibration(), share), view.hidden)
 
 
-def test_a_calibrated_place_is_as_sure_as_it_was_measured_and_less_along_its_ray() -> None:
+def test_shape_covariance_is_larger_along_the_ray() -> None:
     measured, stays_m = calibration(sd_m=4e-4), 3e-4
     noise = replace(TrackerSettings().noise, depth_stays_m=stays_m)
     found = shape_covariance(measured, D435, noise)
@@ -93,7 +93,7 @@ def test_a_calibrated_place_is_as_sure_as_it_was_measured_and_less_along_its_ray
         assert not np.delete(found[own], np.arange(own.start, own.stop), axis=1).any()
 
 
-def test_depths_that_stay_wrong_keep_the_angles_of_a_turned_hand_from_being_surer() -> None:
+def test_depth_bias_limits_the_sd_of_angles() -> None:
     """The axes of the hand are those of its discs: as sure as their heights are, seen from elsewhere."""
     stated = []
     for stays_m in (0.0, TrackerSettings().noise.depth_stays_m, 1e-3):

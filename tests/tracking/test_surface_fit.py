@@ -105,7 +105,7 @@ def fitted(surface: DorsalSurface, samples: SurfaceSamples, settings: SurfaceSet
 
 
 @pytest.mark.parametrize("seed", few(range(5), 2))
-def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: DorsalSurface, seed: int) -> None:
+def test_surface_fit_wrong_pose_measures_its_error(surface: DorsalSurface, seed: int) -> None:
     rng = np.random.default_rng(seed)
     rotation, position = so3.exp(rng.normal(0.0, 0.15, 3)), rng.normal(0.0, 0.01, 3)
     turn, shift = rng.normal(0.0, 0.03, 3) * [1.0, 1.0, 0.3], rng.normal(0.0, 0.001, 3)
@@ -125,7 +125,7 @@ def update_by_surface(mixture: ModeMixture, found: SurfaceMeasurement) -> Update
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: DorsalSurface, sign: float) -> None:
+def test_surface_fit_lasting_deformation_does_not_keep_turning_the_hand(surface: DorsalSurface, sign: float) -> None:
     """Ten seconds of a back of the hand 1.2 degrees off its calibrated shape: pose and relief share what was seen as
     their prior uncertainties say, once."""
     off_rad, turn_sd, relief_sd = sign * np.radians(1.2), 0.004, 0.012
@@ -142,7 +142,7 @@ def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: Dor
     assert turned / (turned + relief) == pytest.approx(turn_sd**2 / (turn_sd**2 + relief_sd**2), abs=0.02)
 
 
-def test_a_calibrated_back_is_as_unsure_as_a_part_of_one_picture(surface: DorsalSurface) -> None:
+def test_surface_calibration_covariance_is_a_share_of_one_frames(surface: DorsalSurface) -> None:
     settings = SurfaceSettings()
     found = surface_calibration_covariance(surface, VIEW, settings)
     one = fitted(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
@@ -154,7 +154,7 @@ def test_a_calibrated_back_is_as_unsure_as_a_part_of_one_picture(surface: Dorsal
 
 
 @pytest.mark.parametrize("shared", [0.0, 1.0])
-def test_depth_noise_scatters_as_stated(surface: DorsalSurface, shared: float) -> None:
+def test_surface_fit_depth_noise_scatters_as_stated(surface: DorsalSurface, shared: float) -> None:
     """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
     of the scatter."""
     settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0, reading_per_m=0.0014)
@@ -172,7 +172,7 @@ def test_depth_noise_scatters_as_stated(surface: DorsalSurface, shared: float) -
     assert np.std(found, axis=0) == pytest.approx(np.mean(stated, axis=0), rel=0.25)
 
 
-def test_the_surface_is_as_sure_as_its_sensor(surface: DorsalSurface) -> None:
+def test_surface_fit_covariance_follows_the_sensor(surface: DorsalSurface) -> None:
     """Errors alike over 80 pixels tilt all of it; those of a wide window average less than those of a narrow one."""
 
     def stated(sensor: DepthSensor) -> FloatArray:
@@ -189,20 +189,20 @@ def test_the_surface_is_as_sure_as_its_sensor(surface: DorsalSurface) -> None:
     assert (stated(D435) > 1.2 * stated(PRIMESENSE)).all()
 
 
-def test_a_finger_over_the_hand_does_not_tilt_it(surface: DorsalSurface) -> None:
+def test_surface_fit_finger_over_the_hand_does_not_tilt_it(surface: DorsalSurface) -> None:
     column = ALL_READINGS.pixel[:, 0]
     depth = np.where((column > 300) & (column < 315), ALL_READINGS.depth_m - 0.03, ALL_READINGS.depth_m)
     found = measured(surface, SurfaceSamples(ALL_READINGS.pixel, depth))
     assert np.abs(np.degrees(found.value[:2])).max() < 0.3
 
 
-def test_a_covered_hand_is_not_asked(surface: DorsalSurface) -> None:
+def test_surface_fit_covered_hand_gives_none(surface: DorsalSurface) -> None:
     covered = SurfaceSamples(ALL_READINGS.pixel, ALL_READINGS.depth_m - 0.05)
     for samples in (covered, SurfaceSamples(np.empty((0, 2)), np.empty(0))):
         assert fit_surface(HERE, samples, surface, VIEW, SurfaceSettings()) is None
 
 
-def test_what_is_far_from_the_surface_counts_for_nothing_and_what_is_a_little_off_for_less(
+def test_surface_fit_far_readings_have_no_weight_near_ones_less(
     surface: DorsalSurface,
 ) -> None:
     clean, settings = READINGS, SurfaceSettings()
@@ -217,7 +217,7 @@ def test_what_is_far_from_the_surface_counts_for_nothing_and_what_is_a_little_of
     assert np.abs(robust - whole).max() < 0.8 * np.abs(plain - whole).max()
 
 
-def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: DorsalSurface) -> None:
+def test_surface_fit_gauss_newton_converges_above_the_floor(surface: DorsalSurface) -> None:
     clean, settings = READINGS, SurfaceSettings()
     found, further = fitted(surface, clean, settings), fitted(surface, clean, replace(settings, steps=8))
     assert found.value == pytest.approx(further.value, abs=5e-5)
@@ -229,7 +229,7 @@ def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: DorsalSurface) -
     assert ratio == pytest.approx(4.0), "readings that agree are no surer than readings are"
 
 
-def test_too_few_readings_say_nothing(surface: DorsalSurface) -> None:
+def test_surface_fit_too_few_readings_gives_none(surface: DorsalSurface) -> None:
     settings = SurfaceSettings()
     for first in range(1, 800):
         some = SurfaceSamples(READINGS.pixel[:first], READINGS.depth_m[:first])
@@ -241,7 +241,7 @@ def test_too_few_readings_say_nothing(surface: DorsalSurface) -> None:
 
 
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
-def test_a_surface_far_from_what_was_believed_is_another(surface: DorsalSurface, off_sd: float, heard: bool) -> None:
+def test_surface_update_beyond_max_nis_is_left_out(surface: DorsalSurface, off_sd: float, heard: bool) -> None:
     """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
     found = measured(surface)
     covariance = 1e-12 * np.eye(SIZE)
@@ -259,7 +259,7 @@ def test_a_surface_far_from_what_was_believed_is_another(surface: DorsalSurface,
         assert np.allclose(levelled.covariance[0, :, TURN, TURN], left[TURN, TURN], atol=1e-9)
 
 
-def test_too_little_of_the_back_is_no_surface() -> None:
+def test_dorsal_surface_too_few_points_gives_none() -> None:
     assert fit_dorsal_surface(np.empty((0, 3)), RIGHT_PALM_M[:4]) is None
     lonely = np.column_stack((np.linspace(0.0, 0.08, 40), np.zeros(40), np.zeros(40)))
     assert fit_dorsal_surface(lonely, RIGHT_PALM_M[:4]) is None

@@ -40,7 +40,7 @@ def seen(track: TrackManager, at_s: float, count: int, *, fits: bool = True) -> 
     return track.update_status(at_s, count, is_consistent=fits)
 
 
-def test_a_hand_out_of_sight_coasts_and_is_given_up_after_its_time() -> None:
+def test_track_hidden_hand_coasts_then_is_deleted() -> None:
     track = manager()
     assert seen(track, 0.0, 6) is TrackStatus.TRACKED
     assert seen(track, 0.1, MIN_PALM_MARKERS) is TrackStatus.TRACKED
@@ -50,7 +50,7 @@ def test_a_hand_out_of_sight_coasts_and_is_given_up_after_its_time() -> None:
     assert seen(manager(), 9.0, 0) is TrackStatus.PREDICTED, "the time runs from when it began"
 
 
-def test_no_picture_for_so_long_ends_a_track_and_nothing_shorter_does() -> None:
+def test_track_without_frames_times_out() -> None:
     track = manager()
     assert not track.is_timed_out(99.0), "before the first frame there is nothing to be late for"
     seen(track, 2.0, 6)
@@ -66,7 +66,7 @@ def test_no_picture_for_so_long_ends_a_track_and_nothing_shorter_does() -> None:
 
 
 @pytest.mark.parametrize(("count", "stage"), [(4, TrackStage.TENTATIVE), (5, TrackStage.CONFIRMED)])
-def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count: int, stage: TrackStage) -> None:
+def test_track_found_by_fewest_markers_is_tentative(count: int, stage: TrackStage) -> None:
     track = manager()
     track.drop_track(1.0)
     assert track.is_lost
@@ -84,7 +84,7 @@ def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count:
     assert track.stage is TrackStage.CONFIRMED
 
 
-def test_what_was_not_seen_a_moment_ago_or_shows_little_may_be_another_hand() -> None:
+def test_track_unconfirmed_or_few_markers_is_uncertain() -> None:
     track = manager()
     seen(track, 0.0, 6)
     assert not track.is_uncertain(MIN_PALM_MARKERS + 1, VAGUE_SD_RAD)
@@ -96,7 +96,7 @@ def test_what_was_not_seen_a_moment_ago_or_shows_little_may_be_another_hand() ->
     assert not track.is_uncertain(6, 0.0)
 
 
-def test_a_hand_found_again_is_refuted_by_the_next_pictures_and_by_no_later_ones() -> None:
+def test_track_reacquired_is_refuted_within_probation_only() -> None:
     track = manager()
     track.drop_track(1.0)
     track.try_initiate(found(6), 1.1)
@@ -108,7 +108,7 @@ def test_a_hand_found_again_is_refuted_by_the_next_pictures_and_by_no_later_ones
     assert not track.is_refuted(0, 1.1 + 1.1 * PROBATION_S)
 
 
-def test_four_discs_among_those_of_fingers_must_go_on_being_the_same_palm() -> None:
+def test_track_four_markers_among_fingers_need_confirmation() -> None:
     assert manager().try_initiate(found(4), 0.0)
     assert manager(amid_digits=True).try_initiate(found(5), 0.0)
     step_s = 0.4 * CONFIRMATION_S
@@ -127,7 +127,7 @@ def test_four_discs_among_those_of_fingers_must_go_on_being_the_same_palm() -> N
     assert not any(begun(0.0, 0.0, 0.0, 0.0, counts=(4, 4, 0, 4))), "not seen for a picture it begins anew"
 
 
-def test_where_a_hand_can_be_turned_grows_with_the_time_it_was_gone_up_to_the_most() -> None:
+def test_turn_limits_grow_with_time_up_to_the_maximum() -> None:
     track, turned = manager(), so3.exp(np.array([0.0, 0.4, 0.0]))
     seen(track, 0.0, 6)
     capped_s = (MAX_TURN_RAD - TURN_SLACK_RAD) / MAX_RATE_RAD_S
@@ -141,7 +141,7 @@ def test_where_a_hand_can_be_turned_grows_with_the_time_it_was_gone_up_to_the_mo
 
 
 @pytest.mark.parametrize("amid_digits", [False, True])
-def test_so_few_discs_of_a_hand_foreseen_so_unsurely_could_be_anything(amid_digits: bool) -> None:
+def test_track_few_markers_of_a_vague_prediction_are_ambiguous(amid_digits: bool) -> None:
     track = manager(amid_digits=amid_digits)
     most_rad = AMBIGUOUS_WITH_FINGERS_SD_RAD if amid_digits else AMBIGUOUS_SD_RAD
     for count, most in enumerate(most_rad):
@@ -150,7 +150,7 @@ def test_so_few_discs_of_a_hand_foreseen_so_unsurely_could_be_anything(amid_digi
     assert not track.is_ambiguous(len(most_rad), 9.0)
 
 
-def test_the_palm_is_looked_for_anew_where_little_of_it_or_little_is_sure_and_enough_blobs_are_there() -> None:
+def test_reacquisition_is_due_with_few_markers_and_enough_blobs() -> None:
     track, least = manager(), MIN_PALM_MARKERS
     assert track.is_reacquisition_due(least, 1, 0.0)
     assert not track.is_reacquisition_due(least, 0, 0.0)
@@ -159,7 +159,5 @@ def test_the_palm_is_looked_for_anew_where_little_of_it_or_little_is_sure_and_en
 
 
 @pytest.mark.parametrize(("found", "left", "may"), [(4, 2, True), (4, 1, False), (5, 1, True), (6, 9, False)])
-def test_a_hand_may_be_turned_over_where_blobs_are_left_for_all_its_other_discs(
-    found: int, left: int, may: bool
-) -> None:
+def test_track_can_be_flipped_when_blobs_are_left(found: int, left: int, may: bool) -> None:
     assert manager().can_be_flipped(found, left) is may

@@ -59,7 +59,7 @@ def statuses(frames: list[TrackedFrame]) -> list[TrackStatus]:
     return [frame.status for frame in frames]
 
 
-def test_a_step_needs_no_prediction_and_takes_none_of_another_moment() -> None:
+def test_tracker_step_needs_no_prediction() -> None:
     """What was predicted before a picture came spares work and decides nothing."""
     walk = seen(swing(1, 30.0, 1.0), 12)
     bare, asked, misled = (Tracker(calibration(), CAMERA, RIGID) for _ in range(3))
@@ -92,7 +92,7 @@ def named_rightly(frame: TrackedFrame, pose: Pose, side: Side = "right") -> bool
 @pytest.mark.parametrize(
     ("which", "amplitude_deg", "hz"), [(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 45.0, 0.4), (0, 20.0, 1.7)]
 )
-def test_angles_follow_the_hand_on_both_sides(which: int, amplitude_deg: float, hz: float, side: Side) -> None:
+def test_tracker_angles_follow_both_hands(which: int, amplitude_deg: float, hz: float, side: Side) -> None:
     motion = swing(which, amplitude_deg, hz)
     frames = track(seen(motion, 120, seed=which, side=side), side=side)
     error = angles_deg(frames) - truth_deg(motion, times(120))
@@ -103,7 +103,7 @@ def test_angles_follow_the_hand_on_both_sides(which: int, amplitude_deg: float, 
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_hand_made_poses_are_read_with_the_clinical_sign(side: Side) -> None:
+def test_tracker_known_poses_have_clinical_signs(side: Side) -> None:
     """Discs moved in the picture by hand, no rotation matrix involved: towards the thumb, away, thumb side up."""
     at_rest = discs_cam_m(Pose(), side)
     towards_thumb = -1.0 if side == "right" else 1.0
@@ -144,7 +144,7 @@ def test_hand_made_poses_are_read_with_the_clinical_sign(side: Side) -> None:
 
 
 @pytest.mark.parametrize("hidden", [(0,), (3,), (1, 5), (2, 4)])
-def test_covered_discs_are_done_without(hidden: tuple[int, ...]) -> None:
+def test_tracker_covered_markers_are_tolerated(hidden: tuple[int, ...]) -> None:
     motion = swing(1, 40.0, 0.4)
     rng = np.random.default_rng(1)
     frames = track([(t, blobs(motion(t), rng, hidden=hidden if t > 1.0 else ())) for t in times(120)])
@@ -161,7 +161,7 @@ def test_covered_discs_are_done_without(hidden: tuple[int, ...]) -> None:
 @pytest.mark.parametrize("hz", [0.4, 1.0])
 @pytest.mark.parametrize("which", [0, 1, 2])
 @pytest.mark.parametrize("gone", few([30, 12]))
-def test_a_hand_hidden_up_to_a_second_comes_back_under_its_names(which: int, gone: int, hz: float) -> None:
+def test_tracker_hand_hidden_for_a_second_keeps_its_labels(which: int, gone: int, hz: float) -> None:
     motion = swing(which, 25.0, hz)
     for seed, start in enumerate((40, 52)):
         frames = track(seen(motion, start + gone + 10, seed, hidden_from=start, hidden_to=start + gone))
@@ -175,7 +175,7 @@ def test_a_hand_hidden_up_to_a_second_comes_back_under_its_names(which: int, gon
                 assert off.max() < 6.0, "no frame is called tracked at a wrong pose"
 
 
-def test_uncertainty_grows_while_nothing_is_seen_and_the_true_angle_stays_inside() -> None:
+def test_tracker_hidden_hand_sd_grows_and_covers_the_truth() -> None:
     motion = swing(0, 20.0, 0.4)
     frames = track(seen(motion, 80, hidden_from=40, hidden_to=70))
     sd = np.degrees(np.array([frame.kinematics.angles_sd_rad for frame in frames]))
@@ -185,7 +185,7 @@ def test_uncertainty_grows_while_nothing_is_seen_and_the_true_angle_stays_inside
     assert (error[40:70] < 4.0 * sd[40:70]).all()
 
 
-def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_found_elsewhere() -> None:
+def test_tracker_hand_hidden_for_long_is_lost_until_found() -> None:
     rng = np.random.default_rng(3)
     elsewhere = moved(Pose(np.array([15.0, 20.0, -10.0])), [0.06, 0.05, 0.03])
     tracked = track(
@@ -204,7 +204,7 @@ def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_fo
     assert named_rightly(tracked[-1], elsewhere)
 
 
-def test_what_lies_turned_about_is_not_the_hand_that_was_just_covered() -> None:
+def test_tracker_turned_palm_is_not_the_hidden_hand() -> None:
     """Blobs in the shape of a palm that points backwards: no wrist turns so far while it is covered for a blink."""
     backwards = Pose(np.array([175.0, 0.0, 0.0]), np.array([0.08, 0.0, 0.0]))
     rng = np.random.default_rng(5)
@@ -214,7 +214,7 @@ def test_what_lies_turned_about_is_not_the_hand_that_was_just_covered() -> None:
     assert set(statuses(frames[:20] + frames[50:])) == {TrackStatus.TRACKED}
 
 
-def test_a_lone_blob_is_no_disc_of_a_hand_long_unseen() -> None:
+def test_tracker_lone_blob_is_not_associated_after_long_hiding() -> None:
     """Something blue lies where a disc might be while a sleeve covers the hand for a second."""
     rng, moving = np.random.default_rng(6), swing(0, 20.0, 0.4)
     thing_px = [CAMERA.project(discs_cam_m(Pose())[WRIST]) + [9.0, 6.0]]
@@ -230,7 +230,7 @@ def test_a_lone_blob_is_no_disc_of_a_hand_long_unseen() -> None:
 
 
 @pytest.mark.parametrize("shown", [(), (WRIST,), (WRIST, CMC1)])
-def test_a_calm_hand_that_moves_while_its_discs_are_hidden_is_stated_so_unsurely_and_found_again(
+def test_tracker_motion_while_hidden_is_covered_by_the_sd(
     shown: tuple[int, ...],
 ) -> None:
     rng = np.random.default_rng(8)
@@ -248,7 +248,7 @@ def test_a_calm_hand_that_moves_while_its_discs_are_hidden_is_stated_so_unsurely
     assert named_rightly(frame, pose)
 
 
-def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
+def test_tracker_jump_in_sight_is_followed_within_three_frames() -> None:
     rng = np.random.default_rng(4)
     there = moved(Pose(np.array([-15.0, 30.0, 10.0])), [0.05, -0.06, 0.02])
     frames = track([(t, blobs(Pose() if k < 20 else there, rng)) for k, t in enumerate(times(40))])
@@ -258,7 +258,7 @@ def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
     assert np.abs(angles_deg(late) - there.angles_deg).max() < 5.0
 
 
-def test_false_blobs_close_to_markers_are_not_taken_for_them() -> None:
+def test_tracker_false_blobs_near_markers_are_not_associated() -> None:
     motion, rng = swing(0, 20.0, 0.4), np.random.default_rng(5)
 
     def beside_px(time_s: float) -> FloatArray:
@@ -270,7 +270,7 @@ def test_false_blobs_close_to_markers_are_not_taken_for_them() -> None:
     assert all(named_rightly(frame, motion(t)) for frame, t in zip(tracked, times(120), strict=True))
 
 
-def test_false_blobs_are_not_taken_for_covered_markers() -> None:
+def test_tracker_false_blobs_do_not_replace_covered_markers() -> None:
     rng = np.random.default_rng(6)
     covered = {"hidden": [MCP3], "false_px": [CAMERA.project(discs_cam_m(Pose()))[MCP3] + [10.0, 10.0]]}
     tracked = track((t, blobs(Pose(), rng, **(covered if k >= 20 else {}))) for k, t in enumerate(times(60)))
@@ -278,7 +278,7 @@ def test_false_blobs_are_not_taken_for_covered_markers() -> None:
     assert np.abs(angles_deg(tracked)).max() < 3.0
 
 
-def test_pictures_without_depth_are_bridged_by_the_pixels() -> None:
+def test_tracker_frames_without_depth_use_the_pixels() -> None:
     motion = swing(1, 30.0, 0.4)
     rng = np.random.default_rng(7)
     frames = track([(t, blobs(motion(t), rng, with_depth=k % 3 != 0)) for k, t in enumerate(times(120))])
@@ -289,7 +289,7 @@ def test_pictures_without_depth_are_bridged_by_the_pixels() -> None:
     assert np.isfinite(frames[61].marker_measured_depth_m).all()
 
 
-def test_without_depth_by_choice_depths_change_nothing() -> None:
+def test_tracker_use_depth_false_ignores_depth() -> None:
     """``--no-depth``: the papers' measurement. With and without depths in the blobs the result is the same."""
     motion = swing(0, 20.0, 0.4)
     settings = TrackerSettings(use_depth=False)
@@ -302,7 +302,7 @@ def test_without_depth_by_choice_depths_change_nothing() -> None:
     assert np.sqrt((error[:, 0] ** 2).mean()) < 0.5, "deviation is a measurement of the picture"
 
 
-def test_depth_makes_flexion_surer() -> None:
+def test_tracker_depth_reduces_the_sd_of_flexion() -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(k))) for k, t in enumerate(times(30))]
     rigid = {use: track(frames, TrackerSettings(use_depth=use)) for use in (True, False)}
     sd = {use: np.degrees(run[-1].kinematics.angles_sd_rad) for use, run in rigid.items()}
@@ -316,7 +316,7 @@ def test_depth_makes_flexion_surer() -> None:
     ids=["deviated", "flexed"],
 )
 @pytest.mark.parametrize("side", SIDES)
-def test_start_angles_are_added_as_rotations(
+def test_tracker_start_angles_are_added_as_rotations(
     side: Side, start_deg: list[float], flexes_deg: float, reads_deg: list[float]
 ) -> None:
     """A hand calibrated deviated by 25 that then flexes by 30 about its own axis: R_start R, not the other order; one
@@ -333,7 +333,7 @@ def test_start_angles_are_added_as_rotations(
     assert angles_deg(frames)[-1] == pytest.approx(reads_deg, abs=1.5)
 
 
-def test_standard_deviations_are_honest() -> None:
+def test_tracker_standard_deviations_are_consistent() -> None:
     """Errors over many hands, in the standard deviations stated: neither brave nor shy by more than half."""
     squares = []
     for seed in range(12):
@@ -357,7 +357,7 @@ def test_standard_deviations_are_honest() -> None:
     assert np.all(pooled > 0.3)
 
 
-def test_lens_distortion_is_taken_out_before_and_put_back_after() -> None:
+def test_tracker_lens_distortion_is_removed_and_restored() -> None:
     lens = replace(CAMERA, distortion=(0.08, -0.15, 0.001, -0.001, 0.0))
     motion = swing(0, 20.0, 0.4)
     ideal = seen(motion, 60, seed=9)
@@ -370,7 +370,7 @@ def test_lens_distortion_is_taken_out_before_and_put_back_after() -> None:
     assert set(map(tuple, tracked[-1].marker_measured_px)) == set(map(tuple, frames[-1][1].pixel))
 
 
-def test_prediction_says_where_to_look() -> None:
+def test_tracker_prediction_covers_the_markers() -> None:
     motion = swing(0, 20.0, 0.8)
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
     outside = 0
@@ -385,7 +385,7 @@ def test_prediction_says_where_to_look() -> None:
     assert outside == 0
 
 
-def test_beginning_again_forgets_the_old_stretch() -> None:
+def test_tracker_restart_does_not_link_to_the_old_track() -> None:
     """After the still capture the tracker starts anew: nothing of before is counted twice."""
 
     def knows_of_shape(tracker: Tracker, step: int) -> float:
@@ -405,13 +405,13 @@ def test_beginning_again_forgets_the_old_stretch() -> None:
     assert knows_of_shape(on, 15) < 0.9 * knows_of_shape(again, 15)
 
 
-def test_without_history_nothing_is_kept() -> None:
+def test_tracker_without_history_records_no_steps() -> None:
     tracker = Tracker(calibration(), CAMERA, TrackerSettings(), keep_history=False)
     track(seen(still, 10), tracker=tracker)
     assert tracker.record.history == []
 
 
-def test_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
+def test_tracker_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
     filtered_error, smoothed_error = [], []
     for seed, (which, amplitude_deg, hz) in enumerate([(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 40.0, 0.5), (0, 20.0, 1.7)]):
         motion = swing(which, amplitude_deg, hz)
@@ -425,7 +425,7 @@ def test_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
     assert np.all(smooth < 0.9 * filtered)
 
 
-def test_smoothing_bridges_a_covered_stretch() -> None:
+def test_tracker_smoothing_bridges_a_covered_stretch() -> None:
     for which, amplitude_deg in ((0, 22.0), (1, 40.0)):
         motion = swing(which, amplitude_deg, 0.4)
         tracker = Tracker(calibration(), CAMERA, TrackerSettings())
@@ -438,7 +438,7 @@ def test_smoothing_bridges_a_covered_stretch() -> None:
         assert np.abs(smoothed[50:60, which]).max() < 1.0
 
 
-def test_share_of_measured_markers_is_that_of_the_last_second() -> None:
+def test_tracker_direct_share_is_that_of_the_last_second() -> None:
     rng = np.random.default_rng(10)
     frames = track([(t, blobs(Pose(), rng, hidden=(1, 2) if k >= 30 else ())) for k, t in enumerate(times(75))])
     assert frames[29].measured_share == pytest.approx([1.0] * 3)
@@ -446,7 +446,7 @@ def test_share_of_measured_markers_is_that_of_the_last_second() -> None:
     assert frames[74].measured_share == pytest.approx([4 / 6] * 3)
 
 
-def test_a_gap_between_pictures_does_not_make_the_tracker_forget() -> None:
+def test_tracker_gap_between_frames_keeps_the_track() -> None:
     """After a drop at 15 pictures a second with only the knuckles in view, the prediction still counts."""
     errors = []
     for seed in range(6):
@@ -460,7 +460,7 @@ def test_a_gap_between_pictures_does_not_make_the_tracker_forget() -> None:
 
 
 @pytest.mark.parametrize("missing", few([15, 40, 3, 8, 30], 2))
-def test_a_fast_hand_is_found_at_the_first_picture_after_some_were_missing(missing: int) -> None:
+def test_tracker_fast_hand_is_found_after_missing_frames(missing: int) -> None:
     """Going on as it did it would have turned over meanwhile; every disc of it is in sight."""
     motion, start = swing(1, 50.0, 1.5), 30
     for seed in range(4):
@@ -474,7 +474,7 @@ def test_a_fast_hand_is_found_at_the_first_picture_after_some_were_missing(missi
             assert apart.max() < 0.012
 
 
-def test_a_hand_turned_over_about_its_knuckles_is_set_right_by_its_other_discs() -> None:
+def test_tracker_flipped_hand_is_corrected_by_other_markers() -> None:
     """So fast that wrist and thumb were not where they were expected, and with the knuckles the hand turned over."""
     motion = swing(1, 50.0, 2.2)
     for seed in range(6):
@@ -489,7 +489,7 @@ def test_a_hand_turned_over_about_its_knuckles_is_set_right_by_its_other_discs()
         assert not off[-30:].any()
 
 
-def test_the_whole_picture_is_searched_for_the_palm_or_what_shows_how_it_is_turned() -> None:
+def test_tracker_search_is_incomplete_without_palm_or_turn() -> None:
     def found(count: int) -> Detections:
         return blobs(Pose(), hidden=range(count, 6))
 
@@ -501,7 +501,7 @@ def test_the_whole_picture_is_searched_for_the_palm_or_what_shows_how_it_is_turn
     assert [tracker.is_search_incomplete(found(count)) for count in (3, 4, 5, 6)] == [True, True, True, False]
 
 
-def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
+def test_tracker_lone_blob_at_another_depth_is_not_associated() -> None:
     """Something over the hand with blue on it where a covered disc is expected."""
     rng = np.random.default_rng(7)
     frames = [(t, blobs(Pose(), rng, hidden=range(1, 6) if k >= 40 else ())) for k, t in enumerate(times(46))]
@@ -510,7 +510,7 @@ def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
 
 
 @pytest.mark.parametrize("before_m", [0.06, -0.1])
-def test_far_before_or_behind_a_covered_disc_is_something_else_whatever_bears_it_out(before_m: float) -> None:
+def test_tracker_blob_at_far_depth_is_never_associated(before_m: float) -> None:
     """A blue thing rests over the covered WRIST, or seems to lie on the table there, while the hand turns away."""
     rng, motion = np.random.default_rng(8), swing(0, 20.0, 0.4)
     wrist_px = CAMERA.project(discs_cam_m(Pose())[WRIST])
@@ -521,7 +521,7 @@ def test_far_before_or_behind_a_covered_disc_is_something_else_whatever_bears_it
     assert np.abs(angles_deg(tracked) - truth_deg(motion, times(60))).max() < 4.0
 
 
-def test_four_blobs_in_the_shape_of_the_palm_do_not_carry_off_a_hand_of_which_three_show() -> None:
+def test_tracker_four_false_blobs_do_not_move_a_hand_of_three() -> None:
     """They are one more than what is seen of the hand, and as far away as no hand was predicted to be."""
     rng = np.random.default_rng(9)
     like = blobs(moved(Pose(np.array([38.0, 0.0, 0.0])), [0.05, 0.03, 0.0]), rng, hidden=(MCP3, MCP4))
@@ -533,7 +533,7 @@ def test_four_blobs_in_the_shape_of_the_palm_do_not_carry_off_a_hand_of_which_th
 
 
 @pytest.mark.parametrize(("seed", "side"), few([(0, "right"), (1, "left"), (2, "left"), (3, "right")], 2))
-def test_the_other_hand_beside_a_hidden_one_is_never_followed(seed: int, side: Side) -> None:
+def test_tracker_other_hand_is_never_tracked(seed: int, side: Side) -> None:
     """It shows five or six discs, mirrored, while the hand is covered for longer than it is kept."""
     rng = np.random.default_rng(seed)
     own, other = swing(seed % 3, 25.0, 0.8), swing((seed + 1) % 3, 20.0, 0.6)
@@ -553,7 +553,7 @@ def test_the_other_hand_beside_a_hidden_one_is_never_followed(seed: int, side: S
     assert off_m.max() < 0.01
 
 
-def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
+def test_tracker_long_gap_reacquires_the_hand() -> None:
     """The camera stood still for twelve seconds in the middle of a stroke: nothing is carried over them."""
     rng = np.random.default_rng(8)
     moving, elsewhere = swing(1, 30.0, 0.5), moved(Pose(np.array([-10.0, 20.0, 5.0])), [0.04, 0.03, 0.0])
@@ -575,7 +575,7 @@ def lost_and_found(shown_after: int) -> list[TrackStatus]:
     return statuses(track((k * DT_S, blobs(Pose(), rng, hidden=some)) for k, some in enumerate(hidden)))[back:]
 
 
-def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes(
+def test_tracker_doubt_widens_only_the_sd(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     frames = [(t, blobs(Pose(), np.random.default_rng(i), pixel_sd_px=0.6)) for i, t in enumerate(times(20))]
@@ -590,7 +590,7 @@ def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes(
     assert widened == pytest.approx(np.full(3, widened[0]))
 
 
-def test_a_hand_found_again_is_on_probation() -> None:
+def test_tracker_reacquired_hand_is_on_probation() -> None:
     """Found out of nothing and gone in the next pictures, it was no hand; borne out for a while, it is one hidden."""
     brief = lost_and_found(2)
     assert brief[:2] == [TrackStatus.TRACKED] * 2

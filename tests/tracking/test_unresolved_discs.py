@@ -60,7 +60,7 @@ def measured_of(scene: DigitScene, names: DigitAssignment) -> tuple[FloatArray, 
 
 @pytest.mark.parametrize("gap_px", [4.0, 6.0, 8.0])
 @pytest.mark.parametrize("blob_of", [DIP, TIP])
-def test_a_blob_of_two_discs_measures_both_where_they_are(gap_px: float, blob_of: int) -> None:
+def test_merged_blob_measures_both_discs(gap_px: float, blob_of: int) -> None:
     scene, names, place = scene_of(gap_px, blob_of)
     measured, sd = measured_of(scene, names)
     off, stated = np.abs(measured[CHAIN, DIP:, :2] - place), sd[CHAIN, DIP:, :2]
@@ -71,7 +71,7 @@ def test_a_blob_of_two_discs_measures_both_where_they_are(gap_px: float, blob_of
     assert np.isnan(measured[CHAIN, DIP + TIP - blob_of, 2])
 
 
-def test_a_blob_of_one_disc_measures_that_disc_alone() -> None:
+def test_single_blob_measures_its_disc_alone() -> None:
     scene, names, _ = scene_of(6.0, DIP)
     blob = names.assigned[CHAIN, DIP]
     just_large = scene.area_px.copy()
@@ -83,7 +83,7 @@ def test_a_blob_of_one_disc_measures_that_disc_alone() -> None:
         assert np.isnan(measured[CHAIN, TIP]).all()
 
 
-def test_no_size_is_learnt_of_discs_that_may_be_two() -> None:
+def test_disc_area_of_a_possibly_merged_blob_is_not_learnt() -> None:
     trial, _ = weighed(1e-4, (0.0, 0.0))
     scene, names, _ = scene_of(6.0, DIP)
     named = replace(trial.update, assignment=names)

@@ -125,8 +125,8 @@ class _Problem:
 
     def residual(self, c: FloatArray, q: FloatArray) -> FloatArray:
         """Return discs, model minus measured, in standard deviations, (..., F, 9)."""
-        off = (self.root @ (self.model(c[..., None, :], q) - self.disc_m)[..., None])[..., 0]
-        return np.asarray(off.reshape(*off.shape[:-2], 9))
+        difference = (self.root @ (self.model(c[..., None, :], q) - self.disc_m)[..., None])[..., 0]
+        return np.asarray(difference.reshape(*difference.shape[:-2], 9))
 
     def cost(self, c: FloatArray, q: FloatArray) -> float:
         """Return the sum of squares in standard deviations, priors included."""
@@ -169,8 +169,8 @@ class _NormalEquations:
         moves = _DIFFERENCE_STEP * np.eye(p + m)
         c_moved = np.concatenate((c + moves[:, :p], c - moves[:, :p]))
         q_moved = np.concatenate((q + moves[:, None, p:], q - moves[:, None, p:]))
-        ahead, back = np.split(problem.residual(c_moved, q_moved), 2)
-        slope = (ahead - back) / (2.0 * _DIFFERENCE_STEP)
+        plus, minus = np.split(problem.residual(c_moved, q_moved), 2)
+        slope = (plus - minus) / (2.0 * _DIFFERENCE_STEP)
         here = problem.residual(c, q)
         by_c, by_q = np.moveaxis(slope[:p], 0, -1), np.moveaxis(slope[p:], 0, -1)  # (F, 9 coordinates, p or m)
         dc, dq = c - problem.constants, q - problem.angles

@@ -147,9 +147,9 @@ def zyz_with_sd(
     beta = np.arctan2(sine, r[..., 2, 2])
     alpha = np.arctan2(r[..., 1, 2], r[..., 0, 2])
     gamma = np.arctan2(r[..., 2, 1], -r[..., 2, 0])
-    whole = np.asarray(np.isfinite(r).all(axis=(-2, -1)))[..., None, None]
-    back = np.linalg.inv(np.where(whole, angle_rates_matrix(r, side), np.eye(3)))
-    turn = back @ (np.square(angles_sd_rad)[..., None] * np.swapaxes(back, -1, -2))
+    is_finite = np.asarray(np.isfinite(r).all(axis=(-2, -1)))[..., None, None]
+    inverse = np.linalg.inv(np.where(is_finite, angle_rates_matrix(r, side), np.eye(3)))
+    turn = inverse @ (np.square(angles_sd_rad)[..., None] * np.swapaxes(inverse, -1, -2))
     cg, sg, cb = np.cos(gamma), np.sin(gamma), np.cos(beta)
     safe = np.maximum(sine, 1e-9)
     zero = np.zeros_like(beta)
@@ -163,11 +163,11 @@ def zyz_with_sd(
     )
     variance = np.einsum("...ij,...jk,...ik->...i", by_turn, turn, by_turn)
     sd = np.sqrt(np.maximum(variance, 0.0))
-    apart = np.isfinite(beta) & (sd[..., [0, 2]] <= ZYZ_MAX_SD_RAD).all(axis=-1)
-    known = np.stack((apart, np.isfinite(beta), apart), axis=-1)
-    zyz = np.where(known, np.stack((alpha, beta, gamma), axis=-1), np.nan)
+    is_defined = np.isfinite(beta) & (sd[..., [0, 2]] <= ZYZ_MAX_SD_RAD).all(axis=-1)
+    is_known = np.stack((is_defined, np.isfinite(beta), is_defined), axis=-1)
+    zyz = np.where(is_known, np.stack((alpha, beta, gamma), axis=-1), np.nan)
     total = np.arctan2(r[..., 1, 0] - r[..., 0, 1], r[..., 0, 0] + r[..., 1, 1])
-    return zyz, np.where(known, sd, np.nan), total
+    return zyz, np.where(is_known, sd, np.nan), total
 
 
 def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:

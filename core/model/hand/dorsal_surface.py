@@ -61,8 +61,8 @@ class DorsalSurface:
         table = np.full((TABLE_ROWS, 5), np.nan)
         table[0] = (*self.origin_m, self.step_m, *self.height_m.shape)
         table[1, :3] = self.middle_m
-        known = self.height_m[row, column], self.slope_x[row, column], self.slope_y[row, column]
-        table[2 : 2 + row.size] = np.column_stack((row, column, *known))
+        is_known = self.height_m[row, column], self.slope_x[row, column], self.slope_y[row, column]
+        table[2 : 2 + row.size] = np.column_stack((row, column, *is_known))
         return table
 
     @staticmethod
@@ -116,8 +116,10 @@ def fit_dorsal_surface(point_m: FloatArray, outline_m: FloatArray) -> DorsalSurf
     outline = outline[np.argsort(np.arctan2(*(outline - middle[:2]).T[::-1]))]
     low, high = outline.min(axis=0), outline.max(axis=0)
     level = np.median(outline_m[:, 2])
-    near = (point_m[:, :2] > low - KERNEL_RADIUS_M).all(axis=1) & (point_m[:, :2] < high + KERNEL_RADIUS_M).all(axis=1)
-    point = point_m[near & (np.abs(point_m[:, 2] - level) < MAX_HEIGHT_M)]
+    is_near = (point_m[:, :2] > low - KERNEL_RADIUS_M).all(axis=1) & (point_m[:, :2] < high + KERNEL_RADIUS_M).all(
+        axis=1
+    )
+    point = point_m[is_near & (np.abs(point_m[:, 2] - level) < MAX_HEIGHT_M)]
     columns, rows = (np.ceil((high - low) / STEP_M).astype(int) + 1).tolist()
     grid = low + STEP_M * np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1)  # (H, W, 2)
     found = np.full((rows, columns, 3), np.nan)
@@ -126,17 +128,17 @@ def fit_dorsal_surface(point_m: FloatArray, outline_m: FloatArray) -> DorsalSurf
         edge, to_node = b - a, grid - a
         is_inside &= edge[0] * to_node[..., 1] - edge[1] * to_node[..., 0] >= 0.0
     for row, column in np.argwhere(is_inside):
-        apart = point[:, :2] - grid[row, column]
-        weight = np.exp(-0.5 * (apart * apart).sum(axis=1) / (0.5 * KERNEL_RADIUS_M) ** 2)
+        offset = point[:, :2] - grid[row, column]
+        weight = np.exp(-0.5 * (offset * offset).sum(axis=1) / (0.5 * KERNEL_RADIUS_M) ** 2)
         weight[weight < MIN_WEIGHT] = 0.0
         if np.count_nonzero(weight) < MIN_POINTS:
             continue
-        design = np.column_stack((np.ones(len(point)), apart)) * np.sqrt(weight)[:, None]
+        design = np.column_stack((np.ones(len(point)), offset)) * np.sqrt(weight)[:, None]
         plane, _, rank, _ = np.linalg.lstsq(design, point[:, 2] * np.sqrt(weight), rcond=None)
         if rank == 3:
             found[row, column] = plane
-    known = np.isfinite(found[..., 0])
-    if not MIN_NODES <= np.count_nonzero(known) <= TABLE_ROWS - 2:
+    is_known = np.isfinite(found[..., 0])
+    if not MIN_NODES <= np.count_nonzero(is_known) <= TABLE_ROWS - 2:
         return None
-    centre = np.append(grid[known].mean(axis=0), found[known][:, 0].mean())
+    centre = np.append(grid[is_known].mean(axis=0), found[is_known][:, 0].mean())
     return DorsalSurface(low, STEP_M, found[..., 0], found[..., 1], found[..., 2], centre)

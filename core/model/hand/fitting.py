@@ -110,11 +110,11 @@ def fit_anatomy(
         angles = angles_prior(chain, prior, dip_free, is_straight[chain] if is_straight else None)
         # A finger whose discs show that it is bent is not drawn towards straight.
         bent = angles_prior(chain, prior, dip_free, is_straight=False)
-        shown = fit_digit(model, constants, bent, disc[:, own], information[:, own]).angles
+        measured_angles = fit_digit(model, constants, bent, disc[:, own], information[:, own]).angles
         flexions = list(FLEXIONS[min(chain, 1)])
-        off = (shown.mean - angles.mean)[0, flexions]
-        variance = np.diagonal((shown.covariance + angles.covariance)[0])[flexions]
-        if (np.abs(off) > prior.evidently_sd * np.sqrt(variance)).any():
+        difference = (measured_angles.mean - angles.mean)[0, flexions]
+        variance = np.diagonal((measured_angles.covariance + angles.covariance)[0])[flexions]
+        if (np.abs(difference) > prior.evidently_sd * np.sqrt(variance)).any():
             angles = bent
         for i in _find_depth_outliers(
             model, constants, angles, disc[:, own], information[:, own], lateral_information[:, own], prior

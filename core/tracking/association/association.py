@@ -192,14 +192,14 @@ def associate_jointly(
         3: np.full(len(measured), base + float(np.log(settings.depth_range_m))),
         2: base + np.where(np.isfinite(measured[:, 2]), np.log(outlier_probability), 0.0),
     }
-    certain_first = np.argsort(
+    by_certainty = np.argsort(
         [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(markers)], kind="stable"
     )
     none = np.empty((1, 0))
     branches = _Branches(none.astype(np.int64), none.astype(bool), np.zeros(1), mean[None], covariance[None])
-    for marker in certain_first:
+    for marker in by_certainty:
         block = slice(3 * int(marker), 3 * int(marker) + 3)
-        ways = [branches.score[:, None]]
+        options = [branches.score[:, None]]
         difference = measured - branches.mean[:, None, block]
         own = branches.covariance[:, block, block]
         is_used = (branches.assigned[:, :, None] == np.arange(len(measured))).any(axis=1)
@@ -208,17 +208,17 @@ def associate_jointly(
                 difference[..., :used], own[:, :used, :used], noise_variance[:, :used]
             )
             possible = (distance2 <= settings.gate_sd**2) & ~is_used
-            ways.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
-        score = np.concatenate(ways, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
+            options.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
+        score = np.concatenate(options, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
         order = np.argsort(-score, axis=None, kind="stable")[: settings.beam if beam is None else beam]
         order = order[np.isfinite(score.ravel()[order])]
-        parent, way = np.divmod(order, score.shape[1])
-        branches = _extend_branches(branches, parent, way, score.ravel()[order], block, measured, noise_variance)
+        parent, option = np.divmod(order, score.shape[1])
+        branches = _extend_branches(branches, parent, option, score.ravel()[order], block, measured, noise_variance)
     best = int(np.argmax(branches.score))
     assigned = np.full(markers, -1, dtype=np.int64)
     with_depth = np.zeros(markers, dtype=bool)
-    assigned[certain_first] = branches.assigned[best]
-    with_depth[certain_first] = branches.with_depth[best]
+    assigned[by_certainty] = branches.assigned[best]
+    with_depth[by_certainty] = branches.with_depth[best]
     return JointAssociation(assigned, with_depth, float(branches.score[best]))
 
 
@@ -239,7 +239,7 @@ def _log_normal_density(
 def _extend_branches(
     branches: _Branches,
     parent: NDArray[np.int64],
-    way: NDArray[np.int64],
+    option: NDArray[np.int64],
     score: FloatArray,
     block: slice,
     measured: FloatArray,
@@ -247,21 +247,21 @@ def _extend_branches(
 ) -> _Branches:
     """Extend the branches ``parent`` by one marker each and update the other markers' predictions."""
     blobs = len(measured)
-    blob = np.where(way > 0, (way - 1) % max(blobs, 1), -1)
-    with_depth = (way > 0) & (way <= blobs)
+    blob = np.where(option > 0, (option - 1) % max(blobs, 1), -1)
+    with_depth = (option > 0) & (option <= blobs)
     mean, covariance = branches.mean[parent], branches.covariance[parent]
     if blobs:
         # A coordinate that takes no part has no covariance with anything and unit variance: its gain is nothing.
         used = np.repeat((blob >= 0)[:, None], 3, axis=1)
         used[:, 2] &= with_depth
-        across = np.where(used[..., None], covariance[:, block], 0.0)  # (B, 3, 3M)
-        s = np.where(used[:, None], across[..., block], 0.0)
+        cross = np.where(used[..., None], covariance[:, block], 0.0)  # (B, 3, 3M)
+        s = np.where(used[:, None], cross[..., block], 0.0)
         axes = np.arange(3)
         s[:, axes, axes] += np.where(used, noise_variance[blob], 1.0)
-        gain = np.swapaxes(np.linalg.solve(s, across), 1, 2)
-        off = np.where(used, measured[blob] - mean[:, block], 0.0)
-        mean = mean + (gain @ off[..., None])[..., 0]
-        covariance = covariance - gain @ across
+        gain = np.swapaxes(np.linalg.solve(s, cross), 1, 2)
+        innovation = np.where(used, measured[blob] - mean[:, block], 0.0)
+        mean = mean + (gain @ innovation[..., None])[..., 0]
+        covariance = covariance - gain @ cross
     return _Branches(
         np.column_stack((branches.assigned[parent], blob)),
         np.column_stack((branches.with_depth[parent], with_depth)),

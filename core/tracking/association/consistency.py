@@ -96,14 +96,14 @@ def find_unused_markers(
         The colour camera.
     """
     out = np.zeros(assigned.size, dtype=bool)
-    is_named = assigned >= 0
-    named = assigned[is_named]
-    if named.size in (assigned.size, len(blobs)):
+    is_assigned = assigned >= 0
+    used = assigned[is_assigned]
+    if used.size in (assigned.size, len(blobs)):
         return out
-    missing, unassigned = np.flatnonzero(~is_named), np.delete(np.arange(len(blobs)), named)
-    apart_px = blobs.pixel[unassigned] - camera.project(disc_cam_m[missing])[:, None]
-    depth_m, blob_depth_m = disc_cam_m[missing, 2, None], blobs.depth_m[unassigned]
-    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < GATE_M * camera.fx_px / depth_m
-    deep = np.abs(blob_depth_m - depth_m) < GATE_DEPTH_M
-    out[missing] = (near & (deep | ~np.isfinite(blob_depth_m))).any(axis=1)
+    without_blob, unassigned = np.flatnonzero(~is_assigned), np.delete(np.arange(len(blobs)), used)
+    offset_px = blobs.pixel[unassigned] - camera.project(disc_cam_m[without_blob])[:, None]
+    depth_m, blob_depth_m = disc_cam_m[without_blob, 2, None], blobs.depth_m[unassigned]
+    is_near = np.hypot(offset_px[..., 0], offset_px[..., 1]) < GATE_M * camera.fx_px / depth_m
+    is_at_depth = np.abs(blob_depth_m - depth_m) < GATE_DEPTH_M
+    out[without_blob] = (is_near & (is_at_depth | ~np.isfinite(blob_depth_m))).any(axis=1)
     return out

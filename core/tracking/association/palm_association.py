@@ -110,12 +110,12 @@ def update_palm(
     measurement = predicted.linearised, value, variance
     if surface is not None:
         measurement = surface.append_to(*measurement)
-    found = update_mixture(predicted.mixture, *measurement, partial=predicted.partial, tested=used.size)
-    if surface is not None and found.rest_nis[0] > surface.max_nis:
+    update = update_mixture(predicted.mixture, *measurement, partial=predicted.partial, tested=used.size)
+    if surface is not None and update.rest_nis[0] > surface.max_nis:
         return update_palm(predicted, replace(blobs, surface=None), assigned, with_depth, noise_factor)
-    residual, dof = found.residual.reshape(used.shape), int(found.dof[0])
-    nis = float(found.nis[0]) if dof else float("nan")
-    return UpdatedPalm(found.mixture, assigned, nis, dof, used, residual, residual, surface is not None)
+    residual, dof = update.residual.reshape(used.shape), int(update.dof[0])
+    nis = float(update.nis[0]) if dof else float("nan")
+    return UpdatedPalm(update.mixture, assigned, nis, dof, used, residual, residual, surface is not None)
 
 
 def associate_and_update(
@@ -148,15 +148,15 @@ def associate_and_update(
     with_depth = odds.with_depth[np.arange(markers), assigned]
     assigned = _reject_wrong_depths(assigned, with_depth, blobs, mean[:, 2], settings.association)
     simple = update_palm(predicted, blobs, assigned, with_depth, noise_factor)
-    named = np.count_nonzero(assigned >= 0)
-    if (named >= min_assigned or named == len(blobs)) and is_jointly_compatible(
+    count = np.count_nonzero(assigned >= 0)
+    if (count >= min_assigned or count == len(blobs)) and is_jointly_compatible(
         simple.nis, simple.dof, settings.association
     ):
         return _inflate_outlier_noise(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
-    found = _associate_by_mode(predicted, blobs, resolution_px2, settings)
-    assigned = _reject_wrong_depths(found.assigned, found.with_depth, blobs, mean[:, 2], settings.association)
-    jointly = update_palm(predicted, blobs, assigned, found.with_depth, noise_factor)
-    return _inflate_outlier_noise(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
+    joint = _associate_by_mode(predicted, blobs, resolution_px2, settings)
+    assigned = _reject_wrong_depths(joint.assigned, joint.with_depth, blobs, mean[:, 2], settings.association)
+    updated = update_palm(predicted, blobs, assigned, joint.with_depth, noise_factor)
+    return _inflate_outlier_noise(updated, predicted, blobs, joint.with_depth, noise_factor, settings.noise)
 
 
 def _reject_wrong_depths(
@@ -171,14 +171,14 @@ def _reject_wrong_depths(
     What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc, and far
     before or behind it none is: the depths of a disc's rim and of what is beside it mix only where these lie near.
     """
-    elsewhere = (assigned >= 0) & ~with_depth
-    if not elsewhere.any():
+    is_off_depth = (assigned >= 0) & ~with_depth
+    if not is_off_depth.any():
         return assigned
     off_m = np.abs(blobs.value[assigned, 2] - depth_m)
-    elsewhere &= np.isfinite(off_m)
-    if np.count_nonzero((assigned >= 0) & ~elsewhere) >= settings.least_company:
-        elsewhere &= off_m > settings.apart_m
-    return np.where(elsewhere, -1, assigned)
+    is_off_depth &= np.isfinite(off_m)
+    if np.count_nonzero((assigned >= 0) & ~is_off_depth) >= settings.least_company:
+        is_off_depth &= off_m > settings.apart_m
+    return np.where(is_off_depth, -1, assigned)
 
 
 def _associate_by_mode(
@@ -205,7 +205,7 @@ def _associate_by_mode(
 
 
 def _inflate_outlier_noise(
-    named: UpdatedPalm,
+    updated: UpdatedPalm,
     predicted: PredictedMeasurement,
     blobs: Measurements,
     with_depth: NDArray[np.bool_],
@@ -218,14 +218,14 @@ def _inflate_outlier_noise(
     """
     factor = noise_factor
     for _ in range(MAX_OUTLIERS):
-        marker, axis = divmod(int(np.abs(named.residual).argmax()), 3)
-        size = abs(float(named.residual[marker, axis]))
+        marker, axis = divmod(int(np.abs(updated.residual).argmax()), 3)
+        size = abs(float(updated.residual[marker, axis]))
         if size <= noise.outlier_sd:
             break
         factor = factor.copy()
         factor[marker, 2:] *= size**2 if axis == 2 else 1.0
         factor[marker, :2] *= 1.0 if axis == 2 else size**2
-        named = replace(
-            update_palm(predicted, blobs, named.assigned, with_depth, factor), raw_residual=named.raw_residual
+        updated = replace(
+            update_palm(predicted, blobs, updated.assigned, with_depth, factor), raw_residual=updated.raw_residual
         )
-    return named
+    return updated

@@ -79,8 +79,8 @@ class FoundPalm:
         discs = palm_m[self.matched]
         middle = discs.mean(axis=0)
         lever = so3.skew(discs - middle)
-        told = np.einsum("mji,mjk->ik", lever, lever) / DISC_SD_M**2
-        turn = np.linalg.inv(told + np.eye(3) / TURN_PRIOR_RAD**2)
+        information = np.einsum("mji,mjk->ik", lever, lever) / DISC_SD_M**2
+        turn = np.linalg.inv(information + np.eye(3) / TURN_PRIOR_RAD**2)
         turn += TURN_SD_RAD**2 * np.eye(3)
         # The middle of the discs is what is known; the origin swings about it with the turn.
         swing = self.rotation_w2_w0 @ so3.skew(middle)

@@ -41,10 +41,12 @@ def is_in_reach(point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray)
     ``state`` (5, 16) slots and constants; ``root_disc_m`` (5, 3) discs under which they begin.
     """
     length = state[:, N_SLOTS : N_SLOTS + N_DISCS].sum(axis=1) + MAX_BEYOND_M
-    off = point_m[..., None, :] - root_disc_m
-    ahead = off[..., 0] > -MAX_BEHIND_M
-    ahead[..., 0] &= off[..., 0, 1] > -MAX_ACROSS_M
-    return np.asarray((ahead & ((off * off).sum(axis=-1) < length**2) & (off[..., 2] < MAX_ABOVE_M)).any(axis=-1))
+    offset = point_m[..., None, :] - root_disc_m
+    is_ahead = offset[..., 0] > -MAX_BEHIND_M
+    is_ahead[..., 0] &= offset[..., 0, 1] > -MAX_ACROSS_M
+    return np.asarray(
+        (is_ahead & ((offset * offset).sum(axis=-1) < length**2) & (offset[..., 2] < MAX_ABOVE_M)).any(axis=-1)
+    )
 
 
 @lru_cache(maxsize=2)
@@ -80,30 +82,30 @@ def search_digits(
     """
     length = state[:, N_SLOTS : N_SLOTS + N_DISCS].sum(axis=1) + MAX_BEYOND_M
     near = np.linalg.norm(point_m - root_disc_m[:, None], axis=-1) < length[:, None]
-    waiting = [int(chain) for chain in chains if np.count_nonzero(near[chain]) >= MIN_DIGIT_MARKERS]
-    if not waiting:
+    remaining = [int(chain) for chain in chains if np.count_nonzero(near[chain]) >= MIN_DIGIT_MARKERS]
+    if not remaining:
         return {}
     postures = _build_posture_grid()
-    points = np.repeat(state[waiting, None], postures.shape[1], axis=1)
-    points[..., :N_SLOTS] = postures[waiting]
-    disc = dict(zip(waiting, place_discs(points, root_disc_m[waiting], waiting), strict=True))
+    points = np.repeat(state[remaining, None], postures.shape[1], axis=1)
+    points[..., :N_SLOTS] = postures[remaining]
+    disc = dict(zip(remaining, place_discs(points, root_disc_m[remaining], remaining), strict=True))
     found: dict[int, FloatArray] = {}
     free = np.ones(len(point_m), dtype=bool)
-    while waiting:
+    while remaining:
         best: tuple[float, int, int, NDArray[np.int64]] | None = None
-        for chain in waiting:
+        for chain in remaining:
             reached = np.flatnonzero(free & near[chain])
             if reached.size < MIN_DIGIT_MARKERS:
                 continue
-            score, posture, used = _find_posture(disc[chain], point_m[reached])
-            if used.size >= MIN_DIGIT_MARKERS and (best is None or score > best[0]):
-                best = score, chain, posture, reached[used]
+            score, posture, blobs = _find_posture(disc[chain], point_m[reached])
+            if blobs.size >= MIN_DIGIT_MARKERS and (best is None or score > best[0]):
+                best = score, chain, posture, reached[blobs]
         if best is None:
             break
-        _, chain, posture, used = best
+        _, chain, posture, blobs = best
         found[chain] = postures[chain, posture]
-        free[used] = False
-        waiting.remove(chain)
+        free[blobs] = False
+        remaining.remove(chain)
     return found
 
 
@@ -111,13 +113,13 @@ def _find_posture(disc_m: FloatArray, point_m: FloatArray) -> tuple[float, int, 
     """Return score, index of the posture and blobs used, for discs (S, 3, 3) and blobs (B, 3)."""
     gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)
     nearest = gap2.argmin(axis=-1)
-    worth = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / MAX_GAP_M**2, 0.0)
+    score_by_disc = np.maximum(1.0 - np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0] / MAX_GAP_M**2, 0.0)
     # A blob is one disc only: the second disc that takes it is worth nothing.
     for first, second in ((0, 1), (0, 2), (1, 2)):
         same = nearest[:, first] == nearest[:, second]
-        lesser = same & (worth[:, first] < worth[:, second])
-        worth[lesser, first] = 0.0
-        worth[same & ~lesser, second] = 0.0
-    score = np.count_nonzero(worth, axis=1) + NEARNESS_WEIGHT * worth.sum(axis=1)
+        lesser = same & (score_by_disc[:, first] < score_by_disc[:, second])
+        score_by_disc[lesser, first] = 0.0
+        score_by_disc[same & ~lesser, second] = 0.0
+    score = np.count_nonzero(score_by_disc, axis=1) + NEARNESS_WEIGHT * score_by_disc.sum(axis=1)
     best = int(np.argmax(score))
-    return float(score[best]), best, nearest[best][worth[best] > 0.0]
+    return float(score[best]), best, nearest[best][score_by_disc[best] > 0.0]

@@ -84,9 +84,9 @@ def digit_start(
     prior: AnatomyPrior,
 ) -> DigitStart:
     """Return the anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
-    seen = _discs_from_calibration(calibration, camera, marker_radius_m)
+    measured = _discs_from_calibration(calibration, camera, marker_radius_m)
     fit = fit_anatomy(
-        seen,
+        measured,
         calibration.clicks.side,
         dip_free=dip_free,
         skin_offsets=skin_offsets,
@@ -157,7 +157,7 @@ class FingerModel:
     """
 
     def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
-        own, dip_free = settings.fingers, settings.dip == "free"
+        finger_settings, dip_free = settings.fingers, settings.dip == "free"
         self.settings = settings
         protocol = calibration.clicks.protocol
         self.has_discs = np.array([digit in protocol.digits for digit in DIGITS])
@@ -173,9 +173,9 @@ class FingerModel:
             calibration,
             camera,
             dip_free=dip_free,
-            skin_offsets=own.skin_offsets,
+            skin_offsets=finger_settings.skin_offsets,
             marker_radius_m=settings.marker_radius_m,
-            prior=own.anatomy,
+            prior=finger_settings.anatomy,
         )
         wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
         self.readout = DigitReadout(calibration.clicks, camera, settings, wrist_depth_m)
@@ -198,10 +198,10 @@ class FingerModel:
 
     def neutral_mixture(self) -> ModeMixture:
         """Return the digits at the neutral pose, at rest."""
-        seen = OBSERVED
+        measured = OBSERVED
         mean, covariance = np.zeros((N_DIGITS, DIGIT_SIZE)), np.zeros((N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
-        mean[:, seen] = self._start.mean
-        covariance[:, seen[:, None], seen] = self._start.covariance
+        mean[:, measured] = self._start.mean
+        covariance[:, measured[:, None], measured] = self._start.covariance
         rate = np.arange(RATES.start, RATES.stop)
         covariance[:, rate, rate] = np.where(self._is_moving, self.settings.initial.joint_rates_rad_s**2, 1e-12)
         return ModeMixture.from_gaussian(mean, covariance, self.scales.size)

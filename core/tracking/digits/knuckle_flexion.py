@@ -80,21 +80,21 @@ def estimate_knuckle_flexion(
     knuckle = root_m[chains] + state[:, _START] * _DOWN
     back = knuckle[:, None] + state[:, _HEIGHT, None, None] * normal
     reach = SAMPLE_POSITIONS * state[:, _LENGTH, None]
-    seen = view.observe(back[:, :, None] + reach[:, None, :, None] * along[:, :, None])  # (A, Q, P, 3)
-    past_m = _read_depth_m(samples, seen[..., :2]) - seen[..., 2]
+    image = view.observe(back[:, :, None] + reach[:, None, :, None] * along[:, :, None])  # (A, Q, P, 3)
+    behind_m = _read_depth_m(samples, image[..., :2]) - image[..., 2]
     stray_m = np.where(-(normal @ view.rotation[2]) > MIN_FACING_SHARE, SURFACE_SD_M, STEEP_SURFACE_SD_M)
     cost = np.minimum(
-        0.5 * (past_m / stray_m[..., None]) ** 2, np.where(past_m > 0.0, MAX_COST_BEHIND, MAX_COST_IN_FRONT)
+        0.5 * (behind_m / stray_m[..., None]) ** 2, np.where(behind_m > 0.0, MAX_COST_BEHIND, MAX_COST_IN_FRONT)
     )
-    total = np.where(np.isfinite(past_m), cost, NO_READING_COST).sum(axis=-1)
+    total = np.where(np.isfinite(behind_m), cost, NO_READING_COST).sum(axis=-1)
     weight = np.exp(total.min(axis=-1, keepdims=True) - total)
     weight /= weight.sum(axis=-1, keepdims=True)
     value = weight @ FLEXION_GRID_RAD
     variance = (weight * (FLEXION_GRID_RAD - value[:, None]) ** 2).sum(axis=-1)
-    is_told = variance < MAX_SD_RAD**2
-    chains, out = np.array(chains)[is_told], KnuckleFlexion.none()
-    out.value_rad[chains] = value[is_told]
-    out.variance_rad2[chains] = CORRELATED_FRAMES * np.maximum(variance[is_told], MIN_SD_RAD**2)
+    is_measured = variance < MAX_SD_RAD**2
+    chains, out = np.array(chains)[is_measured], KnuckleFlexion.none()
+    out.value_rad[chains] = value[is_measured]
+    out.variance_rad2[chains] = CORRELATED_FRAMES * np.maximum(variance[is_measured], MIN_SD_RAD**2)
     return out
 
 

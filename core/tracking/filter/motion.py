@@ -127,8 +127,8 @@ class PalmMotion:
         skin = slice(0, SKIN.stop - SKIN.start)
         pushed[STILL, skin, skin] *= tissue.creep
         pushed[HOME] = pushed[STILL]
-        came_home = float(joint[:, HOME].sum() - joint[HOME, HOME])
-        return np.asarray(np.tensordot(joint.sum(axis=0), pushed, 1) + came_home * tissue.stationary[-1])
+        home_probability = float(joint[:, HOME].sum() - joint[HOME, HOME])
+        return np.asarray(np.tensordot(joint.sum(axis=0), pushed, 1) + home_probability * tissue.stationary[-1])
 
 
 def palm_transition(
@@ -155,10 +155,10 @@ def predict_palm(
 ) -> tuple[PalmEstimate, ModeMixture]:
     """Predict the palm ``dt_s`` ahead, its modes as errors from the nominal estimate."""
     step = palm_transition(estimate.rate_rad_s, motion, dt_s, unseen, digits)
-    later = propagate_mixture(
+    predicted = propagate_mixture(
         mixture, step, estimate.value, motion.mode_transition_matrix(estimate.rate_rad_s, dt_s, digits)
     )
-    return step.propagate(estimate, dt_s, later.merge()[1][0]), later
+    return step.propagate(estimate, dt_s, predicted.merge()[1][0]), predicted
 
 
 def fading_factors(keep: float) -> FloatArray:
@@ -183,8 +183,8 @@ def find_unobserved_turns(disc_m: FloatArray, collinear_rms_m: float) -> FloatAr
     """
     if len(disc_m) < 2:
         return np.eye(3)
-    apart = disc_m[:, :2] - disc_m[:, :2].mean(axis=0)
-    _, spread, axes = np.linalg.svd(apart, full_matrices=False)
+    offset = disc_m[:, :2] - disc_m[:, :2].mean(axis=0)
+    _, spread, axes = np.linalg.svd(offset, full_matrices=False)
     if spread[1] >= collinear_rms_m * math.sqrt(len(disc_m)):
         return None
     line = np.array([axes[0, 0], axes[0, 1], 0.0])

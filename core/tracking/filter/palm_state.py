@@ -157,6 +157,6 @@ class PalmView:
 
 def reset_error(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[PalmEstimate, ModeMixture]:
     """Move the nominal estimate to the mixture's mean; return it and the mixture as errors from there."""
-    rotation, value, covariance, apart = reset_errors(nominal, mixture)
-    reset = ModeMixture(apart, mixture.covariance, mixture.probability)
+    rotation, value, covariance, errors = reset_errors(nominal, mixture)
+    reset = ModeMixture(errors, mixture.covariance, mixture.probability)
     return PalmEstimate(rotation, value, covariance), reset

@@ -68,9 +68,9 @@ def compute_fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camer
     return 1.0 - math.exp(-2.0 * windows - along_m / float(camera.sensor.reading_sd_m(np.array(depth_m))))
 
 
-def shape_partial_update(news: float) -> FloatArray:
+def shape_partial_update(excess: float) -> FloatArray:
     """Return shares (n,) of an update that the mean takes: the calibration error only ``news`` (0 to 1)."""
-    return partial_update_shares(SIZE, CALIBRATION_ERROR, 1.0 - math.sqrt(1.0 - news))
+    return partial_update_shares(SIZE, CALIBRATION_ERROR, 1.0 - math.sqrt(1.0 - excess))
 
 
 def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: MeasurementNoise) -> FloatArray:
@@ -263,8 +263,8 @@ def adapt_noise_factor(
     if dt_s <= 0.0:
         return factor
     weight = 1.0 - math.exp(-dt_s / NOISE_ADAPTATION_S)
-    news = np.where(is_measured, np.minimum(residual * residual, noise.most_adapted), 1.0)
-    news[..., :2] = 0.5 * (news[..., :1] + news[..., 1:2])
-    news -= 1.0
-    grown = factor + weight * factor * news
+    excess = np.where(is_measured, np.minimum(residual * residual, noise.most_adapted), 1.0)
+    excess[..., :2] = 0.5 * (excess[..., :1] + excess[..., 1:2])
+    excess -= 1.0
+    grown = factor + weight * factor * excess
     return np.where(is_measured, np.minimum(np.maximum(grown, noise.least_adapted), noise.most_adapted), factor)

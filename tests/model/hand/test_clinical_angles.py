@@ -94,7 +94,9 @@ def test_signs_of_the_elementary_turns(axis: str, side: Side, signs: dict[str, f
 
 @settings(deadline=None)
 @given(st.floats(-170.0, 170.0), st.floats(-89.0, 89.0), st.floats(-170.0, 170.0), st.sampled_from(SIDES))
-def test_angles_come_back(deviation: float, flexion: float, pronosupination: float, side: Side) -> None:
+def test_angles_from_rotation_inverts_rotation_from_angles(
+    deviation: float, flexion: float, pronosupination: float, side: Side
+) -> None:
     angles = np.radians([deviation, flexion, pronosupination])
     rotation = clinical_angles.rotation_from_angles(angles, side)
     assert np.allclose(clinical_angles.angles_from_rotation(rotation, side), angles, atol=1e-9)
@@ -112,7 +114,7 @@ def test_the_left_hand_is_the_right_one_in_a_mirror(deviation: float, flexion: f
     assert np.allclose(right, Rotation.from_euler("ZYX", angles).as_matrix(), atol=1e-15)
 
 
-def test_batches_are_read_as_one_by_one() -> None:
+def test_angles_of_batches_match_single_ones() -> None:
     rng = np.random.default_rng(0)
     angles = rng.uniform(-1.0, 1.0, (5, 4, 3))
     rotations = clinical_angles.rotation_from_angles(angles, "left")
@@ -147,7 +149,9 @@ def test_rates_of_the_angles_against_finite_differences(
 @given(st.floats(-180.0, 180.0), st.floats(-90.0, 90.0), st.floats(-180.0, 180.0), st.sampled_from(SIDES))
 @example(0.0, 0.0, 0.0, "right")
 @example(0.0, 90.0, 0.0, "left")
-def test_one_rotation_is_read_as_many_are(deviation: float, flexion: float, supination: float, side: Side) -> None:
+def test_compute_wrist_angles_matches_the_batch_functions(
+    deviation: float, flexion: float, supination: float, side: Side
+) -> None:
     rotation = clinical_angles.rotation_from_angles(np.radians([deviation, flexion, supination]), side)
     angles, rates, zyz = clinical_angles.compute_wrist_angles(rotation, side)
     assert np.allclose(angles, clinical_angles.angles_from_rotation(rotation, side), rtol=0.0, atol=1e-12)
@@ -164,7 +168,7 @@ def test_zyz_is_the_papers_parametrisation(alpha: float, beta: float, gamma: flo
 
 
 @pytest.mark.parametrize("beta_deg", [0.0, 1.0, 2.999])
-def test_zyz_is_not_known_near_neutral(beta_deg: float) -> None:
+def test_zyz_near_neutral_is_nan(beta_deg: float) -> None:
     rotation = Rotation.from_euler("ZYZ", [40.0, beta_deg, -10.0], degrees=True).as_matrix()
     assert np.isnan(clinical_angles.zyz_from_rotation(rotation)).all()
 

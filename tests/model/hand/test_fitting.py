@@ -158,7 +158,7 @@ def test_left_hand_is_the_mirror_of_the_right() -> None:
     assert np.allclose(right.residual_m * [1.0, -1.0, 1.0], left.residual_m, atol=1e-9)
 
 
-def test_missing_depth_and_missing_disc_are_told_by_the_uncertainty() -> None:
+def test_fit_missing_depth_or_disc_raises_the_sd() -> None:
     hand, seen = _person(7), _seen(_person(7), _neutral(7), 7, 0.0005)
     no_depth, no_disc = HAND21.markers.index("DIP3"), HAND21.markers.index("TIP4")
     depth_sd, disc = seen.depth_sd_m.copy(), seen.disc_m.copy()
@@ -193,7 +193,7 @@ def _thick(seed: int) -> HandAnatomy:
 
 
 @pytest.mark.parametrize("said", [(), (True,) * 5, (False,) * 5])
-def test_what_a_person_says_of_straight_fingers_is_evidence_against_thick_joints(said: tuple[bool, ...]) -> None:
+def test_fit_straight_fingers_limit_joint_heights(said: tuple[bool, ...]) -> None:
     flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
     off, sd = [], []
     for seed in range(4):
@@ -210,7 +210,7 @@ def test_what_a_person_says_of_straight_fingers_is_evidence_against_thick_joints
 
 
 @pytest.mark.parametrize("off_mm", [(0.0, 2.0), (2.0, 0.0)])
-def test_a_disc_stuck_askew_costs_no_depth(off_mm: tuple[float, float]) -> None:
+def test_fit_misplaced_disc_keeps_its_depth(off_mm: tuple[float, float]) -> None:
     """Its true depth is kept, and with it the zero of the joint."""
     for marker in ("PIP3", "DIP2", "DIP5"):
         hand, seen = _person(6), _seen(_person(6), _neutral(6), 6, 0.0005)
@@ -223,7 +223,7 @@ def test_a_disc_stuck_askew_costs_no_depth(off_mm: tuple[float, float]) -> None:
 
 
 @pytest.mark.parametrize("said", [(), (True,) * 5])
-def test_a_finger_that_is_evidently_bent_is_not_drawn_to_straight(said: tuple[bool, ...]) -> None:
+def test_fit_evidently_bent_finger_is_not_straightened(said: tuple[bool, ...]) -> None:
     hand, angles = _person(6), np.zeros(17)
     bent = NAMES.index("PIP4_flexion")
     angles[bent] = math.radians(35.0)
@@ -235,7 +235,7 @@ def test_a_finger_that_is_evidently_bent_is_not_drawn_to_straight(said: tuple[bo
 
 
 @pytest.mark.parametrize("marker", ["TIP2", "DIP4", "TIP1"])
-def test_absurd_depth_is_left_out_and_named(marker: str) -> None:
+def test_fit_outlier_depth_is_left_out_and_reported(marker: str) -> None:
     hand, seen = _person(8), _seen(_person(8), _neutral(8), 8, 0.0005)
     disc = seen.disc_m.copy()
     disc[:, HAND21.markers.index(marker), 2] -= 0.035  # the table instead of the finger
@@ -246,7 +246,7 @@ def test_absurd_depth_is_left_out_and_named(marker: str) -> None:
 
 
 @pytest.mark.parametrize(("stays_m", "most_m"), [(0.0, 1e-5), (0.0004, 0.0008)])
-def test_chain_of_the_papers_has_no_offsets(stays_m: float, most_m: float) -> None:
+def test_fit_papers_chain_has_no_offsets(stays_m: float, most_m: float) -> None:
     """But for depths that stay wrong, which are heights to the camera."""
     hand = _person(9, skin_offsets=False)
     prior = AnatomyPrior(depth_stays_m=stays_m)
@@ -257,7 +257,7 @@ def test_chain_of_the_papers_has_no_offsets(stays_m: float, most_m: float) -> No
     assert np.allclose(_angles(fit)[0][flexions], _neutral(9)[flexions], atol=math.radians(2.0))
 
 
-def test_constants_and_anatomy_are_two_forms_of_one_hand() -> None:
+def test_constants_from_anatomy_inverts_with_constants() -> None:
     hand = _person(2)
     again = with_constants(hand, constants_from_anatomy(hand))
     for field in dataclasses.fields(hand):
@@ -270,7 +270,7 @@ def test_constants_and_anatomy_are_two_forms_of_one_hand() -> None:
     assert np.linalg.norm(with_constants(hand, moved).palm_joint_m[3] - hand.palm_joint_m[3]) == pytest.approx(0.004)
 
 
-def test_free_end_joint_is_found_beside_the_middle_one() -> None:
+def test_fit_free_dip_is_found_beside_pip() -> None:
     hand, free = _person(11), np.zeros(21)
     names = joint_angle_names(dip_free=True)
     free[names.index("DIP2_flexion")] = math.radians(20.0)

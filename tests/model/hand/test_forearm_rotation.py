@@ -61,7 +61,7 @@ def test_both_signs_and_full_turns_come_back_to_the_angle_in_the_files() -> None
     assert np.degrees(pronosupination_from_palm_down(np.radians(read))) == pytest.approx(deg)
 
 
-def test_a_start_that_was_measured_with_a_goniometer_is_part_of_the_angle() -> None:
+def test_clinical_angle_includes_the_measured_start() -> None:
     """A forearm that starts at 60 degrees of pronation has + 30 from palm down in the file, and so reads 60."""
     stored = np.radians([[0.0, 0.0, 30.0], [0.0, 0.0, 90.0]])
     start = np.radians([0.0, 0.0, 30.0])

@@ -151,7 +151,7 @@ def test_closed_form_equals_the_chains(side: Side) -> None:
             assert np.allclose(frames.dorsal_normal[pose], by_chain[2], atol=1e-12, rtol=0.0)
 
 
-def test_coupled_end_joint_follows_the_middle_joint() -> None:
+def test_kinematics_coupled_dip_follows_pip() -> None:
     rng = np.random.default_rng(21)
     hand = _random_hand(rng, "left")
     coupled = rng.uniform(-1.5, 1.5, (8, 17))
@@ -165,7 +165,7 @@ def test_coupled_end_joint_follows_the_middle_joint() -> None:
     assert np.allclose(disc_centres(hand, coupled), disc_centres(hand, free), atol=1e-15)
 
 
-def test_any_leading_shape_and_untouched_input() -> None:
+def test_kinematics_any_leading_shape_keeps_its_input() -> None:
     hand = anatomy_from_size(0.18)
     angles = np.random.default_rng(22).uniform(-1.0, 1.0, (2, 3, 17))
     before = angles.copy()

@@ -22,7 +22,7 @@ def placed(side: Side, seed: int) -> tuple[FloatArray, FloatArray]:
 
 @pytest.mark.parametrize("side", ["right", "left"])
 @pytest.mark.parametrize("seed", range(8))
-def test_axes_are_those_of_the_definition(side: Side, seed: int) -> None:
+def test_wrist_axes_match_the_definition(side: Side, seed: int) -> None:
     discs, back = placed(side, seed)
     axes = wrist_axes(discs, back)
     x, y, z = axes.T
@@ -36,7 +36,7 @@ def test_axes_are_those_of_the_definition(side: Side, seed: int) -> None:
     assert np.sign((discs[2] - discs[5]) @ y) == (1.0 if side == "right" else -1.0)
 
 
-def test_z_is_the_least_squares_normal_made_perpendicular_to_x() -> None:
+def test_wrist_axes_z_is_the_least_squares_normal() -> None:
     discs, back = placed("right", 3)
     plane = discs[[0, 2, 3, 4, 5]]
     normal = np.linalg.svd(plane - plane.mean(axis=0))[2][2]
@@ -46,14 +46,14 @@ def test_z_is_the_least_squares_normal_made_perpendicular_to_x() -> None:
     assert np.allclose(wrist_axes(discs, back)[:, 2], z, atol=1e-12)
 
 
-def test_cmc1_does_not_tilt_the_palm() -> None:
+def test_wrist_axes_ignore_cmc1() -> None:
     discs, back = placed("right", 4)
     moved = discs.copy()
     moved[1] += 0.01 * back
     assert np.array_equal(wrist_axes(moved, back), wrist_axes(discs, back))
 
 
-def test_axes_turn_with_the_palm_and_batches_are_done_one_by_one() -> None:
+def test_wrist_axes_turn_with_the_palm_in_batches() -> None:
     rotations = so3.exp(np.random.default_rng(5).normal(size=(12, 3)))
     toward = np.array([0.0, 0.0, -1.0])
     facing = (rotations @ UP) @ toward
@@ -66,7 +66,7 @@ def test_axes_turn_with_the_palm_and_batches_are_done_one_by_one() -> None:
         assert np.allclose(axes, rotation @ wrist_axes(RIGHT_PALM_M, UP) @ flip, atol=1e-12)
 
 
-def test_sensitivity_is_the_turn_of_the_axes_in_w() -> None:
+def test_wrist_axes_sensitivity_matches_finite_differences() -> None:
     rng = np.random.default_rng(6)
     axes, sensitivity = wrist_axes_sensitivity(RIGHT_PALM_M, UP)
     assert np.allclose(axes, wrist_axes(RIGHT_PALM_M, UP))

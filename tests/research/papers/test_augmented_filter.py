@@ -41,7 +41,7 @@ def test_on_a_linear_model_it_is_the_kalman_filter(spread: UnscentedParameters) 
     assert after.nis == pytest.approx((y - h @ there) @ np.linalg.inv(s) @ (y - h @ there))
 
 
-def test_nothing_measured_changes_nothing() -> None:
+def test_update_without_measurement_changes_nothing() -> None:
     ahead = predict_state(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
     after = update_state(ahead, predict_outputs(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
     assert after.state is ahead.state
@@ -89,6 +89,6 @@ def test_predict_and_update_are_filterpys(spread: UnscentedParameters, seed: int
     assert np.linalg.norm(after.state.mean - ahead.state.mean) > 1e-3
 
 
-def test_a_covariance_that_is_none_is_told() -> None:
+def test_predict_invalid_covariance_is_an_error() -> None:
     with pytest.raises(np.linalg.LinAlgError):
         predict_state(AugmentedGaussian(np.zeros(2), np.diag([1.0, -1.0])), np.eye(1), lambda x, _w: x, SPREADS[0])

@@ -76,7 +76,7 @@ def test_the_two_filters_undo_each_other(recording: Path, by_paper: Path, tmp_pa
 
 
 @pytest.mark.parametrize("option", [("--depth",), ("--dip", "free"), ("--discs", "on-skin"), ("--smooth",)])
-def test_what_the_papers_have_not_is_refused(
+def test_papers_unsupported_options_are_errors(
     option: tuple[str, ...], recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--filter", "paper", *option]
@@ -85,7 +85,9 @@ def test_what_the_papers_have_not_is_refused(
     assert not (tmp_path / "s.h5").exists()
 
 
-def test_colour_alone_is_warned_of(recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_papers_colour_only_gives_a_warning(
+    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     once = first(recording, tmp_path / "once.h5", "--filter", "paper", "--no-depth", "--no-smooth", "--dip", "coupled")
     assert capsys.readouterr().err.count("mirror image") == 1
     tracked(once, tmp_path / "again.h5")

@@ -53,14 +53,14 @@ def test_a_rigid_palm_without_clutter_is_followed_to_a_few_degrees(
     assert np.isnan(frames[-1].kinematics.angular_velocity_rad_s).all(), "white in the papers' model"
 
 
-def test_depth_is_never_looked_at() -> None:
+def test_papers_tracker_ignores_depth() -> None:
     seen = palm_blobs(swing(1, 30.0), 30)
     wrong = [Detections(b.pixel, np.full(6, 0.2), np.full(6, 1e-6), b.area_px, b.similarity) for b in seen]
     one, other = followed(wrist_tracker(), seen), followed(wrist_tracker(), wrong)
     assert np.array_equal([f.kinematics.angles_rad for f in one], [f.kinematics.angles_rad for f in other])
 
 
-def test_a_hand_is_followed_where_nothing_hides() -> None:
+def test_papers_tracker_visible_hand_is_tracked() -> None:
     """Seen at a slant, so that the picture tells which way a finger bends."""
     rotation = tilted(20.0)
 
@@ -85,7 +85,7 @@ def test_a_hand_is_followed_where_nothing_hides() -> None:
     assert last.nis_dof == 42
 
 
-def test_the_wrist_disc_is_where_position_says() -> None:
+def test_papers_tracker_wrist_marker_is_at_the_position() -> None:
     made = calibration(RIGHT_PALM_M)
     for frame in followed(wrist_tracker(), palm_blobs(swing(1, 30.0), 30)):
         place = made.rotation_w0_cam @ frame.kinematics.position_m + made.translation_w0_cam_m
@@ -93,7 +93,7 @@ def test_the_wrist_disc_is_where_position_says() -> None:
 
 
 @pytest.mark.parametrize("whole_hand", [False, True])
-def test_a_hand_out_of_sight_is_predicted_then_lost_and_found_again_at_neutral(whole_hand: bool) -> None:
+def test_papers_tracker_hidden_hand_is_predicted_lost_and_found(whole_hand: bool) -> None:
     at = swing(0, 0.0)
     if whole_hand:
         tracker = PaperTracker(hand_calibration(tilted(0.0)), CAMERA, MEASURED)
@@ -119,7 +119,7 @@ def test_a_hand_out_of_sight_is_predicted_then_lost_and_found_again_at_neutral(w
     assert np.isfinite(back.kinematics.angles_rad).all()
 
 
-def test_a_gap_in_the_recording_loses_the_hand() -> None:
+def test_papers_tracker_gap_loses_the_hand() -> None:
     tracker, seen = wrist_tracker(), palm_blobs(swing(0, 0.0), 5)
     followed(tracker, seen)
     assert is_unknown(tracker.step(5, 9.0, seen[0]))
@@ -127,7 +127,7 @@ def test_a_gap_in_the_recording_loses_the_hand() -> None:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_nonsense_never_ends_it(seed: int) -> None:
+def test_papers_tracker_random_blobs_never_fail(seed: int) -> None:
     rng = np.random.default_rng(seed)
     for tracker in (wrist_tracker(), PaperTracker(hand_calibration(tilted(0.0)), CAMERA, MEASURED)):
         for i in range(150):
