@@ -25,8 +25,7 @@ from carpus.core.pipeline.track import NeutralNoise, TrackSettings, format_param
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.tracking.filter.finger_settings import FingerSettings
-from carpus.core.tracking.filter.settings import TrackerSettings
+from carpus.core.tracking.filter.settings import FingerSettings, TrackerSettings
 from tests.commands import Command
 from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration

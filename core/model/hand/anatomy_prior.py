@@ -58,26 +58,16 @@ class DigitFit:
     cost: float
 
 
-def finger_model(mcp_disc_m: FloatArray) -> DigitModel:
-    """Return the model of a long finger whose MCP disc lies at ``mcp_disc_m`` (3,)."""
+def digit_model(root_disc_m: FloatArray, *, is_thumb: bool) -> DigitModel:
+    """Return the model of a digit whose MCP (thumb: CMC1) disc lies at ``root_disc_m`` (3,)."""
 
-    def discs(constants: FloatArray, angles_rad: FloatArray) -> FloatArray:
-        knuckle = mcp_disc_m + constants[..., 5:8] * _DOWN
-        return finger_discs(knuckle, constants[..., 3], constants[..., :3], constants[..., 8:], angles_rad)
+    def place_discs(constants: FloatArray, angles_rad: FloatArray) -> FloatArray:
+        root_m, fan_rad, roll_rad = root_disc_m + constants[..., 5:8] * _DOWN, constants[..., 3], constants[..., 4]
+        if is_thumb:
+            return thumb_discs(root_m, fan_rad, roll_rad, constants[..., :3], constants[..., 8:], angles_rad)
+        return finger_discs(root_m, fan_rad, constants[..., :3], constants[..., 8:], angles_rad)
 
-    return discs
-
-
-def thumb_model(cmc_disc_m: FloatArray) -> DigitModel:
-    """Return the model of a thumb whose CMC1 disc lies at ``cmc_disc_m`` (3,)."""
-
-    def discs(constants: FloatArray, angles_rad: FloatArray) -> FloatArray:
-        cmc = cmc_disc_m + constants[..., 5:8] * _DOWN
-        return thumb_discs(
-            cmc, constants[..., 3], constants[..., 4], constants[..., :3], constants[..., 8:], angles_rad
-        )
-
-    return discs
+    return place_discs
 
 
 def fit_digit(

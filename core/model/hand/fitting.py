@@ -22,9 +22,8 @@ from carpus.core.model.hand.anatomy_prior import (
     angles_prior,
     average_hand,
     constants_prior,
-    finger_model,
+    digit_model,
     fit_digit,
-    thumb_model,
     with_constants,
 )
 from carpus.core.model.hand.protocols import PALM_SITES, SITES
@@ -106,7 +105,7 @@ def fit_anatomy(
     residual = np.zeros((21, 3))
     for chain, own in enumerate(map(list, DIGIT_DISCS)):
         constants = Gaussian(average.mean[chain], average.covariance[chain])
-        model = (finger_model if chain else thumb_model)(hand.palm_disc_m[1 + chain])
+        model = digit_model(hand.palm_disc_m[1 + chain], is_thumb=chain == 0)
         angles = angles_prior(chain, prior, dip_free, is_straight[chain] if is_straight else None)
         # A finger whose discs show that it is bent is not drawn towards straight.
         bent = angles_prior(chain, prior, dip_free, is_straight=False)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from carpus.core.model.hand.anatomy_prior import AnatomyPrior
 from carpus.core.model.names import Limits, check_limits
 from carpus.core.model.setting_values import NOT_IN_FILE
-from carpus.core.tracking.filter.finger_settings import FingerSettings
 from carpus.core.tracking.filter.motion import MotionNoise
 from carpus.core.tracking.filter.palm_state import InitialSd
 from carpus.core.tracking.filter.soft_tissue import SoftTissue
@@ -67,6 +67,18 @@ class MeasurementNoise:
     most_adapted: float = 100.0
     least_adapted: float = 0.6
     depth_stays_m: float = 2.5e-4
+
+
+@dataclass(frozen=True, slots=True)
+class FingerSettings:
+    """Settings of thumb and fingers.
+
+    ``skin_offsets``: discs lie on the skin over the joints; without them the chain of the hand paper, discs in the
+    joints. ``anatomy``: how far a hand may differ from the average one.
+    """
+
+    skin_offsets: bool = True
+    anatomy: AnatomyPrior = field(default_factory=AnatomyPrior)
 
 
 _LIMITS: Limits = {"lost_after_s": (0.0, 3600.0)}
