@@ -15,7 +15,6 @@ NO_CHOICE = {
     "what keeps numbers finite, far from any that counts": {
         "model/hand/anatomy_prior": "_FIXED_SD",
         "tracking/filter/joint_limits": "_WIDE",
-        "tracking/filter/surface_fit": "_NO_NOISE",
     },
     "what is asked of a hand and how it is drawn; no angle is made of it": {
         "model/hand/exercises": "AXIS_TICK_DEG STILL_RADIUS_MM",
