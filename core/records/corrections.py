@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
+from functools import partial
 from pathlib import Path
 from uuid import uuid4
 
@@ -18,6 +19,8 @@ from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.platform.durable import link_or_copy, make_private_folder, replace_file, write_fault
 from carpus.core.records.changes import update_row
 from carpus.core.records.library import Library, with_listed_exercise
+from carpus.core.records.log import AuditAction
+from carpus.core.records.recordings import has_session
 from carpus.core.records.schema import SESSION
 from carpus.core.records.session_list import PENDING_COPY_SUFFIX, PENDING_FOLDER, check_share
 from carpus.core.records.session_records import choices_change
@@ -85,29 +88,20 @@ class Corrections:
 
     def list_pending(self) -> Sequence[PendingResult]:
         """Return the pending results, oldest first; those of deleted sessions are deleted."""
-        found: list[tuple[str, PendingResult]] = []
+        library, found = self._library, list[tuple[str, PendingResult]]()
         for path in sorted(self._folder.glob(f"*{SESSION_SUFFIX}")):
-            with suppress(CarpusFault, OSError):  # cannot be read, a full share, or one that is away: it stays
+            with suppress(CarpusFault, OSError):  # unreadable, or the share is full or away: it stays
                 header = read_outline(path).header
-                if self._library.is_listed(
-                    header.session_id
-                ):  # decided: a program was killed before the file had its name
+                if library.is_listed(header.session_id):  # a program was killed before the file had its name
                     self.accept(header.origin, path)
                     continue
                 self._delete_copies(header)
-                if self._is_session_known(header.origin):
+                if header.origin in library.unlisted or library.is_listed(header.origin):
                     found.append((header.created, PendingResult(header.origin, path)))
                 else:
+                    check_share(library.store)  # else the session may be on a share that is away
                     path.unlink()
         return [one for _, one in sorted(found, key=lambda one: (one[0], one[1].path))]
-
-    def _is_session_known(self, session_id: str) -> bool:
-        """Return whether the session exists. Raises :class:`FolderMissing` while its share is away."""
-        library = self._library
-        if session_id in library.unlisted or self._library.is_listed(session_id):
-            return True
-        check_share(library.store)
-        return False
 
     @property
     def _folder(self) -> Path:
@@ -135,41 +129,37 @@ class Corrections:
         After a fault or a kill all is as it was, or :meth:`list_pending` continues.
         """
         library, header = self._library, read_outline(pending_path).header
+        new_id = header.session_id
         check_share(library.store)
-        is_listed = self._library.is_listed(header.session_id)
-        entry = library.entry(header.session_id if is_listed else session_id)
-        place = entry.path if is_listed else find_free_name(entry.path)
+        is_listed = library.is_listed(new_id)
+        entry = library.entry(new_id if is_listed else session_id)
+        path = entry.path if is_listed else find_free_name(entry.path)
         copy = _copy_path(entry.path, header)
         try:
-            if not _has_session(
-                place, header.session_id
-            ):  # a program was killed before it could delete what it had copied
+            if not has_session(path, new_id):  # else a program was killed before it deleted what it had copied
                 copy.unlink(missing_ok=True)
                 link_or_copy(pending_path, copy)  # the sessions may lie on a share, which is another disk
                 if not is_listed:
-                    choices = (
-                        library.choices(session_id) if is_copy else self._transferable_choices(session_id, pending_path)
-                    )
-                    also = [choices_change(header.session_id, choices)] if choices is not None else []
-                    library.session_list.add(
-                        place, library.owner_id(session_id), entry.initials, pending_path, entry.exercise, also
-                    )
-                    if choices is not None:
-                        library.audit_log.log_session(
-                            "set_aside" if choices.is_session_excluded else "changed", header.session_id
-                        )
+                    choices = library.choices(session_id)
+                    kept = choices if is_copy else self._transferable_choices(session_id, choices, pending_path)
+                    also = [choices_change(new_id, kept)] if kept is not None else []
+                    owner_id = library.owner_id(session_id)
+                    library.session_list.add(path, owner_id, entry.initials, pending_path, entry.exercise, also)
+                    if kept is not None:
+                        action: AuditAction = "set_aside" if kept.is_session_excluded else "changed"
+                        library.audit_log.log_session(action, new_id)
                 try:
-                    publish(copy, place)
-                except OutputExists:  # since it was looked for
-                    if not _has_session(
-                        place, header.session_id
-                    ):  # else a look for what waits has taken this one meanwhile
-                        place = find_free_name(place)
-                        library.store.apply(
-                            [update_row(SESSION, header.session_id, path=library.session_list.relative_path(place))]
-                        )
-                        publish(copy, place)
-            self._copy_marker_photo(place, header.session_id)
+                    publish(copy, path)
+                except OutputExists:  # since the name was found free
+                    if not has_session(path, new_id):  # else another program has accepted this result
+                        path = find_free_name(path)
+                        stored_path = library.session_list.relative_path(path)
+                        library.store.apply([update_row(SESSION, new_id, path=stored_path)])
+                        publish(copy, path)
+            photos = (one.path.with_suffix(MARKERS_SUFFIX) for one in library.result_versions(new_id))
+            photo = next((one for one in photos if one.is_file()), None)
+            if photo is not None and not path.with_suffix(MARKERS_SUFFIX).exists():
+                replace_file(path.with_suffix(MARKERS_SUFFIX), partial(shutil.copyfile, photo))
             self._delete_copies(header)
             pending_path.unlink(missing_ok=True)
         except OSError as cause:
@@ -177,14 +167,7 @@ class Corrections:
         finally:
             with suppress(OSError):
                 copy.unlink(missing_ok=True)
-        return header.session_id
-
-    def _copy_marker_photo(self, place: Path, session_id: str) -> None:
-        own = place.with_suffix(MARKERS_SUFFIX)
-        there = [one.path.with_suffix(MARKERS_SUFFIX) for one in self._library.result_versions(session_id)]
-        beside = next((one for one in there if one.is_file()), None)
-        if beside is not None and not own.exists():
-            replace_file(own, lambda part: shutil.copyfile(beside, part))
+        return new_id
 
     def _delete_copies(self, header: SessionHeader) -> None:
         """Delete copies that a killed program left."""
@@ -192,20 +175,21 @@ class Corrections:
             with suppress(OSError):
                 _copy_path(one.path, header).unlink(missing_ok=True)
 
-    def _transferable_choices(self, session_id: str, pending_path: Path) -> RepetitionChoices | None:
-        """Return the choices of the old result that also apply to the new one."""
-        library = self._library
-        choices = library.choices(session_id)
-        moved = dict[int, str]()
-        if choices.excluded:  # pain, help: as true of the same moments, and nothing counts again unasked
+    def _transferable_choices(
+        self, session_id: str, choices: RepetitionChoices, pending_path: Path
+    ) -> RepetitionChoices | None:
+        """Return the choices of the old result that also apply to the new one.
+
+        Edges belong to repetitions, which are found anew.
+        """
+        library, excluded = self._library, dict[int, str]()
+        if choices.excluded:
             with suppress(SessionUnreadable):
-                new = with_angle_order(
-                    with_listed_exercise(read_session(pending_path), library.entry(session_id)),
-                    library.get_angle_order(),
-                )
-                moved = _match_exclusions(choices.excluded, library.session(session_id), new)
-        # Edges are those of repetitions that are found anew.
-        return replace(choices, excluded=moved, edges_s={}) if choices.is_session_excluded or moved else None
+                new = with_listed_exercise(read_session(pending_path), library.entry(session_id))
+                before = compute_repetitions(library.session(session_id)).rows
+                after = compute_repetitions(with_angle_order(new, library.get_angle_order())).rows
+                excluded = match_exclusions(choices.excluded, before, after)
+        return replace(choices, excluded=excluded, edges_s={}) if choices.is_session_excluded or excluded else None
 
     def restore_version(self, session_id: str) -> str:
         """Make an older result the newest version again, with its choices; return the new id.
@@ -213,14 +197,14 @@ class Corrections:
         The file is written again with a later date of creation, whatever the clocks of other computers say. Its origin
         stays, since it was not re-analysed. After a fault nothing is left.
         """
-        trial, newest = self.new_pending_path(session_id), self._library.result_versions(session_id)[-1].created
+        path, newest = self.new_pending_path(session_id), self._library.result_versions(session_id)[-1].created
         made = max(datetime.now().astimezone(), newest + timedelta(seconds=1.0)).isoformat()
-        rewrite_session(self._library.entry(session_id).path, trial, session_id=str(uuid4()), created=made)
+        rewrite_session(self._library.entry(session_id).path, path, session_id=str(uuid4()), created=made)
         try:
-            return self.accept(session_id, trial, is_copy=True)
+            return self.accept(session_id, path, is_copy=True)
         except CarpusFault:
             with suppress(CarpusFault, OSError):
-                self.discard(trial)
+                self.discard(path)
             raise
 
     def discard(self, pending_path: Path) -> None:
@@ -242,27 +226,23 @@ def _copy_path(path: Path, header: SessionHeader) -> Path:
     return path.with_name(f".{path.stem}.{header.session_id[:8]}{PENDING_COPY_SUFFIX}")
 
 
-def _has_session(path: Path, session_id: str) -> bool:
-    with suppress(SessionUnreadable):
-        return path.exists() and read_outline(path).header.session_id == session_id
-    return False
+def match_exclusions(
+    reasons: Mapping[int, str], before: Sequence[RepetitionRow], after: Sequence[RepetitionRow]
+) -> dict[int, str]:
+    """Return reasons of excluded repetitions by their number among the new ones.
 
-
-def _match_exclusions(reasons: Mapping[int, str], old: Session, new: Session) -> dict[int, str]:
-    """Return reasons of excluded repetitions by their number in the new result."""
-    before = compute_repetitions(old).rows
-    return {
-        number: why
-        for number, row in enumerate(compute_repetitions(new).rows)
-        for earlier, why in reasons.items()
-        if earlier < len(before) and _overlaps(before[earlier], row)
-    }
-
-
-def _overlaps(one: RepetitionRow, other: RepetitionRow) -> bool:
-    """Return whether half of the shorter repetition lies in the longer: one may be found as two."""
-    both_s = min(one.end_s, other.end_s) - max(one.start_s, other.start_s)
-    return both_s >= 0.5 * min(one.end_s - one.start_s, other.end_s - other.start_s)
+    A reason such as pain belongs to a moment: it goes to repetitions that share half of the shorter one, since one may
+    be found as two, or two as one.
+    """
+    excluded = {}
+    for number, new in enumerate(after):
+        for earlier, reason in reasons.items():
+            if earlier < len(before):
+                old = before[earlier]
+                common_s = min(old.end_s, new.end_s) - max(old.start_s, new.start_s)
+                if common_s >= 0.5 * min(old.end_s - old.start_s, new.end_s - new.start_s):
+                    excluded[number] = reason
+    return excluded
 
 
 def compare_results(old: Session, new: Session) -> ResultDifference:

@@ -184,7 +184,12 @@ def finish_pending(store: Store) -> list[Path]:
     if rows and _is_share_away(store):
         return [store.sessions_folder]
     files = _files_to_delete(store, patients, sessions)
-    left = [*_symlinks_on_path(store, patients, sessions), *(path for path in sorted(files) if not _delete_file(path))]
+    left = _symlinks_on_path(store, patients, sessions)
+    for path in sorted(files):
+        try:
+            path.unlink(missing_ok=True)
+        except OSError:
+            left.append(path)
     if rows and _is_share_away(store):  # since then: nobody knows what was found and is gone
         return [store.sessions_folder]
     emptied = {folder for path in files for folder in path.parents} | set(_patient_folders(store, patients))
@@ -194,8 +199,8 @@ def finish_pending(store: Store) -> list[Path]:
                 folder.rmdir()
     if left:
         return left
-    said = (one for row in people for one in (row.folded, row.name, *row.former.split("\n")))
-    names = [fold_name(one) for one in said if one]
+    stored_names = (one for row in people for one in (row.folded, row.name, *row.former.split("\n")))
+    names = [fold_name(one) for one in stored_names if one]
     # What leads here goes first: as long as the rows are marked, a kill in between is made good.
     root = store.sessions_folder
     paths = [path.relative_to(root).as_posix() for path in files if path.is_relative_to(root)]
@@ -233,15 +238,21 @@ def _files_to_delete(store: Store, patients: Sequence[str], sessions: Sequence[s
 
     Companions of other sessions are left out.
     """
-    rows, root, going = store.rows(select(SESSION.c.id, SESSION.c.path)), store.sessions_folder, set(sessions)
-    mine, files = [str(row.path) for row in rows if row.id in going], SessionFileScanner(store)
-    others = {f"{root / row.path}".removesuffix(".h5") for row in rows if row.id not in going}
-    own = {path for stored in mine if (path := _resolve_inside(root, stored)) is not None and path.exists()}
-    found = {path for stored in mine for path in _companion_files(store, stored)}
-    found |= {path for stored in mine for path in files.duplicate_files(stored) if path.is_file()}
+    rows, root, erased = store.rows(select(SESSION.c.id, SESSION.c.path)), store.sessions_folder, set(sessions)
+    other_stems = {f"{root / row.path}".removesuffix(".h5") for row in rows if row.id not in erased}
+    session_files, found, scanner = set[Path](), set[Path](), SessionFileScanner(store)
+    for stored in (str(row.path) for row in rows if row.id in erased):
+        found |= {path for path in scanner.duplicate_files(stored) if path.is_file()}
+        if (path := _resolve_inside(root, stored)) is not None:
+            session_files |= {path} if path.exists() else set()
+            beside = [
+                *path.parent.glob(f"{glob.escape(path.stem)}.*"),
+                *path.parent.glob(f".{glob.escape(path.stem)}.*"),
+            ]
+            found |= {one for one in beside if one.is_file() or one.is_symlink()}
     found |= {path for folder in _patient_folders(store, patients) for path in _list_files(folder)}
-    found |= set(find_pending_results(store, going))
-    return own | {path for path in found if not _is_companion(path, others)}
+    found |= set(find_pending_results(store, erased))
+    return session_files | {path for path in found if not _is_companion(path, other_stems)}
 
 
 def _find_unassigned_files(store: Store, patient_id: str) -> tuple[Path, ...]:
@@ -264,28 +275,14 @@ def _find_unassigned_files(store: Store, patient_id: str) -> tuple[Path, ...]:
     stem, suffix = STORE_FILE.split(".")
     found |= set(store.folder.glob(f"{stem}.*-*.{suffix}"))
     found |= set(store.folder.parent.glob(f"{glob.escape(store.folder.name)}.before-restore-*"))
-    names = [_to_file_name(one) for one in _patient_names(store, patient_id)]
-    return tuple(sorted(found, key=lambda path: (not any(one in _to_file_name(f"{path}") for one in names), path)))
 
+    def to_file_name(text: str) -> str:
+        return re.sub(r"\W+", "-", fold_name(text))
 
-def _to_file_name(text: str) -> str:
-    return re.sub(r"\W+", "-", fold_name(text))
-
-
-def _patient_names(store: Store, patient_id: str) -> list[str]:
-    row = store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
-    return [one for one in (row.pseudonym, row.name, *row.former.split("\n")) if one] if row is not None else []
-
-
-def _companion_files(store: Store, relative_path: str) -> set[Path]:
-    """Return a session's file and all files beside it with its name."""
-    path = _resolve_inside(store.sessions_folder, relative_path)
-    return set() if path is None else {
-        one
-        for hidden in ("", ".")
-        for one in path.parent.glob(f"{hidden}{glob.escape(path.stem)}.*")
-        if one.is_file() or one.is_symlink()
-    }  # fmt: skip
+    patient = store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
+    names = [patient.pseudonym, patient.name, *patient.former.split("\n")] if patient is not None else []
+    stems = [to_file_name(name) for name in names if name]
+    return tuple(sorted(found, key=lambda path: (not any(one in to_file_name(f"{path}") for one in stems), path)))
 
 
 def _is_companion(path: Path, stems: Collection[str]) -> bool:
@@ -329,11 +326,3 @@ def _resolve_inside(folder: Path, relative_path: str) -> Path | None:
 def _list_files(folder: Path) -> Iterator[Path]:
     if not folder.is_symlink():
         yield from (path for path in iter_paths(folder) if path.is_symlink() or path.is_file())
-
-
-def _delete_file(path: Path) -> bool:
-    try:
-        path.unlink(missing_ok=True)
-    except OSError:
-        return False
-    return True

@@ -81,7 +81,7 @@ class SessionDraft:
     def __init__(self, journal: Path) -> None:
         self._journal = JournalReader(journal)
         self._target = journal.with_suffix(".h5")
-        self._is_written = _has_session(self._target, self._journal.session_id)
+        self._is_written = has_session(self._target, self._journal.session_id)
         """A program was killed after the session got its name and before the journal was deleted."""
         self._writer: SessionWriter | None = None
 
@@ -135,7 +135,8 @@ class SessionDraft:
             self._writer.abandon()
 
 
-def _has_session(path: Path, session_id: str) -> bool:
+def has_session(path: Path, session_id: str) -> bool:
+    """Return whether a file is the session with this id."""
     with suppress(SessionUnreadable):
         return path.exists() and read_outline(path).header.session_id == session_id
     return False

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from carpus.core.model.hand.protocols import WRIST_ANGLES
-from carpus.core.results.measure import Measure, is_total_active_motion
+from carpus.core.results.measure import is_total_active_motion
 from carpus.core.results.norms import grade_share
 from carpus.core.results.session_results import SessionResults
 
@@ -49,10 +48,32 @@ class MeasureRow:
     estimate: str = ""
 
 
-def build_measure_rows(figures: SessionResults, session: str) -> tuple[MeasureRow, ...]:
+def build_measure_rows(results: SessionResults, session: str) -> tuple[MeasureRow, ...]:
     """Return all measures of a session whose file is called ``session``."""
-    estimate = "smoother" if figures.is_smoothed else "filter"
-    return tuple(replace(row, estimate=estimate, positive=_row_direction(row)) for row in _rows(figures, session))
+    quality, rows = results.quality, list[MeasureRow]()
+    common = (
+        session, results.session_id, results.recording_id, results.subject_id,
+        results.when.isoformat(timespec="seconds"), results.is_simulated, results.side, results.protocol,
+        results.exercise.id, results.duration_s, quality.frames, quality.measured_share, results.repetition_count,
+    )  # fmt: skip
+    for one in results.measures:
+        if one.group == "still" or (one.group == "speed" and not one.count):
+            continue
+        name = one.quantity
+        if one.group == "share":
+            name = ", ".join(filter(None, (name, grade_share(one))))
+        elif one.group == "range" and one.wrist_angle < 0:  # an end of a joint or a total is no movement
+            name = (_TOTAL_MEASURES if is_total_active_motion(one.subject) else _JOINT_MEASURES).get(name, name)
+        is_signed = name in _JOINT_MEASURES.values()
+        rows.append(
+            MeasureRow(
+                *common, name, f"{one.subject}, passive" if one.is_passive else one.subject, one.unit, one.mean, one.sd,
+                one.best, one.measurement_sd, one.count, one.is_lower_bound, one.seen_share, one.is_inferred,
+                positive=positive_direction(one.subject) if is_signed else _POSITIVE.get(name, "more"),
+                estimate="smoother" if results.is_smoothed else "filter",
+            )
+        )  # fmt: skip
+    return tuple(rows)
 
 
 MEASURE_COLUMNS = {
@@ -74,6 +95,11 @@ MEASURE_COLUMNS = {
 }
 
 _JOINT_MEASURES = {"flexion": "largest", "extension": "smallest"}
+_POSITIVE = {
+    "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar",
+    "supination": "supinated, 0 is thumb up", "pronation": "pronated, 0 is thumb up",
+    "extension deficit": "further from straight", "smoothness": "smoother", "jerk": "smoother",
+}  # fmt: skip
 _TOTAL_MEASURES = {"arc": "total active motion", "extension": "extension deficit"}
 
 
@@ -93,50 +119,3 @@ def positive_direction(angle: str) -> str:
         return "thumb away from the palm"
     joint, _, kind = angle.partition("_")
     return {"flexion": "flexed", "abduction": "to the thumb" if joint[-1:] != "1" else "thumb abducted"}.get(kind, "")
-
-
-def _row_direction(row: MeasureRow) -> str:
-    if row.measure in ("largest", "smallest"):
-        return positive_direction(row.of.partition(",")[0])
-    words = {
-        "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar",
-        "supination": "supinated, 0 is thumb up", "pronation": "pronated, 0 is thumb up",
-        "extension deficit": "further from straight", "smoothness": "smoother",
-        "jerk": "smoother",
-    }  # fmt: skip
-    return words.get(row.measure, "more")
-
-
-def _table_name(row: Measure) -> str:
-    """Return a measure's name in the table; ends of joints and totals are not movements."""
-    if row.group == "share":
-        return ", ".join(filter(None, (row.quantity, grade_share(row))))
-    if row.group != "range" or row.wrist_angle >= 0:
-        return row.quantity
-    return (_TOTAL_MEASURES if is_total_active_motion(row.subject) else _JOINT_MEASURES).get(row.quantity, row.quantity)
-
-
-def _rows(figures: SessionResults, session: str) -> Iterator[MeasureRow]:
-    quality = figures.quality
-    common = (
-        session, figures.session_id, figures.recording_id, figures.subject_id,
-        figures.when.isoformat(timespec="seconds"), figures.is_simulated, figures.side, figures.protocol,
-        figures.exercise.id, figures.duration_s, quality.frames, quality.measured_share, figures.repetition_count,
-    )  # fmt: skip
-    for row in figures.measures:
-        if row.group == "still" or (row.group == "speed" and not row.count):
-            continue
-        yield MeasureRow(
-            *common,
-            _table_name(row),
-            f"{row.subject}, passive" if row.is_passive else row.subject,
-            row.unit,
-            row.mean,
-            row.sd,
-            row.best,
-            row.measurement_sd,
-            row.count,
-            row.is_lower_bound,
-            row.seen_share,
-            row.is_inferred,
-        )

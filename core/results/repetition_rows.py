@@ -9,6 +9,7 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from statistics import fmean
 from typing import Literal
 
 import numpy as np
@@ -226,6 +227,11 @@ def measure_repetitions(trained: TrainedAngle, choices: RepetitionChoices) -> tu
         measure_stroke(trained.measured, stroke, trained.measured_sd, smoothed=trained.is_smoothed)
         for stroke in trained.detected.strokes
     ]
+
+    def is_passive(rep: Repetition) -> bool:
+        middle_s = 0.5 * (rep.start_s + rep.end_s)
+        return any(start_s <= middle_s < end_s for start_s, end_s in trained.passive_s)
+
     every = sorted((*trained.detected.repetitions, *trained.detected.partial_repetitions), key=lambda rep: rep.start_s)
     return tuple(
         _measure_repetition(
@@ -233,15 +239,10 @@ def measure_repetitions(trained: TrainedAngle, choices: RepetitionChoices) -> tu
             rep,
             strokes,
             choices.edges_s.get(number),
-            choices.excluded.get(number, _movement_mode(trained, rep)),
+            choices.excluded.get(number, PASSIVE if is_passive(rep) else ""),
         )
         for number, rep in enumerate(every)
     )
-
-
-def _movement_mode(trained: TrainedAngle, rep: Repetition) -> str:
-    middle_s = 0.5 * (rep.start_s + rep.end_s)
-    return PASSIVE if any(start <= middle_s < end for start, end in trained.passive_s) else ""
 
 
 def _measure_repetition(
@@ -253,10 +254,10 @@ def _measure_repetition(
 ) -> MeasuredRepetition:
     window = rep if edges_s is None else _with_edges(trained, rep, *edges_s)
     # Motion cut in the middle is cut within strokes: each belongs where it ends, unless a person cut there.
-    belongs_s = _end_s if edges_s is None else _middle_s
-    first = bisect_left(strokes, window.start_s, key=_end_s)
-    beside = strokes[first : bisect_right(strokes, window.end_s, key=_start_s)]
-    own = tuple(one for one in beside if window.start_s < belongs_s(one) <= window.end_s)
+    first = bisect_left(strokes, window.start_s, key=lambda one: one.stroke.end_s)
+    beside = strokes[first : bisect_right(strokes, window.end_s, key=lambda one: one.stroke.start_s)]
+    ends_s = [one.stroke.end_s if edges_s is None else 0.5 * (one.stroke.start_s + one.stroke.end_s) for one in beside]
+    own = tuple(one for one, end_s in zip(beside, ends_s, strict=True) if window.start_s < end_s <= window.end_s)
     start_s, end_s = edges_s or _onset_and_offset_s(trained.counting_signal, rep, own)
     turns_high = own[0].stroke.is_rising if own and edges_s is None else None
     peak_s, is_high = _find_peak(trained.counting_signal, window, turns_high)
@@ -283,7 +284,7 @@ def _measure_repetition(
             peak_speed_rad_s=_combine_strokes(full, "peak_speed_rad_s", max),
             peak_speed_sd_rad_s=_combine_strokes(full, "peak_speed_sd_rad_s", max),
             movement_time_s=_movement_time_s(window, beside) if whole else math.nan,
-            sparc=_combine_strokes(full, "sparc", _mean),
+            sparc=_combine_strokes(full, "sparc", fmean),
             movement_units=_combine_strokes(whole, "peaks", math.fsum),
             pauses=_combine_strokes(whole, "pauses", math.fsum),
             pause_s=_combine_strokes(whole, "pause_s", math.fsum),
@@ -307,18 +308,6 @@ def _movement_time_s(window: Repetition, strokes: Sequence[StrokeMeasures]) -> f
     within = [one for one in strokes if one.stroke.start_s < window.end_s and window.start_s < one.stroke.end_s]
     on_way_s = [min(one.offset_s, window.end_s) - max(one.onset_s, window.start_s) for one in within]
     return math.fsum(max(0.0, time_s) for time_s in on_way_s) if all(map(math.isfinite, on_way_s)) else math.nan
-
-
-def _start_s(stroke: StrokeMeasures) -> float:
-    return stroke.stroke.start_s
-
-
-def _end_s(stroke: StrokeMeasures) -> float:
-    return stroke.stroke.end_s
-
-
-def _middle_s(stroke: StrokeMeasures) -> float:
-    return 0.5 * (stroke.stroke.start_s + stroke.stroke.end_s)
 
 
 def _onset_and_offset_s(smooth: Signal, rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tuple[float, float]:
@@ -385,7 +374,3 @@ def _combine_strokes(
     """Combine a value of all strokes; NaN if one is unknown."""
     values = [getattr(stroke, name) for stroke in strokes]
     return combine(values) if values and all(map(math.isfinite, values)) else math.nan
-
-
-def _mean(values: Sequence[float]) -> float:
-    return math.fsum(values) / len(values)

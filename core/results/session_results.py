@@ -17,11 +17,10 @@ import numpy as np
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
-from carpus.core.measures.finger_range import JointTrack
 from carpus.core.measures.repetitions import NoRepetitionReason, explain_no_repetitions
 from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures
-from carpus.core.measures.wrist_centre import WristCentre, estimate_wrist_centre, rotation_in_w0
+from carpus.core.measures.wrist_centre import estimate_wrist_centre, rotation_in_w0
 from carpus.core.model.hand.exercises import STILL_RADIUS_MM, Exercise
 from carpus.core.model.hand.forearm_rotation import to_clinical_targets_deg
 from carpus.core.model.hand.protocols import WRIST_ANGLES
@@ -36,7 +35,6 @@ from carpus.core.results.repetition_rows import (
     MeasuredRepetition,
     RepetitionChoices,
     RepetitionResult,
-    TrainedAngle,
     find_trained_angle,
     mask_passive,
     measure_repetitions,
@@ -110,53 +108,38 @@ def assess_quality(seen: MeasurableSession, repetitions: Sequence[RepetitionResu
     """Assess the recording of a session with these repetitions."""
     session, motion, verdict = seen.session, motion_estimate(seen.session), seen.session.calibration.verdict
     time_s = session.timestamp_s - session.timestamp_s[:1]
+    is_tracked = np.asarray(session.status) == TrackStatus.TRACKED
+    inside = np.ones(len(time_s), dtype=bool)
+    if seen.tracks and (included := [one for one in repetitions if one.is_counted]):  # a rest hides no marker
+        inside = np.any([(time_s >= rep.start_s) & (time_s <= rep.end_s) for rep in included], axis=0)
+    is_visible = np.isfinite(session.markers.measured_px[inside, :, 0])
     centre = estimate_wrist_centre(
         motion.position_m, rotation_in_w0(motion.rotation_w2_w0, motion.w0_turn_rad), seen.is_in_view
     )
-    within = [one for one in repetitions if one.is_counted] if seen.tracks else ()
+    is_known, moved_m = np.isfinite(centre.displacement_m), np.empty(0)
+    if int(is_known.sum()) >= 2:
+        moved_m = low_pass(resample_evenly(time_s, centre.displacement_m, is_known), STILLNESS_CUTOFF_HZ).value
+    angle_sd_deg = math.nan
+    if joint_sds := [one.visible_sd.value[one.visible_sd.is_finite] for one in seen.tracks.values() if one.is_known]:
+        angle_sd_deg = math.degrees(float(np.median(np.concatenate(joint_sds))))
+    elif not seen.tracks:
+        columns = [0, 1, 2] if seen.exercise.angle is None else [seen.exercise.angle]
+        sds_deg = np.degrees(motion.angles_sd_rad[is_tracked][:, columns])
+        if np.isfinite(sds_deg).any():
+            angle_sd_deg = float(np.median(sds_deg[np.isfinite(sds_deg)]))
     return RecordingQuality(
         frames=len(session),
-        measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
-        hidden_share=_occluded_share(session, time_s, within),
+        measured_share=float(np.mean(is_tracked)) if len(session) else math.nan,
+        hidden_share=float(np.mean(~is_visible)) if is_visible.size else math.nan,
         dropped_frames=int(np.maximum(session.quality.dropped_before, 0).sum()),
-        forearm_movement_mm=_forearm_movement_mm(time_s, centre),
+        forearm_movement_mm=1e3 * float(np.nanmax(moved_m)) if np.isfinite(moved_m).any() else math.nan,
         centre_mm=tuple((1e3 * centre.centre_w2_m).tolist()),
         centre_residual_mm=1e3 * centre.residual_m,
-        angle_sd_deg=_median_joint_sd_deg(seen.tracks) if seen.tracks else _median_angle_sd_deg(session, seen.exercise),
+        angle_sd_deg=angle_sd_deg,
         tilt_deg=verdict.tilt_deg,
         distance_m=verdict.distance_m,
         residual_mm=float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan,
     )
-
-
-def _occluded_share(session: Session, time_s: FloatArray, within: Sequence[RepetitionResult]) -> float:
-    """Return the share of hidden markers, within repetitions if there are any: a rest hides none."""
-    inside = np.ones(len(time_s), dtype=bool)
-    if within:
-        inside = np.any([(time_s >= rep.start_s) & (time_s <= rep.end_s) for rep in within], axis=0)
-    seen = np.isfinite(session.markers.measured_px[inside, :, 0])
-    return float(np.mean(~seen)) if seen.size else math.nan
-
-
-def _forearm_movement_mm(time_s: FloatArray, centre: WristCentre) -> float:
-    """Return the largest movement of the wrist's centre, without noise."""
-    known = np.isfinite(centre.displacement_m)
-    if int(known.sum()) < 2:
-        return math.nan
-    moved = low_pass(resample_evenly(time_s, centre.displacement_m, known), STILLNESS_CUTOFF_HZ).value
-    return 1000.0 * float(np.nanmax(moved)) if np.isfinite(moved).any() else math.nan
-
-
-def _median_angle_sd_deg(session: Session, exercise: Exercise) -> float:
-    sds_deg = np.degrees(motion_estimate(session).angles_sd_rad)
-    columns = sds_deg if exercise.angle is None else sds_deg[:, [exercise.angle]]
-    known = columns[(np.asarray(session.status) == TrackStatus.TRACKED)[:, None] & np.isfinite(columns)]
-    return float(np.median(known)) if known.size else math.nan
-
-
-def _median_joint_sd_deg(tracks: Mapping[str, JointTrack]) -> float:
-    known = [track.visible_sd.value[track.visible_sd.is_finite] for track in tracks.values() if track.is_known]
-    return math.degrees(float(np.median(np.concatenate(known)))) if known else math.nan
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,7 +283,13 @@ def compute_session_results(
         "quality", lambda: assess_quality(seen, repetitions), RecordingQuality.without_data(len(session))
     )
     shares = attempts.compute("grades", lambda: compute_total_shares(rows, seen.exercise), ())
-    uncounted = attempts.compute("repetitions", lambda: _explain_no_repetitions(seen, trained), None)
+    uncounted: NoRepetitionReason | None = None
+    if trained is not None:
+        uncounted = attempts.compute(
+            "repetitions", lambda: explain_no_repetitions(trained.measured, trained.detected), None
+        )
+    elif seen.exercise.angle is not None or seen.exercise.joint in seen.tracks:
+        uncounted = "nothing_seen"
     task = (*compute_task_measures(own), *attempts.to_measures())
     pains = [(time_s, int(text)) for time_s, text in _events_of_kind(session, "pain") if text.isdigit()]
     return SessionResults(
@@ -355,10 +344,3 @@ def _events_of_kind(session: Session, kind: str) -> list[tuple[float, str]]:
     """Return times after the first frame and texts of events of a kind."""
     start_s = float(session.timestamp_s[0]) if len(session) else math.nan
     return [(event.time_s - start_s, event.text) for event in session.events if event.kind == kind]
-
-
-def _explain_no_repetitions(seen: MeasurableSession, trained: TrainedAngle | None) -> NoRepetitionReason | None:
-    """Explain why there is no repetition of an angle that the session has."""
-    if trained is not None:
-        return explain_no_repetitions(trained.measured, trained.detected)
-    return "nothing_seen" if seen.exercise.angle is not None or seen.exercise.joint in seen.tracks else None

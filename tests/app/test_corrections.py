@@ -31,7 +31,7 @@ from carpus.core.model.errors import (
 from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
 from carpus.core.records.backup import collect_sources
 from carpus.core.records.changes import delete_row
-from carpus.core.records.corrections import Corrections, PendingResult, _match_exclusions, compare_results
+from carpus.core.records.corrections import Corrections, PendingResult, compare_results, match_exclusions
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.retention import RecordRetention
@@ -44,7 +44,7 @@ from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.atomic_files import publish
 from carpus.core.session.reader import read_session
 from carpus.core.session.rewriting import rewrite_session
-from carpus.core.session.values import RepetitionRow, Repetitions
+from carpus.core.session.values import RepetitionRow
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.correct.flow import CorrectionFlow
@@ -618,16 +618,14 @@ def test_what_was_said_of_a_repetition_is_as_true_of_the_new_result(kept: Kept, 
         ([(0.0, 4.0)], [(4.0, 8.0)], set()),
     ],
 )
-def test_what_was_left_out_is_found_by_its_moments(
-    monkeypatch: pytest.MonkeyPatch, before: list[tuple[float, float]], after: list[tuple[float, float]],
-    left_out: set[int],
-) -> None:  # fmt: skip
-    def found(times_s: list[tuple[float, float]]) -> Repetitions:
+def test_match_exclusions_finds_repetitions_of_the_same_moments(
+    before: list[tuple[float, float]], after: list[tuple[float, float]], left_out: set[int]
+) -> None:
+    def rows(times_s: list[tuple[float, float]]) -> list[RepetitionRow]:
         unknown = dict.fromkeys(one.name for one in fields(RepetitionRow))
-        return Repetitions("", tuple(RepetitionRow(**{**unknown, "start_s": a, "end_s": b}) for a, b in times_s))  # type: ignore[arg-type]
+        return [RepetitionRow(**{**unknown, "start_s": a, "end_s": b}) for a, b in times_s]  # type: ignore[arg-type]
 
-    monkeypatch.setattr("carpus.core.records.corrections.compute_repetitions", found)
-    assert set(_match_exclusions(dict.fromkeys(range(len(before)), "pain"), before, after)) == left_out  # type: ignore[arg-type]
+    assert set(match_exclusions(dict.fromkeys(range(len(before)), "pain"), rows(before), rows(after))) == left_out
 
 
 def test_a_moment_is_the_spots_where_no_picture_was_kept(kept: Kept) -> None:
