@@ -57,7 +57,7 @@ def call_from_daemon() -> None:
 @pytest.mark.parametrize(
     "is_forked", [False, pytest.param(True, marks=pytest.mark.skipif("win32" in sys.platform, reason="no fork"))]
 )
-def test_child_has_settled_signals_and_threads(is_forked: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_child_process_resets_signals_and_threads(is_forked: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in BLAS_THREADS:
         monkeypatch.delenv(name, raising=False)
     child = ChildProcess(tell_state, name="test", is_forked=is_forked)
@@ -66,13 +66,13 @@ def test_child_has_settled_signals_and_threads(is_forked: bool, monkeypatch: pyt
     assert not child.is_alive
 
 
-def test_module_loads_nothing_large_before_signals_are_settled() -> None:
+def test_child_process_loads_work_after_signals_are_set() -> None:
     code = "import sys, carpus.core.platform.child_process; print({'h5py', 'numpy', 'PySide6'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.strip() == "set()"
 
 
-def test_child_that_ignores_its_end_is_killed() -> None:
+def test_child_process_ignoring_its_end_is_killed() -> None:
     child = ChildProcess(sleep_deaf, name="test")
     assert child.link.recv() == "deaf"
     child.terminate()
@@ -80,7 +80,7 @@ def test_child_that_ignores_its_end_is_killed() -> None:
     assert "SIGKILL" in child.describe_exit()
 
 
-def test_child_ends_with_its_owner() -> None:
+def test_child_process_ends_with_its_owner() -> None:
     owner = (
         "from carpus.core.platform.child_process import ChildProcess\n"
         "child = ChildProcess('tests.test_child_process:sleep_until_owner_goes', name='test')\n"
@@ -97,7 +97,7 @@ def test_child_ends_with_its_owner() -> None:
         time.sleep(0.02)
 
 
-def test_call_in_child_gives_value_fault_and_death() -> None:
+def test_call_in_child_returns_value_or_raises() -> None:
     assert call_in_child(len, "four") == 4
     with pytest.raises(ValueError, match="not today"):
         call_in_child(refuse)
@@ -107,7 +107,7 @@ def test_call_in_child_gives_value_fault_and_death() -> None:
         call_in_child(time.sleep, 120.0, limit_s=0.1)
 
 
-def test_daemon_can_have_children() -> None:
+def test_child_process_starts_from_daemon() -> None:
     """A worker of a pool, as researchers use them, may read sessions."""
     process = multiprocessing.get_context("spawn").Process(target=call_from_daemon, daemon=True)
     process.start()

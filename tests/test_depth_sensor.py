@@ -25,7 +25,7 @@ from carpus.core.simulation.sensor import window_noise
 Z_M = np.array([0.5, 0.7, 1.2])
 
 
-def test_the_laws_are_those_of_their_sources() -> None:
+def test_noise_models_match_their_sources() -> None:
     """Half a step of 1/8 pixel; z^2 over focal length and baseline; a millimetre at a metre."""
     assert PRIMESENSE.reading_sd_m(Z_M) == pytest.approx(1.425e-3 * Z_M**2, rel=1e-15)
     for sensor, baseline_m, focal_px in ((D415, 0.055, 1004.0), (D435, 0.05, 424.0), (D455, 0.095, 424.0)):
@@ -40,7 +40,7 @@ def test_the_laws_are_those_of_their_sources() -> None:
     assert dataclasses.replace(D435, origin=ASSUMED).with_focal(212.0).origin == ASSUMED, "no source has stated it"
 
 
-def test_neighbours_average_only_where_they_are_independent() -> None:
+def test_mean_sd_averages_only_independent_readings() -> None:
     many = np.full(3, 400.0)
     assert np.array_equal(PRIMESENSE.mean_sd_m(Z_M, many), PRIMESENSE.reading_sd_m(Z_M))
     assert AZURE_KINECT.mean_sd_m(Z_M, many) == pytest.approx(AZURE_KINECT.reading_sd_m(Z_M) / 10.0)
@@ -48,7 +48,7 @@ def test_neighbours_average_only_where_they_are_independent() -> None:
 
 
 @pytest.mark.parametrize("sensor", SENSORS.values(), ids=SENSORS)
-def test_every_sensor_goes_through_a_file(sensor: DepthSensor) -> None:
+def test_parse_sensor_restores_every_sensor(sensor: DepthSensor) -> None:
     said = json.loads(json.dumps(sensor.to_dict()))
     assert parse_sensor(said) == sensor
     assert parse_sensor(said | {"colour_of_its_case": "grey"}) == sensor
@@ -75,13 +75,13 @@ def test_every_sensor_goes_through_a_file(sensor: DepthSensor) -> None:
     ],
     ids=str,
 )
-def test_what_is_no_sensor_is_refused(wrong: dict[str, object]) -> None:
+def test_parse_sensor_invalid_value_raises(wrong: dict[str, object]) -> None:
     with pytest.raises(ValueError, match="figures"):
         parse_sensor(dataclasses.asdict(D435) | wrong)
 
 
 @pytest.mark.parametrize("core_px", [3, 7, 11, 21])
-def test_what_stays_of_a_disc_is_the_mean_of_a_windows_error_over_its_middle(core_px: int) -> None:
+def test_disc_bias_is_mean_of_window_error(core_px: int) -> None:
     sensor = dataclasses.replace(D435, patch_px=11.0)
     noise = window_noise(np.random.default_rng(5), (600, 600), 11)
     found = float(np.std(cv2.blur(noise, (core_px, core_px))[40:-40, 40:-40]))

@@ -61,7 +61,7 @@ def system(tmp_path: Path) -> System:
     return made
 
 
-def test_a_partition_is_plain_and_one_that_luks_opened_is_encrypted(system: System) -> None:
+def test_linux_encryption_plain_and_luks_partition(system: System) -> None:
     assert system.state() == "plain"
     system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f-home", on=["sda2"])
     system.mount("254:0", "/home", "ext4", "/dev/mapper/home")
@@ -69,7 +69,7 @@ def test_a_partition_is_plain_and_one_that_luks_opened_is_encrypted(system: Syst
     assert system.state(Path("/srv/data")) == "plain", "another mount"
 
 
-def test_volumes_are_encrypted_where_everything_under_them_is(system: System) -> None:
+def test_linux_encryption_volume_needs_all_devices(system: System) -> None:
     system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f-all", on=["sda2"])
     system.device("dm-1", "254:1", uuid="LVM-abcdef", on=["dm-0"])
     system.mount("254:1", "/home", "xfs", "/dev/mapper/vg-home")
@@ -79,7 +79,7 @@ def test_volumes_are_encrypted_where_everything_under_them_is(system: System) ->
     assert system.state() == "plain", "half of it lies on a plain disk"
 
 
-def test_btrfs_shows_no_number_and_is_found_by_the_name_of_its_device(system: System) -> None:
+def test_linux_encryption_btrfs_uses_device_name(system: System) -> None:
     system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f-all", on=["sda2"])
     (system.root / "dev/mapper/luks-0c2f").symlink_to("../dm-0")
     system.mount("0:32", "/home", "btrfs", "/dev/mapper/luks-0c2f")
@@ -88,7 +88,7 @@ def test_btrfs_shows_no_number_and_is_found_by_the_name_of_its_device(system: Sy
     assert system.state() == "plain"
 
 
-def test_a_place_with_a_blank_is_found_and_of_two_mounts_on_one_place_the_later(system: System) -> None:
+def test_linux_encryption_mount_with_blank_or_twice(system: System) -> None:
     system.device("dm-0", "254:0", uuid="CRYPT-LUKS2-0c2f", on=["sda2"])
     system.mount("254:0", "/home/ada/Carpus\\040data", "ext4", "/dev/mapper/x")
     assert system.state() == "encrypted"
@@ -96,13 +96,13 @@ def test_a_place_with_a_blank_is_found_and_of_two_mounts_on_one_place_the_later(
     assert system.state() == "plain"
 
 
-def test_what_lies_elsewhere_is_not_known(system: System) -> None:
+def test_linux_encryption_network_mount_is_unknown(system: System) -> None:
     for kind, source in (("overlay", "overlay"), ("nfs4", "server:/share"), ("cifs", "//server/share"), ("zfs", "p/x")):
         system.mount("0:44", "/home", kind, source)
         assert system.state() == "unknown", kind
 
 
-def test_a_device_that_is_not_there_a_file_as_disk_and_no_system_at_all_are_not_known(system: System) -> None:
+def test_linux_encryption_missing_device_is_unknown(system: System) -> None:
     system.mount("9:9", "/home", "ext4", "/dev/sdz9")
     assert system.state() == "unknown"
     system.device("loop0", "7:0")
@@ -111,12 +111,12 @@ def test_a_device_that_is_not_there_a_file_as_disk_and_no_system_at_all_are_not_
     assert system.state() == "unknown"
 
 
-def test_a_file_system_that_encrypts_by_itself(system: System) -> None:
+def test_linux_encryption_encrypting_file_system(system: System) -> None:
     system.mount("0:50", "/home/ada", "ecryptfs", "/home/.ecryptfs/ada")
     assert system.state() == "encrypted"
 
 
-def test_bitlocker_and_filevault() -> None:
+def test_encryption_of_bitlocker_and_filevault() -> None:
     answers = {"1\r\n": "encrypted", "2\n": "plain", "3\n": "plain", "6\n": "unknown", "": "unknown"}
     for said, state in answers.items():
         assert detect_bitlocker(Path("C:/data"), lambda _, said=said: said) == state  # type: ignore[misc]
@@ -127,11 +127,11 @@ def test_bitlocker_and_filevault() -> None:
     assert detect_filevault(root, lambda command: " ".join(command)) == "unknown"
 
 
-def test_this_computer_answers_without_a_fault(tmp_path: Path) -> None:
+def test_detect_encryption_on_this_computer_raises_nothing(tmp_path: Path) -> None:
     assert detect_encryption(tmp_path / "not there yet") in ("encrypted", "plain", "unknown")
 
 
-def test_only_an_encrypted_disk_is_good_and_every_other_has_a_remedy() -> None:
+def test_check_disk_encryption_only_encrypted_is_good() -> None:
     assert check_disk_encryption("encrypted").state == "good"
     for state in ("plain", "unknown"):
         finding = check_disk_encryption(state)  # type: ignore[arg-type]
@@ -162,7 +162,7 @@ def folder(major: int, minor: int) -> Path:
     return SimpleNamespace(stat=lambda: SimpleNamespace(st_dev=os.makedev(major, minor)))  # type: ignore[return-value]
 
 
-def test_partitions_and_what_lies_on_them_are_one_disk(devices: Path) -> None:
+def test_is_same_disk_of_partitions_and_volumes(devices: Path) -> None:
     first, second, encrypted, other, unknown = folder(8, 1), folder(8, 2), folder(253, 0), folder(8, 17), folder(0, 40)
     assert is_same_disk(first, second, devices)
     assert is_same_disk(first, encrypted, devices)
@@ -172,7 +172,7 @@ def test_partitions_and_what_lies_on_them_are_one_disk(devices: Path) -> None:
     assert is_same_disk(unknown, unknown, devices)
 
 
-def test_without_a_table_of_disks_the_file_system_decides(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_is_same_disk_without_table_uses_file_system(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(disks, "os", SimpleNamespace())
     (tmp_path / "a").mkdir()
     assert is_same_disk(tmp_path, tmp_path / "a")

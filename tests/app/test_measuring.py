@@ -34,7 +34,7 @@ from carpus.core.session.values import Session, new_header
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.smoother.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
-from tests.pipeline.live_fakes import HeldSource, wait_until
+from tests.pipeline.live_fakes import ControlledSource, wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
 
@@ -163,7 +163,7 @@ def test_the_walk_keeps_no_steps() -> None:
 
 def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file(tmp_path: Path) -> None:
     """Said in the window's thread; tracked again from what the file holds, the session comes out as it was measured."""
-    source, path, begun_at, said_at = HeldSource(), tmp_path / "session.h5", 10, 40
+    source, path, begun_at, said_at = ControlledSource(), tmp_path / "session.h5", 10, 40
     settings = TrackSettings(smooth=False)
     learnt = NeutralNoise(0.15, 1.0, -np.inf)
     right = calibration()

@@ -44,7 +44,7 @@ INVERSE = replace(CAMERA, distortion_model="inverse_brown_conrady")
 
 
 @pytest.mark.parametrize("camera", [CAMERA, WIDE, INVERSE], ids=lambda camera: camera.distortion_model)
-def test_a_written_camera_is_read_back_exactly(tmp_path: Path, camera: Camera) -> None:
+def test_camera_info_written_file_is_read_back_exactly(tmp_path: Path, camera: Camera) -> None:
     path = tmp_path / "camera_info.yaml"
     write_camera_info(path, camera, registered=True)
     info = read_camera_info(path)
@@ -52,7 +52,7 @@ def test_a_written_camera_is_read_back_exactly(tmp_path: Path, camera: Camera) -
     assert (info.registered, info.mirrored) == (True, None)
 
 
-def test_the_sensor_is_read_back_or_taken_for_a_primesense(tmp_path: Path) -> None:
+def test_camera_info_without_sensor_assumes_primesense(tmp_path: Path) -> None:
     path, named, silent = (tmp_path / name for name in ("a.yaml", "b.yaml", "c.yaml"))
     write_camera_info(path, replace(CAMERA, sensor=D435.with_focal(600.0)))
     assert read_camera_info(path).camera.sensor == D435.with_focal(600.0)
@@ -67,7 +67,7 @@ def test_the_sensor_is_read_back_or_taken_for_a_primesense(tmp_path: Path) -> No
             read_camera_info(named)
 
 
-def test_a_damaged_calibration_is_told(tmp_path: Path) -> None:
+def test_camera_info_damaged_calibration_raises(tmp_path: Path) -> None:
     path = tmp_path / "camera_info.yaml"
     write_camera_info(path, CAMERA, calibration=StoredCalibration("77", "2026-11-20T09:00:00+00:00", pictures=12))
     whole = path.read_text()
@@ -82,7 +82,7 @@ def test_a_damaged_calibration_is_told(tmp_path: Path) -> None:
             read_camera_info(path)
 
 
-def test_the_written_file_has_the_fields_of_ros(tmp_path: Path) -> None:
+def test_camera_info_written_file_has_ros_fields(tmp_path: Path) -> None:
     path = tmp_path / "camera_info.yaml"
     write_camera_info(path, CAMERA)
     content = yaml.safe_load(path.read_text())
@@ -92,7 +92,7 @@ def test_the_written_file_has_the_fields_of_ros(tmp_path: Path) -> None:
     assert np.reshape(content["projection_matrix"]["data"], (3, 4))[0].tolist() == [570.3, 0.0, 314.2, 0.0]
 
 
-def test_a_file_of_ros_is_read(tmp_path: Path) -> None:
+def test_camera_info_ros_file_is_read(tmp_path: Path) -> None:
     path = tmp_path / "camera_info.yaml"
     path.write_text(ROS_FILE)
     info = read_camera_info(path)
@@ -121,7 +121,7 @@ def test_a_file_of_ros_is_read(tmp_path: Path) -> None:
         ("image_width: 640", "\timage_width: 640", "YAML"),
     ],
 )
-def test_a_wrong_file_names_what_is_wrong(tmp_path: Path, old: str, new: str, fact: str) -> None:
+def test_camera_info_invalid_value_is_named_in_fault(tmp_path: Path, old: str, new: str, fact: str) -> None:
     path = tmp_path / "camera_info.yaml"
     assert old in ROS_FILE
     path.write_text(ROS_FILE.replace(old, new))
@@ -134,14 +134,14 @@ def test_a_wrong_file_names_what_is_wrong(tmp_path: Path, old: str, new: str, fa
 @pytest.mark.parametrize(
     "content", [b"", b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00", b"[" * 100_000, b"#" * 2_000_000]
 )
-def test_something_else_is_no_camera_file(tmp_path: Path, content: bytes) -> None:
+def test_camera_info_other_content_raises(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "camera_info.yaml"
     path.write_bytes(content)
     with pytest.raises(CameraFileUnreadable):
         read_camera_info(path)
 
 
-def test_a_camera_file_is_never_overwritten(tmp_path: Path) -> None:
+def test_camera_info_existing_file_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "camera_info.yaml"
     path.write_text("mine")
     with pytest.raises(OutputExists):
@@ -151,7 +151,7 @@ def test_a_camera_file_is_never_overwritten(tmp_path: Path) -> None:
         write_camera_info(tmp_path / "nowhere" / "camera_info.yaml", CAMERA)
 
 
-def test_the_default_camera_sees_the_same_field_at_every_size() -> None:
+def test_rescale_camera_keeps_field_of_view() -> None:
     assert rescale_camera(DEFAULT_CAMERA, (640, 480)) == DEFAULT_CAMERA
     half = rescale_camera(DEFAULT_CAMERA, (320, 240))
     assert half is not None

@@ -21,7 +21,7 @@ from carpus.core.model.installation import Finding
 from carpus.core.model.types import Frame
 
 
-def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Path) -> None:
+def test_examine_with_dummy_camera_checks_everything(tmp_path: Path) -> None:
     found = examine(tmp_path / "data", camera_uri="xtion:Dummy", measure_s=0.5)
     findings = {finding.name: finding for finding in found}
     assert list(findings) == [
@@ -36,7 +36,7 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
     assert not (tmp_path / "data").exists()
 
 
-def test_a_remedy_wherever_something_is_wrong_and_without_a_camera_nothing_is_measured(tmp_path: Path) -> None:
+def test_examine_without_camera_gives_remedies(tmp_path: Path) -> None:
     findings = examine(tmp_path)
     for finding in findings:
         assert (finding.state == "good") == (finding.remedy == ""), finding
@@ -44,12 +44,12 @@ def test_a_remedy_wherever_something_is_wrong_and_without_a_camera_nothing_is_me
     assert "Pictures" not in [finding.name for finding in findings]
 
 
-def test_old_python() -> None:
+def test_check_python_old_version_is_bad() -> None:
     assert doctor.check_python((3, 10, 9)).state == "bad"
     assert doctor.check_python((3, 11, 0)).state == "good"
 
 
-def test_missing_packages() -> None:
+def test_check_packages_missing_one_is_bad() -> None:
     finding = doctor.check_packages(("numpy", "a-package-nobody-has"))
     assert finding == Finding(
         "Packages",
@@ -59,13 +59,13 @@ def test_missing_packages() -> None:
     )
 
 
-def test_the_window_library_that_aborts(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check_window_aborting_qt_is_bad(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(doctor, "version", lambda name: "6.12.0")
     monkeypatch.setattr(doctor.sys, "version_info", (3, 11, 7))
     assert doctor.check_window().state == "bad"
 
 
-def test_a_folder_that_others_can_read(tmp_path: Path) -> None:
+def test_check_data_folder_readable_by_others_warns(tmp_path: Path) -> None:
     folder = tmp_path / "data"
     folder.mkdir(mode=0o755)
     folder.chmod(0o755)
@@ -76,18 +76,18 @@ def test_a_folder_that_others_can_read(tmp_path: Path) -> None:
     assert doctor.check_data_folder(folder).state == "good"
 
 
-def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
+def test_check_data_folder_unwritable_is_bad(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     assert doctor.check_data_folder(tmp_path / "file" / "data").state == "bad"
 
 
-def test_a_full_disk(tmp_path: Path) -> None:
+def test_check_disk_space_low_warns(tmp_path: Path) -> None:
     assert doctor.check_disk_space(tmp_path, 1_000_000_000).state == "warning"
     finding = doctor.check_disk_space(tmp_path, 60_000_000_000)
     assert (finding.state, finding.observation) == ("good", "60.0 GB free, about 545 minutes with pictures")
 
 
-def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check_driver_missing_library_is_bad(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing() -> None:
         raise DriverMissing("libOpenNI2.so.0", "cannot open shared object file")
 
@@ -97,7 +97,7 @@ def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "libopenni2-0" in finding.remedy
 
 
-def test_rules_of_the_system(tmp_path: Path) -> None:
+def test_check_udev_rules_finds_vendor_and_product(tmp_path: Path) -> None:
     assert doctor.check_udev_rules(openni2_camera.KIND, (tmp_path / "none", tmp_path)).state == "warning"
     (tmp_path / "60-camera.rules").write_text('SUBSYSTEM=="usb", ATTR{idVendor}=="1D27", MODE="0666"\n')
     assert doctor.check_udev_rules(openni2_camera.KIND, (tmp_path,)).state == "good"
@@ -110,7 +110,7 @@ def test_rules_of_the_system(tmp_path: Path) -> None:
     ("speed", "can_open", "claimed", "state"),
     [(480, True, False, "good"), (480, False, False, "bad"), (480, True, True, "warning"), (12, True, False, "bad")],
 )
-def test_the_camera_on_the_bus(speed: int, can_open: bool, claimed: bool, state: str) -> None:
+def test_check_camera_reports_rights_use_and_speed(speed: int, can_open: bool, claimed: bool, state: str) -> None:
     camera = UsbCamera("Asus Xtion Pro Live", "1d27", "0601", Path("/dev/bus/usb/001/007"), speed, can_open, claimed)
     finding = doctor.check_camera(openni2_camera.KIND, camera)
     assert finding.state == state
@@ -133,7 +133,7 @@ def frames(period_s: float, *, missing: int = 0, depth: bool = True) -> list[Fra
         ([], "bad"),
     ],
 )
-def test_what_comes_from_the_camera(some: list[Frame], state: str) -> None:
+def test_check_frames_reports_rate_gaps_and_depth(some: list[Frame], state: str) -> None:
     assert doctor.check_frames(some).state == state
 
 
@@ -145,7 +145,9 @@ def test_what_comes_from_the_camera(some: list[Frame], state: str) -> None:
         ({"registered": "by the driver", "clock": "computer"}, ["good", "good", "warning"]),
     ],
 )
-def test_registration_mirror_and_clock(settings: dict[str, str], states: list[str]) -> None:
+def test_check_camera_settings_reports_registration_mirror_and_clock(
+    settings: dict[str, str], states: list[str]
+) -> None:
     info = SourceInfo("a camera", DEFAULT_CAMERA, True, None, 30.0, settings)
     some = frames(1 / 30)
     findings = doctor.check_camera_settings(info, some, [frame.timestamp_s for frame in some])
@@ -153,12 +155,12 @@ def test_registration_mirror_and_clock(settings: dict[str, str], states: list[st
     assert [finding.state for finding in findings] == states
 
 
-def test_a_clock_that_runs_wrong() -> None:
+def test_check_clock_drift_warns() -> None:
     assert doctor.check_clock(3.0, 3.1, "camera").state == "good"
     assert doctor.check_clock(1.5, 3.0, "camera").state == "warning"
 
 
-def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check_open_camera_fault_is_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
     def busy(*_: object, **__: object) -> None:
         raise CameraBusy("camera", "Failed to set USB interface!")
 
@@ -167,7 +169,7 @@ def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None
     assert (finding.state, finding.remedy) == ("bad", "Close the other program that uses the camera.")
 
 
-def test_a_camera_of_one_kind_excuses_what_another_lacks(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check_drivers_unneeded_library_is_no_obstacle(monkeypatch: pytest.MonkeyPatch) -> None:
     def lacking(_asks_version: bool, _wanted: bool) -> Finding:
         return Finding("Driver", "bad", "not found", "Install it.")
 

@@ -32,7 +32,7 @@ def assert_whole(frames: list[Frame], count: int) -> None:
     assert not any(frame.color_rgb.flags.writeable for frame in frames)
 
 
-def test_every_frame_in_order_again_in_a_new_walk_which_ends_the_one_before() -> None:
+def test_file_player_new_pass_ends_the_one_before() -> None:
     source = PlayedSource(30)
     first = source.frames()
     next(first)
@@ -43,7 +43,7 @@ def test_every_frame_in_order_again_in_a_new_walk_which_ends_the_one_before() ->
     assert list(source.frames()) == []
 
 
-def test_a_player_that_is_closed_while_its_process_is_made_leaves_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_file_player_closed_while_opening_leaves_no_process(monkeypatch: pytest.MonkeyPatch) -> None:
     closed: list[bool] = []
 
     class Process:
@@ -63,7 +63,7 @@ def test_a_player_that_is_closed_while_its_process_is_made_leaves_none(monkeypat
 
 
 @pytest.mark.parametrize(("blow", "detail"), [(signal.SIGSEGV, "SIGSEGV"), (signal.SIGSTOP, "no answer")])
-def test_a_library_that_dies_or_hangs_is_a_fault(
+def test_file_player_dead_or_hanging_library_raises(
     blow: signal.Signals, detail: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     source = PlayedSource(60)
@@ -78,7 +78,7 @@ def test_a_library_that_dies_or_hangs_is_a_fault(
     assert len(list(source.frames())) == 60
 
 
-def test_closing_ends_a_walk_of_another_thread() -> None:
+def test_file_player_close_ends_pass_of_another_thread() -> None:
     source = PlayedSource(60)
     frames = source.frames()
     next(frames)
@@ -114,7 +114,7 @@ def exists(name: str) -> bool:
     return True
 
 
-def test_nothing_is_left_behind(memories: list[str]) -> None:
+def test_file_player_leaves_no_process_or_memory(memories: list[str]) -> None:
     source = PlayedSource(30)
     next(source.frames())
     frames = source.frames()
@@ -128,7 +128,7 @@ def test_nothing_is_left_behind(memories: list[str]) -> None:
         os.kill(pid, 0)
 
 
-def test_the_capture_process_does_not_outlive_its_owner(tmp_path: Path) -> None:
+def test_capture_process_ends_with_its_owner(tmp_path: Path) -> None:
     program = """
 import time
 from tests.capture.played import PlayedSource
@@ -159,7 +159,7 @@ if __name__ == "__main__":
     pytest.fail("the capture process lives on")
 
 
-def test_a_process_that_cannot_start_leaves_no_memory(memories: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_capture_process_failed_start_leaves_no_memory(memories: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> None:
         raise OSError("no more processes")
 

@@ -27,7 +27,7 @@ class Camera:
         pass
 
 
-def test_only_a_camera_without_a_number_takes_the_name_of_its_kind(tmp_path: Path) -> None:
+def test_given_name_applies_only_without_serial(tmp_path: Path) -> None:
     plain, numbered = Camera("Xtion"), Camera("Xtion", serial="77")
     assert with_given_name(plain, tmp_path) is plain
     save_camera_name(tmp_path, "Xtion", "  room\n3 ")
@@ -42,14 +42,14 @@ def test_only_a_camera_without_a_number_takes_the_name_of_its_kind(tmp_path: Pat
 
 
 @pytest.mark.parametrize("content", ["", "[1]", '{"Xtion": 3}', '{"Xtion": "\\n"}', "\x00", "[" * 100_000])
-def test_a_damaged_list_of_names_keeps_nobody_from_measuring(tmp_path: Path, content: str) -> None:
+def test_given_name_damaged_file_is_ignored(tmp_path: Path, content: str) -> None:
     (tmp_path / "cameras").mkdir()
     (tmp_path / "cameras" / "names.json").write_text(content)
     plain = Camera("Xtion")
     assert with_given_name(plain, tmp_path) is plain
 
 
-def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
+def test_given_name_unwritable_folder_raises(tmp_path: Path) -> None:
     (tmp_path / "cameras").write_text("a file")
     with pytest.raises(OutputNotWritable):
         save_camera_name(tmp_path, "Xtion", "room 3")

@@ -43,7 +43,7 @@ def check(tmp_path: Path, data: bytes) -> CarpusFault | None:
     return None
 
 
-def test_contents_of_a_sound_file(tmp_path: Path) -> None:
+def test_oni_contents_complete_file_is_read(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 5, color="jpeg", depth_unit_m=1e-4, mirrored=True)
     found = read_contents(path)
     assert found.depth is not None
@@ -61,15 +61,15 @@ def test_contents_of_a_sound_file(tmp_path: Path) -> None:
     assert found.version == "1.0.1.0"
 
 
-def test_colour_alone_is_enough(tmp_path: Path) -> None:
+def test_oni_contents_without_depth_is_read(tmp_path: Path) -> None:
     assert read_contents(write_sample(tmp_path / "a.oni", depth=None)).depth is None
 
 
-def test_what_follows_the_end_does_not_matter(tmp_path: Path, sound: bytes) -> None:
+def test_oni_contents_data_after_end_are_ignored(tmp_path: Path, sound: bytes) -> None:
     assert check(tmp_path, sound + bytes(100_000)) is None
 
 
-def test_missing_and_folder(tmp_path: Path) -> None:
+def test_oni_contents_missing_file_or_folder_raises(tmp_path: Path) -> None:
     for path in (tmp_path / "none.oni", tmp_path):
         with pytest.raises(RecordingMissing):
             read_contents(path)
@@ -158,7 +158,7 @@ DAMAGED = {
 
 
 @pytest.mark.parametrize("damage", DAMAGED.values(), ids=DAMAGED.keys())
-def test_damage_is_refused(tmp_path: Path, sound: bytes, damage: Damage) -> None:
+def test_oni_contents_damaged_file_raises(tmp_path: Path, sound: bytes, damage: Damage) -> None:
     data = damage(sound)
     assert data != sound
     fault = check(tmp_path, data)
@@ -180,32 +180,32 @@ UNSUPPORTED = {
 
 
 @pytest.mark.parametrize("damage", UNSUPPORTED.values(), ids=UNSUPPORTED.keys())
-def test_other_kinds_of_recordings_are_named(tmp_path: Path, sound: bytes, damage: Damage) -> None:
+def test_oni_contents_unsupported_recording_is_named(tmp_path: Path, sound: bytes, damage: Damage) -> None:
     assert isinstance(check(tmp_path, damage(sound)), RecordingUnsupported)
 
 
 @pytest.mark.parametrize("data", [b"", b"NI10", b"NI10" + bytes(19), b"RIFF" + bytes(200), bytes(5000)])
-def test_other_files_are_not_recordings(tmp_path: Path, data: bytes) -> None:
+def test_oni_contents_other_file_raises(tmp_path: Path, data: bytes) -> None:
     assert isinstance(check(tmp_path, data), RecordingUnreadable)
 
 
-def test_no_pictures_at_all(tmp_path: Path) -> None:
+def test_oni_contents_without_images_raises(tmp_path: Path) -> None:
     assert isinstance(check(tmp_path, write_sample(tmp_path / "none.oni", 0).read_bytes()), RecordingEmpty)
 
 
-def test_times_that_go_back(tmp_path: Path, sound: bytes) -> None:
+def test_oni_contents_unordered_times_raise(tmp_path: Path, sound: bytes) -> None:
     backwards = in_record(RecordType.NEW_DATA, 28, struct.pack("<Q", 1000), 2, IMAGE_NODE)(sound)
     fault = check(tmp_path, backwards)
     assert isinstance(fault, TimesUnordered)
     assert fault.detail == "image picture 3"
 
 
-def test_damage_inside_a_picture_passes(tmp_path: Path, sound: bytes) -> None:
+def test_oni_contents_damaged_image_is_accepted(tmp_path: Path, sound: bytes) -> None:
     payload = find(sound, RecordType.NEW_DATA, 3, IMAGE_NODE).payload
     assert check(tmp_path, patched(sound, payload.start, b"\xa5" * (payload.stop - payload.start))) is None
 
 
-def test_settings_that_change_on_the_way(tmp_path: Path, sound: bytes) -> None:
+def test_oni_contents_changing_property_raises(tmp_path: Path, sound: bytes) -> None:
     start, _, _ = position_of_property(sound, IMAGE_NODE, oni.MIRROR)
     (size,) = struct.unpack_from("<I", sound, start + 12)
     again = sound[start : start + size]

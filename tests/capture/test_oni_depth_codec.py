@@ -71,27 +71,27 @@ def assert_comes_back(picture: NDArray[np.uint16]) -> None:
 
 
 @pytest.mark.parametrize("picture", pictures(), ids=lambda picture: f"{picture.shape}")
-def test_a_decoder_written_from_the_description_gives_the_picture_back(picture: NDArray[np.uint16]) -> None:
+def test_oni_depth_encoded_image_matches_independent_decoder(picture: NDArray[np.uint16]) -> None:
     assert_comes_back(picture)
 
 
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.tuples(st.integers(0, 400), st.integers(1, 40)), min_size=1, max_size=40))
-def test_any_runs_of_values_come_back(runs: list[tuple[int, int]]) -> None:
+def test_oni_depth_any_runs_are_decoded(runs: list[tuple[int, int]]) -> None:
     assert_comes_back(np.repeat([value for value, _ in runs], [length for _, length in runs]).astype(np.uint16)[None])
 
 
-def test_unchanged_pixels_take_one_byte_for_thirty() -> None:
+def test_oni_depth_unchanged_pixels_take_one_byte_for_thirty() -> None:
     flat = encode_depth(np.full((1, 3001), 700, np.uint16))
     assert len(flat) == 2 + 2 + 2 + 100
 
 
-def test_more_values_than_an_index_can_name_are_refused() -> None:
+def test_oni_depth_too_many_values_raise() -> None:
     with pytest.raises(ValueError, match="32769"):
         encode_depth(np.arange(32769, dtype=np.uint16)[None])
 
 
-def test_without_a_table_the_indices_are_the_depths() -> None:
+def test_oni_depth_without_table_decodes_values() -> None:
     values = np.array([[0, 1, 2, 3, 9, 300, 3, 3, 3, 3, 3, 0]], np.uint16)
     table = np.arange(301, dtype=np.uint16)
     with_all = encode_depth(np.append(table, values)[None])
@@ -100,7 +100,7 @@ def test_without_a_table_the_indices_are_the_depths() -> None:
     assert np.array_equal(decode_depth(without, Codec.DEPTH_PLAIN, (1, 313)), np.append(table, values)[None])
 
 
-def test_depth_that_is_not_packed() -> None:
+def test_oni_depth_raw_is_decoded() -> None:
     picture = pictures()[3]
     read = decode_depth(picture.astype("<u2").tobytes(), Codec.RAW, (40, 50))
     assert np.array_equal(read, picture)  # type: ignore[arg-type]
@@ -109,12 +109,12 @@ def test_depth_that_is_not_packed() -> None:
 
 @settings(max_examples=300, deadline=None)
 @given(st.binary(max_size=300), st.sampled_from([Codec.DEPTH_TABLE, Codec.DEPTH_PLAIN, Codec.RAW]))
-def test_any_bytes_are_a_picture_or_none(data: bytes, codec: bytes) -> None:
+def test_oni_depth_any_bytes_give_image_or_none(data: bytes, codec: bytes) -> None:
     read = decode_depth(data, codec, (4, 5))
     assert read is None or read.shape == (4, 5)
 
 
 @pytest.mark.parametrize("lost", [1, 2, 3, 40])
-def test_a_picture_cut_short_is_none(lost: int) -> None:
+def test_oni_depth_truncated_is_none(lost: int) -> None:
     picture = pictures()[3]
     assert decode_depth(encode_depth(picture)[:-lost], Codec.DEPTH_TABLE, (40, 50)) is None

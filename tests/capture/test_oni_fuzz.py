@@ -100,7 +100,7 @@ def play(number: int, sound: bytes, folder: Path) -> str:
 
 
 @pytest.mark.timeout(900)
-def test_no_mutated_file_takes_carpus_along(tmp_path: Path) -> None:
+def test_oni_source_mutated_file_raises_only_faults(tmp_path: Path) -> None:
     sound = [
         write_sample(tmp_path / "raw.oni", 4).read_bytes(),
         write_sample(tmp_path / "jpeg.oni", 4, color="jpeg").read_bytes(),

@@ -67,7 +67,7 @@ def assert_whole(frames: list[Frame], count: int) -> None:
         assert frame.color_rgb.flags.c_contiguous
 
 
-def test_every_frame_in_order_again_and_again(tmp_path: Path) -> None:
+def test_oni_source_frames_can_be_repeated(tmp_path: Path) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 20))
     for _ in range(2):
         assert_whole(list(source.frames()), 20)
@@ -77,13 +77,13 @@ def test_every_frame_in_order_again_and_again(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("depth", ["raw", "table"])
-def test_either_packing_of_depth_is_exact(tmp_path: Path, depth: str) -> None:
+def test_oni_source_both_depth_codecs_are_lossless(tmp_path: Path, depth: str) -> None:
     frames, told = play(write_sample(tmp_path / "a.oni", 4, depth=depth))  # type: ignore[arg-type]
     assert_whole(frames, 4)
     assert told == []
 
 
-def test_colour_as_jpeg_is_near(tmp_path: Path) -> None:
+def test_oni_source_jpeg_colour_is_near(tmp_path: Path) -> None:
     frames, _ = play(write_sample(tmp_path / "a.oni", 4, color="jpeg"))
     for number, frame in enumerate(frames, start=1):
         error = np.abs(frame.color_rgb.astype(int) - color_picture(number).astype(int))
@@ -91,7 +91,7 @@ def test_colour_as_jpeg_is_near(tmp_path: Path) -> None:
         assert np.array_equal(frame.depth_raw, depth_picture(number))
 
 
-def test_a_recording_without_depth(tmp_path: Path) -> None:
+def test_oni_source_without_depth_is_read(tmp_path: Path) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 3, depth=None))
     assert not source.info.has_depth
     assert [frame.depth_raw for frame in source.frames()] == [None, None, None]
@@ -100,17 +100,17 @@ def test_a_recording_without_depth(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "name", ["with spaces.oni", "poignet gauche – été.oni", "запястье.oni", "手首の記録.oni", "مِعصم.oni", "🤚.oni"]
 )
-def test_names_in_any_script(tmp_path: Path, name: str) -> None:
+def test_oni_source_path_in_any_script_is_read(tmp_path: Path, name: str) -> None:
     assert_whole(play(write_sample(tmp_path / name, 3))[0], 3)
 
 
-def test_a_very_long_path(tmp_path: Path) -> None:
+def test_oni_source_long_path_is_read(tmp_path: Path) -> None:
     folder = tmp_path / ("a" * 120) / ("b" * 120) / ("c" * 120)
     folder.mkdir(parents=True)
     assert_whole(play(write_sample(folder / "take.oni", 2))[0], 2)
 
 
-def test_facts_about_a_recording(tmp_path: Path) -> None:
+def test_oni_source_states_source_info(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 5)
     told: list[CarpusFault] = []
     info = OniSource(path, notice=told.append).info
@@ -123,7 +123,7 @@ def test_facts_about_a_recording(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("registered", "expected"), [(True, []), (False, [DepthNotRegistered])])
-def test_the_sidecar_is_believed(tmp_path: Path, registered: bool, expected: list[type[CarpusFault]]) -> None:
+def test_oni_source_uses_sidecar(tmp_path: Path, registered: bool, expected: list[type[CarpusFault]]) -> None:
     path = write_sample(tmp_path / "a.oni", 2)
     write_camera_info(sidecar_path(path), CAMERA, registered=registered)
     told: list[CarpusFault] = []
@@ -134,7 +134,7 @@ def test_the_sidecar_is_believed(tmp_path: Path, registered: bool, expected: lis
     assert all(frame.depth_raw is not None for frame in source.frames())
 
 
-def test_a_sidecar_for_other_pictures_is_refused(tmp_path: Path) -> None:
+def test_oni_source_sidecar_of_other_size_raises(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 2)
     other = CAMERA.__class__(500.0, 500.0, 320.0, 240.0, 640, 400)
     write_camera_info(sidecar_path(path), other)
@@ -143,13 +143,13 @@ def test_a_sidecar_for_other_pictures_is_refused(tmp_path: Path) -> None:
     assert caught.value.subject == str(sidecar_path(path))
 
 
-def test_mirrored_recordings_are_turned_back(tmp_path: Path) -> None:
+def test_oni_source_mirrored_images_are_flipped(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 3, mirrored=True)
     assert_whole(play(path)[0], 3)
     assert OniSource(path).info.settings["mirrored"] == "turned back"
 
 
-def test_the_sidecar_overrules_the_mirror_flag(tmp_path: Path) -> None:
+def test_oni_source_sidecar_overrides_mirror_flag(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 1, mirrored=True)
     write_camera_info(sidecar_path(path), CAMERA, registered=True, mirrored=False)
     (frame,) = play(path)[0]
@@ -157,7 +157,7 @@ def test_the_sidecar_overrules_the_mirror_flag(tmp_path: Path) -> None:
     assert np.array_equal(frame.depth_raw, depth_picture(1)[:, ::-1])
 
 
-def test_small_colour_is_enlarged(tmp_path: Path) -> None:
+def test_oni_source_small_colour_is_enlarged(tmp_path: Path) -> None:
     path = changed(tmp_path, 3, with_small_color)
     small = CAMERA.__class__(26.25, 26.25, 15.5, 11.5, WIDTH // 2, HEIGHT // 2)
     write_camera_info(sidecar_path(path), small, registered=True)
@@ -177,7 +177,7 @@ def test_small_colour_is_enlarged(tmp_path: Path) -> None:
         assert np.abs(blocks - small_picture)[inner].mean() < 3.0
 
 
-def test_sizes_that_do_not_fit_together_are_refused(tmp_path: Path) -> None:
+def test_oni_source_incompatible_sizes_raise(tmp_path: Path) -> None:
     def narrow_depth(record: Record, fields: bytes, payload: bytes) -> tuple[bytes, bytes]:
         if record.node == 1 and b"xnMapOutputMode\0" in fields:
             fields = fields[:-12] + np.array([60, 48, 30], "<u4").tobytes()
@@ -195,7 +195,7 @@ def damaged_payload(data: bytes, node: int, occurrence: int) -> bytes:
 
 
 @pytest.mark.parametrize("occurrence", [0, 2, 5])
-def test_a_damaged_colour_picture_is_left_out_and_counted(tmp_path: Path, occurrence: int) -> None:
+def test_oni_source_damaged_colour_is_skipped_and_counted(tmp_path: Path, occurrence: int) -> None:
     frames, told = play(changed(tmp_path, 6, lambda data: damaged_payload(data, 2, occurrence), color="jpeg"))
     assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
     kept = [number for number in range(1, 7) if number != occurrence + 1]
@@ -204,13 +204,13 @@ def test_a_damaged_colour_picture_is_left_out_and_counted(tmp_path: Path, occurr
     assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 6 colour")]
 
 
-def test_a_damaged_depth_picture_leaves_its_frame_without_depth(tmp_path: Path) -> None:
+def test_oni_source_damaged_depth_leaves_frame_without_depth(tmp_path: Path) -> None:
     frames, told = play(changed(tmp_path, 6, lambda data: damaged_payload(data, 1, 3)))
     assert [frame.depth_raw is not None for frame in frames] == [True, True, True, False, True, True]
     assert [fault.detail for fault in told] == ["1 of 6 depth"]
 
 
-def test_a_picture_with_a_segment_beyond_its_end_harms_no_other(tmp_path: Path) -> None:
+def test_oni_source_damaged_escape_affects_one_image(tmp_path: Path) -> None:
     """The OpenNI2 library skips 65535 bytes from here, far beyond the picture, and dies."""
 
     def skipping(data: bytes) -> bytes:
@@ -225,7 +225,7 @@ def test_a_picture_with_a_segment_beyond_its_end_harms_no_other(tmp_path: Path) 
             assert np.abs(frame.color_rgb.astype(int) - color_picture(number).astype(int)).mean() < 2.5
 
 
-def test_gaps_in_time_are_counted(tmp_path: Path) -> None:
+def test_oni_source_time_gaps_are_counted(tmp_path: Path) -> None:
     def late(record: Record, fields: bytes, payload: bytes) -> tuple[bytes, bytes]:
         if record.kind == RecordType.NEW_DATA:
             time_us, number = np.frombuffer(fields[:8], "<u8")[0], np.frombuffer(fields[8:], "<u4")[0]
@@ -237,7 +237,7 @@ def test_gaps_in_time_are_counted(tmp_path: Path) -> None:
     assert [frame.dropped_before for frame in play(path)[0]] == [0, 0, 0, 2, 0, 0]
 
 
-def test_a_file_that_changed_since_the_check_is_not_played(tmp_path: Path) -> None:
+def test_oni_source_changed_file_raises(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 3)
     source = OniSource(path)
     path.write_bytes(path.read_bytes() + b"more")
@@ -246,7 +246,7 @@ def test_a_file_that_changed_since_the_check_is_not_played(tmp_path: Path) -> No
     assert caught.value.detail == "the file changes while it is read"
 
 
-def test_a_file_cut_while_it_plays_ends_with_a_fault(tmp_path: Path) -> None:
+def test_oni_source_truncated_while_playing_raises(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 60)
     frames = OniSource(path).frames()
     next(frames)
@@ -256,7 +256,7 @@ def test_a_file_cut_while_it_plays_ends_with_a_fault(tmp_path: Path) -> None:
     assert caught.value.detail == "the file changes while it is read"
 
 
-def test_closing_ends_a_walk(tmp_path: Path) -> None:
+def test_oni_source_close_ends_pass(tmp_path: Path) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 60))
     frames = source.frames()
     next(frames)
@@ -264,7 +264,7 @@ def test_closing_ends_a_walk(tmp_path: Path) -> None:
     assert len(list(frames)) < 60
 
 
-def test_a_new_walk_ends_the_one_before(tmp_path: Path) -> None:
+def test_oni_source_new_pass_ends_the_one_before(tmp_path: Path) -> None:
     told: list[CarpusFault] = []
     source = OniSource(write_sample(tmp_path / "a.oni", 30), registered=True, notice=told.append)
     first = source.frames()

@@ -25,14 +25,14 @@ def frames(count: int, depth_unit_m: float = 1e-3) -> list[Frame]:
 
 
 @pytest.mark.parametrize("simulated", [False, True])
-def test_what_is_simulated_is_said_beside_it(tmp_path: Path, simulated: bool) -> None:
+def test_oni_writer_simulated_source_is_in_sidecar(tmp_path: Path, simulated: bool) -> None:
     path = tmp_path / "take.oni"
     write_oni(path, frames(2), CAMERA, simulated=simulated)
     assert is_simulated(OniSource(path).info) == simulated
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
-def test_frames_and_their_camera_come_back(tmp_path: Path, mirrored: bool) -> None:
+def test_oni_writer_frames_and_camera_are_read_back(tmp_path: Path, mirrored: bool) -> None:
     path = tmp_path / "take 1.oni"
     assert write_oni(path, frames(5), CAMERA, color="raw", mirrored=mirrored) == 5
     told = read_camera_info(sidecar_path(path))
@@ -48,20 +48,20 @@ def test_frames_and_their_camera_come_back(tmp_path: Path, mirrored: bool) -> No
         assert read.timestamp_s == pytest.approx(written.timestamp_s, abs=1e-6)
 
 
-def test_the_other_depth_unit(tmp_path: Path) -> None:
+def test_oni_writer_100_um_depth_is_read_back(tmp_path: Path) -> None:
     path = tmp_path / "fine.oni"
     write_oni(path, frames(2, 1e-4), CAMERA)
     assert {frame.depth_unit_m for frame in OniSource(path).frames()} == {1e-4}
 
 
-def test_frames_without_depth_between_others(tmp_path: Path) -> None:
+def test_oni_writer_frames_without_depth_are_read_back(tmp_path: Path) -> None:
     some = [Frame(f.index, f.timestamp_s, f.color_rgb, f.depth_raw if f.index != 1 else None, 1e-3) for f in frames(3)]
     write_oni(tmp_path / "holes.oni", some, CAMERA)
     back = list(OniSource(tmp_path / "holes.oni").frames())
     assert [frame.depth_raw is not None for frame in back] == [True, False, True]
 
 
-def test_the_librarys_own_recorder_agrees(tmp_path: Path) -> None:
+def test_oni_writer_agrees_with_openni2_recorder(tmp_path: Path) -> None:
     """What the library reads from our file and writes again holds the same depth and colour.
 
     Its recorder may lose a picture of its own accord; each one that it wrote must be one of ours.
@@ -100,7 +100,7 @@ with Context() as library:
         assert np.array_equal(depth, depth_picture(int(depth[0, 0]) - 5000))
 
 
-def test_an_unfinished_file_is_seen_as_such(tmp_path: Path) -> None:
+def test_oni_writer_unfinished_file_raises(tmp_path: Path) -> None:
     path = tmp_path / "torn.oni"
     writer = OniWriter(path, CAMERA)
     writer.add_color(color_picture(1), 0.1)

@@ -34,11 +34,11 @@ def in_process(body: str, *arguments: str) -> Any:
     return json.loads(done.stdout)
 
 
-def test_the_library_is_there_and_tells_its_version() -> None:
+def test_openni2_library_version_is_2_2() -> None:
     assert in_process("result = library_version()").startswith("2.2.")
 
 
-def test_a_missing_library_is_a_fault(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_openni2_missing_library_raises(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(openni2, "LINUX_NAMES", ("libOpenNI2-not-here.so",))
     monkeypatch.setattr(openni2, "LIBRARY_NAMES", {})
     monkeypatch.setenv("OPENNI2_REDIST64", str(tmp_path))
@@ -47,14 +47,14 @@ def test_a_missing_library_is_a_fault(monkeypatch: pytest.MonkeyPatch, tmp_path:
     assert "libOpenNI2-not-here.so" in caught.value.detail
 
 
-def test_another_library_of_that_name_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_openni2_wrong_library_raises(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(openni2, "LINUX_NAMES", ("libc.so.6",))
     monkeypatch.setattr(openni2, "LIBRARY_NAMES", {})
     with pytest.raises(DriverMissing):
         load_library()
 
 
-def test_no_camera_and_no_file() -> None:
+def test_openni2_open_without_device_raises() -> None:
     body = """
 with Context() as library:
     result = [len(library.list_devices())]
@@ -72,7 +72,7 @@ with Context() as library:
 
 
 @pytest.mark.parametrize("name", ["prüfung.oni", "手.oni", "a" * 256])
-def test_names_that_kill_the_library_never_reach_it(name: str) -> None:
+def test_openni2_open_unsafe_name_raises(name: str) -> None:
     body = """
 with Context() as library:
     try:
@@ -83,7 +83,7 @@ with Context() as library:
     assert in_process(body, name) == "kept away"
 
 
-def test_a_recording_in_lockstep(tmp_path: Path) -> None:
+def test_openni2_recording_plays_in_lockstep(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 4)
     body = """
 with Context() as library:
@@ -132,7 +132,7 @@ with Context() as library:
 """
 
 
-def test_a_hundred_open_and_close_cycles_of_the_dummy_device() -> None:
+def test_openni2_dummy_device_survives_hundred_cycles() -> None:
     with ThreadPoolExecutor(2) as pool:
         counts = list(pool.map(lambda _: in_process(CYCLES, "50"), range(2)))
     assert counts == [100, 100]

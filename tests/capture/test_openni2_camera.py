@@ -49,7 +49,7 @@ def assert_rising(frames: list[Frame]) -> None:
     assert all(later.timestamp_s > earlier.timestamp_s for earlier, later in pairwise(frames))
 
 
-def test_frames_of_a_running_camera(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_openni2_camera_yields_frames(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     frames = list(islice(camera.frames(), 20))
     for frame in frames:
         assert frame.color_rgb.shape == (240, 320, 3)
@@ -74,7 +74,7 @@ def test_frames_of_a_running_camera(camera: ProcessCamera, told: list[CarpusFaul
     assert [type(fault) for fault in told] == [DepthNotRegistered, ExposureUnstable]
 
 
-def test_facts_about_a_camera(camera: ProcessCamera) -> None:
+def test_openni2_camera_states_its_settings(camera: ProcessCamera) -> None:
     info = camera.info
     assert (info.name, info.frame_count, info.nominal_fps, info.has_depth) == ("Dummy", None, 30.0, True)
     assert info.camera.origin == "default"
@@ -86,7 +86,7 @@ def test_facts_about_a_camera(camera: ProcessCamera) -> None:
     assert camera._patience_s == math.inf, "the wait for a lost one has no end"
 
 
-def test_stop_and_start_again() -> None:
+def test_openni2_camera_can_be_reopened() -> None:
     for _ in range(2):
         source = open_openni2(uri="Dummy")
         assert_rising(list(islice(source.frames(), 3)))
@@ -95,7 +95,7 @@ def test_stop_and_start_again() -> None:
         assert list(source.frames()) == []
 
 
-def test_what_a_slow_reader_misses_is_counted_and_closing_ends_the_frames_of_another_thread(
+def test_openni2_camera_slow_reader_counts_drops_until_closed(
     camera: ProcessCamera,
 ) -> None:
     frames, has_all = [], threading.Event()
@@ -122,7 +122,7 @@ def test_what_a_slow_reader_misses_is_counted_and_closing_ends_the_frames_of_ano
 
 
 @pytest.mark.parametrize("how", [signal.SIGSEGV, signal.SIGSTOP])
-def test_a_lost_camera_comes_back(
+def test_openni2_camera_lost_reconnects(
     camera: ProcessCamera, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("carpus.core.capture.devices.process_camera.REPORT_TIMEOUT_S", 2.0)
@@ -143,14 +143,14 @@ def test_a_lost_camera_comes_back(
     assert frames[away + 1].dropped_before == round(steps_s[away] / (1 / 30)) - 1
 
 
-def test_a_camera_lost_before_anyone_looked_comes_back_too(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_openni2_camera_lost_before_reading_reconnects(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     blow(camera, signal.SIGKILL)
     assert_rising(list(islice(camera.frames(), 3)))
     assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
 
 
 @pytest.mark.usefixtures("soon_tried_again")
-def test_a_camera_that_stays_away_is_a_fault(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_openni2_camera_absent_too_long_raises(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     camera._patience_s = 0.1
     frames = camera.frames()
     next(frames)
@@ -161,7 +161,7 @@ def test_a_camera_that_stays_away_is_a_fault(camera: ProcessCamera, told: list[C
     assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost]
 
 
-def test_a_camera_that_only_crashes_is_given_up_and_one_without_a_library_not_even_waited_for(
+def test_openni2_camera_repeated_crash_or_missing_driver_raises(
     camera: ProcessCamera, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for fault in (DriverFailed("Dummy", "SIGSEGV"), DriverMissing("libOpenNI2.so.0")):
@@ -178,7 +178,7 @@ def test_a_camera_that_only_crashes_is_given_up_and_one_without_a_library_not_ev
         assert bool(waited) == isinstance(fault, DriverFailed)
 
 
-def test_closing_ends_the_wait_for_a_lost_camera(camera: ProcessCamera) -> None:
+def test_openni2_camera_close_ends_reconnecting(camera: ProcessCamera) -> None:
     frames = camera.frames()
     next(frames)
     camera._plan = CameraConfig(uri="1d27/0601@9/9")
@@ -190,14 +190,14 @@ def test_closing_ends_the_wait_for_a_lost_camera(camera: ProcessCamera) -> None:
     assert not reader.is_alive()
 
 
-def test_no_camera_is_a_fault() -> None:
+def test_openni2_camera_missing_raises() -> None:
     with pytest.raises(CameraMissing):
         open_openni2(uri="1d27/0601@9/9")
     with pytest.raises(CameraMissing):
         open_openni2()
 
 
-def test_measured_intrinsics_are_used(told: list[CarpusFault]) -> None:
+def test_openni2_camera_uses_measured_intrinsics(told: list[CarpusFault]) -> None:
     measured = Camera(530.0, 531.0, 318.0, 241.0, distortion=(0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
     source = open_openni2(uri="Dummy", camera=measured)
     found = source.info.camera

@@ -65,9 +65,7 @@ def camera(
 
 
 @pytest.mark.usefixtures("soon_tried_again")
-def test_a_camera_streams_is_lost_and_comes_back(
-    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
-) -> None:
+def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path) -> None:
     info = camera.info
     lens = info.camera
     assert (info.name, info.settings["serial"]) == ("Orbbec Femto Bolt(Playback)", SERIAL)
@@ -96,7 +94,7 @@ def test_a_camera_streams_is_lost_and_comes_back(
     assert told[0].detail == "unplugged"
 
 
-def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_orbbec_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     bag = tmp_path / "small.bag"
     orbbec_stand_in.record(bag, small=True)
     opened = partial(open_orbbec, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
@@ -113,7 +111,7 @@ def found_driver() -> Finding:
     return found
 
 
-def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert found_driver().state == "good"
     assert orbbec.check_firmware_and_usb({"usb": "2.1"})[0].state == "warning"
     (tmp_path / "60-carpus-cameras.rules").write_text(orbbec.KIND.udev_rules)
@@ -132,7 +130,7 @@ def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert "“carpus doctor” says what is missing" in format_fault_line(told.value)
 
 
-def test_the_stand_ins_speak_as_the_library_does() -> None:
+def test_orbbec_stand_ins_match_library() -> None:
     ob = import_sdk()
     for stand_in, real in (
         (StandInList, ob.DeviceList),
@@ -144,7 +142,7 @@ def test_the_stand_ins_speak_as_the_library_does() -> None:
     assert ob.Context().query_devices().get_count() == 0
 
 
-def test_the_camera_that_is_asked_for() -> None:
+def test_orbbec_find_device_by_serial() -> None:
     ob, state = import_sdk(), import_sdk().OBDeviceAccessState
     free, held = state.OB_DEVICE_ACCESS_STATE_AVAILABLE, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE
 
@@ -164,7 +162,7 @@ def test_the_camera_that_is_asked_for() -> None:
         assert told.value.fault is fault
 
 
-def test_the_streams_that_are_chosen() -> None:
+def test_orbbec_choose_streams_prefers_wanted_size() -> None:
     ob = import_sdk()
 
     def chosen(colors: list[tuple[int, int]], depths: list[tuple[int, int]]) -> tuple[int, int, int]:
@@ -199,13 +197,13 @@ def test_the_streams_that_are_chosen() -> None:
         ("Orbbec Gemini 335L", "active stereo", "assumed"),
     ],
 )
-def test_what_its_depth_is_worth(name: str, kind: str, origin: str) -> None:
+def test_orbbec_find_sensor_by_model(name: str, kind: str, origin: str) -> None:
     sensor = find_sensor({"camera": name, "depth_focal_px": "370.0"})
     assert (sensor.kind, sensor.origin) == (kind, origin)
     assert sensor.baseline_m == {"Orbbec Gemini 335": 0.050, "Orbbec Gemini 335L": 0.095}.get(name, 0.0)
 
 
-def test_exposure_and_white_balance_are_held_as_they_look() -> None:
+def test_orbbec_color_lock_keeps_colours() -> None:
     ob, device, sent = import_sdk(), FakeDevice(), list[Any]()
     streams = SimpleNamespace(color=Profile(640, 480, ob.OBFormat.RGB))
     lock = ColorLock(SimpleNamespace(send=sent.append), _OrbbecControls(ob, device, streams))  # type: ignore[arg-type]

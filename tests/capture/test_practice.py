@@ -35,7 +35,7 @@ def numbers(frames: list[Frame]) -> list[int]:
     return [int(frame.color_rgb[0, 0, 0]) for frame in frames]
 
 
-def test_the_hand_rests_until_let_go_and_then_moves_on_from_where_it_was_still() -> None:
+def test_practice_source_rests_until_movement_starts() -> None:
     source = PracticeSource(Take(), still_s=0.55)
     frames = source.frames()
     before = list(islice(frames, 40))
@@ -47,7 +47,7 @@ def test_the_hand_rests_until_let_go_and_then_moves_on_from_where_it_was_still()
     assert [frame.dropped_before for frame in moving] == [0, 0, 0, 0, 0, 0, 1, 0, 0]
 
 
-def test_after_the_take_the_hand_rests_until_let_go_again_and_times_rise_all_the_while() -> None:
+def test_practice_source_rests_after_movement_with_rising_times() -> None:
     source = PracticeSource(Take(), still_s=0.55)
     source.start_movement()
     walk = source.frames()
@@ -65,7 +65,7 @@ def test_after_the_take_the_hand_rests_until_let_go_again_and_times_rise_all_the
     assert [frame.index for frame in frames] == list(range(len(frames)))
 
 
-def test_another_take_of_the_same_hand_is_played_from_the_next_time_on() -> None:
+def test_practice_source_next_recording_is_played_at_next_start() -> None:
     take = Take()
     other = Take()
     source = PracticeSource(take, 0.55)
@@ -81,7 +81,7 @@ def test_another_take_of_the_same_hand_is_played_from_the_next_time_on() -> None
     assert other.closed
 
 
-def test_closing_ends_it_and_gives_the_take_back() -> None:
+def test_practice_source_close_ends_it_and_closes_recording() -> None:
     take = Take()
     source = PracticeSource(take, still_s=0.55)
     frames = source.frames()
@@ -92,7 +92,7 @@ def test_closing_ends_it_and_gives_the_take_back() -> None:
     assert source.info.frame_count is None
 
 
-def test_the_hand_rests_until_its_movement_is_there() -> None:
+def test_practice_source_rests_until_movement_is_available() -> None:
     beginning, whole = Take(), Take()
     beginning.frames = lambda: islice(Take().frames(), STILL)  # type: ignore[method-assign]
     source = PracticeSource(beginning, 0.55, is_still_only=True)

@@ -73,7 +73,7 @@ def assert_same(read: Frame, written: Frame) -> None:
     assert read.depth_unit_m == written.depth_unit_m
 
 
-def test_frames_come_back_exactly(tmp_path: Path) -> None:
+def test_raw_recording_lossless_frames_are_read_back_exactly(tmp_path: Path) -> None:
     recording = RawRecording(write(tmp_path / "take.carpusraw"))
     for _ in range(2):
         back = list(recording.frames())
@@ -87,12 +87,12 @@ def test_frames_come_back_exactly(tmp_path: Path) -> None:
     assert recording.is_complete
 
 
-def test_facts_come_back(tmp_path: Path) -> None:
+def test_raw_recording_source_info_is_read_back(tmp_path: Path) -> None:
     info = RawRecording(write(tmp_path / "take.carpusraw")).info
     assert info == SourceInfo(INFO.name, CAMERA, True, 6, 30.0, INFO.settings)
 
 
-def test_colour_as_jpeg_is_near_and_depth_exact(tmp_path: Path) -> None:
+def test_raw_recording_jpeg_colour_is_near_and_depth_exact(tmp_path: Path) -> None:
     recording = RawRecording(write(tmp_path / "take.carpusraw", lossless=False))
     for read, written in zip(recording.frames(), frames(6), strict=True):
         error = np.abs(read.color_rgb.astype(int) - written.color_rgb.astype(int))
@@ -102,7 +102,7 @@ def test_colour_as_jpeg_is_near_and_depth_exact(tmp_path: Path) -> None:
             assert np.array_equal(read.depth_raw, written.depth_raw)
 
 
-def test_the_layout_by_a_reader_of_its_own(tmp_path: Path) -> None:
+def test_raw_recording_layout_matches_independent_reader(tmp_path: Path) -> None:
     data = write(tmp_path / "take.carpusraw", 3).read_bytes()
     assert data[:12] == b"CARPUSRW\x02\x00\x00\x00"
     position, kinds = 12, []
@@ -127,7 +127,7 @@ def test_the_layout_by_a_reader_of_its_own(tmp_path: Path) -> None:
     assert not is_raw_recording(tmp_path)
 
 
-def test_a_file_cut_anywhere_keeps_its_whole_frames(tmp_path: Path) -> None:
+def test_raw_recording_truncated_file_keeps_complete_frames(tmp_path: Path) -> None:
     data = write(tmp_path / "whole.carpusraw", 4).read_bytes()
     path = tmp_path / "cut.carpusraw"
     whole = frames(4)
@@ -147,7 +147,7 @@ def test_a_file_cut_anywhere_keeps_its_whole_frames(tmp_path: Path) -> None:
     assert seen == {0, 1, 2, 3, 4}
 
 
-def test_an_altered_frame_is_left_out_and_counted(tmp_path: Path) -> None:
+def test_raw_recording_altered_frame_is_skipped_and_counted(tmp_path: Path) -> None:
     path = write(tmp_path / "take.carpusraw", 6)
     data = bytearray(path.read_bytes())
     starts = [at for at in range(len(data) - 4) if data[at : at + 4] == b"FRAM"]
@@ -183,7 +183,7 @@ LETTERS, NUMBER, COLOR_SIZE, DEPTH_SIZE = 0, 20, 24, 28
 
 @pytest.mark.parametrize("bit", [1, 1 << 7])
 @pytest.mark.parametrize("place", [LETTERS, LETTERS + 3, NUMBER, NUMBER + 3, *range(COLOR_SIZE, DEPTH_SIZE + 4)])
-def test_one_damaged_byte_of_a_record_loses_that_frame_alone(tmp_path: Path, place: int, bit: int) -> None:
+def test_raw_recording_one_damaged_byte_loses_one_frame(tmp_path: Path, place: int, bit: int) -> None:
     path = write(tmp_path / "take.carpusraw", 8)
     parts = records(path.read_bytes())
     for number in (0, 4, 7):
@@ -198,7 +198,7 @@ def test_one_damaged_byte_of_a_record_loses_that_frame_alone(tmp_path: Path, pla
         assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 8 frames")]
 
 
-def test_frames_that_a_damaged_size_covers_are_found(tmp_path: Path) -> None:
+def test_raw_recording_damaged_size_finds_covered_frames(tmp_path: Path) -> None:
     path = write(tmp_path / "take.carpusraw", 8)
     parts = records(path.read_bytes())
     size = struct.pack("<I", struct.unpack_from("<I", parts[4], COLOR_SIZE)[0] + sum(map(len, parts[5:8])) + 9)
@@ -209,7 +209,9 @@ def test_frames_that_a_damaged_size_covers_are_found(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("gone", "given"), [((4,), 7), ((0,), 7), ((7,), 7), ((3, 4, 6), 5)])
-def test_missing_frames_are_counted_and_told(tmp_path: Path, gone: tuple[int, ...], given: int) -> None:
+def test_raw_recording_missing_frames_are_counted_and_notified(
+    tmp_path: Path, gone: tuple[int, ...], given: int
+) -> None:
     path = write(tmp_path / "take.carpusraw", 8)
     parts = records(path.read_bytes())
     _, back, told = read_back(path, [part for at, part in enumerate(parts) if at - 2 not in gone])
@@ -219,7 +221,7 @@ def test_missing_frames_are_counted_and_told(tmp_path: Path, gone: tuple[int, ..
     assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, f"{len(gone)} of 8 frames")]
 
 
-def test_a_frame_twice_is_told(tmp_path: Path) -> None:
+def test_raw_recording_duplicate_frame_is_notified(tmp_path: Path) -> None:
     path = write(tmp_path / "take.carpusraw", 6)
     parts = records(path.read_bytes())
     _, back, told = read_back(path, [*parts[:5], parts[4], *parts[5:]])
@@ -227,7 +229,7 @@ def test_a_frame_twice_is_told(tmp_path: Path) -> None:
     assert [fault.detail for fault in told] == ["1 of 6 frames"]
 
 
-def test_what_follows_the_end_is_told(tmp_path: Path) -> None:
+def test_raw_recording_data_after_end_are_notified(tmp_path: Path) -> None:
     path = write(tmp_path / "take.carpusraw", 3)
     parts = records(path.read_bytes())
     for surplus in (b"hello", b"".join(parts)):
@@ -238,7 +240,7 @@ def test_what_follows_the_end_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("place", [0, 4, NUMBER])
-def test_a_damaged_end_is_none(tmp_path: Path, place: int) -> None:
+def test_raw_recording_damaged_end_is_ignored(tmp_path: Path, place: int) -> None:
     path = write(tmp_path / "take.carpusraw", 3)
     parts = records(path.read_bytes())
     end = bytearray(parts[-1])
@@ -248,7 +250,7 @@ def test_a_damaged_end_is_none(tmp_path: Path, place: int) -> None:
 
 
 @pytest.mark.parametrize(("dropped", "number"), [(2**32 - 1, 2), (MAX_FRAMES + 1, 2), (0, 2**32 - 1), (0, MAX_FRAMES)])
-def test_a_frame_that_says_more_than_can_be_is_left_out(tmp_path: Path, dropped: int, number: int) -> None:
+def test_raw_recording_impossible_number_is_skipped(tmp_path: Path, dropped: int, number: int) -> None:
     path = write(tmp_path / "take.carpusraw", 6)
     parts = records(path.read_bytes())
     time_s, size = frames(6)[2].timestamp_s, struct.unpack_from("<I", parts[4], COLOR_SIZE)[0]
@@ -259,7 +261,7 @@ def test_a_frame_that_says_more_than_can_be_is_left_out(tmp_path: Path, dropped:
 
 
 @pytest.mark.parametrize("place", [12, 16, 12 + COLOR_SIZE, 12 + COLOR_SIZE + 2, 60])
-def test_a_damaged_head_is_told_with_the_pictures_that_are_there(tmp_path: Path, place: int) -> None:
+def test_raw_recording_damaged_header_raises_with_frame_count(tmp_path: Path, place: int) -> None:
     path = write(tmp_path / "take.carpusraw", 4)
     data = bytearray(path.read_bytes())
     data[place] ^= 1
@@ -268,7 +270,7 @@ def test_a_damaged_head_is_told_with_the_pictures_that_are_there(tmp_path: Path,
         RawRecording(path)
 
 
-def test_the_search_for_a_record_takes_time_with_the_size_alone(tmp_path: Path) -> None:
+def test_raw_recording_search_time_is_linear_in_size(tmp_path: Path) -> None:
     """Every 32 bytes a record with a wrong check sum that would reach to the end of the file."""
     path = write(tmp_path / "take.carpusraw", 2)
     parts = records(path.read_bytes())
@@ -280,7 +282,7 @@ def test_the_search_for_a_record_takes_time_with_the_size_alone(tmp_path: Path) 
     assert time.process_time() - began_s < 5.0  # 0.1 s; each sum to the end would be 58 GB
 
 
-def test_any_one_altered_byte_gives_no_wrong_picture(tmp_path: Path) -> None:
+def test_raw_recording_any_altered_byte_gives_no_wrong_image(tmp_path: Path) -> None:
     data = write(tmp_path / "whole.carpusraw", 3).read_bytes()
     whole = {frame.timestamp_s: frame for frame in frames(3)}
     path = tmp_path / "altered.carpusraw"
@@ -298,7 +300,7 @@ def test_any_one_altered_byte_gives_no_wrong_picture(tmp_path: Path) -> None:
             continue
 
 
-def test_a_killed_writer_loses_at_most_the_frame_it_was_writing(tmp_path: Path) -> None:
+def test_raw_writer_killed_loses_at_most_one_frame(tmp_path: Path) -> None:
     program = """
 import sys
 from pathlib import Path
@@ -327,7 +329,7 @@ for frame in frames(100_000):
         assert count >= (int(said[-1]) if said else 5 + 7 * attempt)
 
 
-def test_a_full_disk_ends_the_recording_and_keeps_it(tmp_path: Path) -> None:
+def test_raw_writer_full_disk_keeps_recording(tmp_path: Path) -> None:
     program = """
 import resource, signal, sys
 from pathlib import Path
@@ -352,7 +354,7 @@ except DiskFull:
     assert len(list(RawRecording(path).frames())) == int(done.stdout)
 
 
-def test_faults_of_the_writer(tmp_path: Path) -> None:
+def test_raw_writer_invalid_use_raises(tmp_path: Path) -> None:
     path = write(tmp_path / "take.carpusraw", 1)
     before = path.read_bytes()
     with pytest.raises(OutputExists):
@@ -371,13 +373,13 @@ def test_faults_of_the_writer(tmp_path: Path) -> None:
         writer.append_frame(fine)
 
 
-def test_nothing_recorded_leaves_nothing(tmp_path: Path) -> None:
+def test_raw_writer_discard_removes_file(tmp_path: Path) -> None:
     writer = RawWriter(tmp_path / "take.carpusraw", INFO)
     writer.discard()
     assert list(tmp_path.iterdir()) == []
 
 
-def test_faults_of_the_reader(tmp_path: Path) -> None:
+def test_raw_recording_unreadable_file_raises(tmp_path: Path) -> None:
     with pytest.raises(RecordingMissing):
         RawRecording(tmp_path / "none")
     path = tmp_path / "take.carpusraw"
@@ -405,7 +407,7 @@ def test_faults_of_the_reader(tmp_path: Path) -> None:
         {"depth_unit_m": float("nan")},
     ],
 )
-def test_a_head_that_no_camera_wrote_is_refused(tmp_path: Path, said: dict[str, object]) -> None:
+def test_raw_recording_impossible_camera_raises(tmp_path: Path, said: dict[str, object]) -> None:
     path = write(tmp_path / "take.carpusraw", 2)
     data = path.read_bytes()
     size = struct.unpack_from("<I", data, 12 + 24)[0]
@@ -417,7 +419,7 @@ def test_a_head_that_no_camera_wrote_is_refused(tmp_path: Path, said: dict[str, 
 
 
 @pytest.mark.parametrize("what", ["color", "depth", "both"])
-def test_pictures_of_another_size_than_the_camera_are_refused(tmp_path: Path, what: str) -> None:
+def test_raw_recording_wrong_image_size_raises(tmp_path: Path, what: str) -> None:
     color, depth = color_picture(1), depth_picture(1)
     if what != "depth":
         color = np.ascontiguousarray(color[:24, :32])
@@ -434,7 +436,7 @@ def test_pictures_of_another_size_than_the_camera_are_refused(tmp_path: Path, wh
 
 
 @pytest.mark.parametrize("time_s", [float("nan"), float("inf"), -float("inf"), -1.0])
-def test_a_frame_of_no_time_is_left_out_and_told(tmp_path: Path, time_s: float) -> None:
+def test_raw_recording_frame_without_time_is_skipped(tmp_path: Path, time_s: float) -> None:
     path, told = tmp_path / "take.carpusraw", []
     written = frames(4)
     with RawWriter(path, INFO) as writer:
@@ -446,7 +448,7 @@ def test_a_frame_of_no_time_is_left_out_and_told(tmp_path: Path, time_s: float) 
 
 
 @pytest.mark.parametrize("lossless", [False, True])
-def test_pictures_that_are_none(lossless: bool) -> None:
+def test_raw_recording_invalid_image_raises(lossless: bool) -> None:
     color, depth = encode_color(color_picture(1), lossless=lossless), encode_depth(depth_picture(1))
     assert decode_color(color) is not None
     assert decode_depth(depth) is not None
@@ -455,7 +457,7 @@ def test_pictures_that_are_none(lossless: bool) -> None:
     assert decode_color(b"nothing of the kind") is None
 
 
-def test_the_time_of_writing_is_not_needed_by_anyone(tmp_path: Path) -> None:
+def test_raw_writer_other_threads_are_not_blocked(tmp_path: Path) -> None:
     """Two recordings of the same frames are the same, byte for byte."""
     first = write(tmp_path / "a.carpusraw").read_bytes()
     time.sleep(0.01)

@@ -26,7 +26,7 @@ def frames() -> list[Frame]:
     return [Frame(i, 10.0 + i / 30.0, color_picture(i), None if i == 2 else depth_picture(i), 1e-3) for i in range(5)]
 
 
-def test_a_full_disk_leaves_what_was_recorded_and_nothing_torn(tmp_path: Path) -> None:
+def test_tum_writer_full_disk_keeps_complete_frames(tmp_path: Path) -> None:
     path = tmp_path / "take"
     one, two, three, *_ = frames()
     writer = TumWriter(path, INFO)
@@ -45,7 +45,7 @@ def test_a_full_disk_leaves_what_was_recorded_and_nothing_torn(tmp_path: Path) -
     assert all(f"{picture.parent.name}/{picture.name}\n" in listed for picture in path.rglob("*.png"))
 
 
-def test_the_list_of_a_full_disk_has_only_whole_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tum_writer_full_disk_keeps_complete_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "take"
     writer = TumWriter(path, INFO)
     writer.append_frame(frames()[0])
@@ -66,7 +66,7 @@ def test_the_list_of_a_full_disk_has_only_whole_lines(tmp_path: Path, monkeypatc
 
 
 @pytest.mark.parametrize("room", [10, 200])
-def test_a_disk_that_is_full_at_the_start_is_told_as_that(tmp_path: Path, room: int) -> None:
+def test_tum_writer_disk_full_at_start_raises(tmp_path: Path, room: int) -> None:
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
     try:
@@ -77,7 +77,7 @@ def test_a_disk_that_is_full_at_the_start_is_told_as_that(tmp_path: Path, room: 
     assert list(tmp_path.iterdir()) == [], "and can be tried again"
 
 
-def test_the_reader_gives_the_same_pictures_back(tmp_path: Path) -> None:
+def test_tum_writer_images_are_read_back(tmp_path: Path) -> None:
     path = tmp_path / "deep" / "take"
     with TumWriter(path, INFO) as writer:
         for frame in frames():
@@ -97,13 +97,13 @@ def test_the_reader_gives_the_same_pictures_back(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("settings", [{}, {"simulated": "yes"}])
-def test_what_was_simulated_stays_simulated(tmp_path: Path, settings: dict[str, str]) -> None:
+def test_tum_writer_keeps_simulated_remark(tmp_path: Path, settings: dict[str, str]) -> None:
     with TumWriter(tmp_path / "take", replace(INFO, settings=settings)) as writer:
         writer.append_frame(frames()[0])
     assert is_simulated(TumFolder(tmp_path / "take").info) == bool(settings)
 
 
-def test_the_files_are_what_the_format_says(tmp_path: Path) -> None:
+def test_tum_writer_files_follow_format(tmp_path: Path) -> None:
     with TumWriter(tmp_path / "take", INFO) as writer:
         writer.append_frame(frames()[0])
     lines = [line for line in (tmp_path / "take" / "depth.txt").read_text().splitlines() if not line.startswith("#")]
@@ -117,11 +117,11 @@ def test_the_files_are_what_the_format_says(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("unit_m", "raw", "expected"), [(1e-3, 13107, 65535), (1e-3, 13108, 0), (1e-4, 3, 2), (2e-4, 7, 7)]
 )
-def test_depth_in_the_counts_of_the_format(unit_m: float, raw: int, expected: int) -> None:
+def test_to_tum_depth_converts_units(unit_m: float, raw: int, expected: int) -> None:
     assert to_tum_depth(np.full((1, 1), raw, np.uint16), unit_m)[0, 0] == expected
 
 
-def test_nothing_is_overwritten_and_nothing_left(tmp_path: Path) -> None:
+def test_tum_writer_existing_folder_is_kept(tmp_path: Path) -> None:
     (tmp_path / "take").mkdir()
     with pytest.raises(OutputExists):
         TumWriter(tmp_path / "take", INFO)

@@ -70,7 +70,7 @@ def take(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_recording_is_tracked_as_the_folder_it_was_made_of(take: Path, folder: Path) -> None:
+def test_realsense_recording_tracks_like_its_folder(take: Path, folder: Path) -> None:
     source = open_recording(take)
     assert isinstance(source, RealSenseRecording)
     info = source.info
@@ -95,13 +95,13 @@ def test_a_recording_is_tracked_as_the_folder_it_was_made_of(take: Path, folder:
 
 
 @pytest.mark.parametrize("content", [b"no database", b""])
-def test_what_is_no_recording_is_told(tmp_path: Path, content: bytes) -> None:
+def test_realsense_recording_other_file_raises(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "a.db3").write_bytes(content)
     with pytest.raises(RecordingDamaged):
         open_recording(tmp_path / "a.db3")
 
 
-def test_a_recording_cut_short_is_told(take: Path, tmp_path: Path) -> None:
+def test_realsense_recording_truncated_raises(take: Path, tmp_path: Path) -> None:
     whole = take.read_bytes()
     (tmp_path / "half.db3").write_bytes(whole[: len(whole) // 2])
     with pytest.raises(RecordingDamaged):
@@ -116,9 +116,7 @@ def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[ProcessCamera]:
 
 
 @pytest.mark.usefixtures("soon_tried_again")
-def test_a_camera_streams_is_lost_and_comes_back(
-    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
-) -> None:
+def test_realsense_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path) -> None:
     info = camera.info
     assert (info.name, info.settings["preset"], info.settings["emitter"]) == (
         "Intel RealSense D435", "high accuracy", "on",
@@ -138,7 +136,7 @@ def test_a_camera_streams_is_lost_and_comes_back(
 
 
 @pytest.mark.usefixtures("soon_tried_again")
-def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
+def test_realsense_camera_mismatch_is_notified_and_waits(
     camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
 ) -> None:
     frames = camera.frames()
@@ -162,7 +160,7 @@ def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
     )
 
 
-def test_why_a_camera_named_by_its_serial_number_is_not_opened() -> None:
+def test_realsense_open_by_serial_tells_the_cause() -> None:
     def seen(name: str, *, can_open: bool = True, is_claimed: bool = False) -> UsbCamera:
         return UsbCamera(name, "8086", "0b07", Path("/dev/bus/usb/001/007"), 5000, can_open, is_claimed)
 
@@ -177,7 +175,7 @@ def test_why_a_camera_named_by_its_serial_number_is_not_opened() -> None:
     assert camera_open_error("hwmon command timed out", [seen("D435", is_claimed=True)]).fault is DriverFailed
 
 
-def test_exposure_and_white_balance_are_held_as_they_look(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_realsense_color_lock_keeps_colours(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     frames = camera.frames()
     before = next(frames).color_rgb.mean(axis=(0, 1))
     camera.lock_exposure()
@@ -188,7 +186,7 @@ def test_exposure_and_white_balance_are_held_as_they_look(camera: ProcessCamera,
     assert after == pytest.approx(before, rel=0.04)
 
 
-def test_a_camera_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_realsense_missing_camera_raises(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "unplugged").touch()
     with pytest.raises(CameraMissing):
         open_realsense(context=partial(realsense_stand_in.plugged_in, tmp_path))
@@ -200,7 +198,7 @@ def test_a_camera_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 @pytest.mark.parametrize("slope", [1.0 / 8000.0, -1.0 / 3000.0])
 @pytest.mark.parametrize("true", [(60.0, 3500.0), (300.0, 5000.0), (120.0, 6000.0)])
-def test_a_hold_finds_what_looks_the_same(true: tuple[float, float], slope: float) -> None:
+def test_color_controller_finds_matching_settings(true: tuple[float, float], slope: float) -> None:
     def look(exposure: float, kelvin: float) -> ColorStatistics:
         return ColorStatistics(80.0 * exposure / true[0], slope * (kelvin - true[1]))
 
@@ -215,7 +213,7 @@ def test_a_hold_finds_what_looks_the_same(true: tuple[float, float], slope: floa
     assert exposure == pytest.approx(true[0], rel=0.03)
 
 
-def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_realsense_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     opened = partial(open_realsense, context=partial(realsense_stand_in.plugged_in, tmp_path))
     monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, open=opened))
     findings = {each.name: each for each in check_open_camera("realsense", 0.5)}
@@ -225,7 +223,7 @@ def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert findings["USB"].state == "good"
 
 
-def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_realsense_doctor_checks_driver_and_settings(monkeypatch: pytest.MonkeyPatch) -> None:
     found = check_driver()
     assert found is not None
     assert found.state == "good"

@@ -32,14 +32,14 @@ def color_from(data: bytes) -> TiledImage[ByteImage]:
     return TiledImage(Path("take"), data, COLOR, decode_color)
 
 
-def test_jpeg_by_tiles_is_the_same_as_jpeg_whole() -> None:
+def test_tiled_jpeg_equals_whole_jpeg() -> None:
     color = noisy_color()
     back = color_from(pack_tiles(color, encode_color)).decode(None)
     np.testing.assert_array_equal(back, decode_color(encode_color(color)))
     assert not back.flags.writeable
 
 
-def test_depth_comes_back_exactly() -> None:
+def test_tiled_depth_is_lossless() -> None:
     depth = np.random.default_rng(4).integers(0, 1 << 16, (HEIGHT, WIDTH), dtype=np.uint16)
     np.testing.assert_array_equal(
         TiledImage(Path("t"), pack_tiles(depth, encode_depth), DEPTH, decode_depth).decode(None), depth
@@ -53,7 +53,7 @@ def test_depth_comes_back_exactly() -> None:
         Region(240, 0, 250, 130), Region(-20, -20, -5, -5), Region(300, 10, 400, 20),
     ],
 )  # fmt: skip
-def test_what_is_looked_at_is_there_and_the_rest_comes_later(part: Region) -> None:
+def test_tiled_image_decodes_only_the_region(part: Region) -> None:
     color = noisy_color()
     tiled = color_from(pack_tiles(color, partial(encode_color, lossless=True)))
     seen = tiled.decode(part)
@@ -64,7 +64,7 @@ def test_what_is_looked_at_is_there_and_the_rest_comes_later(part: Region) -> No
     np.testing.assert_array_equal(tiled.decode(None), color)
 
 
-def test_a_tile_without_anything_has_no_byte() -> None:
+def test_pack_tiles_blank_tile_has_no_bytes() -> None:
     color = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
     assert len(pack_tiles(color, encode_color)) == 4 + 4 * 8
     color[100, 200] = 9
@@ -83,7 +83,7 @@ def test_a_tile_without_anything_has_no_byte() -> None:
         lambda data: b"\xfb" + data[1:],  # a column wider
     ],
 )
-def test_what_is_no_picture_is_told(damaged: object) -> None:
+def test_tiled_image_invalid_data_raises(damaged: object) -> None:
     data = pack_tiles(noisy_color(), encode_color)
     with pytest.raises(RecordingUnreadable, match="take"):
         color_from(damaged(data)).decode(None)  # type: ignore[operator]

@@ -73,7 +73,7 @@ def edit(path: Path, change: Callable[[list[str]], list[str]]) -> None:
 
 
 @pytest.mark.parametrize("read_ahead", [0, 3])
-def test_every_picture_comes_back_bit_for_bit(take: Path, read_ahead: int) -> None:
+def test_tum_folder_images_are_read_exactly(take: Path, read_ahead: int) -> None:
     source: FrameSource = TumFolder(take, read_ahead=read_ahead)
     for _ in range(2):  # may be walked through again
         frames = list(source.frames())
@@ -91,7 +91,7 @@ def test_every_picture_comes_back_bit_for_bit(take: Path, read_ahead: int) -> No
     source.close()
 
 
-def test_facts_of_the_source(take: Path) -> None:
+def test_tum_folder_states_source_info(take: Path) -> None:
     info = TumFolder(take).info
     assert (info.name, info.frame_count, info.has_depth) == ("take", 5, True)
     assert info.nominal_fps == pytest.approx(1 / 0.033, rel=1e-4)
@@ -99,34 +99,34 @@ def test_facts_of_the_source(take: Path) -> None:
     assert info.camera.fx_px == pytest.approx(DEFAULT_CAMERA.fx_px * WIDTH / 640)
 
 
-def test_the_camera_file_is_taken(take: Path) -> None:
+def test_tum_folder_uses_camera_file(take: Path) -> None:
     camera = Camera(52.0, 53.0, 31.0, 24.0, WIDTH, HEIGHT, (0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
     write_camera_info(take / "camera_info.yaml", camera)
     assert TumFolder(take).info.camera == camera
 
 
-def test_a_colour_picture_without_depth_is_kept(take: Path) -> None:
+def test_tum_folder_keeps_colour_without_depth(take: Path) -> None:
     edit(take / "depth.txt", lambda lines: [*lines[:2], *lines[3:]])
     frames = list(TumFolder(take).frames())
     assert [frame.depth_raw is None for frame in frames] == [False, True, False, False, False]
     np.testing.assert_array_equal(frames[2].depth_raw, depth_picture(2))
 
 
-def test_lists_with_windows_line_ends_and_blank_lines_are_read(take: Path) -> None:
+def test_tum_folder_reads_windows_and_blank_lines(take: Path) -> None:
     for name in ("rgb.txt", "depth.txt"):
         text = (take / name).read_text()
         (take / name).write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n\r\n").encode())
     assert len(list(TumFolder(take).frames())) == 5
 
 
-def test_a_folder_of_colour_only_is_read_when_depth_is_not_needed(take: Path) -> None:
+def test_tum_folder_colour_only_is_read_without_requires_depth(take: Path) -> None:
     (take / "depth.txt").unlink()
     source = TumFolder(take, requires_depth=False)
     assert not source.info.has_depth
     assert all(frame.depth_raw is None for frame in source.frames())
 
 
-def test_an_abandoned_read_ahead_leaves_no_thread(take: Path) -> None:
+def test_tum_folder_abandoned_read_ahead_leaves_no_thread(take: Path) -> None:
     frames = TumFolder(take, read_ahead=2).frames()
     next(frames)
     assert any(thread.name.startswith("read-ahead") for thread in threading.enumerate())
@@ -215,7 +215,7 @@ BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
 
 @pytest.mark.parametrize("read_ahead", [0, 2])
 @pytest.mark.parametrize("case", BAD)
-def test_bad_input_is_one_typed_fault(take: Path, case: str, read_ahead: int) -> None:
+def test_tum_folder_invalid_input_raises_one_fault(take: Path, case: str, read_ahead: int) -> None:
     spoil, kind, fact = BAD[case]
     spoil(take)
     with pytest.raises(kind) as caught:
@@ -225,7 +225,7 @@ def test_bad_input_is_one_typed_fault(take: Path, case: str, read_ahead: int) ->
     assert caught.value.subject.startswith(str(take))
 
 
-def test_the_pictures_before_a_damaged_one_are_still_yielded(take: Path) -> None:
+def test_tum_folder_yields_frames_before_a_damaged_one(take: Path) -> None:
     cut(take, "rgb", 0.5)
     frames = TumFolder(take, read_ahead=4).frames()
     assert [next(frames).index for _ in range(2)] == [0, 1]
@@ -233,7 +233,7 @@ def test_the_pictures_before_a_damaged_one_are_still_yielded(take: Path) -> None
         next(frames)
 
 
-def test_nothing_or_a_file_is_no_folder(tmp_path: Path) -> None:
+def test_tum_folder_missing_or_file_raises(tmp_path: Path) -> None:
     with pytest.raises(RecordingMissing):
         TumFolder(tmp_path / "nowhere")
     (tmp_path / "file").write_text("")
@@ -241,7 +241,7 @@ def test_nothing_or_a_file_is_no_folder(tmp_path: Path) -> None:
         TumFolder(tmp_path / "file")
 
 
-def test_a_single_picture_is_a_recording(tmp_path: Path) -> None:
+def test_tum_folder_single_image_is_read(tmp_path: Path) -> None:
     source = TumFolder(write_recording(tmp_path / "take", [12.5]))
     assert source.info.nominal_fps > 0
     assert [frame.dropped_before for frame in source.frames()] == [0]
@@ -251,9 +251,7 @@ rising = st.lists(st.integers(0, 400), unique=True, max_size=12).map(lambda ms: 
 
 
 @given(rising, rising)
-def test_pairing_keeps_the_limit_uses_each_depth_once_and_leaves_no_better_pair(
-    color_s: np.ndarray, depth_s: np.ndarray
-) -> None:
+def test_pair_by_time_is_optimal_within_limit(color_s: np.ndarray, depth_s: np.ndarray) -> None:
     partner = pair_by_time(color_s, depth_s)
     used = [d for d in partner if d is not None]
     assert len(used) == len(set(used))
@@ -271,14 +269,14 @@ def test_pairing_keeps_the_limit_uses_each_depth_once_and_leaves_no_better_pair(
             assert mine <= gap + 1e-9 or theirs <= gap + 1e-9
 
 
-def test_missing_frames_are_judged_by_the_median_period() -> None:
+def test_count_dropped_frames_uses_median_period() -> None:
     times = np.array([0.0, 0.033, 0.067, 0.1, 0.232, 0.266, 0.36])
     assert count_dropped_frames(times) == [0, 0, 0, 0, 3, 0, 2]
     assert count_dropped_frames(np.array([0.0, 0.03, 0.07, 0.10, 0.145])) == [0, 0, 0, 0, 0]
     assert count_dropped_frames(np.empty(0)) == []
 
 
-def test_a_simulated_recording_says_so_and_no_other_does(take: Path) -> None:
+def test_tum_folder_simulated_only_with_remark(take: Path) -> None:
     assert SIMULATED not in TumFolder(take).info.settings
     rgb = take / "rgb.txt"
     rgb.write_text(f"{SIMULATED_REMARK}\n{rgb.read_text()}")
@@ -286,7 +284,7 @@ def test_a_simulated_recording_says_so_and_no_other_does(take: Path) -> None:
 
 
 @pytest.mark.parametrize("read_ahead", [0, 3])
-def test_damaged_and_missing_pictures_can_be_left_out_and_are_told(take: Path, read_ahead: int) -> None:
+def test_tum_folder_skip_damaged_notifies(take: Path, read_ahead: int) -> None:
     color, depth = (sorted((take / kind).iterdir()) for kind in ("rgb", "depth"))
     color[1].write_text("no picture")
     color[3].unlink()
@@ -304,7 +302,7 @@ def test_damaged_and_missing_pictures_can_be_left_out_and_are_told(take: Path, r
     assert [fault.detail for fault in told] == ["1 colour missing", "1 colour and 1 depth damaged"]
 
 
-def test_the_first_picture_must_be_there_whole(tmp_path: Path) -> None:
+def test_tum_folder_damaged_first_image_raises(tmp_path: Path) -> None:
     for spoil in (lambda path: path.write_text("no picture"), Path.unlink):
         folder = write_recording(tmp_path / f"take {spoil}")
         spoil(sorted((folder / "rgb").iterdir())[0])
@@ -315,9 +313,7 @@ def test_the_first_picture_must_be_there_whole(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("unit", "counts"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
 @pytest.mark.parametrize("first_s", [120.0, 1726543210.0])
-def test_times_in_parts_of_a_second_are_recognised_and_said(
-    take: Path, unit: str, counts: float, first_s: float
-) -> None:
+def test_tum_folder_other_time_unit_is_notified(take: Path, unit: str, counts: float, first_s: float) -> None:
     for name in ("rgb.txt", "depth.txt"):
         lines = [line.split() for line in (take / name).read_text().splitlines() if line[0] != "#"]
         later = [(f"{(first_s + float(time_s) - TIMES_S[0]) * counts:.3f}", path) for time_s, path in lines]
@@ -332,14 +328,14 @@ def test_times_in_parts_of_a_second_are_recognised_and_said(
 
 
 @pytest.mark.parametrize("step_s", [0.2, 0.67, 1.5])
-def test_a_slow_recording_in_seconds_stays_one(tmp_path: Path, step_s: float) -> None:
+def test_tum_folder_slow_recording_keeps_seconds(tmp_path: Path, step_s: float) -> None:
     told: list[CarpusFault] = []
     source = TumFolder(write_recording(tmp_path / "slow", [step_s * k for k in range(4)]), notice=told.append)
     assert not told
     assert source.stored_frames[3].timestamp_s == pytest.approx(3.0 * step_s)
 
 
-def test_a_time_twice_is_left_out_and_counted(take: Path) -> None:
+def test_tum_folder_duplicate_time_is_skipped_and_notified(take: Path) -> None:
     for name in ("rgb.txt", "depth.txt"):
         edit(take / name, lambda lines: [*lines[:-1], lines[-2], lines[-1], lines[-1]])
     told: list[CarpusFault] = []
@@ -351,14 +347,14 @@ def test_a_time_twice_is_left_out_and_counted(take: Path) -> None:
     ]
 
 
-def test_backslashes_in_lists_are_read(take: Path) -> None:
+def test_tum_folder_reads_backslash_paths(take: Path) -> None:
     for name in ("rgb.txt", "depth.txt"):
         edit(take / name, lambda lines: [line.replace("/", "\\") for line in lines])
     assert len(list(TumFolder(take).frames())) == len(TIMES_S)
 
 
 @pytest.mark.parametrize(("counts_per_m", "said"), [(5000, False), (1000, True)])
-def test_depth_in_millimetres_is_recognised_and_said(take: Path, counts_per_m: int, said: bool) -> None:
+def test_tum_folder_millimetre_depth_is_notified(take: Path, counts_per_m: int, said: bool) -> None:
     for path in (take / "depth").iterdir():
         picture = np.full((HEIGHT, WIDTH), round(0.72 * counts_per_m), np.uint16)
         picture[:10] = 0
@@ -371,7 +367,7 @@ def test_depth_in_millimetres_is_recognised_and_said(take: Path, counts_per_m: i
 
 
 @pytest.mark.parametrize("unit_m", ["0.001", "1e-3", "0.0002"])
-def test_the_camera_file_may_state_the_unit_of_depth(take: Path, unit_m: str) -> None:
+def test_tum_folder_uses_depth_unit_of_camera_file(take: Path, unit_m: str) -> None:
     write_camera_info(take / "camera_info.yaml", OWN_CAMERA)
     edit(take / "camera_info.yaml", lambda lines: [*lines, f"depth_unit_m: {unit_m}"])
     told: list[CarpusFault] = []

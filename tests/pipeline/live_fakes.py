@@ -65,7 +65,7 @@ def tracked(of: Frame) -> TrackedFrame:
     )
 
 
-class HeldSource:
+class ControlledSource:
     """Delivers frames only when let; counts how often it was closed."""
 
     def __init__(self, total: int | None = None, fault: Exception | None = None, dropped_before: int = 0) -> None:
@@ -113,7 +113,7 @@ class Gate:
         self.waiting = False
 
 
-def held_by(gate: Gate, since: int = 0) -> Callable[[Frame], TrackedFrame]:
+def gated_tracker(gate: Gate, since: int = 0) -> Callable[[Frame], TrackedFrame]:
     """A tracker that waits at a gate with the pictures from ``since`` on."""
 
     def slow(of: Frame) -> TrackedFrame:

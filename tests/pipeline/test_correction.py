@@ -124,13 +124,13 @@ def right(stored: Stored) -> Path:
     return path
 
 
-def test_without_a_correction_nothing_changes(stored: Stored, tmp_path: Path) -> None:
+def test_correction_empty_changes_nothing(stored: Stored, tmp_path: Path) -> None:
     correct(task(stored, tmp_path / "new.h5"))
     before, after = read_session(stored.path), read_session(tmp_path / "new.h5")
     np.testing.assert_allclose(after.motion.angles_rad, before.motion.angles_rad, atol=1e-9)
 
 
-def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: Stored, right: Path) -> None:
+def test_correction_replaces_false_blob_from_its_frame_on(stored: Stored, right: Path) -> None:
     session = read_session(right)
     taken = session.markers.measured_px[WRONG_FROM:]
     distance = np.linalg.norm(taken - stored.false_px, axis=-1)
@@ -145,7 +145,7 @@ def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: 
     np.testing.assert_allclose(session.motion.angles_rad[:WRONG_FROM], old.motion.angles_rad[:WRONG_FROM], atol=1e-9)
 
 
-def test_the_new_result_names_its_origin_what_was_done_and_keeps_the_notes(stored: Stored, right: Path) -> None:
+def test_correction_result_names_origin_and_keeps_notes(stored: Stored, right: Path) -> None:
     old, new = read_session(stored.path), read_session(right)
     assert new.header.origin == old.header.session_id
     assert new.header.recording_id == old.header.recording_id
@@ -166,7 +166,7 @@ def test_the_new_result_names_its_origin_what_was_done_and_keeps_the_notes(store
     assert read.places["MCP3"] == pytest.approx(stored.disc_px, abs=0.1)
 
 
-def test_names_that_are_plainly_wrong_are_told_and_right_ones_are_not(stored: Stored) -> None:
+def test_label_doubt_only_for_wrong_labels(stored: Stored) -> None:
     session = read_session(stored.path)
     markers = list(session.header.protocol.markers)
     right = session.markers.measured_px[WRONG_FROM].copy()
@@ -196,7 +196,7 @@ def test_names_that_are_plainly_wrong_are_told_and_right_ones_are_not(stored: St
     assert 0.012 < first_off_m < 0.015, "where the palm's misfit tells it too"
 
 
-def test_a_name_that_did_not_hold_is_told(stored: Stored, tmp_path: Path) -> None:
+def test_lost_correction_is_reported(stored: Stored, tmp_path: Path) -> None:
     """A person may put a knuckle where no knuckle can be: the tracker does not follow, and it is said."""
     nowhere = Correction(WRONG_FROM, {"MCP3": (40.0, 440.0)})
     correct(task(stored, tmp_path / "new.h5", nowhere))
@@ -204,7 +204,7 @@ def test_a_name_that_did_not_hold_is_told(stored: Stored, tmp_path: Path) -> Non
     assert find_lost_corrections(read_session(path), read_detections(path), [nowhere]) == ("MCP3",)
 
 
-def test_not_to_be_seen_means_no_spot_is_taken_there(stored: Stored, tmp_path: Path) -> None:
+def test_correction_not_visible_takes_no_blob(stored: Stored, tmp_path: Path) -> None:
     hidden = Correction(WRONG_FROM, {"MCP3": None})
     correct(task(stored, tmp_path / "new.h5", hidden))
     session = read_session(tmp_path / "new.h5")
@@ -213,7 +213,7 @@ def test_not_to_be_seen_means_no_spot_is_taken_there(stored: Stored, tmp_path: P
     assert np.nanmin(np.linalg.norm(session.markers.measured_px[WRONG_FROM:] - stored.false_px, axis=-1)) > 20.0
 
 
-def test_a_disc_that_was_not_found_is_added_without_a_depth() -> None:
+def test_correction_missing_marker_is_added_without_depth() -> None:
     found = blobs(swing(1, 0.0, 1.0)(0.0), hidden=[MCP3])
     place = CAMERA.project(discs_cam_m(swing(1, 0.0, 1.0)(0.0)))[MCP3]
     more = with_added_detections(found, np.array([place, found.pixel[0] + 1.0]))
@@ -222,7 +222,7 @@ def test_a_disc_that_was_not_found_is_added_without_a_depth() -> None:
     assert np.isnan(more.depth_m[-1])
 
 
-def test_where_the_others_expect_a_disc_is_said_without_it(stored: Stored) -> None:
+def test_predict_marker_px_uses_other_markers(stored: Stored) -> None:
     session = read_session(stored.path)
     places = session.markers.measured_px[WRONG_FROM]
     expected = predict_marker_px(session, WRONG_FROM, places, MCP3)
@@ -230,7 +230,7 @@ def test_where_the_others_expect_a_disc_is_said_without_it(stored: Stored) -> No
     assert np.linalg.norm(places[MCP3] - expected) > 40.0
 
 
-def test_stopping_leaves_nothing_behind_and_faults_come_across(stored: Stored, tmp_path: Path) -> None:
+def test_correct_in_process_stop_leaves_nothing_and_passes_faults(stored: Stored, tmp_path: Path) -> None:
     stopping = threading.Event()
     stopping.set()
     assert not correct_in_process(task(stored, tmp_path / "new.h5"), lambda *_: None, stopping)
@@ -240,7 +240,7 @@ def test_stopping_leaves_nothing_behind_and_faults_come_across(stored: Stored, t
         correct_in_process(task(stored, tmp_path / "there.h5"), lambda *_: None, threading.Event())
 
 
-def test_a_session_without_spots_cannot_be_corrected(stored: Stored, tmp_path: Path) -> None:
+def test_correction_session_without_detections_raises(stored: Stored, tmp_path: Path) -> None:
     session = read_session(stored.path)
     writer = SessionWriter.create(tmp_path / "empty.h5", session.header, CAMERA, session.calibration)
     writer.close()
@@ -280,9 +280,7 @@ def corrected(hand: Path, output: Path, *corrections: Correction) -> Session:
     return read_session(output)
 
 
-def test_a_spot_that_is_no_disc_of_a_finger_stays_left_out_and_other_fingers_are_as_they_were(
-    hand: Path, tmp_path: Path
-) -> None:
+def test_correction_false_finger_blob_leaves_other_fingers_unchanged(hand: Path, tmp_path: Path) -> None:
     before = read_session(hand)
     assert np.isfinite(before.markers.measured_px[OUT_OF_SIGHT.stop + 5 :, DIP3]).all()
     after = corrected(hand, tmp_path / "new.h5", Correction(WRONG_FROM, {"DIP3": None}))
@@ -295,7 +293,7 @@ def test_a_spot_that_is_no_disc_of_a_finger_stays_left_out_and_other_fingers_are
     assert "3" in found.max_difference_angle
 
 
-def test_all_that_is_said_of_one_picture_holds_from_it_on(hand: Path, tmp_path: Path) -> None:
+def test_correction_several_of_one_frame_hold(hand: Path, tmp_path: Path) -> None:
     """In one correction or in two; the last that is said of a marker counts."""
     names = [f"{joint}{finger}" for joint in ("PIP", "DIP") for finger in (2, 3, 4, 5)]
     place = tuple(read_session(hand).markers.measured_px[WRONG_FROM, DIP3].tolist())
@@ -311,7 +309,7 @@ def test_all_that_is_said_of_one_picture_holds_from_it_on(hand: Path, tmp_path: 
     assert find_lost_corrections(after, read_detections(tmp_path / "new.h5"), [said]) == ()
 
 
-def test_of_a_finger_whose_disc_a_person_shows_nothing_is_believed_but_what_is_seen(hand: Path, tmp_path: Path) -> None:
+def test_correction_of_finger_trusts_only_measurement(hand: Path, tmp_path: Path) -> None:
     before = read_session(hand)
     place = tuple(before.markers.measured_px[WRONG_FROM, DIP3].tolist())
     after = corrected(hand, tmp_path / "new.h5", Correction(WRONG_FROM, {"DIP3": place}))
@@ -323,7 +321,7 @@ def test_of_a_finger_whose_disc_a_person_shows_nothing_is_believed_but_what_is_s
 @pytest.mark.parametrize(
     "wrong", [{"row": -1}, {"row": 10_000}, {"places": {"NOSE": None}}, {"places": {"DIP3": (math.nan, 3.0)}}]
 )
-def test_a_correction_of_what_is_not_there_is_refused(hand: Path, tmp_path: Path, wrong: dict[str, Any]) -> None:
+def test_correction_of_unknown_frame_or_marker_raises(hand: Path, tmp_path: Path, wrong: dict[str, Any]) -> None:
     with pytest.raises(MarkersNotCorrectable):
         corrected(hand, tmp_path / "new.h5", replace(Correction(WRONG_FROM, {"DIP3": None}), **wrong))
     assert list(tmp_path.iterdir()) == []

@@ -16,7 +16,7 @@ from carpus.core.pipeline import backlog
 from carpus.core.pipeline.backlog import MAX_PREVIEW_WAITING
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
-from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, frame, held_by, tracked, wait_until
+from tests.pipeline.live_fakes import ControlledSource, FakeSession, Gate, frame, gated_tracker, tracked, wait_until
 
 OUT = Path("session.h5")
 
@@ -25,14 +25,14 @@ def kinds(events: list[LiveEvent]) -> list[str]:
     return [event.kind for event in events]
 
 
-def deliver(live: LiveSession, source: HeldSource, count: int) -> None:
+def deliver(live: LiveSession, source: ControlledSource, count: int) -> None:
     """Lets frames out and waits until each has been captured."""
     goal = live.counters().captured + count
     source.let(count)
     wait_until(lambda: live.counters().captured == goal)
 
 
-def deliver_tracked(live: LiveSession, source: HeldSource, count: int) -> None:
+def deliver_tracked(live: LiveSession, source: ControlledSource, count: int) -> None:
     """Lets frames out one by one, so that the tracker keeps up."""
     for _ in range(count):
         goal = live.counters().tracked + 1
@@ -41,8 +41,8 @@ def deliver_tracked(live: LiveSession, source: HeldSource, count: int) -> None:
 
 
 # --- pictures and tracking -----------------------------------------------------------------
-def test_pictures_before_tracking() -> None:
-    source = HeldSource()
+def test_live_session_previews_before_tracking() -> None:
+    source = ControlledSource()
     with LiveSession(source) as live:
         assert live.current_frame() is None
         deliver(live, source, 30)
@@ -55,8 +55,8 @@ def test_pictures_before_tracking() -> None:
     assert source.closed >= 1
 
 
-def test_tracking_begins_with_the_next_frame_and_shows_one_picture_with_its_result() -> None:
-    source = HeldSource()
+def test_live_session_tracks_from_next_frame() -> None:
+    source = ControlledSource()
     with LiveSession(source) as live:
         deliver(live, source, 5)
         live.start_tracking(tracked)
@@ -77,8 +77,8 @@ def test_tracking_begins_with_the_next_frame_and_shows_one_picture_with_its_resu
         assert [row.index for row in live.frames_since(-1)] == [14]
 
 
-def test_history_holds_twelve_seconds_and_is_bounded() -> None:
-    source = HeldSource()
+def test_live_session_history_is_twelve_seconds() -> None:
+    source = ControlledSource()
     with LiveSession(source) as live:
         live.start_tracking(tracked)
         deliver_tracked(live, source, 600)
@@ -87,11 +87,11 @@ def test_history_holds_twelve_seconds_and_is_bounded() -> None:
         assert len(times) <= 500
 
 
-def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_stored() -> None:
-    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+def test_backlog_full_drops_and_counts_frames() -> None:
+    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source, LiveSettings(tracking_waiting=8)) as live:
-        live.start_tracking(held_by(gate))
+        live.start_tracking(gated_tracker(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -107,13 +107,13 @@ def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_store
     assert [row.dropped_before for row in sink.rows] == [*[0] * 9, 42, 0]
 
 
-def test_a_computer_with_little_memory_lets_fewer_pictures_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_backlog_little_memory_has_less_capacity(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(backlog, "read_free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
-    source, gate = HeldSource(), Gate()
+    source, gate = ControlledSource(), Gate()
 
     with LiveSession(source) as live:
         deliver(live, source, 1)
-        live.start_tracking(held_by(gate))
+        live.start_tracking(gated_tracker(gate))
         live.start_recording(lambda: FakeSession(OUT))
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -123,11 +123,11 @@ def test_a_computer_with_little_memory_lets_fewer_pictures_wait(monkeypatch: pyt
         gate.open()
 
 
-def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
-    source, gate, sink = HeldSource(dropped_before=2), Gate(), FakeSession(OUT)
+def test_backlog_adds_drops_to_missing_frames() -> None:
+    source, gate, sink = ControlledSource(dropped_before=2), Gate(), FakeSession(OUT)
 
     with LiveSession(source, LiveSettings(tracking_waiting=1)) as live:
-        live.start_tracking(held_by(gate))
+        live.start_tracking(gated_tracker(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -140,9 +140,9 @@ def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
     assert [row.dropped_before for row in sink.rows] == [2, 2, 3 * 3 + 2]
 
 
-def test_behind_is_not_lost_and_the_end_waits_until_all_is_worked_through() -> None:
+def test_live_session_stop_waits_for_slow_tracker() -> None:
     """A camera twice as fast as the tracker, for a minute: every picture is recorded, in order, at its own time."""
-    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
     turns = threading.Semaphore(0)
 
     def half_as_fast(picture: Frame) -> TrackedFrame:
@@ -179,12 +179,12 @@ def test_behind_is_not_lost_and_the_end_waits_until_all_is_worked_through() -> N
     assert not any(row.dropped_before for row in sink.rows)
 
 
-def test_rows_that_were_tracked_are_stored_while_pictures_wait() -> None:
+def test_live_session_stores_rows_while_frames_wait() -> None:
     """What waits for the tracker holds up nothing that is done: a program that is killed loses only what waits."""
-    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source) as live:
-        live.start_tracking(held_by(gate, since=10))
+        live.start_tracking(gated_tracker(gate, since=10))
         live.start_recording(lambda: sink)
         deliver(live, source, 100)
         wait_until(lambda: live.counters().rows_written == 10)
@@ -193,11 +193,11 @@ def test_rows_that_were_tracked_are_stored_while_pictures_wait() -> None:
     assert len(sink.rows) == 100
 
 
-def test_what_is_not_recorded_waits_for_half_a_second_at_most() -> None:
-    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+def test_backlog_preview_waits_half_a_second_at_most() -> None:
+    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source) as live:
-        live.start_tracking(held_by(gate))
+        live.start_tracking(gated_tracker(gate))
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
         deliver(live, source, 40)
@@ -211,8 +211,8 @@ def test_what_is_not_recorded_waits_for_half_a_second_at_most() -> None:
     assert [row.dropped_before for row in sink.rows] == [24, *[0] * 19]
 
 
-def test_a_failing_tracker_is_told_and_the_pictures_go_on() -> None:
-    source = HeldSource()
+def test_live_session_tracker_fault_keeps_preview() -> None:
+    source = ControlledSource()
 
     def broken(picture: Frame) -> TrackedFrame:
         if picture.index == 3:
@@ -223,9 +223,9 @@ def test_a_failing_tracker_is_told_and_the_pictures_go_on() -> None:
         live.start_tracking(broken)
         deliver_tracked(live, source, 3)
         deliver(live, source, 5)
-        told: list[LiveEvent] = []
-        wait_until(lambda: told.extend(live.drain_events()) or bool(told))
-        (event,) = told
+        events: list[LiveEvent] = []
+        wait_until(lambda: events.extend(live.drain_events()) or bool(events))
+        (event,) = events
         assert not live.is_tracking
         assert event.kind == "tracking_failed"
         assert isinstance(event.cause, ZeroDivisionError)
@@ -236,8 +236,8 @@ def test_a_failing_tracker_is_told_and_the_pictures_go_on() -> None:
 
 
 # --- recording -----------------------------------------------------------------------------
-def test_everything_tracked_is_recorded_in_one_thread() -> None:
-    source, sink = HeldSource(), FakeSession(OUT)
+def test_live_session_records_all_rows_in_one_thread() -> None:
+    source, sink = ControlledSource(), FakeSession(OUT)
     with LiveSession(source) as live:
         live.start_tracking(tracked)
         deliver_tracked(live, source, 3)
@@ -252,8 +252,8 @@ def test_everything_tracked_is_recorded_in_one_thread() -> None:
     assert sink.threads == {"writing"}
 
 
-def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
-    source, sink, after = HeldSource(), FakeSession(OUT), FakeSession(OUT)
+def test_live_recording_before_close_is_not_disk_time() -> None:
+    source, sink, after = ControlledSource(), FakeSession(OUT), FakeSession(OUT)
     waited: list[tuple[str, str]] = []
 
     def wait() -> None:
@@ -279,12 +279,12 @@ def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
     assert sink.ended == "closed"
 
 
-def test_stop_drains_from_source_to_sink() -> None:
-    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+def test_live_session_stop_drains_queues() -> None:
+    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
 
     live = LiveSession(source)
     live.start()
-    live.start_tracking(held_by(gate))
+    live.start_tracking(gated_tracker(gate))
     live.start_recording(lambda: sink)
     deliver(live, source, 1)
     wait_until(lambda: gate.waiting)
@@ -302,8 +302,8 @@ def test_stop_drains_from_source_to_sink() -> None:
     live.stop()
 
 
-def test_a_slow_disk_holds_up_nobody_and_nothing_is_lost() -> None:
-    source, gate = HeldSource(), Gate()
+def test_recorder_slow_disk_blocks_nothing() -> None:
+    source, gate = ControlledSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
     with LiveSession(source) as live:
         live.start_tracking(tracked)
@@ -318,8 +318,8 @@ def test_a_slow_disk_holds_up_nobody_and_nothing_is_lost() -> None:
     assert [row.index for row in sink.rows] == list(range(300))
 
 
-def test_overflow_ends_the_recording_keeps_what_there_is_and_tracking_lives_on() -> None:
-    source, gate = HeldSource(), Gate()
+def test_recorder_overflow_ends_recording_not_tracking() -> None:
+    source, gate = ControlledSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
     with LiveSession(source, LiveSettings(rows_waiting=9, tracking_waiting=1)) as live:
         live.start_tracking(tracked)
@@ -348,8 +348,8 @@ def test_overflow_ends_the_recording_keeps_what_there_is_and_tracking_lives_on()
         assert len(second.rows) == 2
 
 
-def test_a_failing_writer_is_told_once_and_tracking_lives_on() -> None:
-    source = HeldSource()
+def test_recorder_write_fault_is_reported_once() -> None:
+    source = ControlledSource()
     sink = FakeSession(OUT, fault_at=4)
     with LiveSession(source) as live:
         live.start_tracking(tracked)
@@ -366,8 +366,8 @@ def test_a_failing_writer_is_told_once_and_tracking_lives_on() -> None:
     assert sink.ended == "abandoned"
 
 
-def test_a_recording_that_fails_does_not_keep_stop_from_ending() -> None:
-    source = HeldSource()
+def test_live_session_stop_after_recording_fault_ends() -> None:
+    source = ControlledSource()
     with LiveSession(source) as live:
         live.start_tracking(tracked)
         live.start_recording(lambda: FakeSession(OUT, fault_at=0))
@@ -375,11 +375,11 @@ def test_a_recording_that_fails_does_not_keep_stop_from_ending() -> None:
     assert kinds(live.drain_events()) == ["recording_failed"]
 
 
-def test_a_file_that_cannot_be_opened_is_said_at_once() -> None:
+def test_live_session_unopenable_file_raises_at_start() -> None:
     def refuse() -> FakeSession:
         raise OutputExists(OUT)
 
-    source, sink = HeldSource(), FakeSession(OUT)
+    source, sink = ControlledSource(), FakeSession(OUT)
     with LiveSession(source) as live:
         with pytest.raises(OutputExists):
             live.start_recording(refuse)
@@ -396,8 +396,8 @@ def test_a_file_that_cannot_be_opened_is_said_at_once() -> None:
     assert live.drain_events() == []
 
 
-def test_pause_and_notes_are_in_the_file() -> None:
-    source, sink = HeldSource(), FakeSession(OUT)
+def test_live_session_pause_and_notes_are_stored() -> None:
+    source, sink = ControlledSource(), FakeSession(OUT)
     with LiveSession(source) as live:
         live.start_tracking(tracked)
         assert not live.add_event("note", "nobody records")
@@ -416,8 +416,8 @@ def test_pause_and_notes_are_in_the_file() -> None:
     assert [time_s for time_s, _, _ in sink.events] == pytest.approx([100 + 2 / 30, 100 + 6 / 30, 100 + 8 / 30])
 
 
-class Heard:
-    """Hears frames and events; breaks at one frame."""
+class RecordingListener:
+    """Listener that collects frames and events; breaks at one frame."""
 
     def __init__(self, breaks_at: int = -1) -> None:
         self.frames: list[int] = []
@@ -433,30 +433,30 @@ class Heard:
         self.events.append((time_s, kind))
 
 
-def test_a_listener_hears_frames_and_events_and_cannot_end_the_measuring() -> None:
-    source, heard, breaking = HeldSource(), Heard(), Heard(breaks_at=4)
+def test_live_session_listener_fault_removes_listener() -> None:
+    source, listener, breaking = ControlledSource(), RecordingListener(), RecordingListener(breaks_at=4)
     with LiveSession(source) as live:
         live.start_tracking(tracked)
-        live.set_listener(heard)
+        live.set_listener(listener)
         deliver_tracked(live, source, 3)
-        wait_until(lambda: len(heard.frames) == 3)
+        wait_until(lambda: len(listener.frames) == 3)
         live.add_event("note", "1")
         live.notify_listener("repetition", 99.5)
         live.set_listener(breaking)
         deliver_tracked(live, source, 4)
         assert live.is_tracking
-    assert heard.frames == [0, 1, 2]
-    assert heard.events == [(pytest.approx(100 + 2 / 30), "note"), (99.5, "repetition")]
+    assert listener.frames == [0, 1, 2]
+    assert listener.events == [(pytest.approx(100 + 2 / 30), "note"), (99.5, "repetition")]
     assert breaking.frames == [3]
     assert live.drain_events() == []
 
 
-def test_raw_pictures_are_stored_before_they_are_tracked() -> None:
-    source, gate = HeldSource(), Gate()
+def test_live_session_stores_frames_before_tracking() -> None:
+    source, gate = ControlledSource(), Gate()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
 
     with LiveSession(source, LiveSettings(tracking_waiting=16, pictures_waiting=100)) as live:
-        live.start_tracking(held_by(gate))
+        live.start_tracking(gated_tracker(gate))
         live.start_recording(lambda: rows, lambda: pictures)
         deliver(live, source, 60)
         assert live.counters().dropped > 0
@@ -470,12 +470,12 @@ def test_raw_pictures_are_stored_before_they_are_tracked() -> None:
     assert len(rows.rows) < 60
 
 
-def test_rows_and_pictures_begin_with_the_same_frame_however_far_behind_the_tracker_is() -> None:
-    source, gate = HeldSource(), Gate()
+def test_live_session_rows_and_frames_start_together() -> None:
+    source, gate = ControlledSource(), Gate()
     rows, pictures = FakeSession(OUT), FakeSession(Path("raw"))
 
     with LiveSession(source) as live:
-        live.start_tracking(held_by(gate))
+        live.start_tracking(gated_tracker(gate))
         deliver(live, source, 3)  # captured, not yet tracked
         live.start_recording(lambda: rows, lambda: pictures)
         assert live.first_recorded_index is None
@@ -489,8 +489,8 @@ def test_rows_and_pictures_begin_with_the_same_frame_however_far_behind_the_trac
     assert [picture.index for picture in rows.pictures + pictures.pictures] == [3, 4, 5, 6]
 
 
-def test_raw_pictures_that_fail_leave_the_session_recording() -> None:
-    source = HeldSource()
+def test_live_session_raw_fault_keeps_session_recording() -> None:
+    source = ControlledSource()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"), fault_at=2)
     with LiveSession(source) as live:
         live.start_tracking(tracked)
@@ -501,9 +501,9 @@ def test_raw_pictures_that_fail_leave_the_session_recording() -> None:
     assert len(rows.rows) == 10
 
 
-# --- what is told --------------------------------------------------------------------------
-def test_the_end_of_a_recording_is_told() -> None:
-    source, sink = HeldSource(total=12), FakeSession(OUT)
+# --- events --------------------------------------------------------------------------------
+def test_live_session_source_end_is_reported() -> None:
+    source, sink = ControlledSource(total=12), FakeSession(OUT)
     with LiveSession(source) as live:
         live.start_tracking(tracked)
         live.start_recording(lambda: sink)
@@ -514,8 +514,8 @@ def test_the_end_of_a_recording_is_told() -> None:
     assert live.counters().captured == 12
 
 
-def test_a_source_that_fails_is_told_with_its_fault() -> None:
-    source = HeldSource(total=2, fault=FrameDamaged("000003.png"))
+def test_live_session_source_fault_is_reported() -> None:
+    source = ControlledSource(total=2, fault=FrameDamaged("000003.png"))
     with LiveSession(source) as live:
         source.let(2)
         wait_until(lambda: not live.is_running)
@@ -526,8 +526,8 @@ def test_a_source_that_fails_is_told_with_its_fault() -> None:
         assert live.drain_events() == []
 
 
-def test_a_camera_lost_and_back_is_told_and_stored() -> None:
-    source, sink = HeldSource(), FakeSession(OUT)
+def test_live_session_camera_loss_is_reported_and_stored() -> None:
+    source, sink = ControlledSource(), FakeSession(OUT)
     with LiveSession(source) as live:
         live.handle_notice(CameraLost("Xtion"))
         assert math.isnan(live.drain_events()[0].time_s)
@@ -542,10 +542,10 @@ def test_a_camera_lost_and_back_is_told_and_stored() -> None:
     assert [(kind, text) for _, kind, text in sink.events] == [("camera_lost", ""), ("camera_back", "3.1 s")]
 
 
-def test_little_room_on_the_disk_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_live_session_low_disk_is_reported_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     usage = shutil.disk_usage(tmp_path)._replace(free=30_000_000)
     monkeypatch.setattr(shutil, "disk_usage", lambda folder: usage)
-    source, sink = HeldSource(), FakeSession(tmp_path / "session.h5")
+    source, sink = ControlledSource(), FakeSession(tmp_path / "session.h5")
     with LiveSession(source, LiveSettings(folder=tmp_path)) as live:
         assert live.counters().disk_free_bytes == 30_000_000
         live.start_tracking(tracked)
@@ -561,16 +561,16 @@ def test_little_room_on_the_disk_is_told_once(tmp_path: Path, monkeypatch: pytes
     assert events[0].value == 30_000_000
 
 
-def test_a_missing_folder_is_unknown_room(tmp_path: Path) -> None:
-    live = LiveSession(HeldSource(), LiveSettings(folder=tmp_path / "not there"))
+def test_read_free_bytes_missing_folder_is_none(tmp_path: Path) -> None:
+    live = LiveSession(ControlledSource(), LiveSettings(folder=tmp_path / "not there"))
     assert live.counters().disk_free_bytes is None
     assert math.isnan(live.counters().disk_minutes_left)
     assert math.isnan(live.counters().latency_p95_ms)
     live.stop()
 
 
-def test_latency_counts_from_arrival_to_result() -> None:
-    source = HeldSource()
+def test_live_session_latency_is_arrival_to_result() -> None:
+    source = ControlledSource()
 
     def slow(picture: Frame) -> TrackedFrame:
         time.sleep(0.02)
@@ -584,7 +584,7 @@ def test_latency_counts_from_arrival_to_result() -> None:
     assert counters.latency_p95_ms >= counters.latency_p50_ms
 
 
-def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> None:
+def test_live_session_file_loses_no_frame() -> None:
     """A file can wait: the source is far ahead of slow tracking and a slower disk, with little room between them."""
     settings = LiveSettings(tracking_waiting=2, rows_waiting=2)
     stored: list[int] = []
@@ -598,7 +598,7 @@ def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> No
         time.sleep(0.002)
         return tracked(frame)
 
-    source = HeldSource(total=120)
+    source = ControlledSource(total=120)
     source.let(200)
     live = LiveSession(source, settings, is_file=True)
     live.start_tracking(pipeline)
@@ -611,11 +611,11 @@ def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> No
     live.stop()
 
 
-def test_a_file_that_waits_can_be_stopped() -> None:
-    source, gate = HeldSource(total=50), Gate()
+def test_live_session_waiting_file_can_be_stopped() -> None:
+    source, gate = ControlledSource(total=50), Gate()
     source.let(60)
     live = LiveSession(source, LiveSettings(tracking_waiting=2), is_file=True)
-    live.start_tracking(held_by(gate))
+    live.start_tracking(gated_tracker(gate))
     live.start()
     wait_until(lambda: live.counters().frames_waiting == 2)
     threading.Timer(0.1, gate.open).start()
@@ -623,8 +623,8 @@ def test_a_file_that_waits_can_be_stopped() -> None:
     assert not live.is_running
 
 
-def test_a_file_that_is_stopped_on_its_way_does_not_play_to_its_end() -> None:
-    source, sink = HeldSource(), FakeSession(OUT)
+def test_live_session_stopped_file_ends_early() -> None:
+    source, sink = ControlledSource(), FakeSession(OUT)
 
     def slow(picture: Frame) -> TrackedFrame:
         time.sleep(0.001)
@@ -642,12 +642,12 @@ def test_a_file_that_is_stopped_on_its_way_does_not_play_to_its_end() -> None:
         assert live.is_running
 
 
-def test_what_waited_for_a_recording_that_failed_keeps_nobody_waiting() -> None:
+def test_backlog_stale_frames_are_skipped() -> None:
     """The disk is full while the tracker is behind: it is at what is seen now again, and the next one has its room."""
-    source, gate = HeldSource(), Gate()
+    source, gate = ControlledSource(), Gate()
 
     with LiveSession(source) as live:
-        live.start_tracking(held_by(gate, since=1))
+        live.start_tracking(gated_tracker(gate, since=1))
         live.start_recording(lambda: FakeSession(OUT, fault_at=0))
         deliver(live, source, 200)
         wait_until(lambda: "recording_failed" in kinds(live.drain_events()))

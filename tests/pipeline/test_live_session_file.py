@@ -14,7 +14,7 @@ from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.measurement import RecordedSession
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_outline
-from tests.pipeline.live_fakes import HeldSource, tracked, wait_until
+from tests.pipeline.live_fakes import ControlledSource, tracked, wait_until
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 
 
@@ -22,8 +22,8 @@ def begin(path: Path) -> RecordedSession:
     return RecordedSession(RecordingJournal(path, make_header(), CAMERA, make_calibration()), None)
 
 
-def test_live_recording_becomes_a_whole_session_file(tmp_path: Path) -> None:
-    source, path = HeldSource(dropped_before=1), tmp_path / "session.journal"
+def test_recorded_session_becomes_complete_file(tmp_path: Path) -> None:
+    source, path = ControlledSource(dropped_before=1), tmp_path / "session.journal"
     with LiveSession(source) as live:
         live.start_tracking(tracked)
         live.start_recording(lambda: begin(path))
@@ -42,18 +42,16 @@ def test_live_recording_becomes_a_whole_session_file(tmp_path: Path) -> None:
     assert [entry.name for entry in tmp_path.iterdir()] == ["session.h5"]
 
 
-def test_journal_that_is_there_is_kept(tmp_path: Path) -> None:
+def test_recorded_session_existing_journal_is_kept(tmp_path: Path) -> None:
     path = tmp_path / "session.journal"
     path.write_bytes(b"mine")
-    with LiveSession(HeldSource()) as live, pytest.raises(OutputExists):
+    with LiveSession(ControlledSource()) as live, pytest.raises(OutputExists):
         live.start_recording(lambda: begin(path))
     assert path.read_bytes() == b"mine"
     assert [entry.name for entry in tmp_path.iterdir()] == ["session.journal"]
 
 
-def test_session_file_without_room_is_tried_again_at_the_end_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_recorded_session_full_disk_is_retried_at_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tries: list[Path] = []
 
     def fill(*_: object) -> None:

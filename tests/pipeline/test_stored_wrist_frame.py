@@ -43,7 +43,7 @@ HAND = RecordingSpec(seed=11, protocol="hand21", motion="flexion", seconds=1.5, 
     ],
     ids=["left", "started bent", "hand", "soft"],
 )
-def test_stored_pose_of_w0_takes_the_wrist_to_where_its_disc_is(
+def test_stored_w0_pose_maps_wrist_to_its_marker(
     spec: RecordingSpec, start_deg: tuple[float, ...], settings: TrackSettings, rendered: Rendered, tmp_path: Path
 ) -> None:
     recording = rendered(spec)

@@ -88,7 +88,7 @@ def digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def test_recording_becomes_a_complete_session(made: Made) -> None:
+def test_track_recording_writes_complete_session(made: Made) -> None:
     count = len(made.truth.timestamp_s)
     assert made.report.frames == made.report.tracked == count
     assert made.report.verdict.is_good
@@ -112,7 +112,7 @@ def test_recording_becomes_a_complete_session(made: Made) -> None:
         assert parameters["settings"]["tracker"]["tissue"]["lasts_s"] > 0.0
 
 
-def test_angles_are_those_of_the_hand(made: Made) -> None:
+def test_track_recording_angles_match_truth(made: Made) -> None:
     truth = np.degrees(made.truth.angles_rad)
     error = np.degrees(angles(made.session)) - truth
     assert np.sqrt((error**2).mean(axis=0)) == pytest.approx([0.0, 0.0, 0.0], abs=1.5)
@@ -120,13 +120,13 @@ def test_angles_are_those_of_the_hand(made: Made) -> None:
     assert np.ptp(truth[:, 0]) > 10.0, "the hand did move"
 
 
-def test_smoothed_angles_are_nearer(made: Made) -> None:
+def test_track_recording_smoothed_angles_are_nearer(made: Made) -> None:
     truth = made.truth.angles_rad
     filtered, smoothed = (angles(made.session, group) - truth for group in ("wrist", "smoothed/wrist"))
     assert np.sqrt((smoothed**2).mean()) < np.sqrt((filtered**2).mean())
 
 
-def test_tracking_again_from_detections_gives_the_same_angles(made: Made, tmp_path: Path) -> None:
+def test_retrack_from_detections_gives_equal_angles(made: Made, tmp_path: Path) -> None:
     report = again(made, tmp_path / "again.h5")
     assert (report.frames, report.tracked) == (made.report.frames, made.report.tracked)
     for group in ("wrist", "smoothed/wrist"):
@@ -143,7 +143,7 @@ def test_tracking_again_from_detections_gives_the_same_angles(made: Made, tmp_pa
     assert np.array_equal(angles(tmp_path / "third.h5"), angles(made.session)), "and again from that"
 
 
-def test_pictures_unpacked_only_where_they_are_looked_at_give_the_same(made: Made, tmp_path: Path) -> None:
+def test_track_lazy_frames_give_equal_session(made: Made, tmp_path: Path) -> None:
     source = TumFolder(made.folder)
     with RawWriter(tmp_path / "r.carpusraw", source.info, lossless=True) as writer:
         for frame in source.frames():
@@ -155,7 +155,7 @@ def test_pictures_unpacked_only_where_they_are_looked_at_give_the_same(made: Mad
             np.testing.assert_array_equal(new[name], old[name])
 
 
-def test_tracking_again_leaves_the_old_file_alone_and_heeds_new_settings(made: Made, tmp_path: Path) -> None:
+def test_retrack_keeps_old_file_and_uses_new_settings(made: Made, tmp_path: Path) -> None:
     before = digest(made.session)
     colour_only = replace(TrackSettings(), tracker=TrackerSettings(use_depth=False), smooth=False)
     again(made, tmp_path / "colour.h5", colour_only)
@@ -166,7 +166,7 @@ def test_tracking_again_leaves_the_old_file_alone_and_heeds_new_settings(made: M
         again(made, tmp_path / "colour.h5")
 
 
-def test_an_existing_file_is_never_written_over(made: Made, tmp_path: Path) -> None:
+def test_track_recording_existing_output_raises(made: Made, tmp_path: Path) -> None:
     output = tmp_path / "session.h5"
     output.write_bytes(b"someone's own")
     with pytest.raises(OutputExists):
@@ -179,7 +179,7 @@ def copy_of(made: Made, to: Path) -> Path:
     return to
 
 
-def test_a_damaged_picture_leaves_nothing_behind(made: Made, tmp_path: Path) -> None:
+def test_track_recording_damaged_image_leaves_no_output(made: Made, tmp_path: Path) -> None:
     folder = copy_of(made, tmp_path / "damaged")
     pictures = sorted((folder / "rgb").iterdir())
     pictures[len(pictures) // 2].write_bytes(pictures[0].read_bytes()[:400])
@@ -189,7 +189,7 @@ def test_a_damaged_picture_leaves_nothing_behind(made: Made, tmp_path: Path) -> 
     assert list((tmp_path / "out").iterdir()) == []
 
 
-def test_a_click_on_nothing_leaves_nothing_behind(made: Made, tmp_path: Path) -> None:
+def test_track_recording_click_without_blob_leaves_no_output(made: Made, tmp_path: Path) -> None:
     pixel = made.clicks.pixel.copy()
     pixel[2] = [20.0, 20.0]
     with pytest.raises(ClickOnNoMarker) as caught:
@@ -199,7 +199,9 @@ def test_a_click_on_nothing_leaves_nothing_behind(made: Made, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("why", [KeyboardInterrupt, DiskFull])
-def test_stopping_it_or_a_full_disk_leaves_nothing_behind(why: type[BaseException], made: Made, tmp_path: Path) -> None:
+def test_track_recording_stopped_or_full_disk_leaves_no_output(
+    why: type[BaseException], made: Made, tmp_path: Path
+) -> None:
     """The recording is still there; what a full disk took is given back."""
 
     def stop(done: int, _total: int | None) -> None:
@@ -211,7 +213,7 @@ def test_stopping_it_or_a_full_disk_leaves_nothing_behind(why: type[BaseExceptio
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_frame_without_depth_is_a_frame(made: Made, tmp_path: Path) -> None:
+def test_track_recording_keeps_frame_without_depth(made: Made, tmp_path: Path) -> None:
     folder = copy_of(made, tmp_path / "recording")
     lines = (folder / "depth.txt").read_text().splitlines()
     kept = [line for k, line in enumerate(lines) if k not in (30, 31)]
@@ -225,7 +227,7 @@ def test_a_frame_without_depth_is_a_frame(made: Made, tmp_path: Path) -> None:
     assert np.abs(np.degrees(angles(tmp_path / "session.h5") - made.truth.angles_rad)).max() < 5.0
 
 
-def test_tracker_is_set_back_once_before_the_first_frame_after_the_still_ones() -> None:
+def test_restart_at_neutral_once_after_still_frames() -> None:
     """The still frames made the calibration; what they say must not be counted again."""
     log: list[float | str] = []
 
@@ -251,7 +253,7 @@ class NoFrames:
         pass
 
 
-def test_a_recording_without_pictures_is_empty_not_a_session(made: Made, tmp_path: Path) -> None:
+def test_track_recording_without_frames_raises(made: Made, tmp_path: Path) -> None:
     source = TumFolder(made.folder)
     info = source.info
     source.close()
@@ -260,7 +262,7 @@ def test_a_recording_without_pictures_is_empty_not_a_session(made: Made, tmp_pat
     assert list(tmp_path.iterdir()) == []
 
 
-def test_what_is_told_with_a_recording_stays_when_it_is_tracked_again(made: Made, tmp_path: Path) -> None:
+def test_retrack_keeps_header_and_set_up(made: Made, tmp_path: Path) -> None:
     """Where the hand was at the start, what was aimed at, that it was simulated; and a poor verdict stops nothing."""
     aims, start = {"repetitions": 7, "targets_deg": [20.0, None]}, np.radians([0.0, 20.0, 0.0])
     settings = replace(TrackSettings(), calibration=CalibrationSettings(least_distance_m=2.0), smooth=False)
@@ -301,7 +303,7 @@ def keep_pictures(folder: Path, session: Path, output: Path) -> None:
     writer.close()
 
 
-def test_a_session_without_a_row_can_be_tracked_again(made: Made, tmp_path: Path) -> None:
+def test_retrack_session_without_rows_works(made: Made, tmp_path: Path) -> None:
     """A program that ended at once leaves one: there is nothing to look back at, and nothing to fail over."""
     whole = read_session(made.session)
     empty = tmp_path / "empty.h5"
@@ -322,9 +324,7 @@ def test_a_session_without_a_row_can_be_tracked_again(made: Made, tmp_path: Path
         ("/detections/area", np.nan), ("/detections/similarity", np.inf),
     ],
 )  # fmt: skip
-def test_a_session_whose_calibration_or_blobs_make_no_sense_is_refused(
-    place: str, value: float, made: Made, tmp_path: Path
-) -> None:
+def test_retrack_invalid_calibration_or_detections_raise(place: str, value: float, made: Made, tmp_path: Path) -> None:
     damaged = tmp_path / "damaged.h5"
     shutil.copy(made.session, damaged)
     with h5py.File(damaged, "r+") as file:

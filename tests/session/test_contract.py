@@ -107,7 +107,7 @@ def protocol(request: pytest.FixtureRequest) -> MarkerProtocol:
     return request.param
 
 
-def test_every_path_has_its_shape_unit_description_and_names(tmp_path: Path, protocol: MarkerProtocol) -> None:
+def test_session_file_datasets_have_shape_unit_and_names(tmp_path: Path, protocol: MarkerProtocol) -> None:
     names = {
         "angles": ANGLES,
         "zyz": ["alpha", "beta", "gamma"],
@@ -134,7 +134,7 @@ def test_every_path_has_its_shape_unit_description_and_names(tmp_path: Path, pro
             assert "/joints" not in file
 
 
-def test_attributes(tmp_path: Path) -> None:
+def test_session_file_has_root_attributes(tmp_path: Path) -> None:
     with h5py.File(write(tmp_path / "s.h5", WRIST6), "r") as file:
         said = file.attrs
         assert said["format"] == "carpus-session"
@@ -157,7 +157,7 @@ def test_attributes(tmp_path: Path) -> None:
         np.testing.assert_array_equal(camera["distortion"], CAMERA.distortion)
 
 
-def test_every_number_is_where_it_belongs(tmp_path: Path) -> None:
+def test_session_file_values_are_in_their_datasets(tmp_path: Path) -> None:
     frames = [make_frame(row, HAND21) for row in range(N)]
     with h5py.File(write(tmp_path / "s.h5", HAND21), "r") as file:
         assert file["/frames/timestamp"].dtype == np.float64
@@ -186,7 +186,7 @@ def test_every_number_is_where_it_belongs(tmp_path: Path) -> None:
         assert file["/events/text"].asstr()[()].tolist() == ["Schmerz am Daumen: 3°", ""]
 
 
-def test_free_end_joints_have_their_own_angles(tmp_path: Path) -> None:
+def test_session_file_free_dip_has_own_angles(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     with begun(path, make_header(HAND21, dip_free=True)) as writer:
         writer.append(make_frame(0, HAND21, joints=21))

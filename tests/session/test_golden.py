@@ -28,7 +28,7 @@ def unpacked(name: str, folder: Path) -> Path:
     return path
 
 
-def test_every_version_has_its_files() -> None:
+def test_golden_files_exist_for_every_version() -> None:
     have = {path.name for path in GOLDEN.iterdir()}
     for version in range(1, schema.FORMAT_VERSION + 1):
         assert {f"v{version}-wrist6.h5.xz", f"v{version}-hand21.h5.xz"} <= have
@@ -36,7 +36,7 @@ def test_every_version_has_its_files() -> None:
 
 @pytest.mark.parametrize("version", range(1, schema.FORMAT_VERSION + 1))
 @pytest.mark.parametrize("protocol", [WRIST6, HAND21], ids=lambda protocol: protocol.name)
-def test_an_old_session_is_read_value_by_value(tmp_path: Path, version: int, protocol: MarkerProtocol) -> None:
+def test_golden_old_session_is_read(tmp_path: Path, version: int, protocol: MarkerProtocol) -> None:
     path = unpacked(f"v{version}-{protocol.name}.h5", tmp_path)
     before = path.read_bytes()
     session = read_session(path)
@@ -82,7 +82,7 @@ def test_an_old_session_is_read_value_by_value(tmp_path: Path, version: int, pro
     assert path.read_bytes() == before
 
 
-def test_readings_on_the_back_of_the_hand_are_read_value_by_value(tmp_path: Path) -> None:
+def test_golden_surface_samples_are_read(tmp_path: Path) -> None:
     """A session of version 2 with ``/surface``, which the first of that version did not have."""
     table = read_detections(unpacked("v2-surface.h5", tmp_path))
     for row in range(ROWS):

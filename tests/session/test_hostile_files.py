@@ -92,7 +92,7 @@ ELSE: dict[str, tuple[Callable[[h5py.File, Path], object], str]] = {
 
 
 @pytest.mark.parametrize("other", ELSE)
-def test_something_else_in_the_place_of_values_is_refused(tmp_path: Path, other: str) -> None:
+def test_hostile_file_wrong_object_raises(tmp_path: Path, other: str) -> None:
     make, said = ELSE[other]
     path = replaced(stored(tmp_path / "s.h5"), make)
     for read in (read_outline, read_session):
@@ -103,7 +103,7 @@ def test_something_else_in_the_place_of_values_is_refused(tmp_path: Path, other:
         read_session(tmp_path / "no session")
 
 
-def test_a_huge_shape_costs_no_memory(tmp_path: Path) -> None:
+def test_hostile_file_huge_shape_costs_no_memory(tmp_path: Path) -> None:
     huge = {"shape": (50_000_000, 3), "dtype": "f8", "maxshape": (None, 3), "chunks": (1024, 3)}
     path = replaced(stored(tmp_path / "s.h5"), lambda file, _: file.create_dataset(ANGLES, **huge))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -134,7 +134,7 @@ def changed(path: Path, place: str, rows: object, value: object) -> Path:
         ("/events/time", 0, np.nan),
     ],
 )
-def test_values_that_nothing_measures(tmp_path: Path, place: str, rows: object, value: object) -> None:
+def test_hostile_file_impossible_values_raise(tmp_path: Path, place: str, rows: object, value: object) -> None:
     path = changed(stored(tmp_path / "s.h5"), place, rows, value)
     with pytest.raises(SessionUnreadable, match="damaged"):
         read_session(path)
@@ -152,7 +152,7 @@ def test_values_that_nothing_measures(tmp_path: Path, place: str, rows: object, 
         ("session_id", ""),
     ],
 )
-def test_a_header_that_makes_no_sense(tmp_path: Path, name: str, value: object) -> None:
+def test_hostile_file_invalid_header_raises(tmp_path: Path, name: str, value: object) -> None:
     path = stored(tmp_path / "s.h5")
     with h5py.File(path, "r+") as file:
         file.attrs[name] = value
@@ -163,7 +163,7 @@ def test_a_header_that_makes_no_sense(tmp_path: Path, name: str, value: object) 
         read_outline(path)
 
 
-def test_where_pictures_end_is_checked(tmp_path: Path) -> None:
+def test_hostile_file_invalid_image_ends_raise(tmp_path: Path) -> None:
     path = stored(tmp_path / "s.h5", raw=True)
     assert len(list(read_raw(path))) == ROWS
     changed(path, "/raw/color_end", 5, 1 << 60)
@@ -197,7 +197,7 @@ def another(monkeypatch: pytest.MonkeyPatch) -> ReadingProcess:
 @pytest.mark.parametrize(
     ("name", "said"), [("loop", "to its end|does not end"), ("die", "to its end"), ("greed", "more memory")]
 )
-def test_what_a_file_does_to_its_reader_ends_there(
+def test_hostile_file_affects_reading_process_only(
     tmp_path: Path, another: ReadingProcess, name: str, said: str
 ) -> None:
     """A reader that loops for ever, dies, or asks for 3 GB: told as damaged, and the next file is read. On a busy
@@ -213,9 +213,7 @@ def test_what_a_file_does_to_its_reader_ends_there(
     another.end()
 
 
-def test_a_reader_that_could_not_be_started_is_started_for_the_next_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_reading_process_failed_start_is_retried(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own, path = ReadingProcess(), stored(tmp_path / "s.h5")
 
     def no_process(*_: object) -> None:
@@ -230,7 +228,7 @@ def test_a_reader_that_could_not_be_started_is_started_for_the_next_file(
     own.end()
 
 
-def test_one_process_serves_many_files(tmp_path: Path) -> None:
+def test_reading_process_serves_many_files(tmp_path: Path) -> None:
     own = ReadingProcess()
     paths = [stored(tmp_path / f"{number}.h5") for number in range(5)]
     seen = set()
@@ -241,7 +239,7 @@ def test_one_process_serves_many_files(tmp_path: Path) -> None:
     assert len(seen) == 1
 
 
-def test_what_is_read_cannot_be_changed(tmp_path: Path) -> None:
+def test_reading_process_arrays_are_read_only(tmp_path: Path) -> None:
     session = read_session(stored(tmp_path / "s.h5"))
     for values in (session.timestamp_s, session.motion.angles_rad, session.calibration.marker_position_w0_m):
         with pytest.raises(ValueError, match="read-only"):
@@ -249,7 +247,7 @@ def test_what_is_read_cannot_be_changed(tmp_path: Path) -> None:
     assert not read_detections(session.path).blobs.pixel.flags.writeable
 
 
-def test_a_script_without_a_main_guard_can_read(tmp_path: Path) -> None:
+def test_reading_process_works_without_main_guard(tmp_path: Path) -> None:
     """As researchers write them; a thread makes a copy of the process impossible, so a new one is started."""
     script = tmp_path / "script.py"
     script.write_text(

@@ -57,7 +57,7 @@ def check_prefix(path: Path, batches: int) -> None:
 
 
 @pytest.mark.parametrize("end", ["cut", "zeros", "old bytes"])
-def test_journal_whose_end_is_lost_at_any_512th_byte_has_all_rows_before(tmp_path: Path, end: str) -> None:
+def test_journal_truncated_keeps_rows_before(tmp_path: Path, end: str) -> None:
     ends = in_batches(tmp_path / "s.journal")
     data, path = (tmp_path / "s.journal").read_bytes(), tmp_path / "lost.journal"
     for length in range(512, len(data), 512):
@@ -66,7 +66,7 @@ def test_journal_whose_end_is_lost_at_any_512th_byte_has_all_rows_before(tmp_pat
         check_prefix(path, sum(one <= length for one in ends))
 
 
-def test_record_whose_content_is_damaged_costs_itself_alone(tmp_path: Path) -> None:
+def test_journal_damaged_record_is_skipped(tmp_path: Path) -> None:
     ends = in_batches(tmp_path / "s.journal")
     data = bytearray((tmp_path / "s.journal").read_bytes())
     data[ends[2] - 100] ^= 1
@@ -74,7 +74,7 @@ def test_record_whose_content_is_damaged_costs_itself_alone(tmp_path: Path) -> N
     assert rows_stored(tmp_path / "s.journal") == BATCH * (BATCHES - 1)
 
 
-def test_rows_reach_the_disk_within_half_a_second(tmp_path: Path) -> None:
+def test_journal_rows_are_synchronised_twice_a_second(tmp_path: Path) -> None:
     now_s = 100.0
     journal = journal_of(tmp_path / "s.journal", clock=lambda: now_s)
     for row in range(60):
@@ -85,7 +85,7 @@ def test_rows_reach_the_disk_within_half_a_second(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_journal_that_cannot_be_begun_leaves_nothing(tmp_path: Path) -> None:
+def test_journal_failed_start_leaves_nothing(tmp_path: Path) -> None:
     (tmp_path / "s.journal").write_text("mine")
     with pytest.raises(OutputExists):
         journal_of(tmp_path / "s.journal")
@@ -94,7 +94,7 @@ def test_journal_that_cannot_be_begun_leaves_nothing(tmp_path: Path) -> None:
     assert (tmp_path / "s.journal").read_text() == "mine"
 
 
-def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> None:
+def test_journal_unordered_times_or_wrong_shapes_raise(tmp_path: Path) -> None:
     journal = journal_of(tmp_path / "s.journal")
     journal.append(make_frame(1))
     with pytest.raises(TimesUnordered):
@@ -109,7 +109,7 @@ def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("number", "kind"), [(errno.ENOSPC, DiskFull), (errno.EDQUOT, DiskFull), (errno.EIO, OutputNotWritable)]
 )
-def test_write_that_fails_is_a_typed_fault(
+def test_journal_failed_write_raises_fault(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int, kind: type[CarpusFault]
 ) -> None:
     def broken(_: int) -> None:
@@ -148,7 +148,7 @@ except DiskFull:
 """
 
 
-def test_full_disk_is_told_and_what_was_stored_stays(tmp_path: Path) -> None:
+def test_journal_full_disk_keeps_stored_rows(tmp_path: Path) -> None:
     command = [sys.executable, "-c", BOUNDED, str(tmp_path / "s.journal")]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert rows_stored(tmp_path / "s.journal") == int(done.stdout) > 0

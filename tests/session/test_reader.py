@@ -46,7 +46,7 @@ def assert_same(left: object, right: object) -> None:
 
 
 @pytest.mark.parametrize("protocol", [WRIST6, HAND21], ids=lambda protocol: protocol.name)
-def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> None:
+def test_reader_returns_written_session(tmp_path: Path, protocol: MarkerProtocol) -> None:
     frames = [make_frame(row, protocol) for row in range(N)]
     path = write(tmp_path / "s.h5", protocol)
     session = read_session(path)
@@ -114,7 +114,7 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
 
 
 @pytest.mark.parametrize("case", BAD)
-def test_anything_else_is_one_typed_fault(tmp_path: Path, case: str) -> None:
+def test_reader_other_file_raises_session_unreadable(tmp_path: Path, case: str) -> None:
     path = write(tmp_path / "s.h5")
     spoil, fact = BAD[case]
     spoil(path)
@@ -125,7 +125,7 @@ def test_anything_else_is_one_typed_fault(tmp_path: Path, case: str) -> None:
     assert "\n" not in caught.value.detail
 
 
-def test_a_file_with_only_what_the_contract_asks_is_read(tmp_path: Path) -> None:
+def test_reader_minimal_file_is_read(tmp_path: Path) -> None:
     """What Carpus stores beyond the contract is optional; other programs write sessions too."""
     path = write(tmp_path / "s.h5")
     extra = ("marker_covariance", "start_angles", "residual")
@@ -147,7 +147,7 @@ def test_a_file_with_only_what_the_contract_asks_is_read(tmp_path: Path) -> None
     assert (session.quality.nis_dof == -1).all()
 
 
-def test_a_header_without_zone_or_with_wrong_joints_is_not_made() -> None:
+def test_session_header_without_zone_or_with_wrong_joints_raises() -> None:
     header = make_header()
     with pytest.raises(ValueError, match="zone"):
         dataclasses.replace(header, created="2026-11-13T15:30:00")
@@ -169,7 +169,7 @@ def test_a_header_without_zone_or_with_wrong_joints_is_not_made() -> None:
         ('{"source": {"simulated": "yes"}, "set_up": {"targets_deg": ["a", -20]}}', True, (np.nan, -20.0)),
     ],
 )
-def test_parameters_of_another_program_are_no_trouble(
+def test_session_header_foreign_parameters_are_ignored(
     tmp_path: Path, parameters: str, simulated: bool, targets_deg: tuple[float, float]
 ) -> None:
     header = dataclasses.replace(make_header(), parameters=parameters)

@@ -52,7 +52,7 @@ def old_part(folder: Path, name: str = PART) -> Path:
     return path
 
 
-def test_interrupted_recording_becomes_the_session_that_stop_would_have_made(tmp_path: Path) -> None:
+def test_recovery_interrupted_recording_equals_stopped_one(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
     whole = write_session(interrupt(tmp_path / "whole.journal", smoothed=N))
     interrupt(tmp_path / "a" / "s.journal", smoothed=N)
@@ -69,7 +69,7 @@ def test_interrupted_recording_becomes_the_session_that_stop_would_have_made(tmp
         np.testing.assert_array_equal(getattr(session.smoothed, field.name), expected)
 
 
-def test_draft_that_follows_a_journal_ends_as_one_made_at_once(tmp_path: Path) -> None:
+def test_session_draft_in_parts_equals_whole(tmp_path: Path) -> None:
     journal = journal_of(tmp_path / "s.journal", 1100)
     draft = SessionDraft(journal.path)
     draft.read()
@@ -87,7 +87,7 @@ def test_draft_that_follows_a_journal_ends_as_one_made_at_once(tmp_path: Path) -
         assert one["/smoothed/wrist/angles"].shape[0] == 1130
 
 
-def test_half_a_smoothed_result_is_left_out_and_broken_records_cost_only_themselves(tmp_path: Path) -> None:
+def test_recovery_drops_half_a_smoothed_result(tmp_path: Path) -> None:
     path = interrupt(tmp_path / "s.journal", smoothed=N // 2)
     data = bytearray(path.read_bytes())
     data[data.rindex(b"/events/kind") + 500] ^= 1
@@ -104,7 +104,7 @@ def test_half_a_smoothed_result_is_left_out_and_broken_records_cost_only_themsel
         ("event", "s.damaged", ["s.h5", "t.h5"]),
     ],
 )
-def test_journal_whose_bytes_went_bad_is_kept(tmp_path: Path, place: str, kept_as: str, names: list[str]) -> None:
+def test_recovery_damaged_journal_is_kept(tmp_path: Path, place: str, kept_as: str, names: list[str]) -> None:
     path = interrupt(tmp_path / "s.journal", smoothed=N)
     data = bytearray(path.read_bytes())
     data[{"image": 500, "rows": data.index(b"ROWS") + 5, "event": data.rindex(b"ROWS") + 5}[place]] ^= 1
@@ -121,7 +121,7 @@ def test_journal_whose_bytes_went_bad_is_kept(tmp_path: Path, place: str, kept_a
     assert (tmp_path / kept_as).read_bytes() == data
 
 
-def test_recording_that_runs_is_left_alone_by_other_programs(tmp_path: Path) -> None:
+def test_recovery_running_recording_is_left_alone(tmp_path: Path) -> None:
     journal = journal_of(tmp_path / "s.journal", 1)
     program = """if True:
         import sys
@@ -137,13 +137,13 @@ def test_recording_that_runs_is_left_alone_by_other_programs(tmp_path: Path) -> 
     assert recover_recordings(tmp_path).recovered == (tmp_path / "s.h5",)
 
 
-def test_recovery_that_ended_before_the_journal_went_makes_no_second_session(tmp_path: Path) -> None:
+def test_recovery_interrupted_makes_no_second_session(tmp_path: Path) -> None:
     write_session(interrupt(tmp_path / "s.journal"))
     assert recover_recordings(tmp_path).recovered == (tmp_path / "s.h5",)
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
 
 
-def test_what_cannot_be_finished_stays_and_taken_names_are_kept(tmp_path: Path) -> None:
+def test_recovery_unfinishable_files_stay_and_names_are_kept(tmp_path: Path) -> None:
     interrupt(tmp_path / "empty.journal", rows=0)
     interrupt(tmp_path / "s.journal")
     (tmp_path / "s.h5").write_text("mine")
@@ -166,7 +166,7 @@ def test_what_cannot_be_finished_stays_and_taken_names_are_kept(tmp_path: Path) 
         recover_recordings(tmp_path / "nowhere")
 
 
-def test_part_file_of_an_older_carpus_is_recovered(tmp_path: Path) -> None:
+def test_recovery_old_part_file_is_finished(tmp_path: Path) -> None:
     old_part(tmp_path)
     (tmp_path / f"{PART}.alive").write_text("{}")
     assert recover_recordings(tmp_path, NOW).recovered == (tmp_path / "v2-wrist6.h5",)
@@ -182,7 +182,7 @@ def test_part_file_of_an_older_carpus_is_recovered(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("harm", ["end too early", "events broken", "rows missing"])
-def test_damaged_part_file_gives_the_rows_that_are_whole(tmp_path: Path, harm: str) -> None:
+def test_recovery_damaged_part_file_keeps_complete_rows(tmp_path: Path, harm: str) -> None:
     part = old_part(tmp_path)
     data = bytearray(part.read_bytes())
     if harm == "end too early":
@@ -206,7 +206,7 @@ def test_damaged_part_file_gives_the_rows_that_are_whole(tmp_path: Path, harm: s
     assert len(session.events) == (0 if harm == "events broken" else 1)
 
 
-def test_part_file_that_is_added_to_is_left_alone(tmp_path: Path) -> None:
+def test_recovery_open_part_file_is_left_alone(tmp_path: Path) -> None:
     part = old_part(tmp_path)
     os.utime(part)
     assert recover_recordings(tmp_path).in_progress == (part,)
@@ -216,7 +216,7 @@ def test_part_file_that_is_added_to_is_left_alone(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("links", [True, False])
-def test_published_session_goes_on_where_a_kill_left_it(
+def test_recovery_killed_while_publishing_continues(
     tmp_path: Path, links: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:
@@ -244,9 +244,7 @@ def test_published_session_goes_on_where_a_kill_left_it(
 
 
 @pytest.mark.parametrize("given", [".", "sessions"])
-def test_recover_command_of_a_data_folder_finishes_what_waits_on_this_computer(
-    tmp_path: Path, command: Command, given: str
-) -> None:
+def test_recover_command_finishes_local_recordings(tmp_path: Path, command: Command, given: str) -> None:
     data = tmp_path / "data"
     (data / "sessions").mkdir(parents=True)
     place = spool_folder(data) / "patient"

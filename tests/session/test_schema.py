@@ -10,13 +10,13 @@ from carpus.core.session import schema
 from tests.session.format_page import format_page
 
 
-def test_the_page_in_the_repository_is_the_schema_s() -> None:
+def test_format_page_matches_schema() -> None:
     stored = resources.files("carpus.resources").joinpath("session-format.md").read_text(encoding="utf-8")
     assert stored == format_page(), "write format_page() to resources/session-format.md"
     assert all(one.description for one in (*schema.ALL_FIELDS, *schema.REPETITION_COLUMNS))
 
 
-def test_a_moment_has_the_columns_of_the_schema_and_no_others() -> None:
+def test_kinematic_state_fields_match_schema() -> None:
     assert [field.attribute for field in schema.MOTION_FIELDS] == [
         field.name for field in dataclasses.fields(KinematicState)
     ]

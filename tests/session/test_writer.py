@@ -38,7 +38,7 @@ def open_below(folder: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("end", [SessionWriter.close, SessionWriter.abandon])
-def test_no_file_stays_open(tmp_path: Path, end: Callable[[SessionWriter], None]) -> None:
+def test_session_writer_leaves_no_open_file(tmp_path: Path, end: Callable[[SessionWriter], None]) -> None:
     session = begun(tmp_path / "s.h5", rows=1)
     assert open_below(tmp_path)
     end(session)
@@ -46,7 +46,7 @@ def test_no_file_stays_open(tmp_path: Path, end: Callable[[SessionWriter], None]
 
 
 @pytest.mark.parametrize("links", [True, False])
-def test_the_name_appears_only_when_the_session_is_whole_and_never_on_another_file(
+def test_session_writer_publishes_only_complete_file(
     tmp_path: Path, links: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def no_links(*_: object) -> None:
@@ -72,7 +72,7 @@ def test_the_name_appears_only_when_the_session_is_whole_and_never_on_another_fi
     assert target.read_text() == "mine"
 
 
-def test_a_killed_writer_leaves_what_the_next_one_takes_away(tmp_path: Path) -> None:
+def test_session_writer_removes_leftovers_of_killed_one(tmp_path: Path) -> None:
     left, busy, fresh = (tmp_path / f".s.h5.0123456{number}.tmp" for number in range(3))
     for path in (left, busy, fresh):
         path.write_bytes(b"")
@@ -83,7 +83,7 @@ def test_a_killed_writer_leaves_what_the_next_one_takes_away(tmp_path: Path) -> 
     assert {path.name for path in tmp_path.iterdir()} == {"s.h5", busy.name, fresh.name}
 
 
-def test_a_fault_on_the_way_leaves_nothing(tmp_path: Path) -> None:
+def test_session_writer_fault_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt), begun(tmp_path / "s.h5", rows=1):
         raise KeyboardInterrupt
     assert list(tmp_path.iterdir()) == []
@@ -96,7 +96,7 @@ def test_a_fault_on_the_way_leaves_nothing(tmp_path: Path) -> None:
         ("s.h5", errno.ENOSPC, DiskFull),
     ],
 )  # fmt: skip
-def test_what_cannot_be_begun_is_told_and_leaves_nothing(
+def test_session_writer_failed_start_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str, number: int, kind: type[CarpusFault]
 ) -> None:
     def refuse(*_: object, **__: object) -> None:
@@ -111,7 +111,7 @@ def test_what_cannot_be_begun_is_told_and_leaves_nothing(
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
-def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> None:
+def test_session_writer_unordered_times_or_wrong_shapes_raise(tmp_path: Path) -> None:
     session = begun(tmp_path / "s.h5")
     session.append(make_frame(1))
     with pytest.raises(TimesUnordered):
@@ -124,7 +124,7 @@ def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> 
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
+def test_session_writer_smoothed_rows_must_match_frames(tmp_path: Path) -> None:
     session = begun(tmp_path / "s.h5", make_header(HAND21), rows=3)
     smoothed = stack_states([make_frame(row + 100, HAND21) for row in range(3)])
     with pytest.raises(ValueError, match="/smoothed"):
@@ -137,7 +137,7 @@ def test_a_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
         np.testing.assert_array_equal(getattr(read, field.name), getattr(smoothed, field.name))
 
 
-def test_a_smoothed_result_that_does_not_come_to_all_frames_is_left_out(tmp_path: Path) -> None:
+def test_session_writer_drops_incomplete_smoothed_result(tmp_path: Path) -> None:
     session = begun(tmp_path / "s.h5", rows=4)
     session.add_motion_blocks(build_motion_blocks(session._layout, stack_states([make_frame(0), make_frame(1)])))
     session.drop_motion()
@@ -146,7 +146,7 @@ def test_a_smoothed_result_that_does_not_come_to_all_frames_is_left_out(tmp_path
     assert read_session(tmp_path / "s.h5").smoothed is None
 
 
-def test_pictures_come_back_byte_for_byte(tmp_path: Path) -> None:
+def test_session_writer_images_are_read_back_exactly(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     pictures = [EncodedImages(b"color %d" % row * row, b"" if row == 2 else b"depth %d" % row) for row in range(5)]
     session = begun(path, raw_depth_unit_m=0.001)
@@ -179,14 +179,14 @@ except DiskFull:
 
 
 @pytest.mark.parametrize("bytes_free", [10_000, 6_000_000])
-def test_a_full_disk_is_told_and_nothing_is_left_behind(tmp_path: Path, bytes_free: int) -> None:
+def test_session_writer_full_disk_leaves_nothing(tmp_path: Path, bytes_free: int) -> None:
     command = [sys.executable, "-c", BOUNDED, str(tmp_path / "s.h5"), str(bytes_free)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["full"]
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_disk_that_cannot_reserve_is_asked_how_much_is_free(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_session_writer_without_fallocate_checks_free_space(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def unknown(*_: int) -> None:
         raise OSError(errno.EOPNOTSUPP, "not here")
 
@@ -201,7 +201,7 @@ def test_a_disk_that_cannot_reserve_is_asked_how_much_is_free(tmp_path: Path, mo
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_finished_file_has_no_reserved_room_left(tmp_path: Path) -> None:
+def test_session_writer_truncates_reserved_space(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     begun(path, rows=1).close()
     size = path.stat().st_size

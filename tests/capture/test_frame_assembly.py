@@ -60,27 +60,25 @@ PAIRED: dict[str, tuple[list[tuple[str, int]], list[tuple[int, int | None]]]] = 
 
 
 @pytest.mark.parametrize("case", PAIRED)
-def test_each_colour_picture_has_the_depth_nearest_in_time(case: str) -> None:
+def test_synchronizer_pairs_nearest_in_time(case: str) -> None:
     events, pairs = PAIRED[case]
     assert paired(events) == pairs
 
 
-def test_a_near_depth_is_not_waited_past() -> None:
+def test_synchronizer_near_depth_releases_at_once() -> None:
     pairing = ApproximateTimeSynchronizer[str](PERIOD_US)
     assert pairing.add_color(TimestampedImage(100_000, 1, "")) == []
     assert len(pairing.add_depth(TimestampedImage(98_000, 1, ""))) == 1
 
 
 @pytest.mark.parametrize(("start_limit", "count", "shown"), [(0, 10, range(7)), (5, 20, range(5, 17))])
-def test_where_no_depth_comes_no_colour_picture_waits_longer_than_the_limit(
-    start_limit: int, count: int, shown: range
-) -> None:
+def test_synchronizer_without_depth_waits_up_to_limit(start_limit: int, count: int, shown: range) -> None:
     pairing = ApproximateTimeSynchronizer[str](PERIOD_US, limit=3, start_limit=start_limit)
     out = [pair for i in range(count) for pair in pairing.add_color(TimestampedImage(i * PERIOD_US, i, ""))]
     assert [color.number for color, _ in out] == list(shown)
 
 
-def test_colour_from_before_the_depth_began_is_left_out_at_the_start_only() -> None:
+def test_synchronizer_skips_colour_without_depth_at_start_only() -> None:
     events = [("color", 0), ("color", 33_000), ("depth", 66_000), ("color", 66_000), ("color", 99_000)]
     assert paired(events, start_limit=5) == [(66_000, 66_000), (99_000, None)]
     assert paired(events, start_limit=0)[0] == (0, None)
@@ -91,7 +89,9 @@ def test_colour_from_before_the_depth_began_is_left_out_at_the_start_only() -> N
     st.lists(st.integers(1, 50_000), min_size=0, max_size=30),
     st.integers(-20_000, 20_000),
 )
-def test_every_colour_once_in_order_every_depth_at_most_once(color: list[int], depth: list[int], shift: int) -> None:
+def test_synchronizer_uses_each_colour_once_and_depth_at_most_once(
+    color: list[int], depth: list[int], shift: int
+) -> None:
     events = [("color", int(t)) for t in np.cumsum(color)] + [("depth", int(t) + shift) for t in np.cumsum(depth)]
     pairs = paired(sorted(events, key=lambda event: event[1]), limit=100)
     assert [time_us for time_us, _ in pairs] == [int(t) for t in np.cumsum(color)]
@@ -105,7 +105,7 @@ def color_of(value: int) -> np.ndarray:
     return np.full((4, 6, 3), value, np.uint8)
 
 
-def test_gaps_and_clocks_that_begin_anew() -> None:
+def test_frame_assembler_counts_gaps_and_survives_clock_restart() -> None:
     layout = StreamLayout((6, 4), None)
     assembler = FrameAssembler(layout, PERIOD_US, 4)
     frames = []
@@ -121,13 +121,13 @@ def test_gaps_and_clocks_that_begin_anew() -> None:
     assert [frame.dropped_before for frame in frames[3:]] == [29, 0]
 
 
-def test_missing_numbers_count_even_when_times_do_not_tell() -> None:
+def test_frame_assembler_counts_missing_numbers() -> None:
     assembler = FrameAssembler(StreamLayout((6, 4), None), 1e6, 4)
     frames = assembler.add_color(0, 1, color_of(1)) + assembler.add_color(PERIOD_US, 4, color_of(2))
     assert frames[1].dropped_before == 2
 
 
-def test_pictures_are_copies() -> None:
+def test_frame_assembler_images_are_copies() -> None:
     view = color_of(3)
     (frame,) = FrameAssembler(StreamLayout((6, 4), None), PERIOD_US, 4).add_color(0, 1, view)
     view[:] = 0
@@ -135,7 +135,7 @@ def test_pictures_are_copies() -> None:
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
-def test_depth_is_enlarged_without_inventing_any(mirrored: bool) -> None:
+def test_stream_layout_enlarges_depth_by_repetition(mirrored: bool) -> None:
     layout = StreamLayout((8, 6), (4, 3), False, mirrored)
     small = np.arange(12, dtype=np.uint16).reshape(3, 4)
     large = layout.convert_depth(small)
@@ -146,13 +146,13 @@ def test_depth_is_enlarged_without_inventing_any(mirrored: bool) -> None:
     assert layout.describe_size_mismatch() == ""
 
 
-def test_sizes_that_do_not_fit() -> None:
+def test_stream_layout_incompatible_sizes_are_described() -> None:
     assert StreamLayout((640, 480), (320, 200)).describe_size_mismatch() == "colour 640x480, depth 320x200"
     assert StreamLayout((160, 120), (640, 480)).describe_size_mismatch() != ""
     assert StreamLayout((640, 480), (640, 480)).describe_size_mismatch() == ""
 
 
-def test_intrinsics_from_the_field_of_view() -> None:
+def test_camera_from_field_of_view_has_its_focal_length() -> None:
     # the angles an Asus Xtion tells: f = 570.34 px
     camera = camera_from_field_of_view((640, 480), (1.02260, 0.79662))
     assert camera is not None
@@ -163,7 +163,7 @@ def test_intrinsics_from_the_field_of_view() -> None:
 
 
 @given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
-def test_a_point_keeps_its_place_in_an_enlarged_picture(x: float, y: float) -> None:
+def test_rescale_camera_keeps_point_in_enlarged_image(x: float, y: float) -> None:
     small = Camera(262.5, 263.0, 159.1, 120.3, 320, 240)
     large = rescale_camera(small, (640, 480))
     assert large is not None
@@ -191,7 +191,7 @@ def picture(**changes: int | bool) -> VideoFrame:
         {"height_px": 47},
     ],
 )  # fmt: skip
-def test_a_whole_picture_may_be_read_and_memory_of_any_other_is_not_touched(changes: dict[str, int]) -> None:
+def test_frame_size_bytes_only_of_expected_mode(changes: dict[str, int]) -> None:
     assert frame_size_bytes(picture(), MODE) == 9216
     assert frame_size_bytes(picture(**changes), MODE) is None
     assert frame_size_bytes(picture(pixel_format=999), VideoMode(999, 64, 48, 30)) is None
@@ -218,13 +218,13 @@ def plugged_in(root: Path, product: str = "0601", *, driver: str | None = None) 
     return root / "dev"
 
 
-def test_the_camera_on_the_bus(tmp_path: Path) -> None:
+def test_find_usb_cameras_reads_sysfs(tmp_path: Path) -> None:
     nodes = plugged_in(tmp_path, driver="usbfs")
     (camera,) = find_usb_cameras(MODELS, tmp_path / "sys", nodes)
     assert camera == UsbCamera("Asus Xtion Pro Live", "1d27", "0601", nodes / "001" / "007", 480, True, True)
 
 
-def test_other_devices_and_other_systems(tmp_path: Path) -> None:
+def test_find_usb_cameras_other_device_or_system_finds_none(tmp_path: Path) -> None:
     nodes = plugged_in(tmp_path, product="9999")
     assert find_usb_cameras(MODELS, tmp_path / "sys", nodes) == []
     assert find_usb_cameras(MODELS, tmp_path / "nowhere", nodes) == []
@@ -245,7 +245,7 @@ def seen(**changes: bool) -> UsbCamera:
         ([seen()], "USB transfer timeout!", DriverFailed),
     ],
 )
-def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str, fault: type[CarpusFault]) -> None:
+def test_open_error_tells_the_cause(cameras: list[UsbCamera], reason: str, fault: type[CarpusFault]) -> None:
     failed = openni2_camera._open_error(OpenNI2Error("oniDeviceOpen", 1, reason), cameras)
     assert failed.fault is fault
 
@@ -254,11 +254,11 @@ def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str,
     ("cameras", "fault"),
     [([], CameraMissing), ([seen(can_open=False)], CameraPermission), ([seen()], DriverFailed)],
 )
-def test_why_the_driver_lists_no_camera(cameras: list[UsbCamera], fault: type[CarpusFault]) -> None:
+def test_camera_unlisted_error_tells_the_cause(cameras: list[UsbCamera], fault: type[CarpusFault]) -> None:
     assert camera_unlisted_error(cameras).fault is fault
 
 
-def test_the_modes_of_an_xtion() -> None:
+def test_choose_mode_of_an_xtion_prefers_vga() -> None:
     offered = [
         VideoMode(code, width, height, fps)
         for code in (PixelFormat.RGB888, PixelFormat.YUV422)
@@ -269,7 +269,7 @@ def test_the_modes_of_an_xtion() -> None:
     assert openni2_camera.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None
 
 
-def test_slots_of_pictures_before_the_opening_are_given_back(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_receive_opened_releases_early_slots(monkeypatch: pytest.MonkeyPatch) -> None:
     early, opened = ImageArrived(Sensor.DEPTH, 3, 1, 0), DeviceOpened({}, {}, None, {})
     reports, freed = deque([Heartbeat(), early, opened]), list[ImageArrived]()
     monkeypatch.setattr(CaptureProcess, "receive_report", lambda *_: reports.popleft())

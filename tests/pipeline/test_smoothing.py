@@ -118,7 +118,7 @@ def at_rows(motion: Motion, rows: slice) -> Motion:
     return Motion(**{one.name: getattr(motion, one.name)[rows] for one in FIELDS})
 
 
-def test_the_process_gives_what_looking_back_here_gives() -> None:
+def test_smoothing_process_equals_local_smoother() -> None:
     """Behind the tracking, until it is waited for."""
     own = os.getpriority(os.PRIO_PROCESS, 0)
     count, expected = looked_back_here()
@@ -142,7 +142,7 @@ def test_the_process_gives_what_looking_back_here_gives() -> None:
     assert np.isfinite(motion.joint_angles_rad).mean() > 0.9
 
 
-def test_what_is_given_as_it_comes_is_not_kept_and_the_end_gives_the_rest() -> None:
+def test_smoothing_process_pop_and_finish_give_all_frames() -> None:
     """Every third frame is recorded, as if there had been pauses."""
     every_third = slice(2, None, 3)
     recorded, out = times_s()[every_third], []
@@ -161,7 +161,7 @@ def test_what_is_given_as_it_comes_is_not_kept_and_the_end_gives_the_rest() -> N
     assert_same(joined(out), at_rows(looked_back_here()[1], every_third))
 
 
-def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made() -> None:
+def test_smoother_steps_one_by_one_equal_tracker_history() -> None:
     count = [0]
 
     def begin_recording(tracker: Tracker) -> None:
@@ -186,7 +186,7 @@ def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made
     ],
     ids=["killed", "does not answer", "too much waits"],
 )
-def test_a_process_that_dies_or_hangs_holds_nobody_up_and_is_told_at_the_end(
+def test_smoothing_process_dead_or_hanging_raises_at_finish(
     blow: signal.Signals, limit: dict[str, float], said: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in limit.items():
@@ -203,7 +203,7 @@ def test_a_process_that_dies_or_hangs_holds_nobody_up_and_is_told_at_the_end(
         assert not running._thread.is_alive()
 
 
-def test_a_process_that_cannot_start_is_told_at_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_smoothing_process_failed_start_raises_at_finish(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(_process: object) -> None:
         raise OSError("no process left")
 
@@ -215,7 +215,7 @@ def test_a_process_that_cannot_start_is_told_at_the_end(monkeypatch: pytest.Monk
     assert "no process left" in told.value.detail
 
 
-def test_a_fault_over_there_is_told_in_one_line(capfd: pytest.CaptureFixture[str]) -> None:
+def test_smoothing_process_fault_is_one_line(capfd: pytest.CaptureFixture[str]) -> None:
     with begun() as running:
         running.add_steps("no steps")  # type: ignore[arg-type]
         running.add_steps(steps()[0])
@@ -225,7 +225,7 @@ def test_a_fault_over_there_is_told_in_one_line(capfd: pytest.CaptureFixture[str
     assert capfd.readouterr().err == ""
 
 
-def test_the_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> None:
+def test_smoothing_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> None:
     child = ChildProcess(run_smoother, tracked_hand(), PIECE_S, LAG_S, name="orphan")
     child.link.send(list(steps()[:40]))
     child.link.close()

@@ -33,7 +33,7 @@ class Stored:
         self.closed += 1
 
 
-def test_no_frame_comes_before_its_time() -> None:
+def test_paced_source_releases_no_frame_early() -> None:
     source, begin_s = PacedSource(Stored(), speed=2.0), time.monotonic()
     arrivals = [(one.index, time.monotonic()) for one in source.frames()]
     assert [index for index, _ in arrivals] == [0, 1, 2, 3]
@@ -42,7 +42,7 @@ def test_no_frame_comes_before_its_time() -> None:
     assert source.info.nominal_fps == pytest.approx(20.0)
 
 
-def test_late_frames_are_not_left_out() -> None:
+def test_paced_source_keeps_late_frames() -> None:
     source = PacedSource(Stored(gap_s=0.001, count=5))
     seen = []
     for one in source.frames():
@@ -51,7 +51,7 @@ def test_late_frames_are_not_left_out() -> None:
     assert seen == [0, 1, 2, 3, 4]
 
 
-def test_closing_ends_a_wait_and_closes_the_source_behind() -> None:
+def test_paced_source_close_ends_wait_and_closes_source() -> None:
     behind = Stored(gap_s=3600.0)
     source = PacedSource(behind)
     seen: list[int] = []
@@ -67,11 +67,11 @@ def test_closing_ends_a_wait_and_closes_the_source_behind() -> None:
     source.close()
 
 
-def test_it_can_be_played_again() -> None:
+def test_paced_source_can_be_played_again() -> None:
     source = PacedSource(Stored(gap_s=0.001))
     assert [one.index for one in source.frames()] == [one.index for one in source.frames()]
 
 
-def test_speed_is_above_zero() -> None:
+def test_paced_source_speed_zero_raises() -> None:
     with pytest.raises(ValueError, match="speed"):
         PacedSource(Stored(), speed=0.0)

@@ -37,7 +37,7 @@ print(json.dumps(out | {"type": about.type(), "rate": about.nominal_srate()}))
 """
 
 
-def test_a_second_process_reads_what_was_sent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lsl_stream_is_read_by_another_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     settings = tmp_path / "lsl_api.cfg"
     settings.write_text(SETTINGS, encoding="utf-8")
     monkeypatch.setenv("LSLAPICFG", str(settings))

@@ -16,7 +16,7 @@ def in_thread(work: Callable[[], None]) -> threading.Thread:
     return thread
 
 
-def test_never_drop_gives_back_everything_in_order_across_threads() -> None:
+def test_bounded_queue_keeps_order_across_threads() -> None:
     channel: BoundedQueue[int] = BoundedQueue(16)
     taken: list[int] = []
     taker = in_thread(lambda: taken.extend(channel))
@@ -33,7 +33,7 @@ def test_never_drop_gives_back_everything_in_order_across_threads() -> None:
     assert taken == list(range(2000))
 
 
-def test_never_drop_refuses_at_its_bound_and_loses_nothing() -> None:
+def test_bounded_queue_full_raises_and_loses_nothing() -> None:
     channel: BoundedQueue[int] = BoundedQueue(2)
     channel.push(1)
     channel.push(2)
@@ -44,7 +44,7 @@ def test_never_drop_refuses_at_its_bound_and_loses_nothing() -> None:
 
 
 @pytest.mark.parametrize("kind", [BoundedQueue, BlockingQueue])
-def test_closing_lets_the_rest_out_and_wakes_a_waiting_taker(
+def test_bounded_queue_close_releases_items_and_consumer(
     kind: type[BoundedQueue[int]] | type[BlockingQueue[int]],
 ) -> None:
     channel = kind(3)
@@ -65,12 +65,12 @@ def test_closing_lets_the_rest_out_and_wakes_a_waiting_taker(
         channel.push(2)
 
 
-def test_a_channel_has_room() -> None:
+def test_bounded_queue_zero_capacity_raises() -> None:
     with pytest.raises(ValueError, match="room"):
         BoundedQueue(0)
 
 
-def test_newest_is_what_was_put_last() -> None:
+def test_mailbox_peek_returns_last_value() -> None:
     box: Mailbox[int] = Mailbox()
     assert box.peek() is None
     writer = in_thread(lambda: [box.post(number) for number in range(1000)] and None)

@@ -28,7 +28,7 @@ def noisy(rng: np.random.Generator) -> Frame:
     return Frame(0, 0.0, color, depth, 0.001, 0)
 
 
-def test_the_area_holds_every_disc_and_the_fingers_beyond_them() -> None:
+def test_hand_region_contains_markers_and_fingers() -> None:
     frame = tracked()
     area = compute_hand_region(frame, CAMERA, WRIST6)
     assert area is not None
@@ -42,7 +42,7 @@ def test_the_area_holds_every_disc_and_the_fingers_beyond_them() -> None:
     assert area.bottom <= CAMERA.height_px
 
 
-def test_inside_everything_stays_and_outside_nothing_does() -> None:
+def test_mask_outside_keeps_only_the_region() -> None:
     frame, area = noisy(np.random.default_rng(1)), compute_hand_region(tracked(), CAMERA, WRIST6)
     assert area is not None
     kept = mask_outside(frame, area)
@@ -57,7 +57,7 @@ def test_inside_everything_stays_and_outside_nothing_does() -> None:
     assert not kept.depth_raw[outside].any()
 
 
-def test_a_lost_hand_keeps_the_whole_picture() -> None:
+def test_hand_crop_lost_hand_keeps_whole_image() -> None:
     hand = HandRegions(CAMERA, WRIST6)
     assert hand.find_region(0.0) is None
     hand.update(tracked())
@@ -68,14 +68,14 @@ def test_a_lost_hand_keeps_the_whole_picture() -> None:
     assert mask_outside(frame, None) is frame
 
 
-def test_a_hand_that_was_tracked_a_while_ago_keeps_the_whole_picture() -> None:
+def test_hand_crop_stale_region_keeps_whole_image() -> None:
     hand = HandRegions(CAMERA, WRIST6)
     hand.update(tracked())
     assert hand.find_region(0.1) is not None
     assert hand.find_region(1.0) is None
 
 
-def test_a_picture_that_waited_for_the_disk_keeps_the_hand_of_its_own_time() -> None:
+def test_hand_crop_waiting_frame_uses_region_of_its_time() -> None:
     hand, now = HandRegions(CAMERA, WRIST6), tracked()
     hand.update(now)
     then = hand.find_region(0.0)
@@ -85,7 +85,7 @@ def test_a_picture_that_waited_for_the_disk_keeps_the_hand_of_its_own_time() -> 
     assert hand.find_region(-0.1) is None
 
 
-def test_depth_comes_back_as_it_was_and_it_costs_a_part(tmp_path: Path) -> None:
+def test_hand_crop_depth_is_lossless_and_smaller(tmp_path: Path) -> None:
     frame, area = noisy(np.random.default_rng(2)), compute_hand_region(tracked(), CAMERA, WRIST6)
     writer = HandCropWriter(
         RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", CAMERA, True, None, 30.0, {})), lambda _: area

@@ -41,7 +41,7 @@ def stored(path: Path) -> Path:
     return path
 
 
-def test_a_recovered_session_is_sealed_and_a_part_file_is_not(tmp_path: Path) -> None:
+def test_checksum_of_recovered_session_exists(tmp_path: Path) -> None:
     with pytest.raises(SessionUnfinished):
         verify(unpacked("v2-wrist6.h5.0123abcd.part", tmp_path))
     assert verify(write_session(stored_journal(tmp_path / "s.journal", ROWS))) == VerificationResult(
@@ -49,7 +49,7 @@ def test_a_recovered_session_is_sealed_and_a_part_file_is_not(tmp_path: Path) ->
     )
 
 
-def test_a_session_from_before_there_were_seals(tmp_path: Path) -> None:
+def test_checksum_missing_in_old_session_is_reported(tmp_path: Path) -> None:
     path = stored(tmp_path / "s.h5")
     with h5py.File(path, "r+") as file:
         del file.attrs["seal"]
@@ -69,7 +69,7 @@ CHANGES: dict[str, Callable[[h5py.File], object]] = {
 
 
 @pytest.mark.parametrize("change", CHANGES)
-def test_any_change_shows(tmp_path: Path, change: str) -> None:
+def test_checksum_any_change_is_detected(tmp_path: Path, change: str) -> None:
     path = stored(tmp_path / "s.h5")
     assert verify(path) == VerificationResult(ROWS, has_checksum=True)
     with h5py.File(path, "r+") as file:
@@ -78,7 +78,7 @@ def test_any_change_shows(tmp_path: Path, change: str) -> None:
         verify(path)
 
 
-def test_the_same_bytes_of_another_type_or_shape_have_another_seal(tmp_path: Path) -> None:
+def test_checksum_depends_on_type_and_shape(tmp_path: Path) -> None:
     seals, values = set(), np.arange(6.0)
     for number, stored_as in enumerate((values, values.view("i8"), values.reshape(2, 3))):
         with h5py.File(tmp_path / f"{number}.h5", "w") as file:
@@ -87,14 +87,14 @@ def test_the_same_bytes_of_another_type_or_shape_have_another_seal(tmp_path: Pat
     assert len(seals) == 3
 
 
-def test_opening_for_writing_without_a_change_does_not_show(tmp_path: Path) -> None:
+def test_checksum_unchanged_after_opening_for_writing(tmp_path: Path) -> None:
     path = stored(tmp_path / "s.h5")
     with h5py.File(path, "r+") as file:
         file["/wrist/angles"][...] = file["/wrist/angles"][...]
     assert verify(path).has_checksum
 
 
-def test_flipped_bits(tmp_path: Path) -> None:
+def test_checksum_flipped_bits_are_detected(tmp_path: Path) -> None:
     """No single flipped bit in what the values occupy passes: found when they are read, or of a picture by the seal."""
     path = stored(tmp_path / "s.h5")
     data = path.read_bytes()
@@ -120,7 +120,7 @@ def test_flipped_bits(tmp_path: Path) -> None:
     assert len(used) == 16
 
 
-def test_the_command(tmp_path: Path, command: Command) -> None:
+def test_verify_command_reports_changes(tmp_path: Path, command: Command) -> None:
     path = stored(tmp_path / "s.h5")
     good = command("verify", path)
     assert (good.code, good.err, "Whole and unchanged" in good.out) == (0, "", True)

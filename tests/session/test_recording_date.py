@@ -36,7 +36,7 @@ def write(path: Path, tracked: datetime = TRACKED, recorded: datetime = MOVED, r
     return path
 
 
-def test_the_day_is_that_of_the_movement(tmp_path: Path) -> None:
+def test_session_date_is_that_of_the_movement(tmp_path: Path) -> None:
     recording = str(uuid.uuid4())
     header = read_session(write(tmp_path / "s.h5", recording=recording)).header
     assert header.recording_time == MOVED
@@ -59,7 +59,7 @@ def to_version_1(path: Path, origin: str = "", camera_clock: bool = False) -> Pa
     return path
 
 
-def test_an_old_file_is_read_and_says_what_it_can(tmp_path: Path) -> None:
+def test_session_version_1_date_comes_from_times(tmp_path: Path) -> None:
     first = read_outline(to_version_1(write(tmp_path / "a.h5"))).header
     assert first.recording_time.timestamp() == pytest.approx(time_of(0), abs=1.0), "its pictures' times count from 1970"
     assert first.recording_id == first.session_id
@@ -69,7 +69,7 @@ def test_an_old_file_is_read_and_says_what_it_can(tmp_path: Path) -> None:
     assert by_camera.recording_time == TRACKED
 
 
-def test_a_camera_s_own_clock_is_no_date() -> None:
+def test_recording_date_ignores_camera_clock() -> None:
     assert moment_from_timestamp(12.25) is None
     assert moment_from_timestamp(float("nan")) is None
     assert moment_from_timestamp(datetime.now(UTC).timestamp() + 7 * 86400.0) is None
@@ -77,7 +77,7 @@ def test_a_camera_s_own_clock_is_no_date() -> None:
     assert datetime.fromisoformat(to_iso(MOVED)) == MOVED
 
 
-def test_a_recording_counts_once_by_its_newest_result(tmp_path: Path) -> None:
+def test_recording_counts_once_by_newest_result(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         patient = house.patients.add(Patient("Linden 42", "right"))
         recording = str(uuid.uuid4())
