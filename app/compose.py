@@ -22,7 +22,7 @@ from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.desktop.window import DataProtection, Desktop
 from carpus.app.settings import LockSettings, Settings, sessions_folder
-from carpus.app.settings import settings_folder as own_settings_folder
+from carpus.app.settings import settings_folder as default_settings_folder
 from carpus.core.capture.source import FrameSource
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
 from carpus.core.records.library import Library
@@ -85,44 +85,47 @@ def compose(
         from carpus.core.records.new_sessions import SessionIntake
 
         beginning = render_practice_start if practice_renderer is None else lambda _: None
-        made = SourceFactory(settings, SessionIntake(library), practice_renderer or render_practice, speed, beginning)
-        made.is_streaming = lambda: journey.settings.stream.on
-        return made
+        renderer = practice_renderer or render_practice
+        factory = SourceFactory(settings, SessionIntake(library), renderer, speed, beginning)
+        factory.is_streaming = lambda: controller.settings.stream.on
+        return factory
 
     day = date.today if today is None else lambda: today
     parts = AppServices(
         library, lambda *given: sources().open(*given), MaintenanceCameras(settings), settings, is_demo, day
     )
     shell = MainWindow(theme)
-    journey = MainController(shell, theme, parts)
-    keeper = PreferencesController(
-        journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), is_demo=is_demo
+    controller = MainController(shell, theme, parts)
+    preferences = PreferencesController(
+        controller, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), is_demo=is_demo
     )
-    follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
-    library.get_initials = lambda: journey.settings.report.therapist
-    library.get_angle_order = lambda: journey.settings.report.angle_order
-    AccessLogger(journey, library)
-    safe = _build_data_protection(journey, keeper, settings, settings_folder)
-    journey.navigator.run_when_created("settings", lambda: _connect_settings(keeper.screen, journey, theme))
-    tour = TourController(journey)
-    welcome = WelcomeController(journey, theme, tour, keeper, library)
+    follows = qt.styleHints().colorSchemeChanged.connect(lambda _: preferences.follow_system())
+    library.get_initials = lambda: controller.settings.report.therapist
+    library.get_angle_order = lambda: controller.settings.report.angle_order
+    AccessLogger(controller, library)
+    data_protection = _build_data_protection(controller, preferences, settings, settings_folder)
+    controller.navigator.run_when_created("settings", lambda: _connect_settings(preferences.screen, controller, theme))
+    tour = TourController(controller)
+    welcome = WelcomeController(controller, theme, tour, preferences, library)
     ends = qt.commitDataRequest.connect(lambda _: shell.close_without_prompt())
-    desktop = Desktop(qt, shell, theme, journey, library, safe, welcome, tour, keeper, (follows, ends))
+    desktop = Desktop(
+        qt, shell, theme, controller, library, data_protection, welcome, tour, preferences, (follows, ends)
+    )
     shell.closing.connect(desktop.close)
-    keeper.language_chosen.connect(lambda: QTimer.singleShot(0, desktop.reopen))
-    keeper.find_language_obstacle = desktop.find_language_obstacle
-    _show_startup_notices(journey, recovered, (*startup_faults, *faults))
-    journey.server_monitor.server_restored.connect(lambda caught: _show_startup_notices(journey, *caught))
+    preferences.language_chosen.connect(lambda: QTimer.singleShot(0, desktop.reopen))
+    preferences.find_language_obstacle = desktop.find_language_obstacle
+    _show_startup_notices(controller, recovered, (*startup_faults, *faults))
+    controller.server_monitor.server_restored.connect(lambda caught: _show_startup_notices(controller, *caught))
     return desktop
 
 
 def _show_startup_notices(
-    journey: MainController, recovered: Sequence[RecoveredSession], faults: Sequence[CarpusFault]
+    controller: MainController, recovered: Sequence[RecoveredSession], faults: Sequence[CarpusFault]
 ) -> None:
     """Show recovered sessions and faults above the patient list."""
-    place, messages = journey.patients.screen.notice_layout, journey.messages
+    place, messages = controller.patients.screen.notice_layout, controller.messages
     for found in recovered:
-        look = partial(journey.navigator.open_screen, "review", found.session_id, found.patient_id)
+        look = partial(controller.navigator.open_screen, "review", found.session_id, found.patient_id)
         messages.show_notice(place, messages.recovery_words(found), tr("Re&view it"), look)
     for fault in faults:
         if isinstance(fault, ServerUnavailable):
@@ -130,38 +133,38 @@ def _show_startup_notices(
         messages.show_notice(place, fault_words(fault), tr("I have read it"), lambda: None, icon="hard-drive")
 
 
-def _connect_settings(screen: SettingsScreen, journey: MainController, theme: Theme) -> None:
+def _connect_settings(screen: SettingsScreen, controller: MainController, theme: Theme) -> None:
     from carpus.ui.screens.settings.camera_card import CameraCard
 
-    way, camera = journey.navigator, journey.camera_state
+    navigator, camera = controller.navigator, controller.camera_state
     card = CameraCard(theme)
-    if journey.is_demo:
+    if controller.is_demo:
         card.show_demo()
     else:
-        card.calibrate_button.clicked.connect(lambda: way.open_screen("board"))
-        card.check_button.clicked.connect(lambda: way.open_screen("card"))
+        card.calibrate_button.clicked.connect(lambda: navigator.open_screen("board"))
+        card.check_button.clicked.connect(lambda: navigator.open_screen("card"))
         camera.status_changed.connect(lambda: card.show_status(*camera_words(camera.status)))
         card.show_status(*camera_words(camera.status))
     screen.add_cards("camera", card)
-    screen.add_cards("report", journey.report.form_store.card)
+    screen.add_cards("report", controller.report.form_store.card)
 
 
 def _build_data_protection(
-    journey: MainController, keeper: PreferencesController, settings: Settings, folder: Path | None
+    controller: MainController, preferences: PreferencesController, settings: Settings, folder: Path | None
 ) -> DataProtection:
     """Build the dialogs for backup, lock, records and erasure, and their cards in the settings."""
-    context, patients = journey.context, journey.patients.screen
+    context, patients = controller.context, controller.patients.screen
     records = RecordRetention(context.library)
     backing_up = BackupController(
         context,
         settings.backup,
-        folder or own_settings_folder(),
-        save_settings=lambda chosen: keeper.save(backup=chosen),
+        folder or default_settings_folder(),
+        save_settings=lambda chosen: preferences.save(backup=chosen),
     )
     erasing = DeletionController(
         context,
         records,
-        lambda: journey.sessions.screen,
+        lambda: controller.sessions.screen,
         patients,
         retention_years=lambda: lists.retention_years,
         last_backup=lambda: backing_up.last_backup.made if backing_up.last_backup else None,
@@ -170,25 +173,25 @@ def _build_data_protection(
         context,
         records,
         erasing,
-        lambda: journey.sessions.screen,
+        lambda: controller.sessions.screen,
         patients,
         retention_years=settings.records.retention_years,
-        save_years=lambda years: keeper.save(records=replace(settings.records, retention_years=years)),
+        save_years=lambda years: preferences.save(records=replace(settings.records, retention_years=years)),
     )
     locking = LockController(
         context, minutes=settings.lock.after_min,
-        save_minutes=lambda minutes: keeper.save(lock=LockSettings(minutes)),
+        save_minutes=lambda minutes: preferences.save(lock=LockSettings(minutes)),
     )  # fmt: skip
 
     def connect_live() -> None:
-        view = journey.live.patient_view
+        view = controller.live.patient_view
         locking.privacy_changed.connect(lambda hides: view.hide_content() if hides else view.show_content())
         if locking.is_locked:
             view.hide_content()
 
-    journey.navigator.run_when_created("live", connect_live)
-    journey.navigator.run_when_created(
-        "settings", lambda: keeper.screen.add_cards("safety", backing_up.card, locking.card, lists.card)
+    controller.navigator.run_when_created("live", connect_live)
+    controller.navigator.run_when_created(
+        "settings", lambda: preferences.screen.add_cards("safety", backing_up.card, locking.card, lists.card)
     )
     backing_up.show_reminder(patients.notice_layout)
     return DataProtection(erasing, lists, backing_up, locking)

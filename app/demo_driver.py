@@ -124,9 +124,9 @@ class DemoDriver:
 
     def start_practice(self) -> None:
         """Choose the practice patient and press Enter."""
-        journey = self.controller
-        journey.patients.screen.refresh(PRACTICE_PATIENT)
-        self.press_key(Qt.Key.Key_Return, journey.patients.screen.search)
+        controller = self.controller
+        controller.patients.screen.refresh(PRACTICE_PATIENT)
+        self.press_key(Qt.Key.Key_Return, controller.patients.screen.search)
 
     def capture_frame(self) -> None:
         """Press Space once the hand has been visible for half a second."""

@@ -16,14 +16,14 @@ class AccessLogger(QObject):
     log_failed = Signal(object)
     """Emitted from any thread when the log cannot be written."""
 
-    def __init__(self, journey: MainController, library: Library) -> None:
-        super().__init__(journey)
-        self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(journey.beside.screen.session_ids)
-        self._current, self._library = journey.current, library
+    def __init__(self, controller: MainController, library: Library) -> None:
+        super().__init__(controller)
+        self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(controller.beside.screen.session_ids)
+        self._current, self._library = controller.current, library
         self._last_access = ("", "")
-        self.log_failed.connect(journey.messages.show_fault)
+        self.log_failed.connect(controller.messages.show_fault)
         library.on_fault = self.log_failed.emit
-        journey.navigator.screen_changed.connect(self._log_access)
+        controller.navigator.screen_changed.connect(self._log_access)
 
     def _log_access(self, place: str) -> None:
         patient = self._current.patient

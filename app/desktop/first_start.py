@@ -121,35 +121,35 @@ class TourController(QObject):
             view.show_bubble(bubble if place == moment.place else None)
 
     def tour_state(self) -> TourState:
-        journey = self._controller
-        place, made = journey.place, journey.navigator.flows
+        controller = self._controller
+        place, made = controller.place, controller.navigator.flows
         is_busy: dict[str, Callable[[], bool]] = {
-            "camera": lambda: journey.camera.screen.is_opening,
-            "live": lambda: journey.live.screen.recording.is_storing,
-            "review": lambda: not journey.review.screen.is_loaded,
+            "camera": lambda: controller.camera.screen.is_opening,
+            "live": lambda: controller.live.screen.recording.is_storing,
+            "review": lambda: not controller.review.screen.is_loaded,
         }
         return TourState(
             place,
-            is_wanted=self._is_requested or place == "patients" or journey.current.is_practice,
-            is_covered=journey.messages.is_busy or has_open_dialog(journey.patients.screen.window()),
+            is_wanted=self._is_requested or place == "patients" or controller.current.is_practice,
+            is_covered=controller.messages.is_busy or has_open_dialog(controller.patients.screen.window()),
             is_busy=place in is_busy and is_busy[place](),
-            label_stage=journey.markers.screen.labelling.stage if "markers" in made else "aiming",
-            is_recording="live" in made and journey.live.screen.recording.state != "off",
+            label_stage=controller.markers.screen.labelling.stage if "markers" in made else "aiming",
+            is_recording="live" in made and controller.live.screen.recording.state != "off",
             is_saved=self._is_report_saved,
         )
 
     def _find_button(self, bubble: Bubble) -> QAbstractButton:
-        journey = self._controller
+        controller = self._controller
         buttons: dict[Bubble, Callable[[], QAbstractButton]] = {
-            "patient": lambda: journey.patients.screen.card.start_button,
-            "camera": lambda: journey.camera.screen.primary_button,
-            "record": lambda: journey.live.screen.controls.main_button,
-            "stop": lambda: journey.live.screen.controls.main_button,
-            "results": lambda: journey.review.screen.card.report_button,
-            "report": lambda: journey.review.screen.card.report_button,
-            "save": lambda: journey.report.screen.save_button,
+            "patient": lambda: controller.patients.screen.card.start_button,
+            "camera": lambda: controller.camera.screen.primary_button,
+            "record": lambda: controller.live.screen.controls.main_button,
+            "stop": lambda: controller.live.screen.controls.main_button,
+            "results": lambda: controller.review.screen.card.report_button,
+            "report": lambda: controller.review.screen.card.report_button,
+            "save": lambda: controller.report.screen.save_button,
         }
-        return buttons.get(bubble, lambda: journey.markers.screen.primary_button)()
+        return buttons.get(bubble, lambda: controller.markers.screen.primary_button)()
 
     def _on_report_saved(self, _: str) -> None:
         self._is_report_saved = True

@@ -117,21 +117,27 @@ class MainController(Screens):
         return load_flow_class(place)(self.context)
 
     def _connect(self) -> None:
-        shell, bar, way = self._shell, self._shell.top_bar, self.navigator
+        shell, bar, navigator = self._shell, self._shell.top_bar, self.navigator
         shell.bind_keys(ALL_KEYS)
         shell.key_pressed.connect(self._handle_key)
-        shell.prompt_before_close = lambda: any(flow.prompt_before_close() for flow in way.flows.values())
-        bar.back_button.clicked.connect(way.navigate_back)
+        shell.prompt_before_close = lambda: any(flow.prompt_before_close() for flow in navigator.flows.values())
+        bar.back_button.clicked.connect(navigator.navigate_back)
         bar.tab_selected.connect(self.open_tab)
         bar.step_selected.connect(lambda number: self._open_step(SETUP_STEPS[number]))
-        bar.help_button.clicked.connect(lambda: way.open_screen("help"))
-        bar.settings_button.clicked.connect(lambda: way.open_screen("settings"))
+        bar.help_button.clicked.connect(lambda: navigator.open_screen("help"))
+        bar.settings_button.clicked.connect(lambda: navigator.open_screen("settings"))
         bar.reanalysis_button.clicked.connect(lambda: self.correct.open_dialog(self.current.session_id))
-        way.run_when_created("live", self._connect_live)
-        way.run_when_created("beside", lambda: self.beside.screen.sessions_shown.connect(way.banner_changed))
-        way.run_when_created("review", self._connect_review)
-        way.run_when_created("correct", lambda: self.correct.progress_changed.connect(self.top_bar.show_reanalysis))
-        way.run_when_created("sessions", lambda: self.sessions.screen.sessions_changed.connect(self._check_new_results))
+        navigator.run_when_created("live", self._connect_live)
+        navigator.run_when_created(
+            "beside", lambda: self.beside.screen.sessions_shown.connect(navigator.banner_changed)
+        )
+        navigator.run_when_created("review", self._connect_review)
+        navigator.run_when_created(
+            "correct", lambda: self.correct.progress_changed.connect(self.top_bar.show_reanalysis)
+        )
+        navigator.run_when_created(
+            "sessions", lambda: self.sessions.screen.sessions_changed.connect(self._check_new_results)
+        )
 
     def _connect_live(self) -> None:
         self.live.screen.recording_changed.connect(self.top_bar.show_recording)

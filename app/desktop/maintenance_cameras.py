@@ -62,7 +62,7 @@ class MaintenanceCameras:
 
 def start_live_session(open_source: Callable[[NoticeHandler], FrameSource]) -> LiveSession:
     """Return a live session that receives the faults of its camera."""
-    heard: list[NoticeHandler] = [lambda _: None]  # until there is a session to be told
-    session = LiveSession(open_source(lambda fault: heard[-1](fault)))
-    heard.append(session.handle_notice)
+    handlers: list[NoticeHandler] = [lambda _: None]  # until the session exists
+    session = LiveSession(open_source(lambda fault: handlers[-1](fault)))
+    handlers.append(session.handle_notice)
     return session

@@ -62,11 +62,11 @@ class PreferencesController(QObject):
         self.find_language_obstacle: Callable[[], str] = str
         """Returns why the language cannot change now; empty if it can."""
         self._shown_folder = str(settings.data_folder)
-        way = controller.navigator
-        way.factories["settings"] = self._create_flow
-        way.run_when_created("settings", lambda: self.screen.changed.connect(self.apply))
-        way.run_when_created("live", self._apply_start_mode)
-        way.show_research(on=settings.screen.research)
+        navigator = controller.navigator
+        navigator.factories["settings"] = self._create_flow
+        navigator.run_when_created("settings", lambda: self.screen.changed.connect(self.apply))
+        navigator.run_when_created("live", self._apply_start_mode)
+        navigator.show_research(on=settings.screen.research)
 
     @property
     def screen(self) -> SettingsScreen:

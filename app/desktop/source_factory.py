@@ -65,16 +65,16 @@ class SourceFactory:
         return self._open_camera(set_up) if choice.kind == "camera" else self._open_practice(set_up, progress)
 
     def _open_camera(self, set_up: SessionSetup) -> OpenSource:
-        told: list[CarpusFault] = []
-        heard: list[Callable[[CarpusFault], None]] = [told.append]
+        faults: list[CarpusFault] = []
+        handlers: list[Callable[[CarpusFault], None]] = [faults.append]
         named = self._settings.camera.intrinsics
         camera = read_camera_info(Path(named).expanduser()).camera if named else None
-        live = open_camera(self._settings.camera.uri, camera=camera, notice=lambda fault: heard[-1](fault))
+        live = open_camera(self._settings.camera.uri, camera=camera, notice=lambda fault: handlers[-1](fault))
         folder = self._settings.data_folder
         source = with_stored_calibration(with_given_name(live, folder), folder)
         session = self._create_session(source)
-        heard.append(session.handle_notice)
-        for fault in told:
+        handlers.append(session.handle_notice)
+        for fault in faults:
             session.handle_notice(fault)
         session.start()
         # From the calibration on, the markers must keep their colours.
@@ -107,18 +107,18 @@ class SourceFactory:
         return replace(opened, is_hand_resting=lambda: not patient.can_move)
 
     def _open_recording(self, choice: SourceChoice, set_up: SessionSetup) -> OpenSource:
-        told: list[CarpusFault] = []
+        faults: list[CarpusFault] = []
         source = open_recording(
             Path(choice.path),
             registered=choice.is_depth_registered,
             leave_out_damaged=True,
             data_folder=self._settings.data_folder,
-            notice=told.append,
+            notice=faults.append,
         )
         opening = read_opening_frames(source, self._settings.track.calibration.still_s)
         session = self._create_session(PacedSource(source, self._speed), source_waits=True)
-        asks = any(isinstance(fault, RegistrationAssumed) for fault in told)
-        for fault in () if asks else told:
+        asks = any(isinstance(fault, RegistrationAssumed) for fault in faults)
+        for fault in () if asks else faults:
             session.handle_notice(fault)
         pictures = CalibrationFrames(False, lambda: opening[0], lambda: opening)  # clicks are on the very first
         return self._build_open_source(session, source, set_up, pictures, asks, recording=Path(choice.path))
@@ -154,13 +154,13 @@ class SourceFactory:
         set_up: SessionSetup,
         pictures: CalibrationFrames,
         asks: bool = False,
-        **told: Any,
+        **options: Any,
     ) -> OpenSource:
         """Build the open source; other arguments go to :class:`MeasurementController`."""
         track = self._track_settings(set_up)
         measuring = MeasurementController(
             session, source.info, set_up, track, self._new_sessions,
-            listener=self._make_listener_factory(session, set_up), **told,
+            listener=self._make_listener_factory(session, set_up), **options,
         )  # fmt: skip
         calibrator = HandCalibrator(
             pictures,

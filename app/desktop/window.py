@@ -114,8 +114,8 @@ class Desktop:
 
     def find_language_obstacle(self) -> str:
         """Return why the language cannot be changed now, empty if it can."""
-        journey, safe = self.controller, self.data_protection
-        busy = journey.is_at_work or safe.backing_up.is_busy or self.tour.is_on or journey.messages.is_busy
+        controller, safe = self.controller, self.data_protection
+        busy = controller.is_at_work or safe.backing_up.is_busy or self.tour.is_on or controller.messages.is_busy
         return tr("The language can be changed when nothing is measured or worked on any more.") if busy else ""
 
     def come_to_front(self) -> None:

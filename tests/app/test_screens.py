@@ -27,8 +27,9 @@ from tests.ui.fakes import FakeFeed
 from tests.ui.gallery import STATES
 
 ROOT = Path(__file__).parents[2]
-NAMED = re.compile(r"""way\.(?:show|go|aside)\("(\w+)"|\bplace (?:==|!=) "(\w+)\"""")
-LED = re.compile(r'way\.(?:show|aside)\("(\w+)"')
+OPENED = r'(?:way|navigator)\.(?:open_screen|open_overlay|switch_screen|open_under_overlay)\(\s*"(\w+)"'
+NAMED = re.compile(OPENED + r'|\b(?:place|screen_name) (?:==|!=) "(\w+)"')
+LED = re.compile(OPENED)
 
 Looks = dict[tuple[str, str], set[tuple[int, str]]]
 

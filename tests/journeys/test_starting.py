@@ -122,7 +122,7 @@ def test_a_folder_named_for_one_start_is_said_on_the_first_screen(
     told: list[CarpusFault] = []
     composed = compose.compose
     monkeypatch.setattr(
-        compose, "compose", lambda *given, **named: told.extend(named["told"]) or composed(*given, **named)
+        compose, "compose", lambda *given, **named: told.extend(named["startup_faults"]) or composed(*given, **named)
     )
     assert desktop.open_window(tmp_path / "named", is_demo=is_demo) == 0
     assert not told, "there was no folder before"

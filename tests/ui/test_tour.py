@@ -27,10 +27,10 @@ PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progr
 MOMENTS = st.builds(
     TourState,
     st.sampled_from(PLACES_OF_ALL),
-    is_meant=st.booleans(),
+    is_wanted=st.booleans(),
     is_covered=st.booleans(),
     is_busy=st.booleans(),
-    work=st.sampled_from(get_args(LabelStage)),
+    label_stage=st.sampled_from(get_args(LabelStage)),
     is_recording=st.booleans(),
     is_saved=st.booleans(),
 )

@@ -19,20 +19,29 @@ from carpus.core.model.hand.exercises import DEVIATION, FLEXION, PRONOSUPINATION
 
 LENGTH = 340.0
 FOREARM = 1400.0
-"""So long that its end is never seen."""
+"""Long enough that its end is never visible."""
 
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """The way of one angle round a joint: ``pivot`` and ``radius`` in the figure's plane, ``zero_deg`` the direction of
-    0 and ``sense`` that of a growing angle, both on the screen (clockwise from the right)."""
+    """Path of one angle around a joint.
+
+    Attributes
+    ----------
+    pivot : QPointF
+        In the plane of the figure, as ``radius``.
+    zero_deg : float
+        Direction of 0 on the screen, clockwise from the right.
+    sense : float
+        Sign of a growing angle on the screen.
+    """
 
     pivot: QPointF
     radius: float
     zero_deg: float
     sense: float
     gain: float = 1.0
-    """Above 1 a small angle is drawn larger than the hand shows it, so that its way can be seen from afar."""
+    """Above 1, small angles are drawn larger than they are, to be visible from afar."""
 
     def point(self, value_deg: float) -> QPointF:
         turned = math.radians(self.zero_deg + self.sense * self.gain * value_deg)
@@ -49,9 +58,7 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class DrawnPose:
-    """A drawn pose: ``arm`` stays, ``hand`` moves, ``hand_and_arm`` is both in one line; ``dots`` are the blue discs
-    on it,
-    with their radius."""
+    """A drawn pose: a fixed ``arm``, a moving ``hand``, both in one outline, and the markers as ``dots``."""
 
     arm: QPainterPath
     hand: QPainterPath
@@ -61,7 +68,7 @@ class DrawnPose:
 
 
 def build_pose(exercise: Exercise, value_deg: float) -> DrawnPose:
-    """The hand with its trained angle at a value, to half a degree: less cannot be seen."""
+    """Return the hand with its trained angle at a value, to half a degree."""
     return _build_pose(exercise, round(2.0 * value_deg) / 2.0)
 
 
@@ -85,7 +92,7 @@ def _build_pose(exercise: Exercise, value_deg: float) -> DrawnPose:
 
 
 def build_free_pose(exercise: Exercise, wrist_deg: tuple[float, float, float], bent_deg: float) -> DrawnPose:
-    """The hand of an exercise without a trained angle: the wrist from above, fingers from the side."""
+    """Return the hand of an exercise without a trained angle."""
     deviation, flexion, _ = wrist_deg
     if not exercise.digits:
         return draw_top_view(deviation_deg=deviation, lifted_deg=flexion)
@@ -94,7 +101,7 @@ def build_free_pose(exercise: Exercise, wrist_deg: tuple[float, float, float], b
 
 
 def find_arc(exercise: Exercise) -> Arc:
-    """The way of the trained angle."""
+    """Return the path of the trained angle."""
     if exercise.angle == FLEXION:
         return Arc(QPointF(0, 0), 1.2 * LENGTH, 0.0, 1.0)
     if exercise.angle == DEVIATION:
@@ -113,18 +120,18 @@ def find_arc(exercise: Exercise) -> Arc:
 # --- from the side ----------------------------------------------------------------------------------------
 _KNUCKLE = QPointF(0.45 * LENGTH, -4.0)
 _FINGER = ((0.26 * LENGTH, 30.0, 26.0), (0.17 * LENGTH, 26.0, 23.0), (0.12 * LENGTH, 23.0, 19.0))
-"""Length, and half width at the beginning and at the end, of the three parts of a finger."""
+"""Length, and half widths at both ends, of the three phalanges."""
 _THUMB_BASE = QPointF(0.14 * LENGTH, 20.0)
 _THUMB_REST_DEG = 14.0
 _THUMB_AWAY_DEG = 40.0
-"""Where the fingers close past it."""
+"""Position of the thumb clear of the closing fingers."""
 
 
 def draw_side_view(
     *, wrist_deg: float = 0.0, knuckle_deg: float = 0.0, middle_deg: float = 0.0, end_deg: float = 0.0,
     thumb_deg: float = 22.0,
 ) -> DrawnPose:  # fmt: skip
-    """From the side, the palm below: bending goes down, the thumb is lifted away from the palm."""
+    """Draw the hand from the side, palm down: flexion points down, the thumb moves away from the palm."""
     hand = _draw_capsule(QPointF(0, 0), 46.0, _KNUCKLE, 36.0)
     at, turned = _KNUCKLE, 0.0
     for (length, first, last), bent in zip(_FINGER, (knuckle_deg, middle_deg, end_deg), strict=True):
@@ -147,13 +154,12 @@ def draw_side_view(
 _KNUCKLES = {2: QPointF(-56, -158), 3: QPointF(-17, -170), 4: QPointF(22, -163), 5: QPointF(57, -146)}
 _FINGERS = {2: 0.40 * LENGTH, 3: 0.45 * LENGTH, 4: 0.41 * LENGTH, 5: 0.32 * LENGTH}
 _LEAN_DEG = {2: 4.0, 3: 1.0, 4: -3.0, 5: -8.0}
-"""How the straight, closed fingers stand, towards the thumb."""
+"""Lean of the straight, closed fingers towards the thumb."""
 _SPREADS = {2: 1.0, 3: 0.0, 4: -0.8, 5: -1.5}
 
 
 def draw_top_view(*, deviation_deg: float = 0.0, spread_deg: float = 0.0, lifted_deg: float = 0.0) -> DrawnPose:
-    """From above, the fingers up: towards the thumb is to the left. ``lifted_deg`` shortens what points out of the
-    plane."""
+    """Draw the hand from above, fingers up, thumb at the left; ``lifted_deg`` shortens it."""
     hand = QPainterPath()
     for finger, knuckle in _KNUCKLES.items():
         hand = hand.united(_draw_capsule(QPointF(0.35 * knuckle.x(), -10), 44.0, knuckle, 25.0))
@@ -169,7 +175,7 @@ def draw_top_view(*, deviation_deg: float = 0.0, spread_deg: float = 0.0, lifted
 
 # --- along the forearm ------------------------------------------------------------------------------------
 def draw_forearm_view(supination_deg: float) -> DrawnPose:
-    """Along the forearm as one sees it oneself, the palm down: turning the palm up lifts the thumb."""
+    """Draw the hand along the forearm, palm down: supination lifts the thumb."""
     hand = _draw_capsule(QPointF(-120, 6), 58.0, QPointF(120, 12), 50.0)
     for x, y, half in ((-128, -24, 44.0), (-46, -38, 46.0), (38, -34, 45.0), (116, -18, 40.0)):
         knuckle = QPainterPath()
@@ -187,7 +193,7 @@ def _make_pose(arm: QPainterPath, hand: QPainterPath, dots: tuple[QPointF, ...],
 
 
 def _without_holes(path: QPainterPath) -> QPainterPath:
-    """What a bent finger encloses is no hole: nobody sees through a fist."""
+    """Fill what a bent finger encloses."""
     rings = path.toSubpathPolygons(QTransform())
     if len(rings) < 2:
         return path
@@ -204,7 +210,7 @@ def _draw_arm(upright: bool) -> QPainterPath:
 
 
 def _draw_capsule(first: QPointF, first_half: float, last: QPointF, last_half: float) -> QPainterPath:
-    """Two round ends and what lies between them."""
+    """Draw two circles and the area between them."""
     path = QPainterPath()
     path.addEllipse(first, first_half, first_half)
     second = QPainterPath()

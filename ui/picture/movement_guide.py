@@ -1,4 +1,4 @@
-"""What the patient is to do next, from one look at the hand after the other: no window, no clock of its own."""
+"""What the patient shall do next, computed from one snapshot after the other."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from typing import Literal
 from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
 
 Phase = Literal["out", "there", "back", "free", "hidden", "lost", "paused", "done", "rest", "away"]
-"""Way to the goal, at it, way back; no goal; the trained joint is out of sight at the far end; the hand is not surely
-seen; a break; all repetitions done; rest before the next exercise; nothing is measured of this moment."""
+"""Towards the goal, at it, back; without goal; trained joint hidden at the end of the movement; hand lost; break;
+done; rest before the next exercise; nothing measured."""
 
 LOST_AFTER_S = 0.5
 FOUND_AFTER_S = 0.3
 HOLD_S = 1.2
-"""So long the goal is held before the way back is shown."""
+"""Time that the goal is shown as reached before the return."""
 ROUNDED_DEG = 0.5
-"""The goal is reached where the rounded number on the therapist's screen says so."""
+"""The goal is reached if the rounded number on the therapist's screen says so."""
 MIN_MOVEMENT_DEG, MIN_SMALL_MOVEMENT_DEG, MIN_GOAL_SHARE = 12.0, 5.0, 0.3
-"""A movement that is shorter, or a smaller part of the goal, is none yet."""
+"""Smaller movements, or smaller shares of the goal, are none."""
 TURN_DEG, TURN_SHARE = 3.0, 0.2
-"""A hand that has come back by so much, and by this part of the way, has turned round."""
+"""A hand that has come back this far, and this share of the way, has turned."""
 NEUTRAL_SHARE = 0.35
-"""Back is who has come back to this part of the way."""
+"""The return ends below this share of the way."""
 
 
 RecordingState = Literal["off", "recording", "paused"]
@@ -73,21 +73,21 @@ class GuideScene:
     is_trial: bool = False
     done: int = 0
     countdown_s: int = 0
-    """Seconds that are still counted down to the recording."""
+    """Seconds left in the countdown."""
     asked: int = 0
     """Repetitions; in a rest between exercises, exercises."""
     rest_share: float = 0.0
     rest_s: int = 0
-    """What is left of a rest, as a part of it in tenths, and in seconds."""
+    """Remaining rest, as a share in tenths and in seconds."""
 
     @property
     def goal_share(self) -> float:
-        """Part of the way to the goal; NaN without a goal or a hand."""
+        """Share of the way to the goal; NaN without a goal or a hand."""
         return self.value_deg / self.goal_deg if self.goal_deg else math.nan
 
 
 class ExerciseGuide:
-    """Follows one exercise. A missed goal is never said: the way empties on the way back."""
+    """Follows one exercise; a missed goal is never mentioned."""
 
     def __init__(self, exercise: Exercise, goal_positive_deg: float, goal_negative_deg: float) -> None:
         self._exercise = exercise
@@ -101,7 +101,7 @@ class ExerciseGuide:
         self._sure_since_s: float | None = None
         self._is_hand_lost = True
         self.goals_reached = 0
-        """How often the goal was reached, for a sound."""
+        """Number of goals reached, for the sound."""
 
     def update(self, snapshot: ExerciseSnapshot) -> GuideScene:
         scene = GuideScene(
@@ -163,7 +163,7 @@ class ExerciseGuide:
         return snapshot.is_measured or (snapshot.is_hand_visible and not self._is_hand_lost and self._is_at_far_end())
 
     def _is_at_far_end(self) -> bool:
-        """Whether a finger had gone most of its way, where the hand itself hides it from the camera."""
+        """Tell whether a finger is bent so far that the hand hides it from the camera."""
         return bool(self._exercise.joint) and self._peak_deg >= 2.0 * self._min_movement_deg()
 
     def _opacity(self, snapshot: ExerciseSnapshot) -> float:
@@ -219,7 +219,7 @@ class ExerciseGuide:
 
 
 def _find_directions(exercise: Exercise, goals: dict[int, float]) -> tuple[int, ...]:
-    """The directions that are asked for: those with a goal; without any the usual ones, the first to begin with."""
+    """Return the directions with a goal; without goals those of the exercise."""
     asked = tuple(aim for aim in (1, -1) if math.isfinite(goals[aim]))
     if asked:
         return asked

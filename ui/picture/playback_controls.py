@@ -1,4 +1,4 @@
-"""Where one is in a recording: the time that runs there, the buttons of a player, the line of time with a knob."""
+"""Playback of a recording: clock, buttons, time slider."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SPEEDS = ((0.25, "¼"), (0.5, "½"), (1.0, "1"), (2.0, "2"))
 
 
 class PlaybackControls(QWidget):
-    """One picture back or on, where ``stepped`` carries pictures; with a ``playing`` also play, stop, and how fast."""
+    """Buttons for one frame back or forward (``stepped``); with a clock also play, stop and speed."""
 
     stepped = Signal(int)
 
@@ -54,13 +54,13 @@ class PlaybackControls(QWidget):
 
 
 def clock_words(time_s: float, end_s: float) -> str:
-    """``00:12.0 of 00:41``."""
+    """Format a time and the whole duration: ``00:12.0 of 00:41``."""
     whole = numbers.format_clock(end_s + 0.5)
     return tr("{time} of {whole}").format(time=numbers.format_clock_tenths(time_s), whole=whole)
 
 
 class TimeSlider(QWidget):
-    """A line of time with a knob; repetitions are blocks, left-out ones are open."""
+    """Time slider with repetitions as blocks; excluded ones are outlined."""
 
     time_chosen = Signal(float)
 
@@ -126,7 +126,7 @@ PLAY_STEP_MS = 40
 
 
 class PlaybackClock(QObject):
-    """``time_changed`` carries the new time, ``playing_changed`` whether it plays."""
+    """Clock of the playback; ``playing_changed`` carries whether it runs."""
 
     time_changed = Signal(float)
     playing_changed = Signal(bool)
@@ -135,13 +135,13 @@ class PlaybackClock(QObject):
         super().__init__(owner)
         self.time_s = 0.0
         self.end_s = -1.0
-        """How long there is something to play; below 0 there is nothing yet."""
+        """Duration of the recording; below 0 without one."""
         self.factor = 1.0
         self._timer = QTimer(self, interval=PLAY_STEP_MS)
         self._timer.timeout.connect(self._advance)
 
     def open(self, end_s: float) -> None:
-        """Stop; from now on it is another recording, -1 while that is read."""
+        """Stop, and set another recording; -1 while that is read."""
         self.stop()
         self.end_s = end_s
 

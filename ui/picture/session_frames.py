@@ -1,4 +1,4 @@
-"""The stored pictures of a session under its discs: seen solid, unseen dashed, and the way of the fingertips."""
+"""Stored frames of a session with its markers: visible solid, occluded dashed; fingertip paths."""
 
 from __future__ import annotations
 
@@ -20,13 +20,15 @@ from carpus.ui.picture.overlay import draw_with_halo
 from carpus.ui.picture.view import FrameView
 
 BLANK_GREY = 34
-"""Grey under the marks where no pictures were kept."""
+"""Background where no video was saved."""
 Found = TypeVar("Found")
 
 
 class RowReader(Generic[Found]):
-    """Reads rows of a session in the background, one at a time: the newest wish follows when one has come. After a
-    fault no more is read of that session: it would fail again with each row."""
+    """Reads rows of a session in the background, one at a time; the latest request follows.
+
+    After a fault nothing more is read of the session: it would fail again with each row.
+    """
 
     def __init__(
         self,
@@ -42,7 +44,7 @@ class RowReader(Generic[Found]):
         self.is_busy = False
 
     def set_session(self, session_id: str) -> None:
-        """Another session; what still comes of the one before is for nobody."""
+        """Set another session; results of the one before are dropped."""
         self._session_id, self._requested_row, self.is_busy = session_id, -1, False
         self._session_number += 1
 
@@ -70,12 +72,12 @@ class RowReader(Generic[Found]):
 
 
 def blank_frame(camera: Camera) -> ByteImage:
-    """In place of a picture that was not kept."""
+    """Return a grey image in place of a frame that was not saved."""
     return np.full((camera.height_px, camera.width_px, 3), BLANK_GREY, np.uint8)
 
 
 class SessionFrameView(FrameView):
-    """Shows a row of a session; ``failed`` carries a fault of reading it."""
+    """Shows a row of a session."""
 
     read_failed = Signal(object)
 
@@ -94,13 +96,13 @@ class SessionFrameView(FrameView):
         )
 
     def set_session(self, session: Session | None, words: str = "") -> None:
-        """Another session; None while it is read, with what is said meanwhile."""
+        """Set the session; None while it is read, with a text."""
         self.session, self.row = session, -1
         self.reader.set_session("" if session is None else session.header.session_id)
         self.clear(words)
 
     def show_row(self, row: int) -> None:
-        """The marks of a row, at once; its picture follows."""
+        """Show the markers of a row at once; its frame follows."""
         if row != self.row:
             self.row = row
             self.update()
@@ -108,14 +110,14 @@ class SessionFrameView(FrameView):
                 self.reader.request(row)
 
     def show_stored_frame(self, picture: ByteImage | None) -> None:
-        """A picture that was read; None where none was kept."""
+        """Show a frame that was read, None if none was saved."""
         if picture is not None:
             self.show_frame(picture)
         elif self.image is None and self.session is not None:
             self.show_frame(blank_frame(self.session.camera))
 
     def marker_pixels(self, session: Session) -> tuple[FloatArray, BoolArray]:
-        """Where the discs of the row (M, 2) are, as measured or as the model has them; which (M,) were seen."""
+        """Return the markers (M, 2) of the row, measured or modelled, and which (M,) were visible."""
         measured = session.markers.measured_px[self.row]
         seen = np.isfinite(measured[:, 0])
         modelled = project_markers(session.camera, session.markers.position_cam_m[self.row])
@@ -124,7 +126,7 @@ class SessionFrameView(FrameView):
     def paint_markers(
         self, painter: QPainter, session: Session, spots: FloatArray, seen: BoolArray, finger: int = 0
     ) -> None:
-        """Bones and discs of the whole hand, ``finger`` 0 for all, or the discs about the wrist."""
+        """Paint markers and bones of the hand, of one finger (0 for all), or of the palm."""
         if session.header.joint_names:
             paint_skeleton(painter, self, session.header.protocol, spots, seen, finger)
         else:
@@ -132,7 +134,7 @@ class SessionFrameView(FrameView):
 
 
 def project_markers(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
-    """Where the model has the markers (..., 2) in the picture; NaN while lost."""
+    """Return the pixels of modelled markers (..., 2); NaN while lost."""
     known = np.isfinite(position_cam_m).all(axis=-1)
     out = np.full((*position_cam_m.shape[:-1], 2), np.nan)
     if known.any():
@@ -141,7 +143,10 @@ def project_markers(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
 
 
 def paint_palm(painter: QPainter, picture: FrameView, spots: FloatArray, seen: np.ndarray) -> None:
-    """Lines from the wrist to the palm, and a ring about each disc; ``spots`` (M, 2) pixels, ``seen`` bool (M,)."""
+    """Paint lines from the wrist to the palm and a ring around each marker.
+
+    ``spots`` (M, 2) are pixels, ``seen`` (M,) tells which were visible.
+    """
     if np.isfinite(spots).all():
         wrist = picture.to_screen(*map(float, spots[0]))
         for u, v in spots[1:6]:
@@ -170,7 +175,10 @@ def paint_skeleton(
     seen: np.ndarray,
     finger: int = 0,
 ) -> None:
-    """Bones and discs; ``spots`` (M, 2) pixels, ``seen`` bool (M,), ``finger`` 0 for all."""
+    """Paint bones and markers.
+
+    ``spots`` (M, 2) are pixels, ``seen`` (M,) tells which were visible; ``finger`` 0 for all.
+    """
     for number, chain in protocol.chains.items():
         for a, b in pairwise(chain):
             if np.isfinite(spots[[a, b]]).all():
@@ -196,8 +204,10 @@ def paint_trails(
     seen: np.ndarray,
     finger: int = 0,
 ) -> None:
-    """Ways of the fingertips, no bones: dotted, and the fainter the longer ago; ``modelled`` (n, M, 2) pixels of the
-    frames shown, ``seen`` bool (n, M)."""
+    """Paint the fingertip paths, fading with time.
+
+    ``modelled`` (n, M, 2) are pixels of the last frames, ``seen`` (n, M) tells which were visible.
+    """
     tips = [chain[-1] for number, chain in protocol.chains.items() if finger in (0, number)]
     shown = np.argwhere(seen[:, tips] & np.isfinite(modelled[:, tips]).all(axis=-1))
 

@@ -1,1 +1,1 @@
-"""The screen while measuring: readable from 1.5 m what matters, honest everywhere."""
+"""The screen while measuring, readable from 1.5 m."""

@@ -1,4 +1,4 @@
-"""The bar below the live screen: what the camera sees, notes, pause, and the one button that matters."""
+"""The bar below the live screen: status light, notes, pause, and the recording button."""
 
 from __future__ import annotations
 
@@ -18,8 +18,10 @@ from carpus.ui.screens.live.status_light import StatusLight
 
 
 class RecordingControls(Surface):
-    """Shows how the recording stands; buttons take no keyboard, for the space bar (or the pedal that sends it) stops
-    whatever has it."""
+    """Shows the state of the recording.
+
+    Buttons take no focus: the space bar, or a pedal that sends it, must always reach the screen.
+    """
 
     def __init__(self, theme: Theme, recording: RecordingController) -> None:
         super().__init__(theme)
@@ -46,8 +48,7 @@ class RecordingControls(Surface):
         recording.changed.connect(self.refresh)
 
     def fit(self, *, tight: bool, large: bool) -> None:
-        """With large text on a small screen hints give way; beside one large figure all buttons but one, whose keys go
-        on working."""
+        """Hide hints with large text on a small screen, and all buttons but one in the large view."""
         self._is_tight = tight
         for button, hint in ((self.note_button, "F5"), (self.pain_button, "F6"), (self.pause_button, "F7")):
             button.setVisible(not large)
@@ -61,7 +62,7 @@ class RecordingControls(Surface):
         self.pain_button.set_label(self.tr("Pain {score}").format(score=score), icon="check")
 
     def show_storing(self, words: str = "") -> None:
-        """It was stopped: that it is stored, or how long it takes until all that waits is tracked."""
+        """Show that the recording is being stored, or how long catching up takes."""
         self.main_button.set_label(words or self.tr("Storing…"), icon="", hint="")
 
     def refresh(self) -> None:
@@ -96,13 +97,13 @@ BANDS = {
     "bad": ("band_bad", "on_band_bad", "on_band_bad", "on_band_bad", "band_bad"),
     "idle": ("sunken", "text2", "text2", "border", "sunken"),
 }
-"""Ground, state word, remedy, icon body, icon sign."""
+"""Colours by rank: background, state, remedy, icon body, icon sign."""
 WRAP_FLAG = int(Qt.TextFlag.TextWordWrap)
 TEXT_SHARES = [0.95 - 0.05 * step for step in range(10)]
 
 
 class StatusLightView(QWidget):
-    """Shows a :class:`StatusLight`."""
+    """Paints a :class:`StatusLight`."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -112,7 +113,7 @@ class StatusLightView(QWidget):
         theme.changed.connect(self.updateGeometry)
 
     def show_light(self, status_light: StatusLight) -> None:
-        """Change what is shown; screen readers get both lines."""
+        """Change the light; screen readers get both lines."""
         if status_light != self.status_light:
             self.status_light = status_light
             self.setAccessibleName(f"{status_light.state}. {status_light.remedy}")
@@ -143,8 +144,7 @@ class StatusLightView(QWidget):
             painter.drawText(place, WRAP_FLAG, text)
 
     def _place_lines(self, room: QRectF) -> list[tuple[str, QFont, QRectF]]:
-        """State and remedy: on one line where that holds both, else one above the other, as large as there is room to
-        read them whole."""
+        """Place state and remedy on one line if they fit, else one above the other, shrunk to fit."""
         (state, large, _), (remedy, small, _) = above = self._stack_lines(room, 1.0)
         upper, lower = QFontMetricsF(large), QFontMetricsF(small)
         beside = upper.horizontalAdvance(state) + 18
@@ -159,7 +159,7 @@ class StatusLightView(QWidget):
         return above
 
     def _stack_lines(self, room: QRectF, share: float) -> list[tuple[str, QFont, QRectF]]:
-        """Both one above the other in the middle, in such a share of their size."""
+        """Place both lines one above the other in the middle, at ``share`` of their size."""
         placed, size = [], share * self._theme.text_scale
         for text, face in (
             (self.status_light.state, font(28 * size, SEMIBOLD)),

@@ -1,4 +1,4 @@
-"""A set of exercises that runs: part after part, with rest between them."""
+"""A running set of exercises: part after part, with rest in between."""
 
 from __future__ import annotations
 
@@ -16,12 +16,14 @@ from carpus.ui.screens.setup.set_words import course_words
 from carpus.ui.shell.current_selection import CurrentSelection
 
 STOP_DELAY_S = 2.0
-"""After the last repetition the recording goes on for so long: it has its way back."""
+"""Recording continues after the last repetition, to include its return movement."""
 
 
 class CourseRunner(QObject):
-    """Ends each part by itself, keeps the rest, and says what comes next. ``screen_requested`` asks for the live
-    screen."""
+    """Ends each part, times the rest and shows what comes next.
+
+    ``screen_requested`` asks for the live screen.
+    """
 
     screen_requested = Signal()
 
@@ -45,7 +47,7 @@ class CourseRunner(QObject):
         self._show_part(set_up)
 
     def advance(self) -> bool:
-        """A recording is stored: whether the next part follows; it is shown then."""
+        """Show the next part after a recording; return False if there is none."""
         now = self._current
         following = next_part(now.set_up) if now.set_up is not None else None
         if now.set_up is None or following is None or now.source is None:

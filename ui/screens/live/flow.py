@@ -1,4 +1,4 @@
-"""The flow while measuring: what the running source tells, how a recording ends, what is asked before it does."""
+"""The flow while measuring: events of the source, the end of a recording, questions before it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ log = logging.getLogger(__name__)
 
 
 class LiveFlow(Flow):
-    """Last step, with the patient's own view and the set of exercises that runs."""
+    """Last step, with the patient's view and the running set of exercises."""
 
     screen_name, guide_page = "live", "measuring"
     screen: LiveScreen
@@ -44,7 +44,7 @@ class LiveFlow(Flow):
         return self.screen.recording.state != "off"
 
     def open(self) -> None:
-        """On the source that is open; without one the patient is set up as last time."""
+        """Open on the running source; without one, on the camera screen with the last set-up."""
         now = self.context.current
         if now.source is not None:
             assert now.set_up is not None
@@ -56,7 +56,7 @@ class LiveFlow(Flow):
             self.context.navigator.open_screen("camera", now.patient.patient_id)
 
     def navigate_back(self) -> None:
-        """Back to the camera; of a running recording it is asked first whether it shall stop."""
+        """Go back to the camera; ask first if a recording is running."""
         if not self.is_recording:
             self.context.navigator.open_screen("camera")
         elif not self.screen.recording.is_storing:
@@ -66,7 +66,7 @@ class LiveFlow(Flow):
         self.screen.show_research(on=on)
 
     def _on_leaving(self, place: str) -> None:
-        """A lost camera leaves the tracking light to be seen from afar; elsewhere the top bar stays."""
+        """Let messages cover only the stage here, so that the tracking light stays visible."""
         self.context.messages.set_host(self.screen.stage if place == "live" else self.context.window.screen_stack)
         if place != "live":
             self.patient_view.clear()
@@ -128,7 +128,7 @@ class LiveFlow(Flow):
             way.open_screen("review", session_id)
 
     def _on_stop_failed(self, fault: Exception) -> None:
-        """The recording ended by a fault; what reached the disk has been finished."""
+        """Show the fault that ended the recording; what reached the disk has been completed."""
         self.context.messages.show_fault(
             fault,
             (
@@ -138,7 +138,6 @@ class LiveFlow(Flow):
         )
 
     def _confirm_early_stop(self) -> None:
-        """A recording that has only just begun is to be ended."""
         self._confirm_stop(self._early_stop_question())
 
     def _confirm_stop(self, question: MessageText) -> None:
@@ -166,7 +165,7 @@ class LiveFlow(Flow):
 
     # --- the window closes --------------------------------------------------------------------------------
     def prompt_before_close(self) -> bool:
-        """A running recording would end with the window: the person says whether it shall."""
+        """Ask whether closing the window shall end a running recording."""
         if not self.is_recording:
             return False
         if not self.context.messages.is_busy:
@@ -189,7 +188,7 @@ class LiveFlow(Flow):
         )
 
     def close(self) -> None:
-        """No screen opens any more; :meth:`finish` stops a recording that runs."""
+        """Let no screen open any more; :meth:`finish` stops a running recording."""
         self.patient_view.close()
         for signal in (self.screen.recording.stopped, self.screen.recording.stop_failed):
             signal.disconnect()  # what is being stored is finished
@@ -197,7 +196,7 @@ class LiveFlow(Flow):
         self.screen.close_source()
 
     def finish(self) -> None:
-        """All else has ended: end the source in order, and wait for it."""
+        """Stop the recording, close the source and wait for it."""
         source, self.context.current.source = self.context.current.source, None
         if source is None:
             return

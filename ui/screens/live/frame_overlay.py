@@ -1,4 +1,4 @@
-"""What is drawn over the live picture: the discs, what is tracked of the hand, and what is asked about."""
+"""What is drawn over the live frame: markers, skeleton, axes, and a question about a marker."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from carpus.ui.words.marker_words import long_finger_name
 
 
 class FrameOverlay:
-    """``tracked_view`` is what is drawn, None for nothing; ``figure`` the finger that may be shown from the side."""
+    """Draws ``tracked_view`` (None for nothing), with a side view of the finger of ``figure``."""
 
     def __init__(
         self, theme: Theme, picture: FrameView, question: MarkerQuestion, recording: RecordingController
@@ -28,7 +28,7 @@ class FrameOverlay:
         self.tracked_view: TrackedView | None = None
         self.figure: FingerAngle | None = None
         self.is_late = False
-        """Whether the picture is newer than what was tracked."""
+        """True if the frame is newer than the tracked view."""
         self.shows_research = True
         self._is_on, self._shows_side = True, False
         picture.overlay = self._paint

@@ -1,4 +1,4 @@
-"""A hand from above with how well each disc is seen, in colour, shape and word, and what would show more."""
+"""A drawn hand with the visibility of each marker, and what would show more of them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MAX_LINES = 4.2
 
 
 class HandMap(QWidget):
-    """Shows the state of all discs; changes at most ten times a second."""
+    """Shows the visibility of all markers."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -39,7 +39,7 @@ class HandMap(QWidget):
         self.update()
 
     def show_visibility(self, visibility: dict[str, MarkerVisibility], *, dip_inferred: bool = False) -> None:
-        """How well each disc is seen; screen readers get the sentence."""
+        """Change the visibility; screen readers get the sentence."""
         if (visibility, dip_inferred) != (self.visibility, self._dip_inferred):
             self.visibility, self._dip_inferred = visibility, dip_inferred
             self.setAccessibleName(self.summary())
@@ -71,7 +71,7 @@ class HandMap(QWidget):
         self._paint_words(painter, words_left)
 
     def _words_width_px(self) -> float:
-        """What the words beside the counts need, up to half of the map."""
+        """Return the width of the words beside the counts, at most half of the map."""
         metrics = QFontMetricsF(font(14 * self._theme.text_scale, REGULAR))
         longest = max(metrics.horizontalAdvance(words) for _, words in self._legend())
         return min(18 + 24 * self._theme.text_scale + 7 + longest + 4, 0.5 * self.width())

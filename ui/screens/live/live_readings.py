@@ -1,4 +1,4 @@
-"""What the tracked figures say of this moment: for the card that shows one of them large, and for a second view."""
+"""Present values for the large number card and for the patient's view."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from carpus.ui.screens.live.recording import RecordingController
 from carpus.ui.words.finger_angles import FINGER_ANGLES, FINGERS, FingerAngle, find_finger_angle
 
 TIMED_PARTS = 10
-"""What goes by time is told in so many parts."""
+"""Marks of progress for an exercise that goes by time."""
 
 
 class LiveReadings:
-    """Read from the history of the figures and from the recording."""
+    """Reads present values from the history and the recording."""
 
     def __init__(self, history: History, recording: RecordingController) -> None:
         self._history, self._recording = history, recording
@@ -60,7 +60,7 @@ class LiveReadings:
         return self.with_targets(reading)
 
     def with_targets(self, reading: Reading) -> Reading:
-        """With the targets of the exercise, where it trains what is shown."""
+        """Return a reading with the goals of the exercise, if it trains the angle shown."""
         set_up = self._recording.set_up
         if set_up is None:
             return reading
@@ -72,9 +72,10 @@ class LiveReadings:
         )
 
     def exercise_snapshot(self, *, is_current: bool) -> ExerciseSnapshot:
-        """The trained angle of this moment, whichever figure is shown; ``is_current`` whether what was tracked last
-        is of
-        now."""
+        """Return the present state of the trained angle, whichever angle is shown.
+
+        ``is_current`` is False if the last tracked frame is old.
+        """
         recording, history = self._recording, self._history
         count, set_up, state, now_s = recording.counter, recording.set_up, recording.state, time.monotonic()
         done, asked = recording.repetitions, set_up.repetitions if set_up else 0

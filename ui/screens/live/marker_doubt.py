@@ -1,4 +1,4 @@
-"""A blue spot in plain sight that is used for nothing while a marker near it is hidden, or doubted."""
+"""A visible blue spot that belongs to no marker while a marker near it is hidden or doubtful."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.screens.live.status_light import AMBER_AFTER_S, StatusLight
 
 MAX_DISTANCE_M = 0.03
-"""A spot this near to where a marker is taken to be may be that marker."""
+"""A spot may be a marker if it is this near to the marker's expected place."""
 _SAME_BLOB_PX = 1.5
 
 Choice = Literal["disc", "spot", "none"]
@@ -24,9 +24,15 @@ Choice = Literal["disc", "spot", "none"]
 
 @dataclass(frozen=True, slots=True)
 class MarkerDoubt:
-    """``marker`` in question; ``assigned_px`` (2,) the spot that is taken for it, NaN while it counts as hidden;
-    ``other_px`` (2,) the spot that may be it, NaN where only the marker itself is doubted; all in picture
-    ``frame_index``."""
+    """A doubtful marker in frame ``frame_index``.
+
+    Attributes
+    ----------
+    assigned_px : ndarray (2,)
+        Spot assigned to the marker, NaN while it is hidden.
+    other_px : ndarray (2,)
+        Spot that may be the marker, NaN if only the marker itself is doubtful.
+    """
 
     marker: str
     assigned_px: FloatArray
@@ -42,7 +48,7 @@ class MarkerDoubt:
         return not np.isfinite(self.assigned_px).all()
 
     def answer(self, choice: Choice) -> MarkerLabel:
-        """What a person says to it: the disc that is taken for the marker, the other spot, or neither."""
+        """Return the label that follows from a person's choice."""
         disc = () if self.is_hidden else (_to_pair(self.assigned_px),)
         spot = _to_pair(self.other_px)
         if choice == "spot":
@@ -55,7 +61,7 @@ def _to_pair(pixel: FloatArray) -> tuple[float, float]:
 
 
 def find_doubt(frame: TrackedFrame | None, markers: Sequence[str], camera: Camera) -> MarkerDoubt | None:
-    """What one frame leaves in question: a doubted marker first, else a hidden one with an unused spot by it."""
+    """Return the doubt of a frame: of a doubtful marker, else of a hidden one near an unused spot."""
     if frame is None or frame.status == TrackStatus.LOST or len(frame.marker_measured_px) != len(markers):
         return None
     measured, place = frame.marker_measured_px, frame.marker_predicted_px
@@ -81,7 +87,7 @@ def find_doubt(frame: TrackedFrame | None, markers: Sequence[str], camera: Camer
 
 
 class SteadyDoubt:
-    """A question stands only after it has lasted 0.3 s, and goes when it has been gone as long: it must not flicker."""
+    """Shows or hides a question only after 0.3 s, so that it does not flicker."""
 
     def __init__(self) -> None:
         self._shown: MarkerDoubt | None = None
@@ -89,7 +95,7 @@ class SteadyDoubt:
         self._since_s = math.nan
 
     def update(self, doubt: MarkerDoubt | None, now_s: float) -> MarkerDoubt | None:
-        """The question to show at ``now_s`` when the newest frame leaves this one."""
+        """Return the question to show at ``now_s``, given that of the newest frame."""
         wanted = doubt.marker if doubt is not None else ""
         if wanted == (self._shown.marker if self._shown is not None else ""):
             self._shown, self._since_s = doubt, math.nan
@@ -101,17 +107,17 @@ class SteadyDoubt:
         return self._shown
 
     def clear(self) -> None:
-        """A person has answered: the question goes at once."""
+        """Hide the question at once, after an answer."""
         self._shown, self._wanted, self._since_s = None, "", math.nan
 
 
 def marker_in_sentence(marker: str) -> str:
-    """The marker's name within a sentence."""
+    """Return the name of a marker within a sentence."""
     return marker_name(marker, translate_phrase)
 
 
 def question_light(doubt: MarkerDoubt) -> StatusLight:
-    """The tracking light while the question is open: never that the marker is hidden while a spot lies by it."""
+    """Return the tracking light while a question is open."""
     lower = marker_in_sentence(doubt.marker)
     if not doubt.has_other:
         words = tr("Look at the {marker}").format(marker=lower)
@@ -122,7 +128,7 @@ def question_light(doubt: MarkerDoubt) -> StatusLight:
 
 
 def _find_unused_blobs(frame: TrackedFrame) -> FloatArray:
-    """Spots (S, 2) that are taken for no marker, and of which nobody has said that they are none."""
+    """Return spots (S, 2) assigned to no marker and not rejected by a person."""
     seen = frame.detections.pixel[~frame.is_rejected]
     taken = frame.marker_measured_px[np.isfinite(frame.marker_measured_px[:, 0])]
     if not len(seen) or not len(taken):

@@ -1,4 +1,4 @@
-"""A note or a pain score while measuring: typed or clicked in a few seconds, the screen stays readable."""
+"""Dialogs for a note or a pain score while measuring."""
 
 from __future__ import annotations
 
@@ -14,13 +14,14 @@ from carpus.ui.kit.theme import Theme
 
 MAX_PAIN = 10
 SECOND_DIGIT_MS = 700
-"""After a 1 a 0 may follow."""
+"""After a 1, a 0 may follow."""
 
 
 class NoteDialog(Dialog):
-    """One line; Enter keeps it with the time of the picture. ``passive_changed`` says who moves the hand from now on:
-    whether
-    somebody else does."""
+    """One line of text, stored with the time of the frame.
+
+    ``passive_changed`` carries True if somebody else moves the hand from now on.
+    """
 
     note_entered = Signal(str)
     passive_changed = Signal(bool)
@@ -52,7 +53,7 @@ class NoteDialog(Dialog):
         self.set_default(keep)
 
     def open_note(self, *, passive: bool = False) -> None:
-        """Open empty; ``passive`` whether somebody else moves the hand now."""
+        """Open empty; ``passive`` tells whether somebody else moves the hand now."""
         self._is_passive = passive
         self.passive_button.set_label(self.tr("Active from here") if passive else self.tr("Passive from here"))
         self.line.clear()
@@ -69,7 +70,7 @@ class NoteDialog(Dialog):
 
 
 class PainDialog(Dialog):
-    """Pain from 0 to 10: a click, a digit, or arrows and Enter."""
+    """Pain from 0 to 10 by click, digit, or arrows and Enter."""
 
     pain_entered = Signal(int)
 
@@ -97,7 +98,7 @@ class PainDialog(Dialog):
         self.closed.connect(self._digit_timer.stop)
 
     def open_pain(self) -> None:
-        """Open; nothing is chosen until a person does."""
+        """Open without a choice."""
         self.open()
 
     def _enter(self, score: int) -> None:

@@ -1,4 +1,4 @@
-"""What is read from 1.5 m: the movement, its angle, how sure it is, and which repetition."""
+"""The large number: movement, angle, standard deviation, repetitions."""
 
 from __future__ import annotations
 
@@ -30,17 +30,20 @@ SPREAD_PX = 44
 MIN_NUMBER_PX = 72.0
 RIGHT_PX, NARROW_RIGHT_PX, NARROW_BELOW_PX = 230, 182, 640
 LARGE_PX = (640, 300)
-"""The large view is this card, as many times as large as it fits."""
+"""Size of the card in the large view before it is scaled to the screen."""
 MAX_SHRINK_PX = 26
-"""With large text the card may be lower by so much: the dots of the repetitions give way."""
+"""Height that the card may lose with large text: the dots of the repetitions disappear."""
 MIN_SPEED_DEG_S = 10.0
-"""The tracker's own noise: below it no speed is told."""
+"""Noise of the tracker: lower speeds are not shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What the card shows. ``angle`` is the wrist's column, unless ``figure`` names a finger's angle; best values are
-    NaN until something was measured."""
+    """What the card shows.
+
+    ``angle`` is the wrist's column, unless ``figure`` names a finger angle. Best values are NaN until something was
+    measured.
+    """
 
     angle: int = 1
     figure: FingerAngle | None = None
@@ -48,7 +51,7 @@ class Reading:
     sd_deg: float = math.nan
     is_predicted: bool = False
     is_doubtful: bool = False
-    """Measured, but what is seen contradicts it: nothing of it counts."""
+    """Measured, but contradicted by visible markers: not counted."""
     repetitions_done: int = 0
     repetitions_asked: int = 0
     is_repetition_running: bool = False
@@ -56,7 +59,7 @@ class Reading:
     best_positive_deg: float = math.nan
     best_negative_deg: float = math.nan
     is_best_lower_bound: bool = False
-    """Whether the joint went out of sight beyond the best that was seen."""
+    """True if the joint moved further than the best value while it was hidden."""
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
 
@@ -72,14 +75,14 @@ class Reading:
 
 
 def speed_words(speed_deg_s: float) -> str:
-    """``38°/s``; a still hand seems to move at up to 10 degrees a second, and that is all that is said of it."""
+    """Format a speed: ``38°/s``, or a bound below the noise of the tracker."""
     if abs(speed_deg_s) < MIN_SPEED_DEG_S:
         return f"<{numbers.NARROW_GAP}{numbers.format_speed(MIN_SPEED_DEG_S)}"
     return numbers.format_speed(speed_deg_s)
 
 
 class NumberCard(QWidget):
-    """Paints a :class:`Reading`; every part has its place, whatever the figures."""
+    """Paints a :class:`Reading` in fixed places."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -92,7 +95,7 @@ class NumberCard(QWidget):
         self._is_large = False
 
     def set_large(self, large: bool) -> None:
-        """Fill all the room there is, to be read from across the room, or take its usual place."""
+        """Fill the window, to be read from across the room, or take the usual place."""
         self._is_large = large
         self.setSizePolicy(
             QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding if large else QSizePolicy.Policy.Maximum
@@ -116,7 +119,7 @@ class NumberCard(QWidget):
         return self.height() / self._zoom
 
     def show_reading(self, reading: Reading) -> None:
-        """Show new figures; the word for the direction stays while the angle is about zero."""
+        """Show new values; the word for the direction stays while the angle is about zero."""
         if reading.angle != self.reading.angle:
             self._direction = 1.0
         if math.isfinite(reading.value_deg) and abs(reading.value_deg) > 0.5:
@@ -129,7 +132,7 @@ class NumberCard(QWidget):
             self.update()
 
     def movement_name(self) -> str:
-        """The word shown for the present direction, or the finger and its joint."""
+        """Return the name of the present movement, or of the finger and its joint."""
         figure = self.reading.figure
         if figure is not None and figure.kind == "tam":
             return self.tr("{finger}, total active motion (TAM)").format(finger=figure.long_name.split(",")[0])
@@ -147,7 +150,7 @@ class NumberCard(QWidget):
         return terms.direction_long_name(self.reading.angle, self._direction, self.exercise)
 
     def _is_supination_only(self) -> bool:
-        """Whether a palm that looks down is turned up: what counts is how far, though it may stay on that side."""
+        """Tell whether only supination from palm down is trained, without a goal for pronation."""
         turns = self.reading.angle == PRONOSUPINATION and is_counted_from_thumb_up(self.exercise)
         return turns and not math.isfinite(self.reading.target_negative_deg)
 
@@ -160,7 +163,7 @@ class NumberCard(QWidget):
         return -top_deg, top_deg, f"{lower} {format_rounded(top_deg)}°", f"{upper} {format_rounded(top_deg)}°"
 
     def _number_px(self) -> float:
-        """As large as the widest figure of the gauge has room, and never larger than designed."""
+        """Return the size of the number: as designed, or smaller if the widest value needs it."""
         if self._is_large:
             scale = self._theme.text_scale
             high = (
@@ -174,7 +177,7 @@ class NumberCard(QWidget):
         return max(MIN_NUMBER_PX, min(NUMBER_PX, self._max_number_px()))
 
     def _max_number_px(self) -> float:
-        """As large as the widest figure has room beside its spread and the column at the right."""
+        """Return the size at which the widest value fits beside its spread and the right column."""
         widest = numbers.format_degrees(round(max(abs(end) for end in self._gauge_range()[:2]), -1))
         needed = QFontMetricsF(font(NUMBER_PX, SEMIBOLD)).horizontalAdvance(widest)
         spread = QFontMetricsF(font(SPREAD_PX, MEDIUM)).horizontalAdvance(numbers.format_sd(10.0))
@@ -193,7 +196,7 @@ class NumberCard(QWidget):
         return QSize(520, whole - (MAX_SHRINK_PX if self._theme.text_scale > 1.0 else 0))
 
     def _shrink_px(self) -> float:
-        """How much of its height large text on a low screen has taken."""
+        """Return the height that the card has lost to large text."""
         return 0.0 if self._is_large else min(max(self.sizeHint().height() - self._layout_height, 0.0), MAX_SHRINK_PX)
 
     def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
@@ -225,7 +228,7 @@ class NumberCard(QWidget):
         self._paint_gauge(painter, QRectF(24, self._layout_height - 42 * scale, self._layout_width - 48, 12), token)
 
     def _paint_doubtful(self, painter: QPainter, left: float, room: float) -> None:
-        """Beside the movement, in as many words as there is room for."""
+        """Paint the warning beside the movement, shorter if space is short."""
         theme, scale = self._theme, self._theme.text_scale
         painter.setFont(font(16 * scale, SEMIBOLD))
         metrics, sign = QFontMetricsF(painter.font()), 20 * scale

@@ -1,4 +1,4 @@
-"""The question which blue spot a marker is, at the foot of the live picture: answered while measuring goes on."""
+"""The question which blue spot is a marker, at the foot of the live frame."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ from carpus.ui.screens.live.marker_doubt import Choice, MarkerDoubt, SteadyDoubt
 EDGE_PX, PADDING_PX, GAP_PX = 12, 12, 8
 RING_PX = 15.0
 ANSWER_DELAY_S = 0.5
-"""A question that has only just come takes no answer: the key was meant for something else."""
+"""A new question takes no key this long: the key was meant for something else."""
 
 
 class MarkerQuestion(Card):
-    """Stands over the picture while a :class:`MarkerDoubt` with another spot is open; ``answered`` carries the
-    :class:`MarkerLabel`, ``changed`` when another question stands, or none.
+    """Card over the frame while a :class:`MarkerDoubt` with another spot is open.
 
-    Its keys, bound on ``host``, answer while it stands and do nothing else; ``get_time_s`` is the recording's own time.
+    ``answered`` carries the :class:`MarkerLabel`, ``changed`` tells of another question or none. Its keys are bound
+    on ``host``; ``get_time_s`` returns the time of the recording.
     """
 
     answered = Signal(object)
@@ -44,15 +44,15 @@ class MarkerQuestion(Card):
         self._picture = picture
         self._steady = SteadyDoubt()
         self.open_doubt: MarkerDoubt | None = None
-        """What is in question, also where there is nothing to choose."""
+        """The doubt, also if there is nothing to choose."""
         self.host_shortcuts: Sequence[QShortcut] = ()
-        """Of the host: a question takes the same keys from them."""
+        """Shortcuts of the host, disabled while a question uses their keys."""
         self._get_time_s = get_time_s
         self.setParent(picture)
         self.set_colors("surface", "warn", 2.0)
         self.setProperty("floats", True)  # over the picture, which goes on under it
         self.asked_doubt: MarkerDoubt | None = None
-        """What is asked."""
+        """The doubt that is asked about."""
         self._shown_at_s = math.nan
         self._is_at_top = False
         self.words = Text(theme, "", 16, SEMIBOLD, wrap=True)
@@ -106,13 +106,13 @@ class MarkerQuestion(Card):
             key.setEnabled(key.key() not in [one.key() for one in armed])
 
     def _answer_by_key(self, name: str) -> None:
-        """Only once the question has stood long enough to be what an answer means."""
+        """Answer by key once the question has been shown long enough."""
         chosen = self.choice_for_key(name)
         if chosen is not None and self._get_time_s() - self._shown_at_s >= ANSWER_DELAY_S - 1e-9:
             self.answer(chosen)
 
     def answer(self, choice: Choice) -> None:
-        """What a person says; the question goes."""
+        """Close the question and emit the answer."""
         if self.asked_doubt is not None:
             answer = self.asked_doubt.answer(choice)
             self.withdraw()
@@ -120,7 +120,7 @@ class MarkerQuestion(Card):
             self.answered.emit(answer)
 
     def choice_for_key(self, name: str) -> Choice | None:
-        """What the key of an action answers now, None for nothing."""
+        """Return the choice of a key, None for nothing."""
         if self.asked_doubt is None:
             return None
         told: dict[str, Choice] = {"answer_none": "none"}
@@ -133,14 +133,11 @@ class MarkerQuestion(Card):
 
     @property
     def is_at_head(self) -> bool:
-        """Whether it stands at the head of the picture, where its size is told."""
+        """True if it is at the head of the frame."""
         return self._is_at_top and not self.isHidden()
 
     def reposition(self) -> None:
-        """At the foot of the picture, or at its head where the foot shows what is asked about.
-
-        Told when the question comes and when the window changes, not for every picture.
-        """
+        """Place the card at the foot of the frame, or at its head if it would cover the question's spots."""
         host = self._picture
         width = host.width() - 2 * EDGE_PX
         self._arrange_buttons(width - 2 * PADDING_PX)
@@ -182,7 +179,7 @@ class MarkerQuestion(Card):
                 button.set_label(words, hint=KEYS[key])
 
     def _is_covering(self, doubt: MarkerDoubt, height_px: int) -> bool:
-        """Whether at the foot of the picture it would lie over what is asked about."""
+        """Tell whether the card at the foot would cover the question's spots."""
         foot_px = self._picture.height() - 2 * EDGE_PX - height_px - RING_PX * self._theme.text_scale
         return any(
             math.isfinite(place[0]) and self._picture.to_screen(float(place[0]), float(place[1])).y() > foot_px
@@ -191,7 +188,7 @@ class MarkerQuestion(Card):
 
 
 def _place_plate(center: QPointF, direction: QPointF, radius: float, size: QSizeF) -> QRectF:
-    """A plate next to a ring in the direction ``direction``."""
+    """Return the place of a label beside a ring."""
     middle = (
         center
         + direction * (radius + 5.0)
@@ -201,9 +198,9 @@ def _place_plate(center: QPointF, direction: QPointF, radius: float, size: QSize
 
 
 def paint_question(painter: QPainter, theme: Theme, doubt: MarkerDoubt, picture: FrameView, covered: QRectF) -> None:
-    """Rings about what is asked about; where there are two, each has its number on the side away from the other.
+    """Paint rings around the question's spots, numbered if there are two.
 
-    ``covered`` is what the card hides of the picture.
+    ``covered`` is the part of the frame under the card.
     """
     spot = picture.to_screen(float(doubt.other_px[0]), float(doubt.other_px[1]))
     if doubt.is_hidden:
@@ -225,7 +222,7 @@ def _paint_ring(
     direction: QPointF,
     words: str,
 ) -> None:
-    """A ring with words beside it in the direction ``direction``, within the picture."""
+    """Paint a ring with a label beside it."""
     radius = RING_PX * theme.text_scale
     draw_with_halo(painter, DARK.warn, 2.5, lambda: painter.drawEllipse(center, radius, radius))
     size = label_size(theme, words)

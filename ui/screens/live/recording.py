@@ -1,4 +1,4 @@
-"""The recording on the live screen: begun by a key, counted down or over a still hand; paused, noted in, stopped."""
+"""The recording on the live screen: start by key, countdown or still hand; pause, notes, stop."""
 
 from __future__ import annotations
 
@@ -24,13 +24,15 @@ if TYPE_CHECKING:
     from carpus.core.pipeline.measurement import MeasurementController
 
 MIN_RECORDING_S = 3.0
-"""So soon after a recording began nobody is taken to mean its end without being asked."""
+"""A recording that is stopped sooner asks for confirmation."""
 
 
 class RecordingController(QObject):
-    """One after the other on a source. ``changed`` when its state, or what is counted down to it, is another;
-    ``begun`` or ``start_failed`` with a fault; ``stopping``, then ``stopped`` with
-    the session, or ``stop_failed`` with a fault."""
+    """Starts and stops recordings on a source.
+
+    Signals: ``changed`` state or countdown; ``started`` or ``start_failed`` with a fault; ``stopping``, then
+    ``stopped`` with the session id or ``stop_failed`` with a fault.
+    """
 
     changed = Signal()
     started = Signal()
@@ -39,7 +41,7 @@ class RecordingController(QObject):
     stop_failed = Signal(object)
     stopping = Signal()
     early_stop_requested = Signal()
-    """A person ends a recording that has only just begun: is it meant?"""
+    """Emitted when a recording is stopped that has only just started."""
 
     def __init__(self, background: Background, history: History) -> None:
         super().__init__()
@@ -50,10 +52,10 @@ class RecordingController(QObject):
         self.start_mode: StartMode = "key"
         self.start_trigger = StartTrigger()
         self.countdown_s = 0
-        """Seconds that are still counted down."""
+        """Seconds left in the countdown."""
         self.camera_lost = self.is_passive = self._is_resting = False
         self.is_busy = False
-        """Whether it is being started or stopped, which waits for the disk."""
+        """True while it starts or stops, which waits for the disk."""
         self._started_at_s = -MIN_RECORDING_S
 
     def set_source(self, measuring: MeasurementController, set_up: SessionSetup) -> None:
@@ -70,12 +72,12 @@ class RecordingController(QObject):
 
     @property
     def is_storing(self) -> bool:
-        """Whether it is being stored: nobody needs to stop it once more."""
+        """True while the recording is being stored."""
         return self.is_busy and self.counter is not None
 
     @property
     def is_playback(self) -> bool:
-        """Whether the source is a stored recording, which plays from its first picture."""
+        """True for a stored recording, which plays from its first frame."""
         return self.measuring is not None and self.measuring.is_playback
 
     @property
@@ -88,14 +90,13 @@ class RecordingController(QObject):
 
     @property
     def time_s(self) -> float:
-        """Its own time, 0 before the first picture."""
+        """Time of the recording, 0 before the first frame."""
         now = self._history.end_s
         return now if math.isfinite(now) else 0.0
 
     # --- how it begins ------------------------------------------------------------------------------------
     def toggle(self) -> None:
-        """Start, or stop and go to the review: the same on every source. A hasty end asks; what is counted down is
-        taken back."""
+        """Start, stop, or cancel the countdown; an early stop asks for confirmation."""
         if self.measuring is None or self.is_busy:
             return
         if self.measuring.feed.is_recording:
@@ -135,7 +136,7 @@ class RecordingController(QObject):
         self._background.run(self.measuring.start_recording, on_started, on_failed, self)
 
     def set_resting(self, *, resting: bool) -> None:
-        """Between two exercises of a set nothing begins by itself."""
+        """Disable the automatic start between two exercises of a set."""
         if resting != self._is_resting:
             self._is_resting = resting
             self._arm_start_trigger()
@@ -146,13 +147,13 @@ class RecordingController(QObject):
         self.changed.emit()
 
     def _arm_start_trigger(self) -> None:
-        """A hand that lies still begins from now on, where that is wanted."""
+        """Wait for a still hand, if that is the start mode."""
         self.start_trigger.stop()
         if self.start_mode == "still" and not (self.is_playback or self._is_resting or self.camera_lost):
             self.start_trigger.start_waiting()
 
     def check_start_trigger(self) -> None:
-        """One look at the hand while a recording may begin without a hand at the keyboard."""
+        """Start the recording if the countdown or the still hand says so."""
         history, set_up = self._history, self.set_up
         if self.measuring is None or self.measuring.feed.is_recording or self.is_busy or not len(history):
             return
@@ -164,7 +165,6 @@ class RecordingController(QObject):
         self._update_countdown()
 
     def _update_countdown(self) -> None:
-        """The seconds on the button, as soon as they change."""
         left_s = self.start_trigger.remaining_s(self.time_s)
         if left_s != self.countdown_s:
             self.countdown_s = left_s
@@ -182,7 +182,7 @@ class RecordingController(QObject):
             self.changed.emit()
 
     def add_event(self, kind: str, text: str) -> bool:
-        """Write something down at this moment; whether it could be."""
+        """Add an event at this moment; return False if nothing is recorded."""
         return self.measuring is not None and self.measuring.feed.add_event(kind, text)
 
     def answer_spot(self, answer: MarkerLabel) -> None:
@@ -197,7 +197,7 @@ class RecordingController(QObject):
             self.changed.emit()
 
     def stop(self) -> None:
-        """Close the file in the background; the answer leads to the review."""
+        """Stop and store the recording in the background."""
         if self.measuring is None or self.is_busy or not self.measuring.feed.is_recording:
             return
         self.is_busy = True
@@ -219,14 +219,16 @@ class RecordingController(QObject):
 
 COUNTDOWN_S = 3.0
 STILL_S, STILL_DEG = 1.5, 4.0
-"""A hand lies still whose angles have stayed within this for so long: less than the smallest movement, more than the
-tracker's noise."""
+"""A hand is still if its angles stay within this range for this long.
+
+It is less than the smallest movement and more than the noise of the tracker.
+"""
 MAX_MOVEMENT_DEG = 2.0 * STILL_DEG
-"""A hand that goes so far while it is counted down does not lie still any more."""
+"""A larger movement cancels the countdown."""
 
 
 class StartTrigger:
-    """``is_waiting`` for a hand that lies still, or counts down; all by the time of the pictures, in seconds."""
+    """Waits for a still hand or counts down, by the time of the frames."""
 
     def __init__(self) -> None:
         self.is_waiting = False
@@ -251,14 +253,11 @@ class StartTrigger:
         return math.isfinite(self._start_time_s)
 
     def remaining_s(self, now_s: float) -> int:
-        """Whole seconds that are still counted, 0 where nothing is."""
+        """Return the whole seconds left in the countdown, 0 without one."""
         return max(1, math.ceil(self._start_time_s - now_s)) if self.is_counting else 0
 
     def update(self, angles_deg: FloatArray | None, now_s: float) -> bool:
-        """One look at the hand, its angles or None where it is not surely seen; whether the recording begins now.
-
-        Angles that are not known (NaN) are not looked at.
-        """
+        """Take the angles of a frame (None if not tracked); return True if the recording starts now."""
         if self.is_counting and not self._is_watching:
             begins = now_s >= self._start_time_s
         elif self.is_waiting or self.is_counting:
@@ -275,7 +274,7 @@ class StartTrigger:
         return begins
 
     def _recent_change_deg(self, angles_deg: FloatArray | None, now_s: float) -> float:
-        """By how much the angles differed lately; infinite where the hand was not seen."""
+        """Return the range of the recent angles; infinite if the hand was not visible."""
         if angles_deg is None or not np.isfinite(angles_deg).any():
             self._recent_angles.clear()
             return math.inf

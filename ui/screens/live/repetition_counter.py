@@ -1,4 +1,4 @@
-"""Repetitions, best values and time of the running recording, by the same measures as the review will use."""
+"""Repetitions, best values and duration of a running recording, computed as in the review."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _ZERO_START_ANGLES = np.zeros(3)
 
 
 class RepetitionCounter:
-    """Takes recorded frames; counts when asked. Counting is for once a second, not for each frame."""
+    """Collects recorded frames; counts once a second."""
 
     def __init__(self, exercise: Exercise, protocol: MarkerProtocol | None = None) -> None:
         self._protocol, self._exercise = protocol or exercise.protocol, exercise
@@ -33,9 +33,9 @@ class RepetitionCounter:
         self._times, self._values, self._valid = array("d"), array("d"), array("b")
         self.repetitions = 0
         self.found_count = 0
-        """As counted now: with what comes later a repetition may turn out to be none."""
+        """Present count; a repetition may turn out to be none with later frames."""
         self.last_end_s = math.nan
-        """When the last one found was over, on the clock of the frames."""
+        """End of the last repetition, on the clock of the frames."""
         self.duration_s = 0.0
         self.best_positive_deg = math.nan
         self.best_negative_deg = math.nan
@@ -45,12 +45,12 @@ class RepetitionCounter:
 
     @property
     def is_best_lower_bound(self) -> bool:
-        """Whether the trained joint may have gone further than the best that was seen, while it was hidden."""
+        """True if the trained joint may have moved further than the best value while hidden."""
         best_rad = math.radians(self.best_positive_deg) if math.isfinite(self.best_positive_deg) else 0.0
         return self._max_hidden_rad > best_rad + MIN_FURTHER_RAD
 
     def set_passive(self, time_s: float, *, passive: bool) -> None:
-        """From a time on somebody else moves the hand, or the patient again: what is helped does not count here."""
+        """Exclude movements from a time on, while somebody else moves the hand."""
         if self._is_passive(time_s):
             self._passive_spans_s[-1] = (self._passive_spans_s[-1][0], time_s)
         if passive:
@@ -78,15 +78,17 @@ class RepetitionCounter:
                 self._max_hidden_rad = max(self._max_hidden_rad, value + sd)
 
     def _is_settling(self, time_s: float) -> bool:
-        """Whether the hand was just out of sight for long: as in the review, such frames give no best."""
+        """Tell whether the hand was hidden just before: such frames give no best value."""
         if time_s - self._last_visible_s > MAX_FILLED_GAP_S:
             self._visible_again_s = time_s
         self._last_visible_s = time_s
         return time_s - self._visible_again_s <= SETTLING_S
 
     def update_count(self) -> int:
-        """Full repetitions so far: of a joint on the tracked angle, also through hidden stretches, as the review cuts
-        them, since a fist goes out of sight at its very end."""
+        """Count full repetitions.
+
+        For joints the tracked angle is used also while hidden, as in the review: a fist hides its own end.
+        """
         if self._counts and len(self._times) > 2:
             valid = None if self._figure >= 0 else np.array(self._valid, dtype=bool)
             signal = resample_evenly(np.array(self._times), np.array(self._values), valid)
@@ -98,7 +100,7 @@ class RepetitionCounter:
         return self.repetitions
 
     def _read_angles(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:
-        """Trained angle and standard deviation in radians, and whether it was measured, frame by frame."""
+        """Return the trained angle, its sd (both in radians) and whether it was measured, per frame."""
         if self._figure >= 0 and frames and len(frames[0].kinematics.joint_angles_rad):
             _, value_deg, sd_deg, measured, _ = estimate_finger_angles(self._protocol, frames)
             column = self._figure

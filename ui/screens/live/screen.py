@@ -1,4 +1,4 @@
-"""The live screen: arranges picture, path, number, curves and light, and pulls the newest values by a timer."""
+"""The live screen: frame, path, number, curves and light, updated by a timer."""
 
 from __future__ import annotations
 
@@ -52,35 +52,37 @@ if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.pipeline.measurement import MeasurementController
 
 CHECK_EVERY_MS = 8
-"""So often the screen looks for a new picture: the curves are as old as this, not as the time between two drawings."""
+"""Interval of the checks for a new frame, which limits the delay of the curves."""
 MIN_DRAW_INTERVAL_MS = 25
-"""Never sooner after the last drawing; what arrives in between is in the curves, not drawn on its own."""
+"""Frames that arrive sooner are in the curves, but are not drawn on their own."""
 MAX_DRAWING_SHARE = 0.5
-"""At most this part of a processor goes to drawing: on a slow computer fewer drawings, not fewer pictures tracked."""
+"""Largest share of a processor for drawing: a slow computer draws less often, and tracks all frames."""
 STORING_INTERVAL_MS = 500
-"""While what was recorded is stored, which is waited for, and needs the processor."""
+"""Drawing interval while a recording is stored, which needs the processor."""
 MAX_TICK_INTERVAL_MS = 40
-"""So often figures and state go on where no pictures come."""
+"""Drawing interval without new frames."""
 VALUES_EVERY = 3
 SLOW_EVERY = 30
 WRIST_COLUMNS, HAND_COLUMNS = (520, 696), (440, 776)
 SNAPSHOT_EVERY_S = 0.09
 STALE_S = 0.4
-"""Without a new picture for so long, what was tracked last is not the hand of now."""
+"""Without a new frame for this long, the last tracked one is not current."""
 
 
 class LiveScreen(FittedWidget):
-    """``recording_changed`` (state, seconds) and ``counters_changed`` feed the top bar; ``event_received`` carries
-    events of the source
-    and faults of commands."""
+    """Screen while measuring.
+
+    ``recording_changed`` (state, seconds) and ``counters_changed`` feed the top bar; ``event_received`` carries
+    events of the source and faults.
+    """
 
     recording_changed = Signal(str, float)
     counters_changed = Signal(LiveCounters)
     event_received = Signal(object)
     patient_view_requested = Signal()
-    """A person opens or closes the patient's own view."""
+    """Emitted to open or close the patient's view."""
     snapshot_taken = Signal(ExerciseSnapshot)
-    """How the trained angle stands, as often as the figures change."""
+    """State of the trained angle, as often as the values change."""
 
     def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
@@ -97,7 +99,7 @@ class LiveScreen(FittedWidget):
         self._is_whole_hand = self._is_large = False
         self._shows_research = True
         self.stage = QWidget()
-        """All but the bar below: what a message may cover while the light goes on speaking to the far eye."""
+        """Everything but the bar below: messages cover this part, and the light stays visible."""
         self.picture = FrameView(theme)
         self.question = MarkerQuestion(self.picture, theme, self, lambda: self.recording.time_s)
         self.frame_overlay = FrameOverlay(theme, self.picture, self.question, self.recording)
@@ -177,20 +179,20 @@ class LiveScreen(FittedWidget):
         self.question.answered.connect(recording.answer_spot)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """The question keeps its place on the picture."""
+        """Reposition the question when the frame view is resized."""
         if watched is self.picture and event.type() == QEvent.Type.Resize:
             QTimer.singleShot(0, self._place_question)  # when the picture has its new place
         return super().eventFilter(watched, event)
 
     def _place_question(self) -> None:
-        """A question over the head of the picture takes the place of the button there, whose key goes on working."""
+        """Reposition the question; hide the button that it would cover, whose key still works."""
         self.question.reposition()
         self.patient_view_button.setVisible(
             self.question.isHidden() or self.question.y() > self.patient_view_button.geometry().bottom()
         )
 
     def show_research(self, *, on: bool) -> None:
-        """The path with its axes and the speeds, or neither; that the forearm lies still is watched all the same."""
+        """Show or hide the path and the speeds; movement of the forearm is watched in any case."""
         self._shows_research = self.frame_overlay.shows_research = on
         if not on and self.curves.is_showing_speeds:
             self.toggle_speeds()
@@ -198,7 +200,7 @@ class LiveScreen(FittedWidget):
         self._fit()
 
     def _fit(self) -> None:
-        """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
+        """Hide the path with large text on a small screen, so that the large values keep their space."""
         tight = is_tight(self, self._theme)
         small, hand = not self._is_large, self._is_whole_hand
         self.picture.setVisible(small)
@@ -244,7 +246,7 @@ class LiveScreen(FittedWidget):
         self.recording_changed.emit("off", 0.0)
 
     def toggle_large(self) -> None:
-        """One figure and the light, to be read from across the room, or everything."""
+        """Show one value and the light only, to be read from across the room, or everything."""
         self._is_large = not self._is_large
         self.number_card.set_large(self._is_large)
         self._fit()
@@ -264,7 +266,7 @@ class LiveScreen(FittedWidget):
             self.number_card.show_reading(self.readings.current_reading(reading))
 
     def set_camera_lost(self, lost: bool) -> None:
-        """The camera went or came back; while it is gone nothing old is shown as if it were now."""
+        """Show that the camera was lost or is back; nothing old stays on the screen meanwhile."""
         self.recording.set_camera_lost(lost=lost)
         self.finger_curves.set_waiting(lost)
         if lost:
@@ -278,7 +280,7 @@ class LiveScreen(FittedWidget):
         self.patient_view_button.setAccessibleName(words)
 
     def show_course(self, words: str) -> None:
-        """Which part of a set it is, and how long the rest still is; empty outside a set."""
+        """Show the part of the set and the remaining rest; empty outside a set."""
         self.course_label.show_text(words)
 
     def _add_pain(self, score: int) -> None:
@@ -287,7 +289,7 @@ class LiveScreen(FittedWidget):
 
     # --- drawing ------------------------------------------------------------------------------------------
     def draw_if_due(self) -> None:
-        """Draw as soon as there is a new picture, and go on without one now and then."""
+        """Draw as soon as there is a new frame, and now and then without one."""
         if self.recording.measuring is None:
             return
         since_ms = 1e3 * (time.monotonic() - self._drawn_at_s)
@@ -349,7 +351,7 @@ class LiveScreen(FittedWidget):
         return self.finger_curves if self._is_whole_hand else self.curves
 
     def exercise_snapshot(self) -> ExerciseSnapshot:
-        """The trained angle of this moment, whichever figure is the large one."""
+        """Return the state of the trained angle, whichever angle is shown."""
         stale = time.monotonic() - self._new_frame_at_s > STALE_S
         return self.readings.exercise_snapshot(is_current=not (self._lag.lag_s or stale))
 
@@ -377,7 +379,7 @@ class LiveScreen(FittedWidget):
         self.recording_changed.emit(self.recording.state, self.recording.duration_s)
 
     def _current_light(self, measuring: MeasurementController) -> StatusLight:
-        """What the light says: of the camera, else of the computer, of a question, of how it begins."""
+        """Return the light: of the camera, else of the computer, a question, or the start."""
         recording, calibration, view = self.recording, measuring.calibration, self._tracked_view
         if recording.camera_lost:
             return StatusLight("bad", self.tr("No picture"), self.tr("Plug the camera in again"))

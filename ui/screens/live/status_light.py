@@ -1,4 +1,4 @@
-"""The tracking light: what the camera sees or the computer lacks, in one colour, one shape, one word, one remedy."""
+"""The tracking light: one colour, shape, word and remedy for the state of tracking."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ GREEN_AFTER_S = 0.5
 
 @dataclass(frozen=True, slots=True)
 class StatusLight:
-    """What the light shows."""
+    """Rank, state and remedy of the tracking light."""
 
     rank: Rank
     state: str
@@ -32,11 +32,11 @@ class StatusLight:
 
 
 MIN_TRACKABLE = 3
-"""Discs that tell where the hand is."""
+"""Markers needed to locate the hand."""
 
 
 def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: bool) -> StatusLight:
-    """The light for one frame as it stands, without any delay."""
+    """Return the light for one frame with six markers, without any delay."""
     if frame is None:
         return StatusLight("idle", tr("Waiting for the first picture"), "")
     if frame.status == TrackStatus.LOST:
@@ -63,9 +63,9 @@ def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_move
 
 
 class SteadyLight:
-    """Keeps the light from flickering: amber only after 0.3 s, green only after 0.5 s, red at once.
+    """Delays changes of the light: amber after 0.3 s, green after 0.5 s, red at once.
 
-    Words of the same rank change at once only when what they say has lasted as long.
+    Words of the same rank change only when they have lasted as long.
     """
 
     def __init__(self) -> None:
@@ -74,7 +74,7 @@ class SteadyLight:
         self._since_s = math.nan
 
     def update(self, status_light: StatusLight, now_s: float) -> StatusLight:
-        """What to show at ``now_s`` when the frame says ``status_light``."""
+        """Return the light to show at ``now_s``, given that of the frame."""
         if self._shown is None or status_light.rank in ("bad", "idle") or self._shown.rank == "idle":
             self._shown = self._wanted = status_light
             return status_light
@@ -95,7 +95,7 @@ _DISTAL_JOINTS = ("PIP", "DIP", "TIP", "IP")
 
 
 def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibility]) -> StatusLight:
-    """The tracking light of the whole hand, from the same state as its map; that state does not flicker."""
+    """Return the light of the whole hand, from the same visibility as its map."""
     if frame is None:
         return StatusLight("idle", tr("Waiting for the first picture"), "")
     if frame.status == TrackStatus.LOST:
@@ -117,7 +117,7 @@ def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibi
 
 
 def occlusion_words(hidden: Sequence[str]) -> str:
-    """``RingBuffer tip hidden``, ``Thumb hidden``, ``Finger ends hidden``, ``7 markers hidden``."""
+    """Describe hidden markers: ``Ring tip hidden``, ``Thumb hidden``, ``7 markers hidden``."""
     if len(hidden) == 1:
         return tr("{marker} hidden").format(marker=marker_title(hidden[0]))
     fingers = {name[-1] for name in hidden if name not in PALM_MARKERS}
@@ -132,7 +132,7 @@ def occlusion_words(hidden: Sequence[str]) -> str:
 
 
 def remedy_words(hidden: Sequence[str]) -> str:
-    """What to do; the palm first, since without it nothing is tracked."""
+    """Return what to do about hidden markers; the palm first, since tracking needs it."""
     palm = [name for name in hidden if name in PALM_MARKERS]
     if len(palm) == 1:
         return occlusion_remedy(palm[0])
@@ -146,7 +146,7 @@ def remedy_words(hidden: Sequence[str]) -> str:
 
 
 def hand_map_words(visibility: Mapping[str, MarkerVisibility], *, dip_inferred: bool = False) -> str:
-    """The sentence beside the hand map: what is hidden, and what to do, or that end joints are only inferred."""
+    """Return the sentence beside the hand map: what is hidden and what to do."""
     hidden = [name for name, state in visibility.items() if state == "hidden"]
     partly = [name for name, state in visibility.items() if state == "partly"]
     if not hidden and not partly:
@@ -166,19 +166,19 @@ def _partly_words(poor: Sequence[str]) -> str:
 
 
 LAG_S, CAUGHT_UP_S = 1.0, 0.4
-"""From so late on the newest picture is shown by itself and the light says so, until it is less than the second."""
+"""The light reports a lag above the first value until it is below the second."""
 MIN_WAITING_FRAMES = 15
-"""Half a second of pictures at a stop: not worth a word."""
+"""Half a second of frames after a stop is not worth a message."""
 
 
 class TrackingLag:
-    """How far what was tracked is behind what the camera sees; of one recording after the other."""
+    """Lag of tracking behind the camera, and missing frames of a recording."""
 
     def __init__(self) -> None:
         self.lag_s = 0.0
-        """0 while the figures are of now."""
+        """0 while the values are current."""
         self.missing_frames = 0
-        """Pictures of this recording that never came, or for which there was no room any more."""
+        """Frames of this recording that were dropped or never came."""
         self._missing_before: int | None = None
         self._max_waiting = 0
 
@@ -186,7 +186,7 @@ class TrackingLag:
         self.missing_frames, self._missing_before, self._max_waiting = 0, None, 0
 
     def update(self, newest: Frame | None, view: TrackedView | None) -> bool:
-        """Whether the figures are late, by the newest picture and the newest that was tracked."""
+        """Update the lag with the newest and the newest tracked frame; return True if it is too large."""
         late_s = 0.0 if newest is None or view is None else newest.timestamp_s - view.tracked.timestamp_s
         self.lag_s = late_s if late_s > (CAUGHT_UP_S if self.lag_s else LAG_S) else 0.0
         return self.lag_s > 0.0
@@ -198,7 +198,7 @@ class TrackingLag:
         self.missing_frames = lost - self._missing_before
 
     def catch_up_progress(self, counters: LiveCounters) -> tuple[int, int] | None:
-        """After a stop: pictures done and in all; None when there is next to nothing left to do."""
+        """Return frames done and in all after a stop; None if hardly any are left."""
         waiting = counters.frames_waiting
         self._max_waiting = max(self._max_waiting, waiting)
         if self._max_waiting < MIN_WAITING_FRAMES or not waiting:
@@ -207,7 +207,7 @@ class TrackingLag:
 
 
 def lag_light(lag: TrackingLag, *, recording: bool) -> StatusLight:
-    """What the tracking light says instead of what the camera saw a while ago."""
+    """Return the light while tracking lags behind."""
     if lag.missing_frames and recording:
         words = tr("{count} pictures are missing: close other programs")
         return StatusLight("warn", tr("The computer is too busy"), words.format(count=lag.missing_frames))
@@ -217,7 +217,7 @@ def lag_light(lag: TrackingLag, *, recording: bool) -> StatusLight:
 
 
 def catch_up_words(counters: LiveCounters) -> str:
-    """How long catching up takes, on the button that stopped."""
+    """Return how long catching up takes, for the button that stopped."""
     if not math.isfinite(counters.tracking_lag_s):
         return tr("Catching up…")
     return tr("Catching up: {seconds} s left").format(seconds=max(1, math.ceil(counters.tracking_lag_s)))

@@ -1,1 +1,1 @@
-"""Calibration on one fixed picture: click the markers in order, read the verdict, start."""
+"""Calibration on a frozen frame: label the markers, read the verdict, start."""

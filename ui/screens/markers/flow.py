@@ -1,4 +1,4 @@
-"""The flow of naming the markers: on the source that was opened, until tracking begins."""
+"""The flow of labelling the markers, from the open source to the start of tracking."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class MarkersFlow(Flow):
         self.screen.labelling.judged.connect(self.check_registration)
 
     def open(self) -> None:
-        """On the source that is open. How far its camera is to be trusted is told, and keeps nobody from measuring."""
+        """Open on the running source."""
         now, library = self.context.current, self.context.library
         source, set_up = now.source, now.set_up
         assert source is not None
@@ -43,7 +43,7 @@ class MarkersFlow(Flow):
             self.context.camera.set_serial(source.measuring.feed.info.serial)
 
     def navigate_back(self) -> None:
-        """Back to the camera; names that a person has given are not thrown away by one key."""
+        """Go back to the camera; ask first if labels would be lost."""
         if not self.screen.has_labels:
             self.context.navigator.open_screen("camera")
             return
@@ -70,7 +70,7 @@ class MarkersFlow(Flow):
     close = on_leave
 
     def check_registration(self, verdict: Verdict) -> None:
-        """Nothing said whether depth lies on colour, so it was taken to; the calibration has measured otherwise."""
+        """Offer to open a recording again if its depth turns out not to be registered."""
         off = next((finding for finding in verdict.findings if finding.kind == "depth_off"), None)
         source, choice = self.context.current.source, self.context.current.source_choice
         if off is None or source is None or not source.is_registration_unknown:

@@ -1,4 +1,4 @@
-"""The column beside the picture of the markers: what is to be done now, what the checks say, and how it goes on."""
+"""The column beside the frame: the present step, the checks, and how to continue."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ GUIDED_MORE_PX = 60
 
 
 class GuidancePanel(QWidget):
-    """Keeps its width whatever the words, so that the picture never moves under the cursor."""
+    """Instructions and checks; of constant width, so that the frame never moves under the cursor."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -72,7 +72,10 @@ class GuidancePanel(QWidget):
         column.addLayout(row_layout((self.primary_button, 1), self.second_button, gap=12))
 
     def fit(self, height_px: int, *, clicks: bool, judged: bool) -> None:
-        """What is read now has the room: ``clicks`` while markers are clicked, ``judged`` once there is a verdict."""
+        """Give the space to what is read now.
+
+        ``clicks``: markers are being clicked; ``judged``: there is a verdict.
+        """
         self.setFixedWidth(self._theme.px(COLUMN_PX))
         scale = self._theme.text_scale
         # The question of the straight fingers and the checks are read; the drawing has done its work by then.
@@ -118,8 +121,10 @@ class GuidancePanel(QWidget):
     def show_labelling(
         self, labels: LabelState, calibrator: Calibrator, *, sees_none: bool, is_proposing: bool
     ) -> None:
-        """While markers are clicked, and while they are checked; ``sees_none``: nothing looks like a disc;
-        ``is_proposing``: the program looks for names."""
+        """Show the next marker, or that the markers are being checked.
+
+        ``sees_none``: there are no candidates; ``is_proposing``: labels are being proposed.
+        """
         done, asked, to_go = len(labels.confirmed_px), len(labels.order), len(labels.missing)
         number = labels.order.index(labels.current) + 1
         self.step_label.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
@@ -167,7 +172,7 @@ class GuidancePanel(QWidget):
     def show_verdict(
         self, labels: LabelState, calibrator: Calibrator, outcome: CalibrationAssessment, remedy: Remedy
     ) -> None:
-        """What the checks say, and the likeliest way out of what is not good."""
+        """Show the checks and the most likely remedy."""
         verdict = outcome.verdict
         words, state = headline(verdict)
         self.hand_drawing.show_markers(labels.side, _hand_states(labels, find_faulty_markers(verdict)))
@@ -211,12 +216,12 @@ def _hand_states(labels: LabelState, wrong: Sequence[str]) -> dict[str, MarkerSt
 
 
 MAX_NAMED = 4
-"""So many doubtful or missing markers are named one by one."""
+"""Up to this many markers are listed by name."""
 
 
 @dataclass(frozen=True, slots=True)
 class ProposalWords:
-    """State and line above the title, title, what to do, face of the primary button."""
+    """Texts of the panel while labels are proposed."""
 
     state: State
     step: str
@@ -226,7 +231,7 @@ class ProposalWords:
 
 
 def proposal_words(labels: LabelState) -> ProposalWords:
-    """Which names need a look, and what Enter does."""
+    """Return which labels need a look, and what Enter does."""
     asked, open_names, doubtful = len(labels.order), labels.open_markers, labels.doubtful
     named = len(labels.proposals)
     primary = tr("Names are right") if not open_names else tr("Take {count} names").format(count=named)
@@ -262,7 +267,7 @@ def _join_markers(names: tuple[str, ...]) -> str:
 
 
 class StraightFingers(QWidget):
-    """``changed`` carries the answer, thumb to little: True where the finger lies straight. All do until clicked."""
+    """Asks which fingers are straight; ``changed`` carries the answer, thumb to little finger."""
 
     changed = Signal(object)
 
@@ -284,7 +289,7 @@ class StraightFingers(QWidget):
 
     @property
     def answer(self) -> tuple[bool, ...]:
-        """Thumb to little, True where the finger lies straight."""
+        """True for each straight finger, thumb to little finger."""
         return tuple(not button.isChecked() for button in self.buttons)
 
     def show_answer(self, straight: tuple[bool, ...]) -> None:
@@ -294,7 +299,7 @@ class StraightFingers(QWidget):
         self._show_hint()
 
     def toggle(self, number: int) -> None:
-        """The finger, 1 thumb to 5 little, cannot lie straight, or can after all."""
+        """Toggle a finger, 1 (thumb) to 5 (little finger)."""
         self.buttons[number - 1].click()
 
     def _on_clicked(self) -> None:
@@ -319,7 +324,7 @@ class StraightFingers(QWidget):
 
 MAX_DEG, MAX_TURN_DEG = 80, 110
 FIELD_ORDER = (1, 0, 2)
-"""Flexion first, as it is the one that contractures limit most."""
+"""Flexion first: contractures limit it most."""
 
 
 def _from_thumb_up(angles_rad: FloatArray) -> FloatArray:
@@ -327,7 +332,7 @@ def _from_thumb_up(angles_rad: FloatArray) -> FloatArray:
 
 
 class StartAngleDialog(Dialog):
-    """Three angles with the word for their direction; emits ``angles_entered`` with (3,) radians."""
+    """Asks for three start angles with their directions; emits ``angles_entered`` with (3,) radians."""
 
     angles_entered = Signal(object)
 
@@ -367,7 +372,7 @@ class StartAngleDialog(Dialog):
         self.fields[FIELD_ORDER[0]][1].selectAll()
 
     def angles_rad(self) -> FloatArray:
-        """Deviation, flexion, pronosupination (3,) as in the files, of what was entered from thumb up."""
+        """Return deviation, flexion, pronosupination (3,) as in the files, entered from thumb up."""
         out = np.zeros(3)
         for column, (direction, value) in self.fields.items():
             sign = 1.0 if direction.value() == DIRECTIONS[column][0] else -1.0

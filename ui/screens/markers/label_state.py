@@ -1,4 +1,4 @@
-"""Which markers are named, which are proposed, which is next: the logic of the screen without the screen."""
+"""State of labelling, without the screen: confirmed, proposed and next markers."""
 
 from __future__ import annotations
 
@@ -13,16 +13,23 @@ from carpus.core.model.types import FloatArray, Side
 from carpus.ui.shell.view_models import LabelProposal
 
 SAME_MARKER_PX = 3.0
-"""Nearer than this two places are the same disc."""
+"""Pixels closer than this are on the same marker."""
 
 
 @dataclass(slots=True)
 class LabelState:
-    """Pixels by marker name, in the order they were set; ``current`` is the one to be clicked next.
+    """Labels of one frame.
 
-    ``proposals`` are names the program has put on discs and no person has confirmed. ``is_chosen``: a person has gone
-    to
-    the current one.
+    Attributes
+    ----------
+    confirmed_px : dict
+        Pixel by marker, in the order they were set.
+    current : str
+        Marker to be clicked next.
+    is_chosen : bool
+        True if a person went to the current marker.
+    proposals : dict
+        Labels proposed by the program and not confirmed.
     """
 
     protocol: MarkerProtocol
@@ -39,12 +46,12 @@ class LabelState:
 
     @property
     def order(self) -> tuple[str, ...]:
-        """The order in which the drawing asks for the markers: that of the protocol."""
+        """Order in which the markers are asked for."""
         return self.protocol.markers
 
     @property
     def label_px(self) -> dict[str, FloatArray]:
-        """Where each name is, of a person or proposed."""
+        """Pixel of each label, confirmed or proposed."""
         return {name: one.pixel for name, one in self.proposals.items()} | self.confirmed_px
 
     @property
@@ -61,11 +68,11 @@ class LabelState:
 
     @property
     def doubtful(self) -> tuple[str, ...]:
-        """Proposals that another name would fit nearly as well."""
+        """Proposals that another label would fit nearly as well."""
         return tuple(name for name in self.missing if name in self.proposals and not self.proposals[name].is_sure)
 
     def set_proposals(self, proposals: Mapping[str, LabelProposal]) -> None:
-        """Take the program's names for what no person has named; they replace earlier ones."""
+        """Replace the proposals of markers that are not confirmed."""
         self.proposals = {name: proposals[name] for name in self.missing if name in proposals}
         if not (self.is_chosen and self.current in self.missing):
             self.current = (self.open_markers or self.missing or (self.current,))[0]
@@ -84,20 +91,20 @@ class LabelState:
         self._advance()
 
     def is_proposed_at(self, pixel: FloatArray) -> bool:
-        """Whether the current marker is proposed at this very place."""
+        """Tell whether the current marker is proposed at this pixel."""
         mine = self.proposals.get(self.current)
         return mine is not None and _is_same_place(mine.pixel, pixel)
 
     def find_owner(self, pixel: FloatArray) -> str:
-        """The name a person has given to this disc, where the current marker has no place it could change for it."""
+        """Return the label of a person at this pixel, if the current marker has none to swap; else empty."""
         if self.current in self.label_px:
             return ""
         return next((name for name, other in self.confirmed_px.items() if _is_same_place(other, pixel)), "")
 
     def set_label(self, pixel: FloatArray, width_px: float) -> bool:
-        """Set the current marker and go on to the next one that is missing; whether two names changed places.
+        """Label the current marker and go to the next one; return True if two labels were swapped.
 
-        A name that was on this disc moves to where the current one was, or is taken off.
+        Another label at this pixel moves to the current marker's former place, or is removed.
         """
         places = self.label_px
         had_place = places.pop(self.current, None) is not None
@@ -122,7 +129,7 @@ class LabelState:
         return swapped
 
     def undo(self) -> str:
-        """Take back the marker set last; its name, empty when there is none."""
+        """Remove the label set last and return its name; empty if there is none."""
         if not self.confirmed_px:
             return ""
         name, _ = self.confirmed_px.popitem()
@@ -130,7 +137,7 @@ class LabelState:
         return name
 
     def clear(self, names: Sequence[str]) -> None:
-        """Take back some markers, to be clicked again; without names all, as on another picture."""
+        """Remove some labels, or all without ``names``."""
         for name in names:
             self.confirmed_px.pop(name, None)
         if not names:
@@ -144,11 +151,11 @@ class LabelState:
         self.choose(self.order[(self.order.index(self.current) + by) % len(self.order)])
 
     def choose(self, name: str) -> None:
-        """A person goes to a marker; names that are proposed meanwhile lead nowhere else."""
+        """Go to a marker; later proposals do not change it."""
         self.current, self.is_chosen = name, True
 
     def find_near(self, pixel: FloatArray, reach_px: float) -> str:
-        """The marker clicked or proposed within reach of a pixel, empty for none."""
+        """Return the marker labelled within reach of a pixel, empty for none."""
         distances = {name: float(np.hypot(*(place - pixel))) for name, place in self.label_px.items()}
         name = min(distances, key=lambda key: distances[key], default="")
         return name if name and distances[name] <= reach_px else ""

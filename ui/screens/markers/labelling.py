@@ -1,4 +1,4 @@
-"""The names on a hand's discs and the calibration that they give: the work of the screen without the screen."""
+"""Labelling of the markers and their calibration, without the screen."""
 
 from __future__ import annotations
 
@@ -19,12 +19,10 @@ from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator, Label
 
 
 class LabellingController(QObject):
-    """On a live picture first, then on one that is held. ``labels_changed`` when names are others, so that an old
-    verdict
-    counts no longer; ``view_changed`` when something else is to be shown; ``doubt_found`` carries a disc to be looked
-    at.
+    """Labels markers on a live, then a frozen frame, and has the calibration assessed.
 
-    ``started`` when tracking has begun; ``judged`` carries each verdict; ``fault_raised`` a fault.
+    Signals: ``labels_changed`` invalidates the verdict; ``view_changed`` asks for a refresh; ``doubt_found`` carries
+    a pixel to look at; ``judged`` a verdict; ``fault_raised`` a fault; ``started`` follows the start of tracking.
     """
 
     labels_changed = Signal()
@@ -40,10 +38,10 @@ class LabellingController(QObject):
         self.calibrator: Calibrator | None = None
         self.labels: LabelState | None = None
         self.outcome: CalibrationAssessment | None = None
-        """Of the names as they are; None before."""
+        """Assessment of the present labels, None before."""
         self.start_angles_rad = np.zeros(3)
         self.is_proposing = False
-        """Whether the program still looks for names."""
+        """True while labels are being proposed."""
         self._is_manual = self._starts_if_good = False
         self._proposing = self._judging = 0
 
@@ -52,14 +50,13 @@ class LabellingController(QObject):
         self.reset()
 
     def reset(self) -> None:
-        """On a live picture: nothing has a name, and what is still worked out of the last one counts no more."""
+        """Return to the live frame; results that are still computed are dropped."""
         self.labels = self.outcome = None
         self._judging += 1
         self._proposing += 1
         self.is_proposing = False
 
     def freeze_frame(self) -> Frame:
-        """Fix the picture; the program proposes names."""
         assert self.calibrator is not None
         calibrator = self.calibrator
         frame = calibrator.freeze_frame()
@@ -78,8 +75,13 @@ class LabellingController(QObject):
 
     # --- names --------------------------------------------------------------------------------------------
     def click(self, pixel: FloatArray) -> str | None:
-        """Put the current name on the disc at a place; None where that was done, else the name that the disc has
-        already, empty where there is no disc."""
+        """Label the current marker at a pixel.
+
+        Returns
+        -------
+        str or None
+            None if done; the label that is there already; empty if there is no marker.
+        """
         assert self.labels is not None
         assert self.calibrator is not None
         found = self.calibrator.find_marker(pixel)
@@ -95,7 +97,7 @@ class LabellingController(QObject):
         return None
 
     def request_proposals(self) -> None:
-        """Let the program propose the names no person has given; each click of a person is one more thing it knows."""
+        """Propose labels for the other markers, given those that a person has set."""
         self._proposing += 1
         self.is_proposing = False
         if self._is_manual or self.labels is None or self.calibrator is None or self.labels.is_complete:
@@ -123,28 +125,27 @@ class LabellingController(QObject):
         )
 
     def _show_doubtful(self) -> None:
-        """The first doubtful disc comes into the loupe, to be confirmed or changed."""
+        """Show the first doubtful label in the magnifier."""
         clicking = self.labels
         if clicking is not None and clicking.doubtful:
             clicking.current = clicking.doubtful[0]
             self.doubt_found.emit(clicking.proposals[clicking.current].pixel)
 
     def accept_all(self, *, starts_if_good: bool = False) -> None:
-        """Confirm all names that are proposed. ``starts_if_good``: with all checks good and nothing to ask it
-        measures."""
+        """Confirm all proposals; with ``starts_if_good`` start measuring if all checks are good."""
         if self.labels is not None and self.labels.proposals:
             self.labels.accept_all()
             self.request_verdict(starts_if_good=starts_if_good)
 
     def confirm_doubtful(self) -> None:
-        """The doubtful name in the loupe is right; the next one comes into it."""
+        """Confirm the doubtful label in the magnifier and show the next one."""
         assert self.labels is not None
         self.labels.confirm(self.labels.doubtful[0])
         self._show_doubtful()
         self.request_verdict()
 
     def label_manually(self) -> None:
-        """No more proposals: every marker is clicked by the person."""
+        """Stop proposing labels."""
         self._is_manual = True
         self._proposing += 1
         self.is_proposing = False
@@ -164,7 +165,7 @@ class LabellingController(QObject):
 
     # --- the verdict --------------------------------------------------------------------------------------
     def request_verdict(self, *, starts_if_good: bool = False) -> None:
-        """Names are different: the old verdict no longer counts, a new one is asked for when all are there."""
+        """Drop the old verdict; request a new one if all markers are labelled."""
         self.outcome, self._starts_if_good = None, starts_if_good
         self._judging += 1
         self.labels_changed.emit()
@@ -207,7 +208,7 @@ class LabellingController(QObject):
         return find_remedy(self.outcome.verdict, is_live=self.calibrator.is_live)
 
     def swap(self) -> None:
-        """Names that stand in for each other change places."""
+        """Swap labels that were mixed up."""
         pairs = find_swapped(self.outcome.verdict) if self.outcome is not None else []
         if pairs and self.labels is not None:
             pixel = self.labels.confirmed_px
@@ -216,7 +217,7 @@ class LabellingController(QObject):
             self.request_verdict()
 
     def click_again(self) -> None:
-        """Take back the markers at fault, or all of them where the fault lies with none."""
+        """Remove the faulty labels, or all if none is at fault."""
         if self.labels is None or self.outcome is None:
             if self.labels is not None and self.labels.proposals:
                 self.label_manually()
@@ -225,7 +226,7 @@ class LabellingController(QObject):
         self.request_verdict()
 
     def accept_other_blob(self) -> None:
-        """The spot in question is the disc: the name moves to it."""
+        """Move the label to the other spot."""
         for finding in self.outcome.verdict.findings if self.outcome is not None else ():
             if finding.spot_px and finding.markers and self.labels is not None:
                 (name,) = finding.markers
@@ -236,11 +237,11 @@ class LabellingController(QObject):
 Remedy = Literal["swap", "click_these", "correct", "take_spot", "new_picture"]
 
 _FRAME_FINDINGS = ("tilt", "distance", "moved", "few_frames", "depth_off")
-"""Causes that lie with hand, camera or light, never with the names."""
+"""Findings caused by hand, camera or light, not by labels."""
 
 
 def find_remedy(verdict: Verdict, *, is_live: bool) -> Remedy:
-    """The likeliest way out, that of wrong names before that of a bad picture."""
+    """Return the most likely remedy; wrong labels come before a bad frame."""
     kinds = {finding.kind for finding in verdict.findings}
     if "swapped" in kinds:
         return "swap"
@@ -260,19 +261,19 @@ def find_remedy(verdict: Verdict, *, is_live: bool) -> Remedy:
 
 
 def find_swapped(verdict: Verdict) -> list[tuple[str, str]]:
-    """Names that stand in for each other: two, or those of two fingers each for each."""
+    """Return pairs of swapped labels: of two markers, or of two fingers."""
     names = next((finding.markers for finding in verdict.findings if finding.kind == "swapped"), ())
     half = len(names) // 2
     return list(zip(names[:half], names[half:], strict=True))
 
 
 def find_faulty_markers(verdict: Verdict) -> tuple[str, ...]:
-    """The markers that something is found with."""
+    """Return the markers of all findings."""
     return tuple(dict.fromkeys(name for finding in verdict.findings for name in finding.markers))
 
 
 def remedy_face(remedy: Remedy) -> tuple[str, str]:
-    """Words and key of the primary button."""
+    """Return text and key of the primary button."""
     return {
         "swap": (tr("Swap the two"), ENTER_KEY),
         "click_these": (tr("Click again"), "C"),

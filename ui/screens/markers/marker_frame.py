@@ -1,4 +1,4 @@
-"""The fixed picture with clicks on it: mouse or keyboard cursor, loupe, rings and names."""
+"""The frozen frame with labels: mouse or keyboard cursor, magnifier, rings and names."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from carpus.ui.words.marker_words import finger_name, marker_title
 LOUPE_PX, LOUPE_ZOOM = 204, 8.0
 GRAB_PX = 12.0
 LABEL_ROOM_PX = 150.0
-"""Beside a disc, for its name: the loupe covers neither."""
+"""Space for a label beside its marker, kept free by the magnifier."""
 MIN_RING_PX = 12.0
 ARROWS = {
     Qt.Key.Key_Left: (-1.0, 0.0), Qt.Key.Key_Right: (1.0, 0.0),
@@ -46,12 +46,12 @@ MIN_ZOOM, MAX_ZOOM, ZOOM_STEP = 1.0, 6.0, 1.25
 
 
 MAX_FULL_LABELS = 6
-"""So many discs each carry their name."""
+"""Up to this many markers each show their name."""
 
 
 @dataclass(frozen=True, slots=True)
 class LabelPlate:
-    """Where a name stands, and the line from it to its ring where it stands further off."""
+    """Place of a label, and the line to its ring if it is further away."""
 
     name: str
     words: str
@@ -60,15 +60,14 @@ class LabelPlate:
 
 
 def finger_chains(markers: Sequence[str]) -> list[list[str]]:
-    """Marker names finger by finger from the wrist, of those the protocol has."""
+    """Return the markers of each finger from the wrist on."""
     fingers = [["WRIST", "CMC1", "MCP1", "IP1", "TIP1"]]
     fingers += [["WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))] for k in (2, 3, 4, 5)]
     return [[name for name in finger if name in markers] for finger in fingers]
 
 
 class MarkerFrameView(FrameView):
-    """Emits ``cursor_moved`` with the cursor's pixel, ``clicked`` with the pixel, ``label_grabbed`` with a marker's
-    name."""
+    """Frame to label; emits ``cursor_moved`` and ``clicked`` with a pixel, ``label_grabbed`` with a marker."""
 
     cursor_moved = Signal(object)
     clicked = Signal(object)
@@ -97,22 +96,22 @@ class MarkerFrameView(FrameView):
         self.update()
 
     def show_questioned_blobs(self, spots: Sequence[tuple[Sequence[float], str]]) -> None:
-        """Mark spots (u, v) without a name, each with the marker that it may be, or nothing."""
+        """Mark spots (u, v) in question, each with its possible marker or an empty text."""
         self.questioned_blobs = [(tuple(pixel), name) for pixel, name in spots]
         self.update()
 
     def show_blobs(self, pixel: FloatArray) -> None:
-        """Everything (D, 2) that may be clicked: no name covers it."""
+        """Set all candidates (D, 2), which labels must not cover."""
         self.blobs_px = pixel
         self.update()
 
     def clear_cursor(self) -> None:
-        """Another picture: where the cursor was on the last one means nothing here."""
+        """Remove the cursor, which belongs to another frame."""
         self.cursor_px = self.found_marker = None
         self.no_marker_words = ""
 
     def set_cursor(self, pixel: FloatArray) -> None:
-        """Put the cursor on a pixel, kept inside the picture."""
+        """Move the cursor to a pixel inside the frame."""
         if self.image is not None:
             limit = np.array([self.image.width() - 1.0, self.image.height() - 1.0])
             self.cursor_px = np.clip(np.asarray(pixel, dtype=np.float64), 0.0, limit)
@@ -120,7 +119,7 @@ class MarkerFrameView(FrameView):
             self.update()
 
     def zoom(self, by: int, around: QPointF | None = None) -> None:
-        """Larger (+1) or smaller (-1), about a place of the widget or the cursor."""
+        """Zoom in (+1) or out (-1) around a place of the widget or the cursor."""
         if self.image is None:
             return
         self._zoom = float(np.clip(self._zoom * ZOOM_STEP**by, MIN_ZOOM, MAX_ZOOM))
@@ -214,11 +213,11 @@ class MarkerFrameView(FrameView):
         self._paint_loupe(painter)
 
     def _is_labelled(self, labels: LabelState) -> bool:
-        """Whether the disc under the cursor already has a name, of a person or proposed."""
+        """Tell whether the marker under the cursor has a label."""
         return self.found_marker is not None and bool(labels.find_near(self.found_marker.pixel, 3.0))
 
     def _paint_proposals(self, painter: QPainter, labels: LabelState, rings: list[tuple[str, QPointF, float]]) -> None:
-        """Proposed names as dashed rings, each finger's discs joined: a wrong name shows as a crossing line."""
+        """Paint proposals as dashed rings, joined by finger: a wrong label shows as a crossing line."""
         at = {name: self.to_screen(*map(float, pixel)) for name, pixel in labels.label_px.items()}
         painter.setPen(QPen(QColor(255, 255, 255, 170), 1.5))
         for ray in finger_chains(labels.protocol.markers) if labels.protocol.has_fingers else ():
@@ -233,7 +232,7 @@ class MarkerFrameView(FrameView):
             rings.append((name, at[name], radius))
 
     def _paint_questioned_blobs(self, painter: QPainter) -> None:
-        """Spots in question: a dashed ring in amber and a question mark, never colour alone."""
+        """Paint spots in question with a dashed ring and a question mark, never by colour alone."""
         for pixel, name in self.questioned_blobs:
             at, radius = self.to_screen(*map(float, pixel)), MIN_RING_PX + 3.0
             draw_with_halo(
@@ -258,7 +257,7 @@ class MarkerFrameView(FrameView):
         return QRectF(left, at.y() - 10, width, metrics.height() + 5)
 
     def _label_words(self, name: str, labels: LabelState) -> str:
-        """The name on the picture; of many discs only the tips speak for their fingers, and what needs a look."""
+        """Return the text of a label; with many markers only of fingertips and doubtful ones."""
         one = labels.proposals.get(name)
         under_cursor = self.found_marker is not None and labels.find_near(self.found_marker.pixel, 3.0) == name
         full = (
@@ -278,7 +277,7 @@ class MarkerFrameView(FrameView):
         painter.drawLine(QPointF(at.x(), at.y() - arm), QPointF(at.x(), at.y() + arm))
 
     def label_plates(self, rings: Sequence[tuple[str, QPointF, float]], proposed: str) -> list[LabelPlate]:
-        """Each name beside its ring, clear of every disc, named or not, of the loupe, other names and their lines."""
+        """Place each label beside its ring, clear of all markers, the magnifier and other labels."""
         metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
         named = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
         bare = [self.to_screen(*map(float, pixel)) for pixel in self.blobs_px]
@@ -310,7 +309,7 @@ class MarkerFrameView(FrameView):
         return out
 
     def _shorten(self, name: str, words: str) -> str:
-        """The finger alone for a knuckle, where no more has room: of few discs each finger has one."""
+        """Return the finger alone for a knuckle, where there is no space for more."""
         assert self.labels is not None
         if len(self.labels.order) > MAX_FULL_LABELS or not name.startswith("MCP"):
             return words
@@ -327,7 +326,7 @@ class MarkerFrameView(FrameView):
                 paint_label(painter, self._theme, one.words, one.plate.left(), one.plate.top())
 
     def loupe_box(self) -> QRectF:
-        """Where the loupe is: in the upper corner that covers fewer discs, never over the place one looks at."""
+        """Return the place of the magnifier: the upper corner that covers fewer markers."""
         size = min(LOUPE_PX * self._theme.text_scale, 0.3 * self.width())
         right, left = QRectF(self.width() - size - 14, 14, size, size), QRectF(14, 14, size, size)
         if self.labels is not None and self._count_labels(left) < self._count_labels(right):
@@ -373,7 +372,7 @@ class MarkerFrameView(FrameView):
         painter.restore()
 
     def _paint_loupe_words(self, painter: QPainter, words: str, inner: QRectF) -> None:
-        """At the foot of the loupe, within it, in as many lines as that takes."""
+        """Paint the text at the foot of the magnifier, in as many lines as needed."""
         room = inner.width() - 8.0
         lines: list[str] = []
         for word in words.split(" "):

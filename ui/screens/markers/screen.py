@@ -1,4 +1,4 @@
-"""The calibration screen: one instruction, one picture, one verdict, one button."""
+"""The calibration screen: one instruction, one frame, one verdict, one button."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ from carpus.ui.words import terms
 
 PREVIEW_EVERY_MS = 60
 MIN_MARKERS = 3
-"""Fewer spots than these are chance: the hand is not in the picture, or has no discs on."""
+"""Fewer candidates are chance: the hand is not in view or has no markers."""
 MIN_WIDE_PX = 780
-"""From this width on the words under the picture stand beside the buttons, else over them."""
+"""Width from which the hint is beside the buttons instead of above them."""
 TWO_LINES_PX, BUTTONS_PX = 40, 36
 
 
 class MarkersScreen(FittedWidget):
-    """What is done on it is told by its :class:`LabellingController`."""
+    """Screen of a :class:`LabellingController`."""
 
     def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
@@ -94,7 +94,7 @@ class MarkersScreen(FittedWidget):
         self._fit()
 
     def _current_keys(self) -> list[tuple[str, str]]:
-        """What the keys do: Enter presses the button at the right, Space takes the spot under the cursor."""
+        """Return the keys that work now, with their meaning."""
         clicking = self.labels
         clicks = clicking is not None and bool(clicking.missing)
         keys = [("Space", self.tr("accept"))] if clicks else []
@@ -108,7 +108,7 @@ class MarkersScreen(FittedWidget):
         ]  # fmt: skip
 
     def _fit(self) -> None:
-        """Room for two lines and the buttons whether they are there or not: the picture keeps its height too."""
+        """Keep space for two lines and the buttons, so that the frame keeps its height."""
         if self._is_fitting:  # what is shown meanwhile lays the screen out, which asks again
             return
         self._is_fitting = True
@@ -158,7 +158,7 @@ class MarkersScreen(FittedWidget):
     # --- life ---------------------------------------------------------------------------------------------
     @property
     def labels(self) -> LabelState | None:
-        """The names on the picture that is held; None before."""
+        """Labels of the frozen frame, None before."""
         return self.labelling.labels
 
     @property
@@ -244,7 +244,7 @@ class MarkersScreen(FittedWidget):
             self._refresh()
 
     def accept(self) -> None:
-        """Take the marker under the cursor; on a live picture, fix the picture."""
+        """Label the marker under the cursor; freeze a live frame."""
         if self.labels is None:
             if self.labelling.calibrator is not None and self.picture.image is not None:
                 self.freeze_frame()
@@ -291,7 +291,7 @@ class MarkersScreen(FittedWidget):
             actions[naming.remedy()]()
 
     def _on_second(self) -> None:
-        """The other way out; a doubtful verdict is passed over by a button that says so only."""
+        """Run the second remedy, or start although the verdict is uncertain."""
         naming = self.labelling
         if naming.outcome is None:
             naming.label_manually()
@@ -301,12 +301,12 @@ class MarkersScreen(FittedWidget):
             self.correct_labels()
 
     def correct_labels(self) -> None:
-        """Everything stays named; the keyboard goes to the picture, where a name is dragged to its disc."""
+        """Move the keyboard to the frame, where labels can be dragged."""
         self.hint.setText(self.tr("Drag a name to its disc. Names that change places swap."))
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def start_anyway(self) -> None:
-        """The markers look swapped, but the person knows this hand better."""
+        """Start although labels look swapped."""
         if self.labelling.outcome is not None and self.labelling.outcome.verdict.can_start:
             self.labelling.begin_tracking()
 
@@ -356,7 +356,7 @@ class MarkersScreen(FittedWidget):
         self.picture.update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Tab goes through the markers while the picture has the keyboard and markers are open; Enter starts."""
+        """Let Tab go through the markers and Enter press the primary button."""
         if watched is self.picture and event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
                 self.primary_button.click()
@@ -377,7 +377,7 @@ SMALL_PX, LARGE_PX = (158, 138), (420, 335)
 
 
 class PreviousPhoto(Photo):
-    """Lies on the lower left of its host; a click or M makes it large and small."""
+    """Photo of the last session on the lower left; a click or M changes its size."""
 
     def __init__(self, theme: Theme, host: QWidget) -> None:
         super().__init__(theme)
@@ -389,7 +389,7 @@ class PreviousPhoto(Photo):
         self.hide()
 
     def show_picture(self, color_rgb: ByteImage | None, day: str) -> None:
-        """Set the picture; without one nothing is shown."""
+        """Set the photo; without one nothing is shown."""
         super().show_picture(color_rgb, self.tr("Last time, {day}").format(day=day))
         self._is_large = False
         self._fit()

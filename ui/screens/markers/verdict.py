@@ -1,4 +1,4 @@
-"""The verdict of the calibration as five rows: state, thing, value, limit."""
+"""The verdict of the calibration as five rows: state, item, value, limit."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ STILL_FINDINGS = ("moved", "few_frames")
 
 @dataclass(frozen=True, slots=True)
 class VerdictRow:
-    """One line of the panel."""
+    """One row of the panel."""
 
     state: State
     thing: str
@@ -51,7 +51,7 @@ class VerdictRow:
 
 
 def pending_rows(done: int, asked: int, limits: CalibrationLimits, *, proposed: bool = False) -> list[VerdictRow]:
-    """What can be said while markers are still being clicked, or their names are ``proposed`` only."""
+    """Return the rows while markers are being labelled, or their labels are only ``proposed``."""
     pattern = tr("{done} of {asked} found") if proposed else tr("{done} of {asked}")
     count = pattern.format(done=done, asked=asked)
     return [
@@ -64,7 +64,7 @@ def pending_rows(done: int, asked: int, limits: CalibrationLimits, *, proposed: 
 
 
 def verdict_rows(verdict: Verdict, limits: CalibrationLimits) -> list[VerdictRow]:
-    """The judged calibration."""
+    """Return the rows of an assessed calibration."""
     kinds = {finding.kind: finding for finding in verdict.findings}
     marker_faults = [kinds[kind] for kind in MARKER_FINDINGS if kind in kinds]
     count = len(verdict.residual_mm)
@@ -139,7 +139,7 @@ class VerdictPanel(Card):
         self.set_dense(self._is_dense)
 
     def set_dense(self, dense: bool) -> None:
-        """Rows as near to each other as their texts allow, where large text leaves little room."""
+        """Move rows closer together, for large text."""
         self._is_dense = dense
         for number in range(len(self._lines)):
             self._grid.setRowMinimumHeight(2 * number + 1, 0 if dense else self._theme.px(29))
@@ -152,7 +152,7 @@ class VerdictPanel(Card):
 
 
 def headline(verdict: Verdict) -> tuple[str, State]:
-    """``Ready``, ``Doubtful`` or ``Cannot start yet``."""
+    """Return ``Ready``, ``Doubtful`` or ``Cannot start yet`` with its state."""
     if verdict.is_good:
         return tr("Ready"), "good"
     return (tr("Doubtful"), "warn") if verdict.can_start else (tr("Cannot start yet"), "bad")

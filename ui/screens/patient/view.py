@@ -1,6 +1,6 @@
-"""What the patient looks at, two or three metres away: the task, the hand, the way to the goal, what is done.
+"""The patient's view, read from two or three metres: task, hand, way to the goal, repetitions.
 
-Drawn on a plane 1080 high and at least 1440 wide, scaled to the window, at most ten times a second.
+Drawn on a plane 1080 high and at least 1440 wide, scaled to the window.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ MIN_TEXT_PX = 36.0
 ARC_WIDTH, ARC_WIDTH_CHILD = 46.0, 58.0
 MAX_MARKS = 20
 MAX_ARC_DEG = 80.0
-"""Without a goal the way has no end that is shown; it goes on as far as here."""
+"""End of the path without a goal."""
 
 
 class PatientView(QWidget):
@@ -104,7 +104,7 @@ class PatientView(QWidget):
             self._paint_marks(painter, QPointF(MARGIN, 760), 0.4 * width)
 
     def _paint_rest(self, painter: QPainter, width: float) -> None:
-        """A ring that runs down in ten steps, and words instead of seconds."""
+        """Paint a ring that runs down in ten steps."""
         scene, color = self.scene, self._theme.color
         ring = QRectF(0.73 * width - 220, 230, 440, 440)
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -126,7 +126,7 @@ class PatientView(QWidget):
             _draw_fitted_text(painter, box.translated(0, 110), words, size, color("text2"), middle=True)
 
     def _paint_marks(self, painter: QPainter, at: QPointF, room: float) -> None:
-        """What is done, as checks or flowers; many as a number."""
+        """Paint repetitions as checks or flowers; many as a number."""
         scene, color = self.scene, self._theme.color
         size = 52.0 if self.audience == "child" else 44.0
         if scene.asked > MAX_MARKS:
@@ -168,7 +168,7 @@ class PatientView(QWidget):
     def _paint_hand(
         self, painter: QPainter, to: QTransform, hand: DrawnPose | None, arm: DrawnPose | None = None
     ) -> None:
-        """The arm always, the hand only where it is known, the fainter the longer it was not seen."""
+        """Paint the arm, and the hand if its pose is known; it fades while it is not visible."""
         color, line = self._theme.color, 8.0 if self.audience == "child" else 5.0
         painter.setPen(QPen(color("border"), line))
         painter.setBrush(color("sunken"))
@@ -255,7 +255,7 @@ def _skin_color(theme: Theme, audience: Audience) -> QColor:
 
 
 def _placement(exercise: Exercise, width: float, *, mirrored: bool) -> QTransform:
-    """From the figure's plane to the drawn one: clear of the words, which stay at the left."""
+    """Return the transform of the figure to the right of the texts."""
     to = QTransform()
     if exercise.angle == PRONOSUPINATION:
         at, scale = QPointF(0.66 * width, 560.0), 0.95
@@ -284,7 +284,7 @@ def _draw_fitted_text(
     bottom: bool = False,
     middle: bool = False,
 ) -> None:
-    """As large as asked for, smaller only where the words would not fit in two lines."""
+    """Draw a text, smaller only if it would not fit into two lines."""
     if not words:
         return
     across = Qt.AlignmentFlag.AlignHCenter if middle else Qt.AlignmentFlag.AlignLeft
@@ -305,14 +305,14 @@ PETALS = 7
 
 
 def paint_stem(painter: QPainter, theme: Theme, way: QPainterPath, wide: float) -> None:
-    """What has been climbed."""
+    """Paint the way that was done as a stem."""
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(theme.color("good"), wide, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
     painter.drawPath(way)
 
 
 def paint_climber(painter: QPainter, theme: Theme, at: QPointF, ahead: QPointF, half: float) -> None:
-    """A ladybird of twice ``half``, its head ahead."""
+    """Paint a ladybird, its head ahead."""
     painter.save()
     painter.translate(at)
     painter.rotate(math.degrees(math.atan2(ahead.y(), ahead.x())))
@@ -331,7 +331,7 @@ def paint_climber(painter: QPainter, theme: Theme, at: QPointF, ahead: QPointF, 
 
 
 def paint_flower(painter: QPainter, theme: Theme, at: QPointF, half: float, *, open_share: float) -> None:
-    """A flower about a point; closed petals stand nearer to its middle."""
+    """Paint a flower; closed petals are nearer to its middle."""
     painter.save()
     painter.translate(at)
     painter.setPen(QPen(theme.color("surface"), max(2.0, 0.05 * half)))

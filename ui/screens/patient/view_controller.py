@@ -1,4 +1,4 @@
-"""The patient's own view: when it opens, what it follows, and what stands there while nothing is measured."""
+"""The window of the patient's view: when it opens, and what it shows."""
 
 from __future__ import annotations
 
@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
 
 class PatientViewController(QObject):
-    """One window at most, made when it is first wanted; it draws what the live screen's own beat tells it (``update``).
-    ``on_open_changed`` hears whether it is open."""
+    """Opens one window at most and draws the snapshots of the live screen."""
 
     def __init__(self, context: ScreenContext, on_open_changed: Callable[[bool], None]) -> None:
         super().__init__(context.window)
@@ -54,12 +53,12 @@ class PatientViewController(QObject):
         self._on_open_changed(True)
 
     def close(self) -> None:
-        """Let it go; may be called although it is not there."""
+        """Close the window, if there is one."""
         if self.window is not None:
             self.window.close()
 
     def close_if_covering(self) -> bool:
-        """Let it go where it lies over the other window; whether it did."""
+        """Close the window if it covers the main window; return True if it did."""
         window = self.window
         if (
             window is None
@@ -72,7 +71,7 @@ class PatientViewController(QObject):
         return True
 
     def _on_screen_removed(self, _: object) -> None:
-        """A screen was unplugged: what filled it must not cover the therapist's."""
+        """Close a full-screen window whose screen was unplugged: it would cover the therapist's."""
         if self.window is not None and self.window.isFullScreen():
             self.close()
 
@@ -84,7 +83,7 @@ class PatientViewController(QObject):
             self.window.view.show_set_up(set_up)
 
     def show_rest(self, left: tuple[int, int, int, int] | None) -> None:
-        """Between two parts of a set: seconds left and in all, parts done and in all; None: no rest any more."""
+        """Show a rest: seconds left and in all, parts done and in all; None ends it."""
         self._is_resting = left is not None
         if left is not None:
             left_s, rest_s, done, asked = left
@@ -95,12 +94,12 @@ class PatientViewController(QObject):
         self._show_lasting_scene(GuideScene("done", asked=self._marks_asked, done=self._marks_done))
 
     def clear(self) -> None:
-        """Nobody measures any more: nothing of the hand is left standing."""
+        """Remove the hand when measuring has ended."""
         if self.window is None or self.window.view.scene.phase != "done":
             self._show_lasting_scene(GuideScene())
 
     def hide_content(self) -> None:
-        """The program is locked: nothing but a word, whatever still runs, until :meth:`show_content`."""
+        """Show nothing but a word until :meth:`show_content`, while the program is locked."""
         self._show_lasting_scene(GuideScene())
         self._is_hidden = True
 
@@ -120,7 +119,7 @@ class PatientViewController(QObject):
             self.window.show_lasting_scene(scene)
 
     def update(self, snapshot: ExerciseSnapshot) -> None:
-        """Draw what the hand does now."""
+        """Draw the present pose of the hand."""
         if self.window is None or not self.is_open or self._guide is None or self._is_resting or self._is_hidden:
             return
         self.window.show_live_scene(self._guide.update(snapshot))
@@ -131,13 +130,15 @@ class PatientViewController(QObject):
 
 
 MAX_SCENE_AGE_MS = 900
-"""Where nothing was told for so long nothing old is left standing."""
+"""A live scene disappears without a new one for this long."""
 MIN_SIZE_PX = (480, 360)
 
 
 class PatientWindow(QWidget):
-    """Never takes the keyboard: space bar and pedal go on stopping the recording. ``closed`` when it goes; Esc closes
-    it, also where the system has given it the keyboard."""
+    """Window that never takes the keyboard: space bar and pedal must reach the live screen.
+
+    Esc closes it if the system has given it the keyboard all the same.
+    """
 
     closed = Signal()
 
@@ -154,7 +155,7 @@ class PatientWindow(QWidget):
         self._stale_timer.timeout.connect(lambda: self.view.show_scene(GuideScene()))
 
     def open_on_free_screen(self, other: QWidget) -> None:
-        """Show on a screen that the other window is not on; on the same one as a window."""
+        """Fill a screen without the main window; on the same screen open as a window."""
         own: QScreen = other.screen()
         free = [screen for screen in QGuiApplication.screens() if screen is not own]
         if free:
@@ -167,12 +168,12 @@ class PatientWindow(QWidget):
         self.show()
 
     def show_live_scene(self, scene: GuideScene) -> None:
-        """A scene that is true only now: without the next one it goes."""
+        """Show a scene that disappears without the next one."""
         self.view.show_scene(scene)
         self._stale_timer.start()
 
     def show_lasting_scene(self, scene: GuideScene) -> None:
-        """A scene that holds until another one comes."""
+        """Show a scene until another one comes."""
         self._stale_timer.stop()
         self.view.show_scene(scene)
 

@@ -1,1 +1,1 @@
-"""The first two steps of the set-up: which exercise, and where the pictures come from."""
+"""The first two steps of the set-up: exercise and source."""

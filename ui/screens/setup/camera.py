@@ -1,4 +1,4 @@
-"""Second step: where the pictures come from; opens it and says how far it is."""
+"""Second step: the source of the frames."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ PATTERNS = "*.oni *.db3 *.carpusraw"
 
 
 class CameraScreen(QWidget):
-    """``source_chosen`` carries the :class:`SourceChoice`; ``path_chosen`` the path of a recording that was chosen."""
+    """Choice of the source; ``path_chosen`` carries the path of a chosen recording."""
 
     source_chosen = Signal(object)
     path_chosen = Signal(str)
 
     def __init__(self, theme: Theme, *, is_demo: bool = False) -> None:
-        """In a demo no camera is offered but the simulated one."""
+        """Build the screen; a demo offers the simulated camera only."""
         super().__init__()
         self._theme, self._is_demo = theme, is_demo
         self._is_camera_ready = False
@@ -36,7 +36,7 @@ class CameraScreen(QWidget):
         self._path = ""
         self._patient_id = ""
         self.start_folder = ""
-        """Where choosing a recording begins."""
+        """Folder in which the dialogs for recordings open."""
         self._is_opening = False
         self.sources = Options(
             theme,
@@ -102,7 +102,7 @@ class CameraScreen(QWidget):
         self.progress.setFixedHeight(8)
 
     def show_set_up(self, set_up: SessionSetup, kind: SourceKind) -> None:
-        """Ask for the source of this set; a recording chosen for another patient is forgotten."""
+        """Ask for the source; a recording chosen for another patient is dropped."""
         if set_up.patient_id != self._patient_id:
             self._patient_id, self._path = set_up.patient_id, ""
         self.position_label.setText(translate_phrase(set_up.exercise.position))
@@ -118,7 +118,7 @@ class CameraScreen(QWidget):
         return self._is_opening
 
     def set_camera_ready(self, there: bool, name: str = "") -> None:
-        """Whether a camera is plugged in, and its name where it is known; looked at now and then."""
+        """Show whether a camera is connected, and its name."""
         if (there, name) != (self._is_camera_ready, self._camera_name):
             self._is_camera_ready, self._camera_name = there, name
             self._refresh()
@@ -129,8 +129,7 @@ class CameraScreen(QWidget):
         self._refresh()
 
     def show_opening(self, opening: bool, words: str = "") -> None:
-        """While a source is being opened nothing can be chosen, and the keyboard stays here: it would go to the first
-        step from what can no longer be pressed."""
+        """Disable the choice while a source is opened, and keep the keyboard focus here."""
         if opening and self.isVisible():
             self.setFocus(Qt.FocusReason.OtherFocusReason)
         self._is_opening = opening

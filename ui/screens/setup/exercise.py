@@ -1,4 +1,4 @@
-"""First step: which exercise, which hand, how often, how far."""
+"""First step: exercise, hand, repetitions, goals."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _TARGET_FIELDS = ("target_positive_deg", "target_negative_deg")
 
 
 class ExerciseScreen(QWidget):
-    """``set_up_chosen`` carries the :class:`SessionSetup`."""
+    """Choice of the exercise; ``set_up_chosen`` carries the :class:`SessionSetup`."""
 
     set_up_chosen = Signal(object)
 
@@ -81,7 +81,7 @@ class ExerciseScreen(QWidget):
         self._fit()
 
     def _form_fields(self, theme: Theme) -> list[Field]:
-        """What is chosen beside the exercise; each field an attribute of a :class:`SessionSetup`."""
+        """Return the fields beside the exercise; each is an attribute of :class:`SessionSetup`."""
         up, down = self.target_fields
         return [
             Field(
@@ -130,7 +130,7 @@ class ExerciseScreen(QWidget):
         columns.addWidget(self._card)
 
     def _build_lists(self) -> None:
-        """A list for each set of discs: its exercises, then the sets of them."""
+        """Build a list for each protocol: exercises, then sets of exercises."""
         for old in self.exercise_lists.values():
             self._list_layout.removeWidget(old)
             old.hide()
@@ -142,7 +142,7 @@ class ExerciseScreen(QWidget):
             options.accepted.connect(self._confirm)
 
     def show_sets(self, sets: Sequence[ExerciseSet], chosen_id: str = "") -> None:
-        """What is offered beside the single exercises, and which one is chosen from now on."""
+        """Show the sets of exercises and choose one."""
         chosen = _set_option_id(chosen_id) if chosen_id else self.exercises.value()
         count = self.form["repetitions"].value()
         self._sets = tuple(sets)
@@ -161,9 +161,10 @@ class ExerciseScreen(QWidget):
         self, patient: Patient, last: SessionSetup | None, side: Side | None, keep_pictures: bool,
         mb_per_minute: float = math.nan, room_minutes: float = math.nan, goals: Goals | None = None,
     ) -> None:  # fmt: skip
-        """Show for a patient, with the last set-up or the usual one; ``side`` None must be chosen by the person.
+        """Show a patient with the last set-up or the default one; without a ``side`` a person must choose.
 
-        ``mb_per_minute`` is what pictures cost, ``room_minutes`` for how long there is room for them."""
+        ``mb_per_minute`` is the size of video, ``room_minutes`` the time for which the disk has space.
+        """
         if math.isfinite(mb_per_minute):
             pattern = self.tr("Needed to see and correct markers later: {size} MB a minute, room for {time}.")
             self.disk_space_label.setText(
@@ -192,7 +193,7 @@ class ExerciseScreen(QWidget):
         self._show_protocol()
 
     def initial_focus(self) -> QWidget:
-        """What takes the keyboard: Enter alone goes on with what is shown."""
+        """Return the chosen exercise: Enter alone continues with what is shown."""
         return self.exercises.current()
 
     def set_up(self) -> SessionSetup:
@@ -215,7 +216,7 @@ class ExerciseScreen(QWidget):
         return start_set(chosen, single, self._goals) if chosen is not None else single
 
     def _find_set(self, value: object) -> ExerciseSet | None:
-        """The set of an entry of the list, None for an exercise."""
+        """Return the set of a list entry, None for an exercise."""
         return next((one for one in self._sets if _set_option_id(one.set_id) == value), None)
 
     def _find_protocol(self) -> MarkerProtocol:
@@ -254,7 +255,7 @@ class ExerciseScreen(QWidget):
         self._validate()
 
     def show_history(self, patient_id: str, history: Sequence[SessionResults]) -> None:
-        """What was measured before, by which goals are proposed; of somebody else it is not shown."""
+        """Propose goals from earlier sessions, if the patient is still the same."""
         if self._patient is not None and self._patient.patient_id == patient_id:
             practises = patient_id == PRACTICE_PATIENT  # of anybody else a simulated hand says nothing
             self._history = tuple(one for one in history if practises or not one.is_simulated)
@@ -265,7 +266,7 @@ class ExerciseScreen(QWidget):
         return side
 
     def _show_goals(self) -> None:
-        """The targets that were last set for this exercise and hand; none leaves the fields empty."""
+        """Show the last goals for this exercise and hand."""
         side = self._find_side()
         if self._find_set(self.exercises.value()) is None and side is not None:
             goals_deg = self._goals.get((self._find_exercise().id, side), _NO_GOALS)
@@ -274,7 +275,6 @@ class ExerciseScreen(QWidget):
         self._show_proposal()
 
     def _show_proposal(self) -> None:
-        """What the last sessions speak for, in one sentence, and a button that takes it over."""
         side, single = self._find_side(), self._find_set(self.exercises.value()) is None
         self._proposals = ()
         if side is not None and single and self._find_exercise().has_repetitions:
@@ -295,7 +295,7 @@ class ExerciseScreen(QWidget):
         self._show_exercise(self.exercises.value())
 
     def _validate(self) -> None:
-        """What is wrong with a target stands below them, and that a hand is to be chosen on the button."""
+        """Show a wrong goal below the fields, and a missing hand on the button."""
         wrong, words = self.form.find_error()
         of_side = wrong is self.form["side"]
         self.problem_label.show_text("" if of_side else words)
@@ -312,7 +312,7 @@ class ExerciseScreen(QWidget):
 
 
 def _list_options(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[str, str, str]]:
-    """What a list offers: the exercises, then the sets of the same discs; value, name and sentence."""
+    """Return value, name and description of each exercise and set of a protocol."""
     single = [
         (item.id, terms.exercise_name(item.id), translate_phrase(item.instruction))
         for item in exercises_for_protocol(protocol)
@@ -330,7 +330,7 @@ def _set_option_id(set_id: str) -> str:
 
 
 def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
-    """Say ``Proposed from the last 3 sessions: flexion 42° (mean 37°; a gain can be told from 47°)``."""
+    """Format proposed goals, with the mean and the detectable change."""
     if not proposed:
         return ""
     parts = [

@@ -1,4 +1,4 @@
-"""The flow before measuring: which exercise, and where the pictures come from."""
+"""The flows before measuring: exercise and source."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from carpus.ui.shell.flow import Flow, ScreenContext
 from carpus.ui.shell.messages import Answer
 
 MIN_FREE_FOR_VIDEO_BYTES = 20e9
-"""Pictures are kept without being asked for where the disk has so much: three hours of them."""
+"""Video is saved by default if the disk has this much space: three hours of it."""
 
 
 class ExerciseFlow(Flow):
@@ -48,7 +48,7 @@ class ExerciseFlow(Flow):
         self.load_sets()
 
     def open(self, patient_id: str) -> None:
-        """For a patient, as chosen last or as in the last session; what was measured before is read meanwhile."""
+        """Open for a patient with the last set-up; earlier sessions are read meanwhile."""
         context, library = self.context, self.context.library
         context.opener.close_source()
         row = self.open_patient(patient_id)
@@ -79,7 +79,7 @@ class ExerciseFlow(Flow):
 
     # --- sets of exercises --------------------------------------------------------------------------------
     def load_sets(self) -> None:
-        """Read them; where that cannot be done the usual ones are offered."""
+        """Load the sets; offer the default ones if that fails."""
         try:
             self.sets = read_sets(self.context.library.store)
         except ServerUnavailable:  # every screen says so
@@ -124,8 +124,11 @@ class CameraFlow(Flow):
         opener.progress_changed.connect(screen.show_progress)
 
     def open(self, patient_id: str = "") -> None:
-        """For the set-up that was chosen. For a patient with the same set-up as last time, opened at once if that can
-        be; where nothing is known it is asked for."""
+        """Open for the chosen set-up.
+
+        For a patient the last set-up is used, and the source opened at once if possible; without one, the exercise is
+        asked for.
+        """
         now, way = self.context.current, self.context.navigator
         if not patient_id:
             self._show_screen()
@@ -158,7 +161,7 @@ class CameraFlow(Flow):
         self.context.navigator.switch_screen("camera")
 
     def navigate_back(self) -> None:
-        """Back to the exercise; what is being opened is not wanted any more."""
+        """Go back to the exercise; the source that is being opened is dropped."""
         if self.context.current.patient is not None:
             self.context.navigator.open_screen("exercise", self.context.current.patient.patient_id)
 
@@ -181,7 +184,7 @@ class CameraFlow(Flow):
 
 
 def free_bytes(folder: Path) -> float:
-    """Room on the disk of a folder; none where nobody can say."""
+    """Return the free space on the disk of a folder; 0 if unknown."""
     try:
         return float(shutil.disk_usage(folder).free)
     except OSError:

@@ -1,4 +1,4 @@
-"""A large exclusive choice: a name, a sentence, and the mark of being chosen."""
+"""A large exclusive choice: name, description, mark."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from carpus.ui.kit.theme import Theme
 
 
 class Option(QPushButton):
-    """One of several; ``accepted`` when Enter goes on with what is chosen."""
+    """One option; ``accepted`` when Enter continues with the choice."""
 
     accepted = Signal()
 
@@ -49,7 +49,7 @@ class Option(QPushButton):
         self.updateGeometry()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Qt's group moves the choice with the arrows."""
+        """Let Enter accept; Qt's group moves the choice with the arrows."""
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self.accepted.emit()
         else:
@@ -67,7 +67,7 @@ class Option(QPushButton):
 
 
 class Options(QWidget):
-    """Exclusive options under each other; arrow keys move the choice, Enter accepts it."""
+    """Exclusive options in a column."""
 
     chosen = Signal(object)
     accepted = Signal()

@@ -1,4 +1,4 @@
-"""Where a therapist puts sets of exercises together: name, exercises, how often or how long, rest."""
+"""Dialog for sets of exercises: name, exercises, repetitions or time, rest."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ DEFAULT_SECONDS = 60
 
 
 class PartRow(QObject):
-    """One exercise of the set: which, how often or how long, rest after it, earlier, away."""
+    """One exercise of the set, with repetitions or time, and the rest after it."""
 
     def __init__(self, theme: Theme, parent: QObject) -> None:
         super().__init__(parent)
@@ -63,7 +63,7 @@ class PartRow(QObject):
         return not self.exercise.isHidden()
 
     def show_part(self, part: SetPart | None, discs: str = "") -> None:
-        """An exercise of those for these discs; nothing hides the row."""
+        """Show a part with the exercises of a protocol; None hides the row."""
         for widget in self.widgets:
             widget.setVisible(part is not None)
         if part is None:
@@ -90,7 +90,7 @@ class PartRow(QObject):
 
 
 class SetDialog(Dialog):
-    """``sets_saved`` carries all sets as they are to be from now on, and the one that was made or changed."""
+    """Edits the sets; ``sets_saved`` carries all sets and the id of the one that was changed."""
 
     sets_saved = Signal(object, str)
 
@@ -144,7 +144,7 @@ class SetDialog(Dialog):
         )
 
     def open_sets(self, sets: Sequence[ExerciseSet], discs: str, chosen_id: str = "") -> None:
-        """Open with the sets of these discs; the others are kept as they are."""
+        """Open with the sets of one protocol; the others stay as they are."""
         self._sets, self._protocol_name = list(sets), discs
         self._fill_choice(chosen_id)
         self.open(self.set_choice)

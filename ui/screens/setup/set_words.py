@@ -1,4 +1,4 @@
-"""What is said of sets of exercises and of the part that one has come to."""
+"""Texts about sets of exercises and the present part."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from carpus.ui.words import terms
 
 
 def part_words(part: SetPart) -> str:
-    """``Full fist, 10 times``; ``ReleaseSlot movement, 60 s``."""
+    """Format a part: ``Full fist, 10 times``; ``Free movement, 60 s``."""
     if part.repetitions:
         pattern = tr("{exercise}, {count} times")
         return pattern.format(exercise=terms.exercise_name(part.exercise.id), count=part.repetitions)
@@ -16,12 +16,12 @@ def part_words(part: SetPart) -> str:
 
 
 def set_words(one: ExerciseSet) -> str:
-    """All parts in a row."""
+    """Format all parts of a set."""
     return " → ".join(part_words(part) for part in one.parts)
 
 
 def course_words(course: SetRun) -> str:
-    """``Set “Wrist, all ways”, 2 of 3: Wrist side to side, 10 times``."""
+    """Format the present part: ``Set “Wrist”, 2 of 3: Radial–ulnar deviation, 10 times``."""
     return tr("Set “{name}”, {number} of {count}: {part}").format(
         name=translate_phrase(course.name),
         number=course.part_index + 1,

@@ -1,1 +1,1 @@
-"""A first session, led from control to control by one sentence at a time."""
+"""A guided first session, one sentence at a time."""

@@ -1,4 +1,4 @@
-"""The bubble: one sentence that points at a control. It has room of its own beside it, so it lies over nothing."""
+"""The bubble of the guided session; it has space of its own and covers nothing."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from carpus.ui.screens.tour.bubbles import PARTS, WITHOUT_POINTER, Bubble, bubbl
 
 TAIL_PX = 9
 MIN_SCREEN_PX = 445
-"""On a screen lower than this in text-scaled pixels, what is worked with goes before the bubble."""
+"""On a lower screen, in text-scaled pixels, the bubble gives way to the controls."""
 TAIL_WIDTH_PX = 20
 TAIL_IN_PX = 96
-"""How far the point lies from the right edge of a wide bubble: over the control in the corner."""
+"""Distance of the pointer from the right edge of a wide bubble."""
 
 
 class BubbleView(QWidget):
-    """Hidden until there is something to say.
+    """Shows a bubble, hidden without one.
 
-    ``wide``: all in one line, pointing at what lies below its right end; else a column that points at what lies below
-    its middle. ``keys``: whether Tab stops here; not where the space bar must always reach the screen.
+    ``wide``: one line that points below its right end, else a column that points below its middle. ``keys`` is False
+    where the space bar must always reach the screen.
     """
 
     changed = Signal()
-    """It came or went: what lies about it has other room."""
+    """Emitted when it appears or disappears: the screen must be fitted again."""
 
     def __init__(self, theme: Theme, *, wide: bool = False, keys: bool = True) -> None:
         super().__init__()
@@ -78,11 +78,11 @@ class BubbleView(QWidget):
 
     @property
     def has_pointer(self) -> bool:
-        """Whether what it says is about the control below it."""
+        """True if the text is about the control below."""
         return self.bubble not in WITHOUT_POINTER
 
     def set_room(self, has_room: bool) -> None:
-        """Where large text leaves no room for it, what is measured goes before it."""
+        """Hide the bubble where large text leaves no space for it."""
         if has_room != self._has_room:
             self._has_room = has_room
             self._update_visibility()

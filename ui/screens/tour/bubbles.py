@@ -1,4 +1,4 @@
-"""Which bubble belongs to which moment of a session: pure, so that its order can be tried without a window."""
+"""The bubbles of the guided session and when each is shown, without any window."""
 
 from __future__ import annotations
 
@@ -10,27 +10,29 @@ from carpus.ui.kit.translate import tr
 
 Bubble = Literal["patient", "camera", "aim", "click", "check", "record", "stop", "results", "report", "save", "end"]
 LabelStage = Literal["aiming", "clicking", "checked", "doubtful"]
-"""How far the markers are: no picture is taken yet, some have no name, all are found good, something is wrong."""
+"""Labelling: no frame yet, labels missing, all checks good, something uncertain."""
 
 PLACES: Mapping[Bubble, str] = {
     "patient": "patients", "camera": "camera", "aim": "markers", "click": "markers",
     "check": "markers", "record": "live", "stop": "live", "results": "review", "report": "review", "save": "report",
     "end": "report",
 }  # fmt: skip
-"""The screen of each bubble, in the order in which a session comes by them."""
+"""Screen of each bubble, in the order of a session."""
 PARTS = ("patients", "markers", "live", "review", "report")
-"""The way as it is counted: who is measured on what is set up once, and mostly passed over."""
+"""Screens that are counted as parts of the session."""
 ONLY_READ: tuple[Bubble, ...] = ("click", "results")
-"""Bubbles whose “Next” presses nothing: only a person can do it, or there is nothing to do."""
+"""Bubbles whose “Next” presses nothing."""
 WITHOUT_POINTER: tuple[Bubble, ...] = (*ONLY_READ, "end")
-"""Bubbles that speak of something else than the control below them, and so do not point at it."""
+"""Bubbles that are not about the control below them."""
 
 
 @dataclass(frozen=True, slots=True)
 class TourState:
-    """What decides. ``is_wanted``: the practice patient is open, or somebody asked to be shown around;
-    ``is_covered``: a
-    message or a sheet lies over the screen; ``is_busy``: what was begun here is still under way."""
+    """What decides on the bubble.
+
+    ``is_wanted``: the practice patient is open, or the tour was requested; ``is_covered``: a message or dialog is
+    open; ``is_busy``: something is still running.
+    """
 
     place: str
     is_wanted: bool = True
@@ -42,7 +44,7 @@ class TourState:
 
 
 def find_bubble(state: TourState, read: frozenset[Bubble] = frozenset()) -> Bubble | None:
-    """The bubble to show, None for none: what was read is not shown again."""
+    """Return the bubble to show; read bubbles are not shown again."""
     if state.is_covered or state.is_busy or not state.is_wanted:
         return None
     return next((bubble for bubble in _candidate_bubbles(state) if bubble not in read), None)
@@ -64,13 +66,13 @@ def _candidate_bubbles(state: TourState) -> tuple[Bubble, ...]:
 
 
 def part_number(bubble: Bubble) -> int:
-    """Which part of the way a bubble is in, from 1; 0 for what is set up in between."""
+    """Return the part of the session from 1 on; 0 for the set-up."""
     place = PLACES[bubble]
     return PARTS.index(place) + 1 if place in PARTS else 0
 
 
 def bubble_words(bubble: Bubble) -> str:
-    """One sentence."""
+    """Return the sentence of a bubble."""
     words: Mapping[Bubble, str] = {
         "patient": tr("Choose in the list who is measured and start here; the practice patient is simulated."),
         "camera": tr("Choose where the pictures come from, then go on here."),

@@ -1,1 +1,1 @@
-"""What the very first start says."""
+"""The panel of the first start."""

@@ -1,4 +1,4 @@
-"""The first start: is this computer ready, where will the data lie, and how a first session goes."""
+"""The first start: checks of the computer, the data folder, and a guided first session."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _ICONS: dict[CheckState, State] = {"good": "good", "warning": "warn", "bad": "ba
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One need of the program: how it stands, and what to do where it does not stand well."""
+    """One requirement: its state, and what to do if it is not met."""
 
     name: str
     state: CheckState
@@ -33,12 +33,12 @@ class Check:
 
 
 def purpose_lines() -> str:
-    """The five things that Carpus does, a line each."""
+    """Return what Carpus does, a line each."""
     return "\n".join(f"{translate_phrase(word)}: {translate_phrase(meaning)}" for word, meaning in PURPOSE)
 
 
 class WelcomePanel(Card):
-    """What Carpus is, how this computer stands, and the offer to be led through a first session."""
+    """Shows what Carpus is, the checks of this computer, and the offer of a guided session."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 0)
@@ -93,7 +93,7 @@ class WelcomePanel(Card):
         self.again_button.setEnabled(False)
 
     def show_checks(self, checks: Sequence[Check]) -> None:
-        """What was found; what needs something stands first."""
+        """Show the checks, problems first."""
         for old in self.check_rows:
             self._rows.removeWidget(old)
             old.hide()
@@ -120,7 +120,7 @@ class WelcomePanel(Card):
             row.setVisible(row.check.state != "good" or self.details_button.isChecked())
 
     def show_folder(self, folder: str, *, needs_restart: bool) -> None:
-        """Where the data lie, or will from the next start on."""
+        """Show the data folder of this or of the next start."""
         self.folder_label.setText(folder)
         self.restart_label.setText(
             self.tr("The folder counts from the next start on: close Carpus and open it again before you measure.")
@@ -132,7 +132,7 @@ class WelcomePanel(Card):
 
 
 class CheckRow(QWidget):
-    """State, name, what was found, and below what to do."""
+    """One check: state, name, finding, remedy."""
 
     def __init__(self, theme: Theme, check: Check) -> None:
         super().__init__()
