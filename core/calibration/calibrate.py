@@ -402,8 +402,8 @@ def _estimate_noise(capture: NeutralCapture, sensor: DepthSensor) -> Measurement
     """Estimate the noise of one frame without the common drift; NaN with too few frames."""
     if capture.frame_count < 4:
         return MeasurementNoise()
-    about = capture.pixel - np.nanmean(capture.pixel, axis=0)  # centred, so that a missing marker moves no median
-    drift = about - np.nanmedian(about, axis=1, keepdims=True)
+    centred = capture.pixel - np.nanmean(capture.pixel, axis=0)  # centred, so that a missing marker moves no median
+    drift = centred - np.nanmedian(centred, axis=1, keepdims=True)
     # The median that is removed contains a part of each marker's own scatter, more with fewer markers.
     seen = int(np.count_nonzero(np.isfinite(capture.pixel[..., 0]).sum(axis=0) > 1))
     pixel_sd = math.sqrt(_mean_variance(drift) * seen / max(seen - 1, 1))
@@ -414,8 +414,8 @@ def _estimate_noise(capture: NeutralCapture, sensor: DepthSensor) -> Measurement
 
 def _mean_variance(series: FloatArray) -> float:
     """Return the mean variance over time of series (F, ...) seen more than once, else NaN."""
-    often = np.isfinite(series).sum(axis=0) > 1
-    return float(np.mean(np.nanvar(series[:, often], axis=0, ddof=1))) if often.any() else math.nan
+    is_repeated = np.isfinite(series).sum(axis=0) > 1
+    return float(np.mean(np.nanvar(series[:, is_repeated], axis=0, ddof=1))) if is_repeated.any() else math.nan
 
 
 def _marker_covariances(
@@ -499,9 +499,9 @@ def _empty_verdict(clicks: Clicks, findings: list[CalibrationFinding]) -> Verdic
 
 def check_hand_length(outcome: CalibrationOutcome, previous_length_mm: float) -> CalibrationOutcome:
     """Add a finding if the hand's length differs from the previous one; NaN means there is none."""
-    now_mm = outcome.verdict.hand_length_mm
-    if not (math.isfinite(previous_length_mm) and math.isfinite(now_mm)):
+    length_mm = outcome.verdict.hand_length_mm
+    if not (math.isfinite(previous_length_mm) and math.isfinite(length_mm)):
         return outcome
-    if abs(now_mm - previous_length_mm) <= MAX_HAND_LENGTH_CHANGE * previous_length_mm:
+    if abs(length_mm - previous_length_mm) <= MAX_HAND_LENGTH_CHANGE * previous_length_mm:
         return outcome
-    return _add_finding(outcome, CalibrationFinding("other_length", (), now_mm, previous_length_mm, "mm"))
+    return _add_finding(outcome, CalibrationFinding("other_length", (), length_mm, previous_length_mm, "mm"))

@@ -81,8 +81,8 @@ class LabelFault:
 def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> LabelFault | None:
     """Find what is wrong with the labels of a plan view (M, 2), y up; None if nothing is."""
     lines = _finger_lines(protocol)
-    now = _label_penalty(lines, side, plan)
-    if now < MIN_DOUBTFUL_PENALTY:
+    current = _label_penalty(lines, side, plan)
+    if current < MIN_DOUBTFUL_PENALTY:
         return None
     best = np.inf
     rows: tuple[tuple[int, ...], tuple[int, ...]] = ((0,), (0,))
@@ -100,7 +100,7 @@ def find_label_fault(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> 
         return exchanged
     # No exchange explains it all: one marker may lie outside the hand.
     marker, without = _find_misplaced_marker(lines, side, plan)
-    is_misplaced = without < MIN_DOUBTFUL_PENALTY or best >= now - MIN_DOUBTFUL_PENALTY
+    is_misplaced = without < MIN_DOUBTFUL_PENALTY or best >= current - MIN_DOUBTFUL_PENALTY
     return LabelFault(misplaced=names[marker]) if is_misplaced else exchanged
 
 
@@ -127,8 +127,8 @@ def _label_penalty(lines: _FingerLines, side: Side, plan: FloatArray) -> float:
     for digit, chain in lines.chains.items():
         steps = np.diff(plan[list(chain)], axis=0)
         length = np.hypot(steps[:, 0], steps[:, 1])
-        most = np.array(MAX_THUMB_LENGTH if digit == _THUMB else MAX_LENGTH)
-        penalty += float(np.maximum(length / size - most, 0.0).sum()) * LENGTH_WEIGHT
+        max_length = np.array(MAX_THUMB_LENGTH if digit == _THUMB else MAX_LENGTH)
+        penalty += float(np.maximum(length / size - max_length, 0.0).sum()) * LENGTH_WEIGHT
         along = (steps[:-1] * steps[1:]).sum(axis=1)
         across = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
         turn_deg = np.degrees(np.abs(np.arctan2(across, along)))
@@ -199,8 +199,8 @@ def is_plausible_palm(side: Side, palm_plan: FloatArray) -> bool:
 @lru_cache(maxsize=8)
 def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
     """Return the plan view (M, 2) of the average hand, m."""
-    discs = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
-    return discs[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
+    markers = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
+    return markers[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
 
 
 def average_palm(side: Side) -> FloatArray:
@@ -211,10 +211,10 @@ def average_palm(side: Side) -> FloatArray:
 def misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
     """Return the residual share (...) of the best similarity (no mirror) of plan views (..., M, 2)."""
     axes = np.array([1.0, 1j])
-    mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=-2, keepdims=True)) @ axes
-    factor = theirs @ mine.conj() / np.vdot(mine, mine)
-    off = np.linalg.norm(theirs - factor[..., None] * mine, axis=-1)
-    return np.asarray(off / np.maximum(np.linalg.norm(theirs, axis=-1), 1e-12))
+    source, target = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=-2, keepdims=True)) @ axes
+    factor = target @ source.conj() / np.vdot(source, source)
+    off = np.linalg.norm(target - factor[..., None] * source, axis=-1)
+    return np.asarray(off / np.maximum(np.linalg.norm(target, axis=-1), 1e-12))
 
 
 def misfit_per_removed_marker(average: FloatArray, plan: FloatArray) -> FloatArray:
@@ -237,8 +237,8 @@ def plan_view(point_cam_m: FloatArray) -> FloatArray:
 def is_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
     """True if the markers are clearly the other hand's, not this one's with two labels swapped."""
     average = _average_plan(protocol, side)
-    own, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER_SIDE[side]), plan)
-    if own < GOOD_SIDE_MISFIT or mirrored >= OTHER_SIDE_SHARE * own:
+    own_misfit, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER_SIDE[side]), plan)
+    if own_misfit < GOOD_SIDE_MISFIT or mirrored >= OTHER_SIDE_SHARE * own_misfit:
         return False
     pairs = np.array(list(combinations(range(len(plan)), 2)))
     swapped = np.repeat(plan[None], len(pairs), axis=0)
@@ -280,17 +280,17 @@ class OddMarker:
 def find_odd_marker(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -> OddMarker | None:
     """Find an odd marker of a palm (6, 2) among the unlabelled spots (S, 2), plan views."""
     average = average_palm(side)
-    own = misfit(average, palm_plan)
-    best = (float(own), -1, -1)
-    if own >= QUESTIONED_MISFIT:
+    own_misfit = misfit(average, palm_plan)
+    best = (float(own_misfit), -1, -1)
+    if own_misfit >= QUESTIONED_MISFIT:
         for marker in range(len(palm_plan)):
             for spot in range(len(spots_plan)):
                 other = palm_plan.copy()
                 other[marker] = spots_plan[spot]
                 best = min(best, (float(misfit(average, other)), marker, spot))
-    if best[0] < BETTER_SPOT_SHARE * own:
+    if best[0] < BETTER_SPOT_SHARE * own_misfit:
         return OddMarker(best[1], best[2], is_spot_better=True)
-    if own >= MAX_PALM_MISFIT:
+    if own_misfit >= MAX_PALM_MISFIT:
         return OddMarker(int(misfit_per_removed_marker(average, palm_plan).argmin()), -1, is_spot_better=False)
     spare = _spots_on_palm(palm_plan, spots_plan)
     if 0 < len(spare) <= MAX_SPARE_SPOTS:

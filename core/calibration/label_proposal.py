@@ -162,8 +162,8 @@ def _flat_postures(side: Side, reference_m: float) -> FloatArray:
             angles = dict.fromkeys(names, 0.0)
             angles |= {"CMC1_extension": thumb_extension, "CMC1_abduction": thumb_abduction}
             angles |= {"MCP2_abduction": spread, "MCP4_abduction": -spread, "MCP5_abduction": -1.5 * spread}
-            disc = disc_centres(hand, np.radians([angles[name] for name in names]))
-            out.append(disc[:, 0] + 1j * disc[:, 1])
+            marker_m = disc_centres(hand, np.radians([angles[name] for name in names]))
+            out.append(marker_m[:, 0] + 1j * marker_m[:, 1])
     return np.array(out)
 
 
@@ -186,14 +186,14 @@ def _find_rough_fits(
             turn, start, scale = turn[usable], position[starts][usable], scale[usable]
             if not turn.size:
                 continue
-            laid = start[:, None] + turn[:, None] * (posture - posture[a])
-            near2 = (np.abs(laid[:, :, None] - position).min(axis=2) / (GATE_M * scale[:, None])) ** 2
+            placed = start[:, None] + turn[:, None] * (posture - posture[a])
+            near2 = (np.abs(placed[:, :, None] - position).min(axis=2) / (GATE_M * scale[:, None])) ** 2
             # A marker counts the more the nearer a blob is; a hand of the usual size a little more.
             score = np.maximum(1.0 - near2, 0.0).sum(axis=1) - 2.0 * np.log(scale) ** 2
             for row, blob in given_labels.items():
-                score -= 4.0 * (np.abs(laid[:, row] - position[blob]) > 2.0 * GATE_M)
+                score -= 4.0 * (np.abs(placed[:, row] - position[blob]) > 2.0 * GATE_M)
             for i in np.argsort(-score)[:6]:
-                found.append((float(score[i]), _HandFit(laid[i], float(scale[i]))))
+                found.append((float(score[i]), _HandFit(placed[i], float(scale[i]))))
     found.sort(key=lambda one: -one[0])
     return [fit for _, fit in found[:MAX_REFINED_FITS]]
 
@@ -213,14 +213,14 @@ def _refine_fit(
     position: FloatArray, fit: _HandFit, given_labels: Mapping[int, int], chains: Sequence[IntArray]
 ) -> _LabelledFit:
     """Assign blobs by least distance, while first the whole hand and then each digit moves to them."""
-    laid = fit.position
+    placed = fit.position
     reach = 2.2 * GATE_M * fit.scale
     for step in range(6):
-        blob = _assign_blobs(position, laid, reach, given_labels)
-        laid = _fit_similarity(laid, position, blob) if step < 3 else _fit_digits(laid, position, blob, chains)
+        blob = _assign_blobs(position, placed, reach, given_labels)
+        placed = _fit_similarity(placed, position, blob) if step < 3 else _fit_digits(placed, position, blob, chains)
         reach = max(0.7 * reach, MAX_FIT_DISTANCE_M * fit.scale)
-    blob = _assign_blobs(position, laid, reach, given_labels)
-    distance = np.abs(laid[:, None] - position)
+    blob = _assign_blobs(position, placed, reach, given_labels)
+    distance = np.abs(placed[:, None] - position)
     own = np.where(blob >= 0, distance[np.arange(blob.size), blob], np.nan)
     others = distance.copy()
     others[np.arange(blob.size)[blob >= 0], blob[blob >= 0]] = np.inf
@@ -256,10 +256,10 @@ def _fit_similarity(predicted: FloatArray, position: FloatArray, blob: IntArray)
     named = blob >= 0
     if np.count_nonzero(named) < 2:
         return predicted
-    mine, theirs = predicted[named], position[blob[named]]
-    centre, middle = mine.mean(), theirs.mean()
-    spread = float((np.abs(mine - centre) ** 2).sum())
-    turn = ((theirs - middle) * np.conj(mine - centre)).sum() / spread if spread > 0.0 else 1.0
+    source, target = predicted[named], position[blob[named]]
+    centre, middle = source.mean(), target.mean()
+    spread = float((np.abs(source - centre) ** 2).sum())
+    turn = ((target - middle) * np.conj(source - centre)).sum() / spread if spread > 0.0 else 1.0
     return np.asarray(middle + turn * (predicted - centre))
 
 

@@ -105,11 +105,11 @@ def estimate_depth_offset_px(frame: Frame, marker_appearance: MarkerAppearance, 
     reach = MAX_OFFSET_PX
     wide = cv2.copyMakeBorder(hand, reach, reach, reach, reach, cv2.BORDER_REPLICATE)
     wide = wide[top : bottom + 2 * reach, left : right + 2 * reach]
-    alike = cv2.matchTemplate(wide, skin, cv2.TM_CCOEFF_NORMED)
-    v, u = np.unravel_index(int(alike.argmax()), alike.shape)
-    best, here = float(alike[v, u]), float(alike[reach, reach])
+    correlation = cv2.matchTemplate(wide, skin, cv2.TM_CCOEFF_NORMED)
+    v, u = np.unravel_index(int(correlation.argmax()), correlation.shape)
+    best, current = float(correlation[v, u]), float(correlation[reach, reach])
     offset = float(np.hypot(u - reach, v - reach))
-    is_off = best >= MIN_CORRELATION and best - here >= MIN_CORRELATION_GAIN and offset > MIN_OFFSET_PX
+    is_off = best >= MIN_CORRELATION and best - current >= MIN_CORRELATION_GAIN and offset > MIN_OFFSET_PX
     return offset / scale if is_off else 0.0
 
 

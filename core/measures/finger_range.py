@@ -63,8 +63,8 @@ def visible_joints(joint_names: Sequence[str], markers: Sequence[str], measured_
     """Select frames and joints (N, J) whose two markers are measured in ``measured_px`` (N, M, 2)."""
     has_blob = np.isfinite(measured_px[..., 0])
     rows = [[markers.index(disc) for disc in markers_at_joint(name)] for name in joint_names]
-    at, past = np.array(rows, dtype=np.int64).reshape(-1, 2).T
-    return np.asarray(has_blob[:, at] & has_blob[:, past], dtype=np.bool_)
+    over, distal = np.array(rows, dtype=np.int64).reshape(-1, 2).T
+    return np.asarray(has_blob[:, over] & has_blob[:, distal], dtype=np.bool_)
 
 
 def valid_joints(

@@ -119,17 +119,19 @@ class StructuredLightSensor:
         spread = cv2.dilate(disparity, window) - cv2.erode(disparity, window)
         at_edge = spread > _EDGE_DISPARITY_PX
         smooth = cv2.blur(disparity, (7, 7))
-        wobble = [np.float32(_EDGE_JITTER_PX) * fleck_noise(rng, self._shape) for _ in range(2)]
+        jitter = [np.float32(_EDGE_JITTER_PX) * fleck_noise(rng, self._shape) for _ in range(2)]
         v, u = np.indices(self._shape, dtype=np.float32)
-        torn = cv2.remap(disparity, u + wobble[0], v + wobble[1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
+        jittered = cv2.remap(
+            disparity, u + jitter[0], v + jitter[1], cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE
+        )
         wide = cv2.dilate(at_edge.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(bool)
         mixed = cv2.blur(disparity, (3, 3))
         chance = fleck_noise(rng, self._shape)
-        seen = np.where(wide, np.where(chance > 0.9, mixed, torn), smooth)
+        measured = np.where(wide, np.where(chance > 0.9, mixed, jittered), smooth)
         wobble_px = np.float32(_TEMPORAL_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
-        seen = seen + self._fixed_pattern + wobble_px
-        seen = np.round(seen / np.float32(DISPARITY_STEP_PX)) * np.float32(DISPARITY_STEP_PX)
-        depth = np.float32(DISPARITY_PX_M * self._scale) / np.maximum(seen, 1.0)
+        measured = measured + self._fixed_pattern + wobble_px
+        measured = np.round(measured / np.float32(DISPARITY_STEP_PX)) * np.float32(DISPARITY_STEP_PX)
+        depth = np.float32(DISPARITY_PX_M * self._scale) / np.maximum(measured, 1.0)
         lost = at_edge & (fleck_noise(rng, self._shape) > 0.35)
         lost |= is_in_shadow(disparity, self._shadow_side)
         return _to_depth_image(depth, lost, (_NEAREST_M, _FARTHEST_M), 2e-4, rng)
@@ -226,10 +228,10 @@ class TimeOfFlightSensor:
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 3, 1 + frame])
         around = np.ones((3, 3), np.uint8)
         flying = cv2.dilate(depth_m, around) - cv2.erode(depth_m, around) > _EDGE_M
-        seen = np.where(flying, cv2.blur(depth_m, (3, 3)), depth_m)
+        measured = np.where(flying, cv2.blur(depth_m, (3, 3)), depth_m)
         sd_m = self._sensor.reading_sd_m(depth_m.astype(np.float64)).astype(np.float32) * self._noise_factor(color)
         depth = np.float32(self._scale) * (
-            seen + self._range_bias_m + sd_m * window_noise(rng, self._shape, self._patch_px)
+            measured + self._range_bias_m + sd_m * window_noise(rng, self._shape, self._patch_px)
         )
         lost = flying & (fleck_noise(rng, self._shape) > 0.9)
         lost |= is_in_shadow(np.float32(self._color_px_m) / depth_m, self._side)
@@ -294,13 +296,13 @@ class ActiveStereoSensor:
         at_edge = spread > _EDGE_DISPARITY_PX
         smooth = cv2.blur(disparity, (width, width))
         inner = cv2.dilate(at_edge.astype(np.uint8), np.ones((width, width), np.uint8)).astype(bool)
-        seen = np.where(inner, disparity, smooth)
-        seen = np.where(at_edge & (fleck_noise(rng, self._shape) > -0.5), thick, seen)
+        measured = np.where(inner, disparity, smooth)
+        measured = np.where(at_edge & (fleck_noise(rng, self._shape) > -0.5), thick, measured)
         turn = np.float32(2.0 * np.pi) * disparity
-        seen = seen + self._patterns[0] * np.cos(turn) + self._patterns[1] * np.sin(turn)
-        seen = seen + np.float32(self._temporal_px) * window_noise(rng, self._shape, width)
-        seen = np.round(seen / np.float32(_STEREO_STEP_PX)) * np.float32(_STEREO_STEP_PX)
-        depth = np.float32(self._product_px_m * self._scale) / np.maximum(seen, np.float32(1.0))
+        measured = measured + self._patterns[0] * np.cos(turn) + self._patterns[1] * np.sin(turn)
+        measured = measured + np.float32(self._temporal_px) * window_noise(rng, self._shape, width)
+        measured = np.round(measured / np.float32(_STEREO_STEP_PX)) * np.float32(_STEREO_STEP_PX)
+        depth = np.float32(self._product_px_m * self._scale) / np.maximum(measured, np.float32(1.0))
         lost = at_edge & (fleck_noise(rng, self._shape) > 0.9)
         lost |= is_in_shadow(disparity * np.float32(self._enlarged), self._second_eye)
         return _to_depth_image(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _STEREO_LOST_SHARE, rng)

@@ -180,10 +180,10 @@ class RecordingSpec:
 
     def to_json(self) -> str:
         """Return all options as stored beside a recording."""
-        told = dataclasses.asdict(self)
+        options = dataclasses.asdict(self)
         if self.sensor == "primesense":  # as before there were others, so that what was rendered is found again
-            del told["sensor"]
-        return json.dumps(told, sort_keys=True)
+            del options["sensor"]
+        return json.dumps(options, sort_keys=True)
 
     @property
     def cache_key(self) -> str:

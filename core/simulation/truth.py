@@ -82,7 +82,7 @@ def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
     t = times.color_s
     axes, origin = scene.marker_frame()
     pose = scene.pose(t)
-    now, before, after = (
+    current, before, after = (
         _change_frame(at, axes, origin, spec.hand) for at in (pose, scene.pose(t - _STEP_S), scene.pose(t + _STEP_S))
     )
     rows = protocol_rows(spec)
@@ -96,11 +96,11 @@ def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
         timestamp_s=np.round(RECORDING_EPOCH_S + t, 6),
         time_s=t,
         dropped_before=times.dropped_before,
-        position_m=now.position_m,
+        position_m=current.position_m,
         velocity_m_s=(after.position_m - before.position_m) / (2.0 * _STEP_S),
-        rotation_w2_w0=now.rotation_w2_w0,
+        rotation_w2_w0=current.rotation_w2_w0,
         angular_velocity_rad_s=_angular_velocity(before, after),
-        angles_rad=now.angles_rad,
+        angles_rad=current.angles_rad,
         joint_names=joint_names,
         joint_angles_rad=pose.joint_angles_rad[:, columns],
         joint_velocity_rad_s=joint_velocity[:, columns],

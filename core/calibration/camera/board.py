@@ -103,14 +103,14 @@ def board_items(board: Board, left_mm: float, top_mm: float) -> tuple[SheetItem,
 
 
 def _code_boxes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
-    described = charuco_board(board)
-    codes = described.getDictionary()
+    charuco = charuco_board(board)
+    codes = charuco.getDictionary()
     out = []
     cell = board.code_m * 1e3 / _CODE_CELLS
-    for number, corners in zip(np.ravel(np.asarray(described.getIds())), described.getObjPoints(), strict=True):
+    for number, corners in zip(np.ravel(np.asarray(charuco.getIds())), charuco.getObjPoints(), strict=True):
         x, y = left_mm + float(corners[0][0]) * 1e3, top_mm + float(corners[0][1]) * 1e3
-        picture = cv2.aruco.generateImageMarker(codes, int(number), _CODE_CELLS)
-        for row, line in enumerate(np.asarray(picture) == 0):
+        image = cv2.aruco.generateImageMarker(codes, int(number), _CODE_CELLS)
+        for row, line in enumerate(np.asarray(image) == 0):
             # neighbouring cells as one box: viewers may show a white hairline between two
             edges = np.flatnonzero(np.diff(np.concatenate(([0], line.astype(np.int8), [0]))))
             for start, end in edges.reshape(-1, 2):
@@ -148,8 +148,8 @@ def find_board(color_rgb: ByteImage, boards: Sequence[Board]) -> DetectedBoard |
 def _find_chessboard(gray: ByteImage, board: Board) -> DetectedBoard | None:
     size = (board.columns - 1, board.rows - 1)
     flags = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
-    there, pixel = cv2.findChessboardCorners(gray, size, flags=flags)
-    if not there:
+    is_found, pixel = cv2.findChessboardCorners(gray, size, flags=flags)
+    if not is_found:
         return None
     grid = np.asarray(pixel, dtype=np.float32).reshape(size[1], size[0], 2)
     steps = (np.linalg.norm(np.diff(grid, axis=axis), axis=-1).min() for axis in (0, 1))

@@ -123,8 +123,8 @@ def _place_name(down: int, across: int) -> Phrase:
 def board_pose(detected: DetectedBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
     """Return rotation vector and translation of the board in the camera; None if there is no solution."""
     points = detected.board.corners_m[detected.corner_ids]
-    there, turn, shift = cv2.solvePnP(points, camera.undistort(detected.pixel), camera.matrix, np.zeros(5))
-    return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
+    is_solved, turn, shift = cv2.solvePnP(points, camera.undistort(detected.pixel), camera.matrix, np.zeros(5))
+    return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if is_solved else None
 
 
 def to_board_view(

@@ -299,7 +299,7 @@ def format_calibration(calibration: CameraCalibration) -> list[str]:
     shift = f"shift {depth.offset_m * 1e3:+.1f} ± {format_rounded(depth.offset_sd_m * 1e3, 1)} mm"
     shift = shift if math.isfinite(depth.offset_sd_m) else "no sure shift"
     scale = f"{100.0 * (depth.scale - 1.0):+.2f} ± {format_rounded(100.0 * depth.scale_sd, 2)} %"
-    apart = float((depth.registration_error_px**2).sum() ** 0.5)
+    distance_px = float((depth.registration_error_px**2).sum() ** 0.5)
     judged = f"good: below {MAX_REGISTRATION_ERROR_PX:g} px" if depth.is_registered else "depth does not lie on colour"
-    error = f"{format_rounded(apart, 1)} ± {format_rounded(depth.registration_sd_px, 1)} px"
+    error = f"{format_rounded(distance_px, 1)} ± {format_rounded(depth.registration_sd_px, 1)} px"
     return [*out, f"{depth.sentence()} Scale {scale}, {shift}", f"Colour and depth: {error} apart ({judged})"]

@@ -121,11 +121,11 @@ def find_camera_serials(data_folder: Path) -> set[str]:
     found = {check.serial for path in folder.glob(f"*{CHECKS_SUFFIX}") for check in read_checks(path)}
     for path in folder.glob(f"*{CALIBRATION_SUFFIX}"):
         try:
-            made = read_camera_info(path).calibration
+            stored = read_camera_info(path).calibration
         except CarpusFault:
             continue
-        if made is not None:
-            found.add(made.serial)
+        if stored is not None:
+            found.add(stored.serial)
     return {serial for serial in found if serial and file_stem(serial)}
 
 

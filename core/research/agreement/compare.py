@@ -182,9 +182,9 @@ def _pair_angle(
     both = np.isfinite(reference_rad) & np.isfinite(measured_rad)
     if both.sum() < MIN_PAIRS:
         return None
-    mine, other = np.unwrap(measured_rad[both]), reference_rad[both]
-    other = other + 2.0 * math.pi * np.rint(np.median(mine - other) / (2.0 * math.pi))
-    return AnglePairs(name, time_s[both], mine, other, compute_agreement(np.degrees(mine), np.degrees(other)))
+    measured, other = np.unwrap(measured_rad[both]), reference_rad[both]
+    other = other + 2.0 * math.pi * np.rint(np.median(measured - other) / (2.0 * math.pi))
+    return AnglePairs(name, time_s[both], measured, other, compute_agreement(np.degrees(measured), np.degrees(other)))
 
 
 def _unwrap_angle(angle_rad: FloatArray) -> FloatArray:
@@ -216,8 +216,8 @@ def _estimate_shift(
 
 
 def _overlap_error(reference: Reference) -> ReferenceUnsuited:
-    why = phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{MIN_OVERLAP_S:g}")
-    return ReferenceUnsuited(reference.path, why)
+    reason = phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{MIN_OVERLAP_S:g}")
+    return ReferenceUnsuited(reference.path, reason)
 
 
 def _check_match(reference: Reference, curves: AlignmentCurves, shift: ClockShift) -> None:
@@ -315,8 +315,8 @@ def _clock_remarks(shift: ClockShift, overlap_s: float) -> list[str]:
 
 def _motion_ratio(pairs: AnglePairs) -> float:
     """Return the reference's range over that of Carpus; 1 if neither moves much."""
-    mine, other = float(pairs.measured_rad.std()), float(pairs.reference_rad.std())
-    return other / mine if mine > 0.0 and max(mine, other) >= MIN_MOTION_SD_RAD else 1.0
+    measured, other = float(pairs.measured_rad.std()), float(pairs.reference_rad.std())
+    return other / measured if measured > 0.0 and max(measured, other) >= MIN_MOTION_SD_RAD else 1.0
 
 
 # --- time ------------------------------------------------------------------------------------------------------
@@ -342,15 +342,17 @@ def _angle_curves(
     names = [name for name in reference.angles_rad if name in session_angles]
     if not names:
         there = list_names(reference.names)
-        why = phrase("no disc of the palm and no angle of the wrist or fingers is in it; it has {there}", there=there)
+        reason = phrase(
+            "no disc of the palm and no angle of the wrist or fingers is in it; it has {there}", there=there
+        )
         if reference.angles_rad:
-            why = phrase("no angle of the session is in it; it has {there}", there=there)
-        raise ReferenceUnsuited(reference.path, why)
+            reason = phrase("no angle of the session is in it; it has {there}", there=there)
+        raise ReferenceUnsuited(reference.path, reason)
     names = [name for name in names if np.fmax.reduce(session_angles[name]) > np.fmin.reduce(session_angles[name])]
     theirs_s = _reference_times_s(reference, session)
-    mine = np.column_stack([session_angles[name] for name in names]) if names else np.empty((len(time_s), 0))
+    measured = np.column_stack([session_angles[name] for name in names]) if names else np.empty((len(time_s), 0))
     other = np.column_stack([reference.angles_rad[name] for name in names]) if names else np.empty((len(theirs_s), 0))
-    return AlignmentCurves(time_s, mine, theirs_s, other, ignores_sign=True)
+    return AlignmentCurves(time_s, measured, theirs_s, other, ignores_sign=True)
 
 
 def _speed_curves(session: Session, reference: Reference, time_s: FloatArray) -> AlignmentCurves:
@@ -358,11 +360,11 @@ def _speed_curves(session: Session, reference: Reference, time_s: FloatArray) ->
     names = _common_markers(reference)
     markers = session.header.protocol.markers
     theirs_s = _reference_times_s(reference, session)
-    mine = np.column_stack(
+    measured = np.column_stack(
         [_point_speed(time_s, session.markers.position_cam_m[:, markers.index(name)]) for name in names]
     )
     other = np.column_stack([_point_speed(theirs_s, reference.points_m[name]) for name in names])
-    return AlignmentCurves(time_s, mine, theirs_s, other)
+    return AlignmentCurves(time_s, measured, theirs_s, other)
 
 
 def _point_speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
@@ -400,16 +402,16 @@ def _angles_from_points(
     names = _common_markers(reference)
     markers = session.header.protocol.markers
     reference_s = _reference_times_s(reference, session)
-    theirs = np.stack([reference.points_m[name] for name in names], axis=1)
-    mine = np.stack([session.markers.position_cam_m[:, markers.index(name)] for name in names], axis=1)
-    there = interpolate(shift.reference_time_s(time_s), reference_s, theirs)
-    both = np.isfinite(there).all(axis=(1, 2)) & np.isfinite(mine).all(axis=(1, 2))
+    reference_values = np.stack([reference.points_m[name] for name in names], axis=1)
+    measured = np.stack([session.markers.position_cam_m[:, markers.index(name)] for name in names], axis=1)
+    there = interpolate(shift.reference_time_s(time_s), reference_s, reference_values)
+    both = np.isfinite(there).all(axis=(1, 2)) & np.isfinite(measured).all(axis=(1, 2))
     both &= np.asarray(session.status) == TrackStatus.TRACKED
     if both.sum() < MIN_PAIRS:
         raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
-    turn, move = so3.fit_rigid_transform(there[both].reshape(-1, 3), mine[both].reshape(-1, 3))
-    off = there[both] @ turn.T + move - mine[both]
-    known = np.isfinite(theirs).all(axis=(1, 2))
+    turn, move = so3.fit_rigid_transform(there[both].reshape(-1, 3), measured[both].reshape(-1, 3))
+    off = there[both] @ turn.T + move - measured[both]
+    known = np.isfinite(reference_values).all(axis=(1, 2))
     side = session.header.hand
     start = rotation_from_angles(np.nan_to_num(session.calibration.start_angles_rad), side)
     begin_s, zero = 0.0, NEUTRAL_POSE
@@ -419,11 +421,11 @@ def _angles_from_points(
         begin_s, zero = float(time_s[both][0]), FIRST_IN_COMMON
         own = session.motion.rotation_w2_w0[both & _is_in_neutral_pose(time_s, begin_s)]
         start = so3.mean_rotation(own, np.full(len(own), 1.0 / len(own)))
-    neutral = theirs[known & _is_in_neutral_pose(own_s, begin_s)].mean(axis=0)
+    neutral = reference_values[known & _is_in_neutral_pose(own_s, begin_s)].mean(axis=0)
     w0_in_reference = turn.T @ session.calibration.rotation_w0_cam
-    rotation = np.full((len(theirs), 3, 3), np.nan)
+    rotation = np.full((len(reference_values), 3, 3), np.nan)
     for k in np.flatnonzero(known):
-        body, _ = so3.fit_rigid_transform(neutral, theirs[k])
+        body, _ = so3.fit_rigid_transform(neutral, reference_values[k])
         rotation[k] = w0_in_reference.T @ body @ w0_in_reference
     angles = angles_from_rotation(rotation @ start, side)
     residual = float(np.sqrt(np.mean(np.sum(off**2, axis=-1))))
@@ -458,10 +460,10 @@ def _compare_readings(
                 excluded_count += 1
                 unused.append(phrase("{angle} at {time} s: the hand was not still, or not seen", **facts))
                 continue
-            mine = float(values.mean())
+            measured = float(values.mean())
         else:
-            mine = _range_end(figures, reading.angle, reading.movement)
-            if not math.isfinite(mine):
+            measured = _range_end(figures, reading.angle, reading.movement)
+            if not math.isfinite(measured):
                 words = phrase(
                     "{movement}: the session has no range that way, and the list names no time",
                     movement=reading.movement,
@@ -469,13 +471,13 @@ def _compare_readings(
                 excluded_count += 1
                 unused.append(words)
                 continue
-        found.setdefault(reading.angle, []).append((reading.time_s, mine, reading.value_rad))
+        found.setdefault(reading.angle, []).append((reading.time_s, measured, reading.value_rad))
     pairs = []
     for name in session_angles:
         if name in found:
-            t, mine_rad, theirs_rad = (np.array(column) for column in zip(*found[name], strict=True))
-            figures_deg = compute_agreement(np.degrees(mine_rad), np.degrees(theirs_rad), waveform=False)
-            pairs.append(AnglePairs(name, t, mine_rad, theirs_rad, figures_deg))
+            t, measured_rad, reference_rad = (np.array(column) for column in zip(*found[name], strict=True))
+            figures_deg = compute_agreement(np.degrees(measured_rad), np.degrees(reference_rad), waveform=False)
+            pairs.append(AnglePairs(name, t, measured_rad, reference_rad, figures_deg))
     if not pairs:
         raise ReferenceUnsuited(reference.path, unused[-1] if unused else phrase("no reading can be used"))
     count = len(reference.readings)

@@ -192,8 +192,8 @@ def effective_sample_size(values: FloatArray) -> float:
     spectrum = np.abs(np.fft.rfft(centred, size)) ** 2
     rho = np.fft.irfft(spectrum, size)[:n] / power
     below = np.flatnonzero(rho <= 0.0)
-    upto = int(below[0]) if len(below) else n
-    return float(min(max(n / (1.0 + 2.0 * float(rho[1:upto].sum())), 2.0), n))
+    end = int(below[0]) if len(below) else n
+    return float(min(max(n / (1.0 + 2.0 * float(rho[1:end].sum())), 2.0), n))
 
 
 def icc_2_1(readings: FloatArray, effective_count: float | None = None) -> tuple[float, Interval]:
@@ -217,13 +217,13 @@ def icc_2_1(readings: FloatArray, effective_count: float | None = None) -> tuple
         return icc, (icc, icc) if ms_columns <= 0.0 else _UNKNOWN
     # The variance between raters is that of their means: with fewer independent subjects it is worth less.
     ratio = ms_columns / ms_rest * (m / n)
-    own = icc
+    positive_icc = icc
     if icc < 0.0:  # estimates of variances are below nothing: what follows from them would cross -1
         if k == 2:
             return icc, _clip_interval(icc, *_concordance_interval(readings, m), k)
-        ratio, own = max(ratio, 1.0), 0.0
-    above = (m - 1) * (k - 1) * (k * own * ratio + m * (1 + (k - 1) * own) - k * own) ** 2
-    under = (m - 1) * k**2 * own**2 * ratio**2 + (m * (1 + (k - 1) * own) - k * own) ** 2
+        ratio, positive_icc = max(ratio, 1.0), 0.0
+    above = (m - 1) * (k - 1) * (k * positive_icc * ratio + m * (1 + (k - 1) * positive_icc) - k * positive_icc) ** 2
+    under = (m - 1) * k**2 * positive_icc**2 * ratio**2 + (m * (1 + (k - 1) * positive_icc) - k * positive_icc) ** 2
     v = above / under if under > 0.0 else 1.0
     f_low, f_high = float(scipy.special.fdtri(m - 1, v, 0.975)), float(scipy.special.fdtri(v, m - 1, 0.975))
     ms_columns_m = ratio * ms_rest

@@ -231,7 +231,7 @@ def write_agreement_study(study: AgreementStudy, folder: Path, form: TableDialec
          *[""] * (len(STUDY_COLUMNS) - 5), why]
         for line, why in study.excluded
     ]  # fmt: skip
-    said: dict[str, Any] = {
+    content: dict[str, Any] = {
         "software": "Carpus", "software_version": __version__, "table": study.table.name,
         "table_sha256": sha256_of_file(study.table), "differences": "Carpus less reference",
         "limits": "Bland and Altman 2007, the true value varies, people's means unweighted; intervals by Zou 2013",
@@ -253,7 +253,7 @@ def write_agreement_study(study: AgreementStudy, folder: Path, form: TableDialec
     }  # fmt: skip
     return [
         write_new_table(folder / f"{stem}.study.csv", STUDY_COLUMNS, rows, form),
-        write_new_json(folder / f"{stem}.study.json", said),
+        write_new_json(folder / f"{stem}.study.json", content),
     ]
 
 

@@ -80,8 +80,8 @@ def interpolate(query_s: FloatArray, time_s: FloatArray, values: FloatArray) -> 
     column = share.reshape(-1, *(1,) * (values.ndim - 1))
     out = v[before] + column * (v[after] - v[before])
     longest = max(MAX_INTERPOLATED_GAP_S, 2.5 * float(np.median(np.diff(time_s))))
-    near = 0.25  # of a step: clocks waver
-    inside = (share >= -near) & (share <= 1.0 + near) & (t[after] - t[before] <= longest)
+    margin = 0.25  # of a step, since clocks jitter
+    inside = (share >= -margin) & (share <= 1.0 + margin) & (t[after] - t[before] <= longest)
     out[~inside] = np.nan
     return np.asarray(out)
 
@@ -121,47 +121,51 @@ def find_shift(curves: AlignmentCurves, max_shift_s: float, same_clock_tolerance
     time_s, other_s, weight = curves.time_s, curves.reference_s, curves.weight
     if not curves.values.shape[1] or len(time_s) < 8 or len(other_s) < 8:
         return ClockShift(0.0, math.nan)
-    even, theirs_s = np.arange(0.0, time_s[-1], STEP_S), np.arange(other_s[0], other_s[-1], STEP_S)
-    shorter_s = float(min(even[-1], theirs_s[-1] - theirs_s[0])) if len(even) and len(theirs_s) else 0.0
+    even_s, grid_s = np.arange(0.0, time_s[-1], STEP_S), np.arange(other_s[0], other_s[-1], STEP_S)
+    shorter_s = float(min(even_s[-1], grid_s[-1] - grid_s[0])) if len(even_s) and len(grid_s) else 0.0
     if shorter_s < MIN_OVERLAP_S - 2.0 * STEP_S or not weight.sum() > 0.0:
         return ClockShift(0.0, math.nan)
-    a = np.column_stack([interpolate(even, time_s, one) for one in curves.values.T])
-    b = np.column_stack([interpolate(theirs_s, other_s, one) for one in curves.reference_values.T])
-    first, furthest = round(theirs_s[0] / STEP_S), round(max_shift_s / STEP_S)
-    least = min(round(max(MIN_OVERLAP_S, MIN_OVERLAP_SHARE * shorter_s) / STEP_S), len(a), len(b))
-    shifts = np.arange(-furthest, furthest + 1)
-    alike = np.full((len(shifts), a.shape[1]), np.nan)
+    a = np.column_stack([interpolate(even_s, time_s, one) for one in curves.values.T])
+    b = np.column_stack([interpolate(grid_s, other_s, one) for one in curves.reference_values.T])
+    first, max_steps = round(grid_s[0] / STEP_S), round(max_shift_s / STEP_S)
+    min_samples = min(round(max(MIN_OVERLAP_S, MIN_OVERLAP_SHARE * shorter_s) / STEP_S), len(a), len(b))
+    shifts = np.arange(-max_steps, max_steps + 1)
+    per_signal = np.full((len(shifts), a.shape[1]), np.nan)
     for k in range(a.shape[1]):
-        alike[:, k] = _correlations(a[:, k], b[:, k], shifts - first, least)
-    match = _combine_correlations(alike, weight, ignores_sign=curves.ignores_sign)
+        per_signal[:, k] = _correlations(a[:, k], b[:, k], shifts - first, min_samples)
+    match = _combine_correlations(per_signal, weight, ignores_sign=curves.ignores_sign)
     if not np.isfinite(match).any():
         return ClockShift(0.0, math.nan)
     score = np.where(np.isfinite(match), np.abs(match) if curves.ignores_sign else match, -np.inf)
-    tops = _find_peaks(score)
-    best = float(score[tops[0]])
-    if score[furthest] >= best - same_clock_tolerance:
-        return ClockShift(0.0, float(match[furthest]))
+    peaks = _find_peaks(score)
+    best = float(score[peaks[0]])
+    if score[max_steps] >= best - same_clock_tolerance:
+        return ClockShift(0.0, float(match[max_steps]))
     # Drift blurs a match more with a longer overlap, so the peaks are compared without it.
-    near = sorted((k for k in tops if score[k] >= best - MAX_DRIFT_DROP), key=lambda k: abs(shifts[k]))
-    near = list(dict.fromkeys((tops[0], *near[:MAX_COMPARED_PEAKS])))
-    cleared = score[near]
-    if len(near) > 1:
-        fits = [_estimate_drift(curves, ClockShift(_refine_peak_s(shifts, score, k), float(match[k]))) for k in near]
-        cleared = np.array([max(fit.match if fit else 0.0, score[k]) for k, fit in zip(near, fits, strict=True)])
+    nearest = sorted((k for k in peaks if score[k] >= best - MAX_DRIFT_DROP), key=lambda k: abs(shifts[k]))
+    nearest = list(dict.fromkeys((peaks[0], *nearest[:MAX_COMPARED_PEAKS])))
+    cleared = score[nearest]
+    if len(nearest) > 1:
+        fits = [_estimate_drift(curves, ClockShift(_refine_peak_s(shifts, score, k), float(match[k]))) for k in nearest]
+        cleared = np.array([max(fit.match if fit else 0.0, score[k]) for k, fit in zip(nearest, fits, strict=True)])
     unexplained = 1.0 - cleared + RESIDUAL_FLOOR
     drop = 0.5 * INDEPENDENT_HZ * shorter_s * np.log(unexplained / unexplained.min())
-    equal = (k for k, less in zip(near, drop, strict=True) if less <= MAX_LOG_LIKELIHOOD_DROP)
-    at = min(equal, key=lambda k: abs(shifts[k]))
-    rivals = sorted((k for k in tops if k != at and score[k] >= best - MAX_RIVAL_DROP), key=lambda k: abs(shifts[k]))
-    together = next((k for k in tops if match[k] > 0.0), None) if match[at] < 0.0 else None
+    equal = (k for k, less in zip(nearest, drop, strict=True) if less <= MAX_LOG_LIKELIHOOD_DROP)
+    chosen = min(equal, key=lambda k: abs(shifts[k]))
+    rivals = sorted(
+        (k for k in peaks if k != chosen and score[k] >= best - MAX_RIVAL_DROP), key=lambda k: abs(shifts[k])
+    )
+    same_sign = next((k for k in peaks if match[k] > 0.0), None) if match[chosen] < 0.0 else None
     return ClockShift(
-        _refine_peak_s(shifts, score, at),
-        float(match[at]),
+        _refine_peak_s(shifts, score, chosen),
+        float(match[chosen]),
         tuple((_refine_peak_s(shifts, score, k), float(match[k])) for k in rivals[:MAX_RIVALS]),
         has_more_rivals=len(rivals) > MAX_RIVALS,
-        same_sign_shift=None if together is None else (_refine_peak_s(shifts, score, together), float(match[together])),
+        same_sign_shift=None
+        if same_sign is None
+        else (_refine_peak_s(shifts, score, same_sign), float(match[same_sign])),
         max_shift_s=max_shift_s,
-        is_at_search_limit=at in (0, len(shifts) - 1),
+        is_at_search_limit=chosen in (0, len(shifts) - 1),
     )
 
 
@@ -204,8 +208,8 @@ def _estimate_drift(curves: AlignmentCurves, shift: ClockShift) -> _DriftEstimat
     length_s = float(np.ptp(shared)) if len(shared) else 0.0
     if length_s < MIN_DRIFT_RECORDING_S or not abs(shift.match) > 0.0:
         return None
-    few = max(1, len(curves.time_s) // MAX_DRIFT_FRAMES)
-    curves = replace(curves, time_s=curves.time_s[::few], values=curves.values[::few])
+    step_frames = max(1, len(curves.time_s) // MAX_DRIFT_FRAMES)
+    curves = replace(curves, time_s=curves.time_s[::step_frames], values=curves.values[::step_frames])
     middle_s, sign = float(shared[0]) + 0.5 * length_s, math.copysign(1.0, shift.match)
 
     def shift_about_middle(drift: float, later_s: float) -> ClockShift:
@@ -264,8 +268,8 @@ def _correlations(a: FloatArray, b: FloatArray, lags: NDArray[np.intp], min_coun
     # The rounding error of the transform is no movement of a constant curve.
     moves = (count >= min_count) & (power_x > 1e-10 * np.mean(x * x)) & (power_y > 1e-10 * np.mean(y * y))
     with np.errstate(divide="ignore", invalid="ignore"):
-        alike = (sum_products(x, y) / count - mean_x * mean_y) / np.sqrt(power_x * power_y)
-    out[inside] = np.where(moves, np.clip(alike, -1.0, 1.0), np.nan)
+        per_signal = (sum_products(x, y) / count - mean_x * mean_y) / np.sqrt(power_x * power_y)
+    out[inside] = np.where(moves, np.clip(per_signal, -1.0, 1.0), np.nan)
     return out
 
 
@@ -273,12 +277,12 @@ def _mean_correlation(
     a: FloatArray, b: FloatArray, weight: FloatArray, min_count: int, ignores_sign: bool = False
 ) -> float:
     """Return the weighted correlation of signals (N, S)."""
-    alike = np.full((1, a.shape[1]), np.nan)
+    per_signal = np.full((1, a.shape[1]), np.nan)
     for k, (x, y) in enumerate(zip(a.T, b.T, strict=True)):
         both = np.isfinite(x) & np.isfinite(y)
         if both.sum() >= min_count and np.ptp(x[both]) > 0.0 and np.ptp(y[both]) > 0.0:
-            alike[0, k] = np.corrcoef(x[both], y[both])[0, 1]
-    return float(_combine_correlations(alike, weight, ignores_sign=ignores_sign)[0])
+            per_signal[0, k] = np.corrcoef(x[both], y[both])[0, 1]
+    return float(_combine_correlations(per_signal, weight, ignores_sign=ignores_sign)[0])
 
 
 def _combine_correlations(correlations: FloatArray, weight: FloatArray, *, ignores_sign: bool) -> FloatArray:
