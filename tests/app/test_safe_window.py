@@ -147,8 +147,8 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
     lists = desktop.data_protection.lists
     qtbot.waitUntil(lists.records_dialog.isVisible)
     assert [one.accessibleName() for one in lists.records_dialog.buttons] == [
-        "Bring back Linden 42",
-        "Erase… Linden 42",
+        "Restore Linden 42",
+        "Delete… Linden 42",
     ]
     lists.records_dialog.buttons[0].click()
     qtbot.waitUntil(lambda: lists.records_dialog.buttons == [])
@@ -230,7 +230,7 @@ def test_a_window_with_a_pin_shows_nothing_before_it(
     qtbot.keyClicks(locking.lock_screen.pin_field, "0000")
     qtbot.keyClick(locking.lock_screen.pin_field, Qt.Key.Key_Return)
     assert locking.is_locked
-    assert "4 more tries" in locking.lock_screen.error_text.text()
+    assert "4 attempts left" in locking.lock_screen.error_text.text()
     for key in (Qt.Key.Key_Escape, Qt.Key.Key_F1):
         qtbot.keyClick(locking.lock_screen.pin_field, key)
     assert locking.is_locked
@@ -316,8 +316,8 @@ def test_back_up_now_reminder_and_restore(
     backing.card.restore_button.click()
     qtbot.waitUntil(lambda: journey.messages.is_busy)
     asked = " ".join(visible_words(desktop.shell))
-    assert "Session files added: 0, changed: 0, taken away: 0" in asked
-    assert "erased since then stay erased: 1" in asked
+    assert "Session files added: 0, changed: 0, removed: 0" in asked
+    assert "deleted since then stay deleted: 1" in asked
     button = next(one for one in journey.messages.dialog.findChildren(QPushButton) if "Restore" in one.text())
     with monkeypatch.context() as patched:
         patched.setattr(journey.navigator, "is_recording", lambda: True)
@@ -361,7 +361,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk), hour=12)))
     backing = desktop.data_protection.backing_up
     today = datetime.now().astimezone().replace(hour=13)
-    monkeypatch.setattr("carpus.ui.screens.records.backup._now", lambda: today)
+    monkeypatch.setattr("carpus.ui.screens.records.backup._current_time", lambda: today)
     backing.run_if_due()
     assert not backing._is_running, "the disk is not there"
     disk.mkdir()
@@ -373,7 +373,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
     qtbot.waitUntil(lambda: backing.last_backup is not None and not backing._is_running)
     backing.run_if_due()
     assert not backing._is_running, "once a day"
-    monkeypatch.setattr("carpus.ui.screens.records.backup._now", lambda: today + timedelta(days=1))
+    monkeypatch.setattr("carpus.ui.screens.records.backup._current_time", lambda: today + timedelta(days=1))
     backing.run_if_due()
     assert backing._is_running
     qtbot.waitUntil(lambda: not backing._is_running)
@@ -387,7 +387,7 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
     qtbot.waitUntil(lists.records_dialog.isVisible)
     assert [button.accessibleName() for button in lists.records_dialog.buttons] == [
         "Archive Linden 42",
-        "Erase… Linden 42",
+        "Delete… Linden 42",
     ]
     lists.records_dialog.buttons[0].click()
     qtbot.waitUntil(lambda: [one.text() for one in lists.records_dialog.buttons] == ["Restore", "Delete…"])
@@ -402,7 +402,7 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
     table = lists.log_dialog.table
     assert [table.item(row, 2).text() for row in range(2)] == ["restored from archive", "archived"]
     assert table.item(0, 3).text() == "Linden 42"
-    assert lists.log_dialog.title.text() == f"Log: {table.rowCount()} lines"
+    assert lists.log_dialog.title.text() == f"Log: {table.rowCount()} entries"
 
 
 def test_garbage_is_collected_in_the_windows_thread_once_the_first_picture_is_there(opened: Open, qtbot: QtBot) -> None:
