@@ -7415,8 +7415,8 @@
         <translation>Neu analysieren ab {time}</translation>
     </message>
     <message>
-        <source>No changes yet</source>
-        <translation>Noch keine Änderung</translation>
+        <source>Nothing corrected yet</source>
+        <translation>Noch nichts korrigiert</translation>
     </message>
     <message>
         <source>Check the labels at {time}</source>

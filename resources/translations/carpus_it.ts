@@ -7415,8 +7415,8 @@
         <translation>Rianalizza da {time}</translation>
     </message>
     <message>
-        <source>No changes yet</source>
-        <translation>Ancora nessuna modifica</translation>
+        <source>Nothing corrected yet</source>
+        <translation>Ancora nessuna correzione</translation>
     </message>
     <message>
         <source>Check the labels at {time}</source>

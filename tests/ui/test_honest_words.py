@@ -343,13 +343,13 @@ def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
     shown = said(SettingsScreen(theme, Preferences(), ErrorLimits((STUDY,))))
     for piece in (
         "On 27 Nov 2026 with 12 people in 24 sessions",
-        "In force",
+        "Used in progress and reports",
         "SEM 2.4°",
         "7° (4.7° – 10.8°)",
         "Extension",
     ):
         assert piece in shown
-    assert "Not in force: 10 people" in said(SettingsScreen(theme, Preferences(), ErrorLimits((few,))))
+    assert "Not used: at least 10 people" in said(SettingsScreen(theme, Preferences(), ErrorLimits((few,))))
     assert "Measured by this clinic" not in said(SettingsScreen(theme, Preferences()))
 
 

@@ -111,8 +111,10 @@ def test_what_comes_while_settings_are_open_is_behind_them(shell: MainWindow) ->
 
     def put(place: str) -> None:
         screen = QWidget()
-        flow = SimpleNamespace(screen=screen, first=lambda: screen, while_aside=False, leave=lambda: None)
-        flow.show = lambda given: (shown.append(given), way.switch_screen(place))
+        flow = SimpleNamespace(
+            screen=screen, initial_focus=lambda: screen, runs_behind_overlay=False, on_leave=lambda: None
+        )
+        flow.open = lambda given: (shown.append(given), way.switch_screen(place))
         way.flows[place] = flow
 
     for place in ("review", "correct", "settings"):
@@ -236,14 +238,14 @@ def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(setting
 
 def test_about_tells_what_lies_in_the_clinics_folder(settings: Settings) -> None:
     screen, _ = settings()
-    assert "asks nobody" in screen.update_text.text()
+    assert "never checks" in screen.update_text.text()
     told = []
     for newest in ("99.10.0", __version__, "", None):
         screen.show_available_version("/srv/apt", newest)
         told.append(screen.update_text.text())
-    assert "99.10.0 is ready" in told[0]
+    assert "99.10.0 is available" in told[0]
     assert told[1] == told[2]
-    assert "not newer" in told[1]
+    assert "no newer version" in told[1]
     assert "cannot be read" in told[3]
 
 

@@ -61,8 +61,8 @@ class TopBar(Surface):
         row = row_layout(
             (self._left, 1), self._navigation, (self._right, 1), gap=8, margins=(MARGIN_PX - 4, 0, MARGIN_PX - 10, 0)
         )
-        for said in (self.camera, self.disk, self.reanalysis_button, self.recording_pill):
-            said.resized.connect(self._fit)
+        for status in (self.camera, self.disk, self.reanalysis_button, self.recording_pill):
+            status.resized.connect(self._fit)
         whole = column_layout((row, 1), gap=0, margins=(0, 0, 0, 0), parent=self)
         self._bottom_line = Surface(theme, bottom_edge="line")
         self._bottom_line.setFixedHeight(RECORDING_LINE_PX)
@@ -121,17 +121,14 @@ class TopBar(Surface):
 
     def show_session(self, pseudonym: str, label: str) -> None:
         """Show patient, hand and exercise; empty on the first screen."""
-        self.patient_name.setText(self._elide_name(pseudonym))
+        face = font(14 * self._theme.text_scale, SEMIBOLD)
+        room_px = self._theme.px(MAX_NAME_PX)  # a long name must leave room for the navigation
+        self.patient_name.setText(QFontMetricsF(face).elidedText(pseudonym, Qt.TextElideMode.ElideRight, room_px))
         self.patient_name.setToolTip(plain_tooltip(pseudonym))
         for widget in (self._separator, self.back_button, self.patient_name):
             widget.setVisible(bool(pseudonym))
         self.session_label.setText(label)
         self._fit()
-
-    def _elide_name(self, pseudonym: str) -> str:
-        """Return a name short enough to leave room for the navigation."""
-        face = font(14 * self._theme.text_scale, SEMIBOLD)
-        return QFontMetricsF(face).elidedText(pseudonym, Qt.TextElideMode.ElideRight, self._theme.px(MAX_NAME_PX))
 
     def show_steps(self, names: Sequence[str], current: int) -> None:
         self._show_navigation(

@@ -14,7 +14,7 @@ class ComparisonFlow(Flow):
     screen: ComparisonScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        self._background = Background()  # its own: what the list still reads holds up no picture
+        self._background = Background()  # a slow read of the session list must not delay frames
         super().__init__(context, ComparisonScreen(context.theme, self._background, context.library))
         self.origin = "sessions"
         self.screen.fault_raised.connect(context.messages.show_fault)

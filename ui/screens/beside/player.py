@@ -111,8 +111,8 @@ def value_words(watched: ComparedSession, row: int) -> str:
     if angle < 0:
         figure = find_finger_angle(of)
         value *= figure.sign  # from the angle in every file to the one that is spoken of
-        said = format_spread(value, figure.finger) if figure.kind == "spread" else numbers.format_signed_degrees(value)
-        return f"{figure.long_name} {said}"
+        text = format_spread(value, figure.finger) if figure.kind == "spread" else numbers.format_signed_degrees(value)
+        return f"{figure.long_name} {text}"
     sd = float(np.degrees(motion_estimate(watched.session).angles_sd_rad[row, angle]))
     return f"{terms.movement_name(DIRECTIONS[angle][0 if value >= 0 else 1])} {numbers.format_with_sd(value, sd)}"
 

@@ -160,7 +160,7 @@ class ComparisonScreen(FittedWidget):
         self._column.setStretch(self._column.count() - 1, 0 if ready or reading else 1)
         self._fit()
 
-    # --- what is said -------------------------------------------------------------------------------------
+    # --- texts -------------------------------------------------------------------------------------------
     def _show_answer(self, answer: str, basis: str = "", unfair: str = "") -> None:
         self.answer.setText(answer)
         self._basis.setText(basis)

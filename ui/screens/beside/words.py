@@ -172,14 +172,14 @@ def _make_shared_row(one: Comparison, both: SessionPair) -> TableRow:
     in_part = not one.is_joint and (one.after.is_lower_bound or one.before.is_lower_bound)
     limited = tr("partly occluded") if in_part else ""
     words = "; ".join(part for part in (_judgement(one, both), limited) if part)
-    said = difference_words(one.display_difference_deg) if known else numbers.UNKNOWN
+    difference = difference_words(one.display_difference_deg) if known else numbers.UNKNOWN
     if _is_bound(one):
-        said = tr("≥ {difference}").format(difference=said)
+        difference = tr("≥ {difference}").format(difference=difference)
     look = (SEMIBOLD, "text") if one.is_beyond_error else (REGULAR, "text2")
     sign: State = "none" if one.verdict == "not_judged" else _state(one, both)
     return (
         _name_cell(one.after, comparison_name(one, both.ranges)), value_words(one.after), value_words(one.before),
-        Cell(said, *look), numbers.format_degrees(one.limit_deg) if both.is_comparable else numbers.UNKNOWN,
+        Cell(difference, *look), numbers.format_degrees(one.limit_deg) if both.is_comparable else numbers.UNKNOWN,
         Cell(words, *look, state=sign),
     )  # fmt: skip
 

@@ -80,7 +80,7 @@ class MeasureRow(QObject):
         self._carpus_measure: Measure | None = None
 
     def add_to_grid(self, theme: Theme, grid: QGridLayout, grid_row: int) -> None:
-        aside: dict[str, QWidget] = {
+        extra_widgets: dict[str, QWidget] = {
             "size": self.location_field,
             "score": Text(theme, direction_words(self.measure), 12, MEDIUM, "text2"),
         }
@@ -90,8 +90,8 @@ class MeasureRow(QObject):
             grid.addWidget(widget, grid_row, column)
         grid.addWidget(self.last_text, grid_row, LAST_COLUMN, Qt.AlignmentFlag.AlignRight)
         self.widgets = [self.last_text, *(widget for _, widget in shown)]
-        if self.measure.kind in aside:
-            self.widgets.append(aside[self.measure.kind])
+        if self.measure.kind in extra_widgets:
+            self.widgets.append(extra_widgets[self.measure.kind])
             grid.addWidget(self.widgets[-1], grid_row, 2, 1, 2)
 
     def keys(self, side: Side) -> list[MeasureKey]:
@@ -134,11 +134,11 @@ class MeasureRow(QObject):
         for key in self.keys(side):
             for one in find_superseded_entries(values, key, day):
                 when = numbers.format_date_time(one.entered_at.astimezone()) if one.entered_at else ""
-                said = (
+                parts = (
                     value_words(self.measure, one.value) if one.trials else self.tr("removed"),
                     mode_name(one.mode),
                 )
-                lines.append(" · ".join(filter(None, (" ".join(filter(None, said)), one.rater, when))))
+                lines.append(" · ".join(filter(None, (" ".join(filter(None, parts)), one.rater, when))))
         if lines:
             changed = self.tr("changed")
             self.last_text.setText(f"{changed} · {self.last_text.text()}" if self.last_text.text() else changed)

@@ -103,7 +103,7 @@ class CorrectionFlow(Flow):
             if finished and one not in self.pending:  # a look has found it already
                 self.pending.append(one)
             self._finish_tracking()
-            if finished and self.dialog.isVisible():  # somebody waits for it there
+            if finished and self.dialog.isVisible():  # the user is waiting for it
                 self._show_pending(one)
             if finished:
                 self.refresh_pending()  # one from before may still come, and know nothing of it
@@ -130,8 +130,8 @@ class CorrectionFlow(Flow):
             self.dialog.show_running(self._session_label, max(self._percent, 0))
             self.dialog.open()
         elif self.pending:
-            own = [one for one in self.pending if one.session_id == session_id]
-            self._show_pending((own or self.pending)[-1 if own else 0])
+            of_session = [one for one in self.pending if one.session_id == session_id]
+            self._show_pending((of_session or self.pending)[-1 if of_session else 0])
             self.dialog.open()
 
     def close(self) -> None:
@@ -168,9 +168,9 @@ class CorrectionFlow(Flow):
 
         def read() -> tuple[str, str, ResultPair]:
             old, new = self._corrections.read_both(one.session_id, one.path)
-            said = [correction for correction, _ in read_corrections(new)]
+            corrections = [correction for correction, _ in read_corrections(new)]
             words = difference_words(
-                compare_results(old, new), find_lost_corrections(new, read_detections(one.path), said)
+                compare_results(old, new), find_lost_corrections(new, read_detections(one.path), corrections)
             )
             both = ResultPair(
                 compute_session_results(new),
@@ -178,7 +178,7 @@ class CorrectionFlow(Flow):
                 wrist_curves(new),
                 joint_curves(old),
                 joint_curves(new),
-                max((finger_number(marker) for one in said for marker in one.places), default=0),
+                max((finger_number(marker) for one in corrections for marker in one.places), default=0),
             )
             return describe_session(old.header), words, both
 
@@ -248,20 +248,20 @@ def describe_session(header: SessionHeader) -> str:
 
 def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str:
     """Return how much two results differ, where most, and which labels were lost."""
-    said = []
+    sentences = []
     if lost_labels:
         names = ", ".join(marker_title(name) for name in lost_labels)
-        said.append(tr("Not kept: {names}. Also correct a later frame.").format(names=names))
+        sentences.append(tr("Not kept: {names}. Also correct a later frame.").format(names=names))
     if found.lost_markers:
         names = ", ".join(marker_title(name) for name in found.lost_markers)
-        said.append(
+        sentences.append(
             tr("Rarely visible in the new result: {names}. Their angles are missing there.").format(names=names)
         )
     if found.changed_frames:
         pattern = tr(
             "{count} of {common} frames differ by more than 2°. Largest difference at {time}: {angle}, {size}."
         )
-        said.append(
+        sentences.append(
             pattern.format(
                 count=found.changed_frames,
                 common=found.compared_frames,
@@ -271,9 +271,11 @@ def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str
             )
         )
     else:
-        said.append(tr("No frame differs by more than 2°."))
+        sentences.append(tr("No frame differs by more than 2°."))
     if found.recovered_frames:
-        said.append(tr("{count} frames have an angle that was missing before.").format(count=found.recovered_frames))
+        sentences.append(
+            tr("{count} frames have an angle that was missing before.").format(count=found.recovered_frames)
+        )
     if found.is_live:
-        said.append(tr("Live values are compared, because one of the two results is not smoothed."))
-    return " ".join(said)
+        sentences.append(tr("Live values are compared, because one of the two results is not smoothed."))
+    return " ".join(sentences)

@@ -26,7 +26,7 @@ class MarkerEdits:
         self._undo_stack: list[tuple[int, dict[str, MarkerPosition]]] = []
         self._doubts: dict[int, tuple[dict[str, MarkerPosition], LabelDoubt | None]] = {}
 
-    # --- what is there ------------------------------------------------------------------------------------
+    # --- positions --------------------------------------------------------------------------------------
     def original_px(self, row: int) -> FloatArray:
         """Return the tracked marker pixels (M, 2), NaN where not measured."""
         return np.asarray(self.session.markers.measured_px[row])
@@ -73,18 +73,18 @@ class MarkerEdits:
 
     def find_label_doubt(self) -> tuple[int, LabelDoubt] | None:
         """Return the first row with implausible labels and what is wrong, None if there is none."""
-        for row, said in sorted(self._edits.items()):
+        for row, positions in sorted(self._edits.items()):
             known = self._doubts.get(row)
-            if known is None or known[0] != said:
+            if known is None or known[0] != positions:
                 known = self._doubts[row] = (
-                    dict(said),
-                    find_label_doubt(self.session, row, self.current_px(row), said),
+                    dict(positions),
+                    find_label_doubt(self.session, row, self.current_px(row), positions),
                 )
             if known[1] is not None:
                 return row, known[1]
         return None
 
-    # --- what a person says -------------------------------------------------------------------------------
+    # --- changes -------------------------------------------------------------------------------------------
     def place_marker(self, row: int, name: str, pixel: FloatArray, blob_px: FloatArray) -> None:
         """Move a marker to a pixel, snapped to a blob of ``blob_px`` (S, 2).
 
@@ -100,22 +100,22 @@ class MarkerEdits:
         taken[number] = np.inf
         other = int(np.nanargmin(taken)) if np.isfinite(taken).any() else -1
         self._push_undo(row)
-        own = self._edits.setdefault(row, {})
+        row_edits = self._edits.setdefault(row, {})
         if other >= 0 and taken[other] <= SNAP_RADIUS_PX:
             old = places[number]
-            own[self.markers[other]] = (float(old[0]), float(old[1])) if np.isfinite(old).all() else None
-        own[name] = (float(at[0]), float(at[1]))
+            row_edits[self.markers[other]] = (float(old[0]), float(old[1])) if np.isfinite(old).all() else None
+        row_edits[name] = (float(at[0]), float(at[1]))
 
     def swap_markers(self, row: int, one: str, other: str) -> None:
         places = self.current_px(row)
         self._push_undo(row)
-        own = self._edits.setdefault(row, {})
+        row_edits = self._edits.setdefault(row, {})
         for name, there in ((one, other), (other, one)):
             at, before = places[self.markers.index(there)], self.original_px(row)[self.markers.index(name)]
-            own[name] = (float(at[0]), float(at[1])) if np.isfinite(at).all() else None
+            row_edits[name] = (float(at[0]), float(at[1])) if np.isfinite(at).all() else None
             if np.array_equal(at, before, equal_nan=True):
-                del own[name]  # as it was tracked
-        if not own:
+                del row_edits[name]  # as it was tracked
+        if not row_edits:
             del self._edits[row]
 
     def hide_marker(self, row: int, name: str) -> None:

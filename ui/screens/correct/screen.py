@@ -118,14 +118,14 @@ class CorrectionScreen(FittedWidget):
 
     def _show_keys(self) -> None:
         """Show the shortcuts that have an effect here."""
-        said = [
+        hints = [
             (self.tr("Drag"), self.tr("move a label")), (KEYS["correct_hide"], self.tr("not visible here")),
             (f"{KEYS['correct_back']} {KEYS['correct_on']}", self.tr("frame")),
             (KEYS["correct_undo"], self.tr("undo")),
         ]  # fmt: skip
         if self._find_doubtful_rows().size:
-            said.append((KEYS["correct_doubtful"], self.tr("next uncertain")))
-        self._key_caps.set_keys(said)
+            hints.append((KEYS["correct_doubtful"], self.tr("next uncertain")))
+        self._key_caps.set_keys(hints)
 
     def _fit(self) -> None:
         self._show_keys()
@@ -366,7 +366,7 @@ class CorrectionScreen(FittedWidget):
         if found is not None:
             self._show_doubt(*found)
         else:
-            self.primary_button.set_label(again if some else self.tr("No changes yet"))
+            self.primary_button.set_label(again if some else self.tr("Nothing corrected yet"))
         self.setAccessibleName(self.title.text())
 
     def _show_doubt(self, row: int, doubt: LabelDoubt) -> None:

@@ -79,7 +79,7 @@ class ExportDialog(Dialog):
         body.addLayout(row_layout(self.more_button, STRETCH, self.close_button, self.folder_button, gap=10))
         self._is_running, self._shows_research = False, True
         for box in self.format_ticks.values():
-            box.toggled.connect(self._update_folder_button)
+            box.toggled.connect(lambda _: self.folder_button.setEnabled(bool(self.formats)))
         self.format_ticks["csv"].setChecked(True)
         self._show_state()
 
@@ -126,8 +126,8 @@ class ExportDialog(Dialog):
 
     def _make_region_choice(self) -> Combo:
         """Return the choice of regions: the user's first, other programs last."""
-        own = user_region()
-        regions = [own, *(region for region in OFFERED_REGIONS if region != own)]
+        own_region = user_region()
+        regions = [own_region, *(region for region in OFFERED_REGIONS if region != own_region)]
         choices = [(regional_table_form(region), self._region_words(region)) for region in regions]
         field = Combo()
         field.set_choices([*choices, (MACHINE_DIALECT, self.tr("other programs: 1.5, separated by commas"))])
@@ -138,9 +138,6 @@ class ExportDialog(Dialog):
         name = f"{locale.nativeTerritoryName()} ({locale.nativeLanguageName()})"
         example = f"1{regional_table_form(region).decimal}5"
         return self.tr("a spreadsheet in {region}: {example}").format(region=name, example=example)
-
-    def _update_folder_button(self) -> None:
-        self.folder_button.setEnabled(bool(self.formats))
 
     def _request_export(self) -> None:
         if self.formats and not self._is_running:

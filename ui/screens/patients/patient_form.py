@@ -212,9 +212,7 @@ class PatientForm(Dialog):
         if self._onset_day_error() and re.search(
             r"\D\d{4}$|^\d{4}\D+\d+\D+\d\d$", self.fields["onset_day"].text().strip()
         ):
-            self._error_text.show_text(
-                self._onset_day_error()
-            )  # written to its end: told at once, not when the field is left
+            self._error_text.show_text(self._onset_day_error())  # a complete date is checked at once
         _, asked = self.fields.find_error()
         self.save_button.set_label(asked or self._save_words)
         self.save_button.setEnabled(not asked)
@@ -263,7 +261,7 @@ class PatientForm(Dialog):
             values |= {"onset": values["onset"] or "", "dominance": values["dominance"] or self.patient.dominance}
             patient = replace(self.patient, **values)
             patient.with_normalized_names()
-        except NameUnsuited as fault:  # told here: what was typed stays
+        except NameUnsuited as fault:  # shown here, so that the entries stay
             self._show_error(fault)
         else:
             self.close_dialog()

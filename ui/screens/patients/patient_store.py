@@ -47,11 +47,11 @@ class PatientStore:
         except SessionUnreadable:
             return PatientCard(patient, marker_photo_rgb=picture, has_sessions=True)
         note = last.notes[-1][1] if last.notes else ""
-        said = () if patient_id == PRACTICE_PATIENT else warning_lines(last)
-        # A reach or a touch is not told by how far the joints bend.
+        warnings = () if patient_id == PRACTICE_PATIENT else warning_lines(last)
+        # Joint ranges say little about a reach or an opposition.
         about = task_summary(last)
         results = () if about else _compare_results(first, last)
-        return PatientCard(patient, results, repetition_words(last), note, last.when, picture, said, True, about)
+        return PatientCard(patient, results, repetition_words(last), note, last.when, picture, warnings, True, about)
 
     def _first_comparable(self, patient_id: str, last: SessionResults) -> SessionResults | None:
         """Return the first session of the same hand and exercise that is comparable, None if there is none."""

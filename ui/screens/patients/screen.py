@@ -130,10 +130,7 @@ class PatientsScreen(QWidget):
         self.card.sessions_button.clicked.connect(lambda: self.sessions_requested.emit(self._current_patient_id()))
         self.card.edit_button.clicked.connect(lambda: self.change_patient(self._current_patient_id()))
         self.form.saved.connect(self._show_saved)
-        self.form.remove_button.clicked.connect(self._request_delete)
-
-    def _request_delete(self) -> None:
-        self.delete_requested.emit(self.form.patient.patient_id)
+        self.form.remove_button.clicked.connect(lambda: self.delete_requested.emit(self.form.patient.patient_id))
 
     def refresh_date(self) -> None:
         """Update the date after midnight."""
@@ -224,7 +221,9 @@ class PatientsScreen(QWidget):
             return
         if wanted and len(rows) > MAX_LISTED_PATIENTS:  # with the practice patient: there may be more than are shown
             rows = (*self._store.list_patients(self.search.text()), rows[-1])
-        shown = [row for row in rows if _matches(row, wanted)]
+        shown = [
+            row for row in rows if all(word in f"{_searchable_text(row)} {row.name}".casefold() for word in wanted)
+        ]
         self.list.patient_model.show_rows(
             shown, {row.patient_id: row.name for row in shown if _is_name_match(row, wanted)}
         )
@@ -331,11 +330,6 @@ class _OfflineView(QWidget):
         self.button.setEnabled(bool(name.strip()))
         words = self.tr("Measure “{name}”").format(name=name.strip().replace("&", "&&"))
         self.button.set_label(words if name.strip() else self.tr("Measure without the list"))
-
-
-def _matches(row: Patient, wanted: list[str]) -> bool:
-    text = f"{_searchable_text(row)} {row.name}".casefold()
-    return all(word in text for word in wanted)
 
 
 def _is_name_match(row: Patient, wanted: list[str]) -> bool:

@@ -59,7 +59,7 @@ class BackupController(QObject):
         super().__init__(context.window)
         self._context, self._library, self._settings = context, context.library, settings
         self._settings_folder, self._save_settings = settings_folder, save_settings
-        self._background = Background()  # its own: a back-up of gigabytes holds up nothing else
+        self._background = Background()  # a backup of gigabytes must not delay other tasks
         self._is_running = False
         self.last_backup: BackupRecord | None = None
         self.is_restored = False
@@ -109,7 +109,7 @@ class BackupController(QObject):
     def is_overdue(self) -> bool:
         """Return whether to remind: backups are wanted, there are sessions, and the last backup is old or missing."""
         if self.last_backup is None and not self._settings.folder:
-            return False  # nobody has asked for back-ups; the settings say that there is none
+            return False  # backups were never set up; the settings say so
         sessions = sum(record.session_count for record in self._library.patients.search())
         return sessions > 0 and is_backup_due(
             self.last_backup.made if self.last_backup else None, self._settings.remind_days, _current_time()
@@ -205,7 +205,7 @@ class BackupController(QObject):
         if folder:
             place = Path(folder)
             self._background.run(
-                lambda: _list_backups(place), lambda there: self._choose_backup(place, there), self._on_failed, self
+                lambda: _list_backups(place), lambda found: self._choose_backup(place, found), self._on_failed, self
             )
 
     def _choose_backup(self, folder: Path, found: Sequence[Backup]) -> None:
@@ -226,13 +226,13 @@ class BackupController(QObject):
 
     def _plan_restore(self, name: str) -> None:
         """Find out what a backup would change, then ask."""
-        (place, there), library = self._available_backups, self._library
-        backup = there[name]
+        (folder, backups), library = self._available_backups, self._library
+        backup = backups[name]
 
         def make_plan() -> RestorePlan:
-            return plan_restore(backup, place, library.folder, read_history(place, library.store))
+            return plan_restore(backup, folder, library.folder, read_history(folder, library.store))
 
-        self._background.run(make_plan, lambda plan: self._confirm_restore(place, backup, plan), self._on_failed, self)
+        self._background.run(make_plan, lambda plan: self._confirm_restore(folder, backup, plan), self._on_failed, self)
 
     def _confirm_restore(self, folder: Path, backup: Backup, plan: RestorePlan) -> None:
         what = self.tr("Restore the backup of {when}? Session files added: {come}, changed: {change}, removed: {go}.")

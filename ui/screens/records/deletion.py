@@ -65,7 +65,7 @@ class DeletionController(QObject):
 
     def _show_plan(self, plan: ErasurePlan) -> None:
         self._plan, patient = plan, self._context.current.patient
-        if patient is not None and not plan.patient_id:  # a recording of nobody is listed under a name of its own
+        if patient is not None and not plan.patient_id:  # a recording without a patient is listed under its own name
             plan = replace(plan, pseudonym=patient.pseudonym)
         self.dialog.show_plan(plan, self._retention_years(), self._last_backup(), self._context.today())
 
@@ -126,9 +126,7 @@ class DeletionController(QObject):
         strip = self._context.messages.show_notice(
             place, words, self.tr("&Undo"), lambda: self._restore(archived), icon="archive", later_text=self.tr("Close")
         )
-        self._context.navigator.screen_changing.connect(
-            strip.postponed
-        )  # elsewhere it is said no more; the archive has it
+        self._context.navigator.screen_changing.connect(strip.postponed)  # on other screens the archive shows it
 
     def _restore(self, identity: str) -> None:
         self._context.background.run(

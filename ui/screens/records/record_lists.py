@@ -37,10 +37,6 @@ from carpus.ui.words import terms
 T = TypeVar("T")
 
 
-def _is_any(_: ArchivedItem) -> bool:
-    return True
-
-
 class RecordListsController(QObject):
     """Controller of these lists; each is read when it is opened."""
 
@@ -59,7 +55,7 @@ class RecordListsController(QObject):
         self._context, self._records, self._deletion = context, records, deletion
         self.retention_years, self._save_years = retention_years, save_years
         self._session_ids: dict[str, str] = {}
-        self._archive_filter: Callable[[ArchivedItem], bool] = _is_any
+        self._archive_filter: Callable[[ArchivedItem], bool] = lambda _: True
         self.card = RecordsCard(context.theme, retention_years, RETENTION_YEARS)
         self.records_dialog = RecordsDialog(context.window.screen_stack, context.theme)
         self.log_dialog = LogDialog(context.window.screen_stack, context.theme)
@@ -72,7 +68,9 @@ class RecordListsController(QObject):
         )
         self.card.log_button.clicked.connect(self.show_log)
         self.records_dialog.restore_requested.connect(self._restore)
-        self.records_dialog.archive_requested.connect(self._archive)
+        self.records_dialog.archive_requested.connect(
+            lambda patient_id: self._run(lambda: records.archive_patient(patient_id), lambda _: self.show_due())
+        )
         self.records_dialog.delete_requested.connect(self._delete)
 
     def _set_years(self, years: int) -> None:
@@ -115,7 +113,7 @@ class RecordListsController(QObject):
 
     def show_archive(self, is_shown: Callable[[ArchivedItem], bool] | None = None) -> None:
         """Show archived items, all or those that ``is_shown`` accepts."""
-        self._archive_filter = is_shown or _is_any
+        self._archive_filter = is_shown or (lambda _: True)
         self._run(self._records.list_archived, self._show_archive)
 
     def _show_patient_archive(self, patient_id: str) -> None:
@@ -142,9 +140,6 @@ class RecordListsController(QObject):
             self.show_archive(self._archive_filter)
 
         self._run(lambda: self._records.unarchive(identity), on_restored)
-
-    def _archive(self, patient_id: str) -> None:
-        self._run(lambda: self._records.archive_patient(patient_id), lambda _: self.show_due())
 
     def _delete(self, identity: str) -> None:
         self.records_dialog.close_dialog()

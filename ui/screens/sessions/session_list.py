@@ -91,8 +91,8 @@ class SessionListModel(QAbstractListModel):
     def show_lines(self, lines: Sequence[SessionLine]) -> None:
         self.beginResetModel()
         self.lines = tuple(lines)
-        there = [line.entry.session_id for line in lines]
-        self.ticked = tuple(one for one in self.ticked if one in there)
+        session_ids = [line.entry.session_id for line in lines]
+        self.ticked = tuple(one for one in self.ticked if one in session_ids)
         self.endResetModel()
 
     def toggle(self, row: int) -> None:

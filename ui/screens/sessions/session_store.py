@@ -46,13 +46,13 @@ class SessionStore:
         except SessionUnreadable:
             return replace(line, is_damaged=True, is_missing=not line.entry.path.exists())
         counted = f"{figures.repetition_count} / {len(figures.repetitions)}" if figures.repetitions else ""
-        said = [] if line.is_practice else warning_lines(figures)
+        warnings = [] if line.is_practice else warning_lines(figures)
         return replace(
             line,
             main_value=main_result_words(figures),
             counted_repetitions=counted,
             counted_words=repetition_words(figures),
-            warning=" ".join(said),
+            warning=" ".join(warnings),
             correction=correction_words(figures),
         )
 

@@ -75,18 +75,16 @@ class RetestDialog(Dialog):
 
 def study_summary(found: RetestAnalysis) -> str:
     """Return who was measured, whether the study is usable, and what was excluded."""
-    said = [tr("People: {people}, sessions: {sessions}.").format(people=found.people, sessions=found.sessions)]
+    sentences = [tr("People: {people}, sessions: {sessions}.").format(people=found.people, sessions=found.sessions)]
     if found.simulated:
-        said.append(tr("Values of a simulated hand are never used."))
+        sentences.append(tr("Values of a simulated hand are never used."))
     elif not found.is_usable:
-        said.append(tr("Not usable yet: at least {count} people are needed, 20 are better.").format(count=MIN_PEOPLE))
-    reasons = Counter(_exclusion_words(left.reason) for left in found.excluded)
+        sentences.append(
+            tr("Not usable yet: at least {count} people are needed, 20 are better.").format(count=MIN_PEOPLE)
+        )
+    exclusions = {"once": tr("measured once"), "too_late": tr("more than 14 days later")}
+    reasons = Counter(exclusions.get(left.reason) or reason_words([left.reason]) for left in found.excluded)
     if reasons:
         words = ", ".join(f"{count} ({reason})" for reason, count in reasons.items())
-        said.append(tr("Excluded: {sessions}.").format(sessions=words))
-    return " ".join(said)
-
-
-def _exclusion_words(reason: str) -> str:
-    words = {"once": tr("measured once"), "too_late": tr("more than 14 days later")}
-    return words.get(reason) or reason_words([reason])
+        sentences.append(tr("Excluded: {sessions}.").format(sessions=words))
+    return " ".join(sentences)
