@@ -41,7 +41,7 @@ from tests.compiled.oracle import digits as oracle
 from tests.compiled.test_mixture import covariances
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.tracking.hands import CAMERA
-from tests.tracking.sequences import calibrated
+from tests.tracking.sequences import calibrate_sequence
 from tests.tracking.test_palm_filter import moving
 
 SETTINGS = TrackerSettings()
@@ -79,7 +79,7 @@ def sequence(side: str) -> MeasurementSequence:
 
 @cache
 def known(side: str) -> Calibration:
-    return calibrated(sequence(side))
+    return calibrate_sequence(sequence(side))
 
 
 @cache

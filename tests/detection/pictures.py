@@ -126,7 +126,7 @@ def frame(color: ByteImage, depth_m: FloatArray | None, index: int = 0) -> Frame
     return Frame(index, 100.0 + index / 30.0, color, raw, UNIT_M)
 
 
-def matched(found_px: FloatArray, true_px: FloatArray) -> FloatArray:
+def match_blobs(found_px: FloatArray, true_px: FloatArray) -> FloatArray:
     """Error (D, 2) of the found centre nearest to each true one."""
     nearest = np.linalg.norm(found_px[None] - true_px[:, None], axis=-1).argmin(axis=1)
     return np.asarray(found_px[nearest] - true_px)

@@ -20,7 +20,7 @@ DISC = 3
 """The disc on whose depth is played."""
 
 
-def detected(depth_m: FloatArray) -> Detections:
+def detect_blobs(depth_m: FloatArray) -> Detections:
     """The blobs of a picture with this depth, in the order of the discs; colours learnt with good depth."""
     rng = np.random.default_rng(0)
     looks, _ = learn_appearance(frame(picture(PALM_PX, Look(), rng), depth_picture()), PALM_PX, CAMERA, SETTINGS)
@@ -37,7 +37,7 @@ def on_disc() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def test_depth_of_blob_good_readings_are_used() -> None:
-    found = detected(depth_picture())
+    found = detect_blobs(depth_picture())
     assert found.depth_m == pytest.approx(DISTANCE_M, abs=2e-4)
     # By the book the reading has 1.425e-3 z^2, and readings a few pixels apart are one.
     assert found.depth_sd_m[DISC] == pytest.approx(1.425e-3 * DISTANCE_M**2, rel=0.05)
@@ -49,7 +49,7 @@ def test_depth_of_blob_tolerates_holes_up_to_seven_tenths(share_missing: float, 
     rows, columns = on_disc()
     holes = np.random.default_rng(1).permutation(len(rows))[: round(share_missing * len(rows))]
     depth[rows[holes], columns[holes]] = 0.0
-    found = detected(depth)
+    found = detect_blobs(depth)
     assert np.isfinite(found.depth_m[DISC]) == is_believed
     assert np.isfinite(found.depth_sd_m[DISC]) == is_believed
     if is_believed:
@@ -63,7 +63,7 @@ def test_depth_of_blob_mixed_surfaces_have_no_depth() -> None:
     rows, columns = on_disc()
     behind = columns > PALM_PX[DISC, 0]
     depth[rows[behind], columns[behind]] += 0.05
-    found = detected(depth)
+    found = detect_blobs(depth)
     assert np.isnan(found.depth_m[DISC])
     assert np.isfinite(np.delete(found.depth_m, DISC)).all()
 
@@ -73,7 +73,7 @@ def test_depth_of_blob_few_outliers_do_not_shift_it() -> None:
     rows, columns = on_disc()
     strange = np.random.default_rng(2).permutation(len(rows))[: len(rows) // 7]
     depth[rows[strange], columns[strange]] += 0.05
-    found = detected(depth)
+    found = detect_blobs(depth)
     assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
 
 
@@ -81,10 +81,10 @@ def test_depth_of_blob_far_reading_is_excluded() -> None:
     depth = depth_picture()
     for u, v in np.rint(PALM_PX).astype(int):
         depth[v + 1, u] += 0.4  # not the middle, where the disc's size is looked up
-    np.testing.assert_allclose(detected(depth).depth_m, DISTANCE_M, rtol=1e-9)
+    np.testing.assert_allclose(detect_blobs(depth).depth_m, DISTANCE_M, rtol=1e-9)
 
 
-def sloped(depth: FloatArray) -> None:
+def slope_depth(depth: FloatArray) -> None:
     rows, columns = on_disc()
     depth[rows, columns] += 0.0011 * (columns - PALM_PX[DISC, 0])
 
@@ -94,11 +94,11 @@ def at_the_edge_of_the_surface(depth: FloatArray) -> None:
     depth[v - 14 : v + 15, u + 4 : u + 14] += 0.05
 
 
-@pytest.mark.parametrize(("lies", "times"), [(sloped, 1.2), (at_the_edge_of_the_surface, 1.3)])
+@pytest.mark.parametrize(("lies", "times"), [(slope_depth, 1.2), (at_the_edge_of_the_surface, 1.3)])
 def test_depth_of_blob_on_a_slope_has_a_larger_sd(lies: Callable[[FloatArray], None], times: float) -> None:
     depth = depth_picture()
     lies(depth)
-    flat, found = detected(depth_picture()), detected(depth)
+    flat, found = detect_blobs(depth_picture()), detect_blobs(depth)
     assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
     assert found.depth_sd_m[DISC] > times * flat.depth_sd_m[DISC]
 

@@ -36,7 +36,7 @@ from tests.detection.pictures import (
     Look,
     depth_picture,
     frame,
-    matched,
+    match_blobs,
     picture,
 )
 
@@ -47,15 +47,15 @@ BLUE = Look()
 WHOLE = Region(0, 0, 320, 240)
 
 
-def learnt(look: Look, rng: np.random.Generator, click_error_px: float = 2.0) -> tuple[MarkerAppearance, FloatArray]:
+def learn(look: Look, rng: np.random.Generator, click_error_px: float = 2.0) -> tuple[MarkerAppearance, FloatArray]:
     clicks = PALM_PX + rng.uniform(-click_error_px, click_error_px, PALM_PX.shape)
     return learn_appearance(frame(picture(PALM_PX, look, rng), depth_picture(rng)), clicks, CAMERA, SETTINGS)
 
 
 @cache
-def detector_for(look: Look = BLUE) -> Detector:
+def build_detector(look: Look = BLUE) -> Detector:
     """Taught once for all tests: it keeps no memory of what it sees, which one of them shows."""
-    return Detector(learnt(look, np.random.default_rng(1))[0], CAMERA, SETTINGS)
+    return Detector(learn(look, np.random.default_rng(1))[0], CAMERA, SETTINGS)
 
 
 def seen(seed: int, discs_px: FloatArray = PALM_PX, look: Look = BLUE, **how: Any) -> Frame:
@@ -65,7 +65,7 @@ def seen(seed: int, discs_px: FloatArray = PALM_PX, look: Look = BLUE, **how: An
 
 
 def all_found(found: Detections, true_px: FloatArray, within_px: float = 0.5) -> bool:
-    return len(found) == len(true_px) and bool(np.abs(matched(found.pixel, true_px)).max() < within_px)
+    return len(found) == len(true_px) and bool(np.abs(match_blobs(found.pixel, true_px)).max() < within_px)
 
 
 @pytest.mark.parametrize("light", [0.4, 1.0, 1.25])
@@ -77,31 +77,31 @@ def test_detector_centres_are_accurate_to_a_tenth_of_a_pixel(
     """Any paper, any skin, dim and bright, with colour halved across as the camera does."""
     rng = np.random.default_rng(1)
     look = Look(paper=PAPERS[paper], skin=skin, light=light)
-    detector = Detector(learnt(look, rng)[0], CAMERA, SETTINGS)
+    detector = Detector(learn(look, rng)[0], CAMERA, SETTINGS)
     errors = []
     for _ in range(4):
         true = PALM_PX + rng.uniform(-3.0, 3.0, PALM_PX.shape)
         found = detector.detect(frame(picture(true, look, rng), depth_picture(rng)))
         assert all_found(found, true)
-        errors.append(matched(found.pixel, true))
+        errors.append(match_blobs(found.pixel, true))
     assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.1
 
 
 def test_detector_shading_does_not_shift_centres() -> None:
     """Half the light gone across the hand; without noise, so that only the pull is left."""
     look = Look(shading=0.5, noise=0.0, chroma=False)
-    detector = detector_for(look)
+    detector = build_detector(look)
     errors = []
     for shift in np.linspace(0.0, 0.9, 10):
         true = PALM_PX + [shift, 0.37 + 0.5 * shift]
         found = detector.detect(frame(picture(true, look), depth_picture()))
-        errors.append(matched(found.pixel, true))
+        errors.append(match_blobs(found.pixel, true))
     assert np.abs(np.mean(errors, axis=(0, 1))).max() < 0.03
     assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.05
 
 
 def test_detector_areas_and_depths_match_the_discs() -> None:
-    found = detector_for().detect(seen(3))
+    found = build_detector().detect(seen(3))
     assert found.area_px == pytest.approx(np.pi * RADIUS_PX**2, rel=0.1)
     assert (found.similarity > 0.0).all()
     assert (found.similarity <= 1.0 + 1e-9).all()
@@ -111,19 +111,19 @@ def test_detector_areas_and_depths_match_the_discs() -> None:
 
 
 def test_detector_without_depth_gives_nan_depths() -> None:
-    found = detector_for().detect(replace(seen(17), depth_raw=None))
+    found = build_detector().detect(replace(seen(17), depth_raw=None))
     assert all_found(found, PALM_PX)
     assert np.isnan(found.depth_m).all()
     assert np.isnan(found.depth_sd_m).all()
 
 
 def test_detector_tilted_discs_are_found_at_their_centre() -> None:
-    assert all_found(detector_for().detect(seen(4, PALM_PX + 0.4, squeeze=0.5)), PALM_PX + 0.4, within_px=0.2)
+    assert all_found(build_detector().detect(seen(4, PALM_PX + 0.4, squeeze=0.5)), PALM_PX + 0.4, within_px=0.2)
 
 
 @pytest.mark.parametrize("light", [0.5, 1.2])
 def test_detector_tolerates_other_light(light: float) -> None:
-    assert all_found(detector_for().detect(seen(11, look=Look(light=light))), PALM_PX)
+    assert all_found(build_detector().detect(seen(11, look=Look(light=light))), PALM_PX)
 
 
 @pytest.mark.parametrize("gap_px", [-0.5, 0.0, 0.8])
@@ -133,9 +133,9 @@ def test_detector_touching_discs_are_separated(gap_px: float, direction_deg: flo
     true = PALM_PX.copy()
     true[1] = [150.2, 145.6]
     true[0] = true[1] + away
-    found = detector_for().detect(seen(5, true))
+    found = build_detector().detect(seen(5, true))
     assert len(found) == 6
-    error = matched(found.pixel, true)
+    error = match_blobs(found.pixel, true)
     assert np.linalg.norm(error[:2], axis=1).max() < 0.6
     assert np.linalg.norm(error[2:], axis=1).max() < 0.3
 
@@ -143,9 +143,9 @@ def test_detector_touching_discs_are_separated(gap_px: float, direction_deg: flo
 def test_detector_three_discs_in_a_row_are_separated() -> None:
     true = PALM_PX.copy()
     true[:3] = [[130.0, 150.0], [130.0 + 2.05 * RADIUS_PX, 150.0], [130.0 + 4.1 * RADIUS_PX, 150.0]]
-    found = detector_for().detect(seen(6, true))
+    found = build_detector().detect(seen(6, true))
     assert len(found) == 6
-    assert np.linalg.norm(matched(found.pixel, true), axis=1).max() < 0.8
+    assert np.linalg.norm(match_blobs(found.pixel, true), axis=1).max() < 0.8
 
 
 NO_MARKERS = {
@@ -170,23 +170,23 @@ def test_detector_other_objects_are_no_markers(case: str) -> None:
     extras = [Extra(pixel, radius_px, PAPERS[color]) for pixel, radius_px, color in others]
     shown = seen(7, look=look, extras=extras)
     for region in (None, WHOLE):
-        assert all_found(detector_for(look).detect(shown, region), PALM_PX)
+        assert all_found(build_detector(look).detect(shown, region), PALM_PX)
 
 
 def test_detector_searches_the_region_only() -> None:
-    detector, shown = detector_for(), seen(12)
+    detector, shown = build_detector(), seen(12)
     upper = Region(100, 80, 215, 130)
     found = detector.detect(shown, upper)
     assert all_found(found, PALM_PX[2:])
     whole = detector.detect(shown)
-    same = matched(found.pixel, whole.pixel[whole.pixel[:, 1] < 130.0])
+    same = match_blobs(found.pixel, whole.pixel[whole.pixel[:, 1] < 130.0])
     assert np.abs(same).max() < 0.05, "pixels are told in the whole picture"
     assert len(detector.detect(shown, Region(0, 0, 4, 240))) == 0
     assert len(detector.detect(shown, Region(-50, -50, 1000, 1000))) == 6
 
 
 def test_search_region_holds_every_disc_and_little_more() -> None:
-    detector = detector_for()
+    detector = build_detector()
     covariance = np.broadcast_to(4.0 * np.eye(2), (6, 2, 2))
     region = detector.compute_search_region(PALM_PX, covariance, np.full(6, DISTANCE_M))
     low, high = PALM_PX.min(axis=0), PALM_PX.max(axis=0)
@@ -201,7 +201,7 @@ def test_search_region_holds_every_disc_and_little_more() -> None:
 def test_search_region_large_covariance_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("carpus.core.detection.detector.MAX_SEARCH_RADIUS_PX", 60.0)
     settings = DetectionSettings()
-    detector = Detector(learnt(BLUE, np.random.default_rng(13))[0], CAMERA, settings)
+    detector = Detector(learn(BLUE, np.random.default_rng(13))[0], CAMERA, settings)
     middle = np.array([[0.5 * CAMERA.width_px, 0.5 * CAMERA.height_px]])
     found = [
         detector.compute_search_region(middle, sd_px**2 * np.eye(2)[None], np.array([DISTANCE_M]))
@@ -218,7 +218,7 @@ def test_search_region_nan_is_an_error() -> None:
     pixel = PALM_PX.copy()
     pixel[-1, 0] = np.nan
     with pytest.raises(ValueError, match="NaN"):
-        detector_for().compute_search_region(pixel, np.broadcast_to(np.eye(2), (6, 2, 2)), np.full(6, DISTANCE_M))
+        build_detector().compute_search_region(pixel, np.broadcast_to(np.eye(2), (6, 2, 2)), np.full(6, DISTANCE_M))
 
 
 def test_detector_depth_of_another_size_is_an_error() -> None:
@@ -227,11 +227,11 @@ def test_detector_depth_of_another_size_is_an_error() -> None:
     assert shown.depth_raw is not None
     for raw in (np.pad(shown.depth_raw, ((0, 0), (0, 16))), shown.depth_raw[:-1]):
         with pytest.raises(ValueError, match="not of the size"):
-            detector_for().detect(replace(shown, depth_raw=raw))
+            build_detector().detect(replace(shown, depth_raw=raw))
 
 
 def test_detector_too_many_blobs_keeps_the_largest() -> None:
-    detector = Detector(detector_for()._appearance, CAMERA, replace(SETTINGS, most_blobs=4))
+    detector = Detector(build_detector()._appearance, CAMERA, replace(SETTINGS, most_blobs=4))
     extras = [Extra((float(u), float(v)), 3.2, PAPERS["blue"]) for u, v in ((140, 140), (160, 140), (180, 140))]
     found = detector.detect(seen(5, extras=extras), WHOLE)
     assert len(found) == 4
@@ -239,7 +239,7 @@ def test_detector_too_many_blobs_keeps_the_largest() -> None:
 
 
 def test_paper_mask_is_opencvs_backprojection() -> None:
-    looks, hsv = detector_for()._appearance, to_hsv(seen(6).color_rgb)
+    looks, hsv = build_detector()._appearance, to_hsv(seen(6).color_rgb)
     likely = cv2.calcBackProject([hsv], [0, 1], looks.paper_lookup, [0.0, 180.0, 0.0, 256.0], 1.0)
     expected = ((likely > 127.5) & (hsv[..., 2] > looks.min_brightness)).astype(np.uint8)
     expected = cv2.morphologyEx(expected, cv2.MORPH_OPEN, cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3)))
@@ -284,15 +284,15 @@ def test_detector_blurred_row_of_small_discs_is_separated(discs: int, parts: int
 
 def test_detector_empty_image_gives_no_blobs() -> None:
     depth = depth_picture(np.random.default_rng(14))
-    assert len(detector_for().detect(seen(14, np.empty((0, 2))))) == 0
-    assert len(detector_for().detect(frame(np.zeros((240, 320, 3), dtype=np.uint8), depth))) == 0
-    assert len(detector_for().detect(frame(np.full((240, 320, 3), 255, dtype=np.uint8), None))) == 0
+    assert len(build_detector().detect(seen(14, np.empty((0, 2))))) == 0
+    assert len(build_detector().detect(frame(np.zeros((240, 320, 3), dtype=np.uint8), depth))) == 0
+    assert len(build_detector().detect(frame(np.full((240, 320, 3), 255, dtype=np.uint8), None))) == 0
 
 
 def test_detector_half_covered_discs_have_small_areas() -> None:
     shown, half = seen(15, PALM_PX[1:]), PALM_PX[1]
     shown.color_rgb[int(half[1]) - 8 : int(half[1]) + 9, int(half[0]) + 1 : int(half[0]) + 9] = TABLE
-    found = detector_for().detect(shown)
+    found = build_detector().detect(shown)
     away = np.linalg.norm(found.pixel - PALM_PX[0], axis=1)
     assert away.min() > 20.0, "no blob where the covered disc is"
     near = np.linalg.norm(found.pixel - half, axis=1)
@@ -302,8 +302,8 @@ def test_detector_half_covered_discs_have_small_areas() -> None:
 
 def test_detector_disc_at_the_image_border_is_tolerated() -> None:
     true = PALM_PX + [0.0, 48.5]  # the lowest is half outside
-    found = detector_for().detect(seen(16, true))
-    assert np.abs(matched(found.pixel, true[1:])).max() < 0.3
+    found = build_detector().detect(seen(16, true))
+    assert np.abs(match_blobs(found.pixel, true[1:])).max() < 0.3
     assert (found.pixel >= -1.0).all()
     assert (found.pixel[:, 1] < 240.0).all()
 
@@ -345,7 +345,7 @@ def test_learn_appearance_tolerates_clicks_beside_discs(click_error_px: float) -
 
 
 def test_detector_keeps_no_memory() -> None:
-    detector, shown = detector_for(), seen(22)
+    detector, shown = build_detector(), seen(22)
     first = detector.detect(shown)
     detector.detect(replace(seen(22, PALM_PX + 20.0, Look(light=0.6)), depth_raw=None))
     again = detector.detect(shown)
@@ -355,6 +355,6 @@ def test_detector_keeps_no_memory() -> None:
 
 def test_detection_settings_skin_share_limits_blobs() -> None:
     """With no skin asked for, the disc on the table counts; the rule is the setting's, not hidden."""
-    looks, _ = learnt(BLUE, np.random.default_rng(23))
+    looks, _ = learn(BLUE, np.random.default_rng(23))
     on_table = seen(23, extras=[Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"])])
     assert len(Detector(looks, CAMERA, replace(SETTINGS, skin_share=0.0)).detect(on_table, WHOLE)) == 7

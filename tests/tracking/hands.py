@@ -72,7 +72,7 @@ def calibration(side: Side = "right", sd_m: float = 4e-4, start_angles_rad: Floa
     )
 
 
-def rotation_of(deviation: float, flexion: float, supination: float, side: Side = "right") -> FloatArray:
+def build_rotation(deviation: float, flexion: float, supination: float, side: Side = "right") -> FloatArray:
     """R of W2 in W0 from clinical degrees, by SciPy; the left hand is the mirrored right one."""
     right = Rotation.from_euler("ZYX", [deviation, flexion, supination], degrees=True).as_matrix()
     mirror = np.diag([1.0, 1.0 if side == "right" else -1.0, 1.0])
@@ -88,7 +88,7 @@ class Pose:
 
 
 def discs_cam_m(pose: Pose, side: Side = "right") -> FloatArray:
-    rotation = rotation_of(*pose.angles_deg, side=side)
+    rotation = build_rotation(*pose.angles_deg, side=side)
     return np.asarray((palm(side) @ rotation.T + pose.position_m) @ FROM_ABOVE.T + MIDDLE_M)
 
 
@@ -126,7 +126,7 @@ def blobs(
     )
 
 
-def together(*every: Detections) -> Detections:
+def combine_motions(*every: Detections) -> Detections:
     """The blobs of one picture with several hands."""
     fields = ("pixel", "depth_m", "depth_sd_m", "area_px", "similarity")
     return Detections(*(np.concatenate([getattr(one, field) for one in every]) for field in fields))
@@ -173,5 +173,5 @@ def truth_deg(motion: Motion, times_s: Iterable[float]) -> FloatArray:
     return np.array([motion(float(t)).angles_deg for t in times_s])
 
 
-def moved(pose: Pose, shift_m: Sequence[float]) -> Pose:
+def shift_pose(pose: Pose, shift_m: Sequence[float]) -> Pose:
     return replace(pose, position_m=pose.position_m + np.array(shift_m))

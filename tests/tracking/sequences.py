@@ -10,13 +10,13 @@ from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import MeasurementSequence
 
 
-def calibrated(seen: MeasurementSequence) -> Calibration:
+def calibrate_sequence(seen: MeasurementSequence) -> Calibration:
     """What the calibration knows of the hand."""
     hand, _ = measured_hand(seen, CalibrationSettings())
     assert hand.calibration is not None
     return hand.calibration
 
 
-def tracker_of(seen: MeasurementSequence) -> Tracker:
+def build_tracker(seen: MeasurementSequence) -> Tracker:
     """A tracker of that hand, with the settings as they are."""
-    return Tracker(calibrated(seen), seen.truth.camera, TrackerSettings())
+    return Tracker(calibrate_sequence(seen), seen.truth.camera, TrackerSettings())

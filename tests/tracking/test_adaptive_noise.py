@@ -20,7 +20,7 @@ DT_S = 1.0 / 30.0
 ALL = np.ones((1, 3), dtype=bool)
 
 
-def after(seconds: float, residual: tuple[float, float, float], dt_s: float = DT_S) -> FloatArray:
+def adapt(seconds: float, residual: tuple[float, float, float], dt_s: float = DT_S) -> FloatArray:
     """The factors (3,) of a disc whose residuals stay so."""
     factor = np.ones((1, 3))
     for _ in range(round(seconds / dt_s)):
@@ -29,26 +29,26 @@ def after(seconds: float, residual: tuple[float, float, float], dt_s: float = DT
 
 
 def test_adapt_noise_pixel_residual_raises_both_pixels_only() -> None:
-    u, v, depth = after(0.2, (3.0, 0.0, 1.0))
+    u, v, depth = adapt(0.2, (3.0, 0.0, 1.0))
     assert u == pytest.approx(v)
     assert u > 1.5
     assert depth == pytest.approx(1.0)
-    assert after(0.2, (1.0, 1.0, 3.0))[2] > 1.5
+    assert adapt(0.2, (1.0, 1.0, 3.0))[2] > 1.5
 
 
 def test_adapt_noise_averages_both_pixels() -> None:
-    assert after(1.0, (math.sqrt(2.0), 0.0, 1.0))[:2] == pytest.approx([1.0, 1.0])
-    assert after(1.0, (1.0, 1.0, 1.0)) == pytest.approx([1.0, 1.0, 1.0])
+    assert adapt(1.0, (math.sqrt(2.0), 0.0, 1.0))[:2] == pytest.approx([1.0, 1.0])
+    assert adapt(1.0, (1.0, 1.0, 1.0)) == pytest.approx([1.0, 1.0, 1.0])
 
 
 def test_adapt_noise_time_constant_is_independent_of_frame_rate() -> None:
-    assert after(0.5, (1.5, 1.5, 1.0))[0] == pytest.approx(math.exp(1.25), rel=0.12)
-    assert after(0.5, (1.5, 1.5, 1.0), DT_S / 4.0)[0] == pytest.approx(math.exp(1.25), rel=0.03)
+    assert adapt(0.5, (1.5, 1.5, 1.0))[0] == pytest.approx(math.exp(1.25), rel=0.12)
+    assert adapt(0.5, (1.5, 1.5, 1.0), DT_S / 4.0)[0] == pytest.approx(math.exp(1.25), rel=0.03)
 
 
 def test_adapt_noise_factors_stay_in_bounds() -> None:
-    assert after(5.0, (20.0, 20.0, 20.0)) == pytest.approx(np.full(3, NOISE.most_adapted))
-    assert after(5.0, (0.0, 0.0, 0.0)) == pytest.approx(np.full(3, NOISE.least_adapted))
+    assert adapt(5.0, (20.0, 20.0, 20.0)) == pytest.approx(np.full(3, NOISE.most_adapted))
+    assert adapt(5.0, (0.0, 0.0, 0.0)) == pytest.approx(np.full(3, NOISE.least_adapted))
     factor = np.array([[2.0, 2.0, 3.0]])
     nothing = np.zeros((1, 3), dtype=bool)
     assert np.array_equal(adapt_noise_factor(factor, np.full((1, 3), 9.0), nothing, DT_S, NOISE), factor)

@@ -84,7 +84,7 @@ def scene(seed: int, markers: int = 3, clutter: int = 2) -> tuple[FloatArray, Fl
     return mean, covariance, blobs, noise
 
 
-def own_of(covariance: FloatArray) -> FloatArray:
+def get_marker_block(covariance: FloatArray) -> FloatArray:
     """Each of three markers' own (3, 3, 3)."""
     return np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
 
@@ -92,7 +92,7 @@ def own_of(covariance: FloatArray) -> FloatArray:
 @pytest.mark.parametrize("seed", range(12))
 def test_log_odds_give_equation_12(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed)
-    own = own_of(covariance)
+    own = get_marker_block(covariance)
     odds = log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
     found = association_posterior(odds.value)
     assert np.allclose(found.sum(axis=1), 1.0, atol=1e-12)
@@ -116,7 +116,7 @@ def test_log_odds_give_equation_12(seed: int) -> None:
 
 def test_assign_blobs_without_blobs_is_empty() -> None:
     mean, covariance, _, _ = scene(0)
-    own = own_of(covariance)
+    own = get_marker_block(covariance)
     odds = log_odds(mean.reshape(3, 3), own, np.empty((0, 3)), np.empty((0, 3)), RES_PX2, OUTLIER, SETTINGS)
     assert list(assign_blobs(odds.value)) == [-1, -1, -1]
     assert association_posterior(odds.value).shape == (0, 4)
@@ -127,12 +127,12 @@ def test_assign_blobs_clutter_density_decides() -> None:
     own = np.diag([4.0, 4.0, 1e-6])[None]
     blob, noise = np.array([[308.0, 200.0, np.nan]]), np.array([[0.01, 0.01, 1e-6]])
 
-    def taken_in(resolution_px2: float) -> int:
+    def score_assignment(resolution_px2: float) -> int:
         odds = log_odds(np.array([[300.0, 200.0, 0.7]]), own, blob, noise, resolution_px2, OUTLIER, SETTINGS)
         return int(assign_blobs(odds.value)[0])
 
-    assert taken_in(RES_PX2) == 0
-    assert taken_in(2000.0) == -1
+    assert score_assignment(RES_PX2) == 0
+    assert score_assignment(2000.0) == -1
 
 
 @pytest.mark.parametrize(("off_sd", "taken"), [(4.8, 0), (5.2, -1)])
@@ -249,7 +249,7 @@ def test_associate_jointly_corrects_separate_association() -> None:
     covariance = together + np.kron(np.eye(3), np.diag([0.04, 0.04, 1e-8]))
     blobs = np.concatenate((mean.reshape(3, 3) + [8.0, 0.0, 0.0], [[300.3, 200.0, 0.7]]))
     noise = np.tile([0.01, 0.01, 1e-7], (4, 1))
-    own = own_of(covariance)
+    own = get_marker_block(covariance)
     single = assign_blobs(log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS).value)
     jointly = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
     assert list(jointly.assigned) == [0, 1, 2]

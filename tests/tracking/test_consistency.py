@@ -49,23 +49,23 @@ def test_consistency_without_measurement_is_no_doubt() -> None:
 def test_unused_markers_need_a_free_blob_at_place_and_depth() -> None:
     disc_m = CAMERA.backproject(np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7]))
 
-    def over(assigned: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
+    def find_unused(assigned: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
         seen, some = Detections.none(), np.array(blob_px).reshape(-1, 2)
         seen = replace(seen, pixel=some, depth_m=np.array(blob_m))
         return find_unused_markers(disc_m, np.array(assigned), seen, CAMERA).tolist()
 
-    assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.7]) == [True, False]
-    assert over([-1, 0], [[200.0, 100.0]], [0.7]) == [False, False]
-    assert over([-1, 0], [[200.0, 100.0], [130.0, 100.0]], [0.7, 0.7]) == [False, False]
-    assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.6]) == [False, False]
-    assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, np.nan]) == [True, False]
+    assert find_unused([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.7]) == [True, False]
+    assert find_unused([-1, 0], [[200.0, 100.0]], [0.7]) == [False, False]
+    assert find_unused([-1, 0], [[200.0, 100.0], [130.0, 100.0]], [0.7, 0.7]) == [False, False]
+    assert find_unused([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.6]) == [False, False]
+    assert find_unused([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, np.nan]) == [True, False]
 
 
 MISPLACED_M = np.array([0.0, 0.014, 0.0])
 """Where a spot that was no disc was clicked as the middle knuckle, from the knuckle."""
 
 
-def misclicked() -> Calibration:
+def build_misclicked_calibration() -> Calibration:
     right = calibration()
     discs = right.marker_position_w0_m.copy()
     discs[MCP3] += MISPLACED_M
@@ -75,7 +75,7 @@ def misclicked() -> Calibration:
 def test_operator_label_holds_from_the_next_frame() -> None:
     """The true middle knuckle is shown to a tracker that was told another; the spot beside the hand is no disc."""
     motion, rng = swing(1, 35.0, 0.4), np.random.default_rng(1)
-    tracker = Tracker(misclicked(), CAMERA, TrackerSettings())
+    tracker = Tracker(build_misclicked_calibration(), CAMERA, TrackerSettings())
     said_at, no_disc_at, still_px = 90, 100, np.array([260.0, 120.0])
     frames: list[TrackedFrame] = []
     for k in range(240):

@@ -22,7 +22,7 @@ def motion() -> DigitMotion:
     return DigitMotion(density, SCALES, np.zeros((N_DIGITS, N_CONSTANTS)), stationary2, SETTLES_S)
 
 
-def after(seconds: float, dt_s: float) -> ModeMixture:
+def predict_variance(seconds: float, dt_s: float) -> ModeMixture:
     """What is believed of an end joint 0.3 rad from where it belongs, surely, after that time without a picture."""
     mean = np.zeros((N_DIGITS, DIGIT_SIZE))
     mean[:, END_JOINT] = 0.3
@@ -37,7 +37,7 @@ def after(seconds: float, dt_s: float) -> ModeMixture:
 
 @pytest.mark.parametrize("dt_s", [1.0 / 30.0, 0.1])
 def test_digit_motion_coupled_dip_returns_to_pip_with_its_scatter(dt_s: float) -> None:
-    soon, late = after(SETTLES_S, dt_s), after(10.0 * SETTLES_S, dt_s)
+    soon, late = predict_variance(SETTLES_S, dt_s), predict_variance(10.0 * SETTLES_S, dt_s)
     assert soon.mean[1:, :, END_JOINT] == pytest.approx(0.3 / np.e, rel=1e-2)
     assert late.mean[1:, :, END_JOINT] == pytest.approx(0.0, abs=1e-3)
     variance = late.covariance[1:, :, END_JOINT, END_JOINT]
@@ -45,14 +45,14 @@ def test_digit_motion_coupled_dip_returns_to_pip_with_its_scatter(dt_s: float) -
 
 
 def test_digit_motion_free_joints_keep_their_rate() -> None:
-    late = after(10.0 * SETTLES_S, 0.1)
+    late = predict_variance(10.0 * SETTLES_S, 0.1)
     assert late.mean[0, :, END_JOINT] == pytest.approx(0.3)
     assert (late.covariance[0, :, END_JOINT, END_JOINT] > 1.0).all()
 
 
 def test_digit_transition_for_smoothing_is_that_of_the_filter() -> None:
     forward, noise = motion().compute_transition(0.1, np.ones(N_DIGITS), None)
-    mixture = after(0.1, 0.1)
+    mixture = predict_variance(0.1, 0.1)
     start = np.zeros((N_DIGITS, DIGIT_SIZE))
     start[:, END_JOINT] = 0.3
     assert (forward @ start[..., None])[..., 0] == pytest.approx(mixture.mean[:, 0])

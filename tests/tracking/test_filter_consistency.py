@@ -18,7 +18,7 @@ from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from tests.suites import few
-from tests.tracking.hands import CAMERA, DT_S, RIGID, Motion, Pose, blobs, calibration, rotation_of, swing
+from tests.tracking.hands import CAMERA, DT_S, RIGID, Motion, Pose, blobs, build_rotation, calibration, swing
 
 PIXEL_SD_PX = 0.15
 DEPTH_SD_M = float(np.hypot(PRIMESENSE.reading_sd_m(np.array(0.7)), PRIMESENSE.bias_sd_m(np.array(0.7))))
@@ -57,17 +57,17 @@ def consistency(motion: Motion, settings: TrackerSettings, noise: float = 1.0) -
                 continue
             if frame.nis_dof:
                 nis, dof = nis + frame.nis, dof + frame.nis_dof
-            error = Rotation.from_matrix(estimate.rotation_w2_w0.T @ rotation_of(*pose.angles_deg)).as_rotvec()
-            turn.append(normalised(error, estimate.covariance[6:9, 6:9]))
-            place.append(normalised(pose.position_m - estimate.position_m, estimate.covariance[:3, :3]))
+            error = Rotation.from_matrix(estimate.rotation_w2_w0.T @ build_rotation(*pose.angles_deg)).as_rotvec()
+            turn.append(compute_nees(error, estimate.covariance[6:9, 6:9]))
+            place.append(compute_nees(pose.position_m - estimate.position_m, estimate.covariance[:3, :3]))
     return nis / dof, float(np.mean(turn)), float(np.mean(place))
 
 
-def normalised(error: FloatArray, covariance: FloatArray) -> float:
+def compute_nees(error: FloatArray, covariance: FloatArray) -> float:
     return float(error @ np.linalg.solve(covariance, error)) / error.size
 
 
-def told(**noise: float) -> TrackerSettings:
+def build_settings(**noise: float) -> TrackerSettings:
     """Settings that know the palm's depths to be right, with other choices about noise."""
     settings = RIGID
     return replace(settings, noise=replace(settings.noise, depth_stays_m=0.0, **noise))
@@ -77,7 +77,7 @@ def told(**noise: float) -> TrackerSettings:
     "name", few(["rest", "slow flexion", "fast deviation", "slow deviation", "slow pro/supination"], 3)
 )
 def test_filter_nees_is_consistent(name: str) -> None:
-    nis, turn, place = consistency(MOTIONS[name], told())
+    nis, turn, place = consistency(MOTIONS[name], build_settings())
     assert 0.7 < nis < 1.1
     assert 0.6 < turn < 1.25
     assert 0.6 < place < 1.25
@@ -85,8 +85,10 @@ def test_filter_nees_is_consistent(name: str) -> None:
 
 def test_filter_nees_detects_doubled_noise() -> None:
     """Without the watch on the residuals the filter would be far too bold."""
-    blind = consistency(MOTIONS["slow flexion"], told(most_adapted=1.0, least_adapted=1.0, outlier_sd=1e3), noise=2.0)
-    watchful = consistency(MOTIONS["slow flexion"], told(), noise=2.0)
+    blind = consistency(
+        MOTIONS["slow flexion"], build_settings(most_adapted=1.0, least_adapted=1.0, outlier_sd=1e3), noise=2.0
+    )
+    watchful = consistency(MOTIONS["slow flexion"], build_settings(), noise=2.0)
     assert blind[0] > 1.6
     assert blind[1] > 2.0
     assert watchful[0] < 1.2

@@ -34,7 +34,7 @@ from carpus.core.tracking.filter.unscented import UnscentedParameters
 DIGIT_MARKERS = np.array(SITE_CHAINS)[:, 2:]
 
 
-def slots_of(angles_rad: FloatArray) -> FloatArray:
+def to_slots(angles_rad: FloatArray) -> FloatArray:
     """Slots (..., 5, 5) of 17 or 21 joint angles (..., J)."""
     lead, per_finger = angles_rad.shape[:-1], (angles_rad.shape[-1] - 5) // 4
     slots = np.zeros((*lead, N_DIGITS, N_SLOTS))
@@ -61,15 +61,15 @@ def angles(seed: int, dip_free: bool) -> FloatArray:
     )
 
 
-def state_of(anatomy: HandAnatomy, joints: FloatArray) -> FloatArray:
-    return np.concatenate((slots_of(joints), constants_from_anatomy(anatomy)), axis=1)
+def to_state(anatomy: HandAnatomy, joints: FloatArray) -> FloatArray:
+    return np.concatenate((to_slots(joints), constants_from_anatomy(anatomy)), axis=1)
 
 
 @pytest.mark.parametrize("dip_free", [False, True])
 @pytest.mark.parametrize("seed", range(5))
 def test_digit_discs_and_joints_match_plain_chains(seed: int, dip_free: bool) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free)
-    state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
+    state, roots = to_state(anatomy, joints), anatomy.palm_disc_m[1:]
     bone, normal, chain, disc_m = place_digits(state, roots)
     assert np.allclose(disc_m, disc_centres(anatomy, joints)[DIGIT_MARKERS], atol=1e-12)
     plain = joint_centres(anatomy, joints)
@@ -86,7 +86,7 @@ def test_digit_discs_and_joints_match_plain_chains(seed: int, dip_free: bool) ->
 @pytest.mark.parametrize("seed", range(3))
 def test_digit_slope_by_constants_matches_finite_differences(seed: int) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free=True)
-    state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
+    state, roots = to_state(anatomy, joints), anatomy.palm_disc_m[1:]
     mean = np.zeros((N_DIGITS, DIGIT_SIZE))
     mean[:, OBSERVED] = state
     covariance = np.broadcast_to(np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
@@ -105,7 +105,7 @@ def test_digit_linearisation_of_a_sure_state_is_the_projection() -> None:
     anatomy, joints = hand(1), angles(1, dip_free=True)
     roots = anatomy.palm_disc_m[1:]
     mean = np.zeros((N_DIGITS, DIGIT_SIZE))
-    mean[:, OBSERVED] = state_of(anatomy, joints)
+    mean[:, OBSERVED] = to_state(anatomy, joints)
     covariance = np.broadcast_to(1e-8 * np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
     down = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
     view = DigitView(down, np.array([0.01, 0.02, 0.7]), Camera(525.0, 530.0, 319.5, 239.5))
@@ -137,7 +137,7 @@ def test_digit_linearisation_of_a_sure_state_is_the_projection() -> None:
 def test_joint_angle_map_inverts_the_slots(dip_free: bool) -> None:
     joints = angles(7, dip_free)
     reading = JointAngleMap.from_digits(dip_free)
-    assert np.allclose(reading.compute_angles(slots_of(joints)), joints, atol=1e-14)
+    assert np.allclose(reading.compute_angles(to_slots(joints)), joints, atol=1e-14)
     variance = reading.compute_variances(
         np.broadcast_to(np.diag([1.0, 2.0, 3.0, 4.0, 5.0]), (N_DIGITS, N_SLOTS, N_SLOTS))
     )

@@ -19,7 +19,7 @@ from carpus.core.tracking.smoother.palm_smoother import smooth_backwards
 from tests.accuracy.carpus import learnt_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.suites import few
-from tests.tracking.sequences import tracker_of
+from tests.tracking.sequences import build_tracker
 
 RECORDED_S, PIECE_S, LAG_S = 2.0, 1.5, 1.5
 SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=7.0, range_share=0.5, hand_length_mm=185.0)
@@ -30,14 +30,14 @@ def sequence() -> MeasurementSequence:
     return measurement_sequence(SPEC)
 
 
-def smoothed(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+def smooth_recording(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Times (N,), joint angles (N, 17) and their sds, of what is recorded from ``RECORDED_S`` on."""
     blobs = sequence()
     times = blobs.truth.timestamp_s - blobs.truth.timestamp_s[0]
     tracker, neutral_ends_s = learnt_tracker(blobs)
     rows: dict[float, tuple[FloatArray, FloatArray]] = {}
 
-    def take(until_s: float) -> None:
+    def track_frames(until_s: float) -> None:
         steps = list(tracker.record.history)
         for step, moment in zip(steps, tracker.smooth(), strict=True):
             if RECORDED_S <= step.timestamp_s - blobs.truth.timestamp_s[0] < until_s:
@@ -52,9 +52,9 @@ def smoothed(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
         tracker.predict_measurement(float(blobs.truth.timestamp_s[i]))
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
         if in_pieces and times[i] >= due_s:
-            take(due_s - LAG_S)
+            track_frames(due_s - LAG_S)
             due_s += PIECE_S
-    take(np.inf)
+    track_frames(np.inf)
     values = list(rows.values())
     return np.array(list(rows)), np.array([v[0] for v in values]), np.array([v[1] for v in values])
 
@@ -62,8 +62,8 @@ def smoothed(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
 def test_smoothing_in_pieces_is_as_good_as_at_once() -> None:
     names = joint_angle_names()
     truth = sequence().truth
-    at_s, whole, whole_sd = smoothed(in_pieces=False)
-    pieces_at_s, pieces, _ = smoothed(in_pieces=True)
+    at_s, whole, whole_sd = smooth_recording(in_pieces=False)
+    pieces_at_s, pieces, _ = smooth_recording(in_pieces=True)
     assert np.array_equal(at_s, pieces_at_s)
     true = truth.joint_angles_rad[np.isin(truth.timestamp_s, at_s)]
     bending = [i for i, name in enumerate(names) if "flexion" in name]
@@ -74,7 +74,7 @@ def test_smoothing_in_pieces_is_as_good_as_at_once() -> None:
 
 def test_smoother_record_discard_removes_finger_steps() -> None:
     blobs = sequence()
-    tracker = tracker_of(blobs)
+    tracker = build_tracker(blobs)
     for i in range(40):
         tracker.pop_steps()
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
@@ -83,7 +83,7 @@ def test_smoother_record_discard_removes_finger_steps() -> None:
 
 def test_smoother_record_next_piece_starts_where_the_last_ended() -> None:
     blobs = sequence()
-    tracker, times_s = tracker_of(blobs), blobs.truth.timestamp_s
+    tracker, times_s = build_tracker(blobs), blobs.truth.timestamp_s
     for i in range(6):
         tracker.step(i, float(times_s[i]), blobs.detections[i])
     assert len(tracker.smooth()) == 6
@@ -100,7 +100,7 @@ def test_smoother_record_next_piece_starts_where_the_last_ended() -> None:
 
 def test_finger_smoother_restart_carries_back_anatomy_only() -> None:
     blobs = sequence()
-    tracker = tracker_of(blobs)
+    tracker = build_tracker(blobs)
     for i in range(3):
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
     tracker.smooth()
@@ -114,7 +114,9 @@ def test_finger_smoother_restart_carries_back_anatomy_only() -> None:
     assert last is not None
     chain, joints = 2, slice(0, RATES.stop)
 
-    def back(second: _FilteredFrame, moved_rad: float = 0.0, longer_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
+    def smooth_back(
+        second: _FilteredFrame, moved_rad: float = 0.0, longer_m: float = 0.0
+    ) -> tuple[FloatArray, FloatArray]:
         """Mean and covariance of the digit in the first frame, with the last one's joints and bones moved."""
         mean = last.mean.copy()
         mean[chain, :N_SLOTS] += moved_rad
@@ -125,9 +127,9 @@ def test_finger_smoother_restart_carries_back_anatomy_only() -> None:
         return estimate.mean[chain], estimate.covariance[chain]
 
     anew = replace(middle, is_restarted=np.arange(N_DIGITS) == chain)
-    assert np.abs(back(middle, moved_rad=0.1)[0] - back(middle)[0])[:N_SLOTS].max() > 1e-4
-    through, alone = back(anew), back(replace(middle, is_linked=False))
-    moved = back(anew, longer_m=0.01)
+    assert np.abs(smooth_back(middle, moved_rad=0.1)[0] - smooth_back(middle)[0])[:N_SLOTS].max() > 1e-4
+    through, alone = smooth_back(anew), smooth_back(replace(middle, is_linked=False))
+    moved = smooth_back(anew, longer_m=0.01)
     assert np.abs(moved[0] - through[0])[ANATOMY].max() > 1e-5, "bones stay the same bones"
     assert np.array_equal(alone[0], first.mean[chain])
     assert (np.diagonal(through[1])[ANATOMY] <= np.diagonal(alone[1])[ANATOMY] * (1.0 + 1e-9)).all()

@@ -23,7 +23,7 @@ from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
-from tests.tracking.sequences import calibrated, tracker_of
+from tests.tracking.sequences import build_tracker, calibrate_sequence
 
 SPEC = RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=4.5, speed_hz=0.4)
 
@@ -33,10 +33,10 @@ def sequence() -> MeasurementSequence:
     return measurement_sequence(SPEC)
 
 
-def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list[TrackedFrame], MeasurementSequence]:
+def track_frames(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list[TrackedFrame], MeasurementSequence]:
     """The hand tracked, with some markers taken away in some frames."""
     seen = sequence()
-    tracker = tracker_of(seen)
+    tracker = build_tracker(seen)
     times = seen.truth.timestamp_s
     return [
         tracker.step(i, float(times[i]), seen.detections[i].subset(~np.isin(seen.marker[i], hidden.get(i, ()))))
@@ -46,7 +46,7 @@ def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list
 
 def test_fingers_reacquired_hand_keeps_learnt_lengths() -> None:
     seen = sequence()
-    tracker, times_s = tracker_of(seen), seen.truth.timestamp_s
+    tracker, times_s = build_tracker(seen), seen.truth.timestamp_s
     for row in range(60):
         before = tracker.step(row, float(times_s[row]), seen.detections[row])
     fingers = tracker._filter.fingers
@@ -62,14 +62,14 @@ def test_fingers_reacquired_hand_keeps_learnt_lengths() -> None:
 
 def test_finger_speeds_hidden_joints_may_be_fast() -> None:
     settings = TrackerSettings()
-    fingers = FingerFilter(calibrated(sequence()), sequence().truth.camera, settings)
+    fingers = FingerFilter(calibrate_sequence(sequence()), sequence().truth.camera, settings)
     assert fingers.joint_speeds == (0.0, 0.0)
     fingers.reset_joints()
     assert 0.5 < min(fingers.joint_speeds) <= max(fingers.joint_speeds) <= settings.tissue.fastest_rad_s
 
 
 def test_finger_speeds_are_of_thumb_base_and_mcp() -> None:
-    fingers = FingerFilter(calibrated(sequence()), sequence().truth.camera, TrackerSettings())
+    fingers = FingerFilter(calibrate_sequence(sequence()), sequence().truth.camera, TrackerSettings())
     mean = fingers.estimates.mean.copy()
     mean[1:, :, RATES] = [3.0, 0.5, 3.0, 3.0, 3.0]
     mean[0, :, RATES] = [1.0, 0.8, 3.0, 3.0, 3.0]
@@ -78,11 +78,11 @@ def test_finger_speeds_are_of_thumb_base_and_mcp() -> None:
     assert fingers.joint_speeds == pytest.approx((np.sqrt((1.0 + 0.64) / 2.0), 0.5))
 
 
-def weighed(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior, FloatArray]:
+def update_digits_once(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior, FloatArray]:
     """The fingers of the first picture on a palm known to ``place_m``, their discs off to the sides in turn, and how
     far they go on from neutral (5, n)."""
     seen, settings = sequence(), TrackerSettings()
-    known = calibrated(seen)
+    known = calibrate_sequence(seen)
     fingers = FingerFilter(known, seen.truth.camera, settings)
     view = HandFilter(known, seen.truth.camera, settings).view
     estimate = initial_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
@@ -97,17 +97,17 @@ def weighed(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior
 
 def test_digit_discs_share_the_palms_error() -> None:
     """All discs to one side is an unsure palm's error; some to one and some to the other is not."""
-    aside, apart = (weighed(5e-3, off_px)[0] for off_px in ((1.0, 1.0), (1.0, -1.0)))
+    aside, apart = (update_digits_once(5e-3, off_px)[0] for off_px in ((1.0, 1.0), (1.0, -1.0)))
     assert np.count_nonzero(aside.blob >= 0) == np.count_nonzero(apart.blob >= 0) == 15
     assert aside.nis < 0.5 * apart.nis
-    assert aside.nis < 0.5 * weighed(1e-4, (1.0, 1.0))[0].nis
+    assert aside.nis < 0.5 * update_digits_once(1e-4, (1.0, 1.0))[0].nis
 
 
 def test_fingers_anatomy_learns_its_share_per_frame(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(finger_model, "LEARNING_SHARE", 0.2)
-    fifth = weighed(1e-5, (0.3, -0.3))[1][:, ANATOMY]
+    fifth = update_digits_once(1e-5, (0.3, -0.3))[1][:, ANATOMY]
     monkeypatch.setattr(finger_model, "LEARNING_SHARE", 1.0)
-    whole = weighed(1e-5, (0.3, -0.3))[1][:, ANATOMY]
+    whole = update_digits_once(1e-5, (0.3, -0.3))[1][:, ANATOMY]
     assert np.abs(whole).max() > 1e-4
     assert fifth == pytest.approx(0.2 * whole, rel=0.1, abs=1e-6)
 
@@ -115,7 +115,7 @@ def test_fingers_anatomy_learns_its_share_per_frame(monkeypatch: pytest.MonkeyPa
 def test_fingers_hidden_joint_sd_grows_to_its_range() -> None:
     pip, dip, tip = (HAND21.markers.index(name) for name in ("PIP3", "DIP3", "TIP3"))
     hidden_from = 30
-    frames, _ = frames_of(dict.fromkeys(range(hidden_from, 60), (pip, dip, tip)))
+    frames, _ = track_frames(dict.fromkeys(range(hidden_from, 60), (pip, dip, tip)))
     flexion = 5 + 3 + 2  # PIP3_flexion among the 17
     sd_deg = np.degrees([frame.kinematics.joint_angles_sd_rad[flexion] for frame in frames])
     before = sd_deg[hidden_from - 1]
@@ -127,7 +127,7 @@ def test_fingers_hidden_joint_sd_grows_to_its_range() -> None:
 
 
 def test_fingers_joint_centres_and_tips_match_the_truth() -> None:
-    frames, seen = frames_of({})
+    frames, seen = track_frames({})
     position = np.array([frame.kinematics.joint_position_m for frame in frames])
     off_mm = 1e3 * np.linalg.norm(position - seen.truth.joint_position_w0_m[: len(frames)], axis=-1)
     assert position.shape == (len(frames), len(HAND21.markers), 3)
@@ -141,7 +141,7 @@ def test_fingers_joint_centres_and_tips_match_the_truth() -> None:
 
 def test_fingers_lost_hand_has_no_joints_until_found() -> None:
     everything = tuple(range(len(HAND21.markers)))
-    frames, seen = frames_of(dict.fromkeys(range(20, 80), everything), count=100)
+    frames, seen = track_frames(dict.fromkeys(range(20, 80), everything), count=100)
     lost = [frame for frame in frames if frame.status is TrackStatus.LOST]
     assert lost
     assert np.isnan(lost[-1].kinematics.joint_angles_rad).all()
@@ -154,7 +154,7 @@ def test_fingers_lost_hand_has_no_joints_until_found() -> None:
 def test_fingers_long_gap_stays_within_limits() -> None:
     """The camera stood still for twelve seconds while the fingers closed: their rates are not carried over them."""
     still = sequence()
-    tracker = tracker_of(still)
+    tracker = build_tracker(still)
     times = still.truth.timestamp_s
     rate = np.abs(still.truth.joint_velocity_rad_s).max(axis=1)
     pause = int(np.argmax(rate))
@@ -168,6 +168,6 @@ def test_fingers_long_gap_stays_within_limits() -> None:
 
 def test_fingers_without_measurement_have_no_nis() -> None:
     everything = tuple(range(len(HAND21.markers)))
-    frames, _ = frames_of({40: everything, 41: everything}, 44)
+    frames, _ = track_frames({40: everything, 41: everything}, 44)
     assert [frame.status for frame in frames[40:42]] == [TrackStatus.PREDICTED] * 2
     assert [np.isfinite(frame.nis) for frame in frames[38:]] == [True, True, False, False, True, True]

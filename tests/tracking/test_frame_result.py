@@ -15,7 +15,7 @@ from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.tracker import OutputRowBuilder
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
-from tests.tracking.sequences import tracker_of
+from tests.tracking.sequences import build_tracker
 
 
 def test_row_unused_marker_is_doubted_until_reset() -> None:
@@ -46,7 +46,7 @@ def test_row_unused_marker_is_doubted_until_reset() -> None:
 
 def test_row_without_measurement_has_no_nis() -> None:
     sequence = measurement_sequence(RecordingSpec(seed=3, protocol="hand21", motion="rest", seconds=1.5))
-    tracker = tracker_of(sequence)
+    tracker = build_tracker(sequence)
     times_s = sequence.truth.timestamp_s
     some = tracker.step(0, float(times_s[0]), sequence.detections[0])
     none = tracker.step(1, float(times_s[1]), Detections.none())

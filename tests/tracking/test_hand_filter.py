@@ -21,12 +21,12 @@ from carpus.core.tracking.filter.soft_tissue import ZERO_SPEEDS, stationary_cova
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
-from tests.tracking.sequences import calibrated
+from tests.tracking.sequences import calibrate_sequence
 
 FOUND = FoundPalm(np.array([0.02, 0.01, -0.01]), np.eye(3), np.ones(6, dtype=bool))
 
 
-def updated(own: HandFilter, at_s: float, pose: Pose, hidden: tuple[int, ...] = ()) -> tuple[Posterior, Scan]:
+def update_filter(own: HandFilter, at_s: float, pose: Pose, hidden: tuple[int, ...] = ()) -> tuple[Posterior, Scan]:
     predicted = own.predict(DT_S)
     scan = own.build_scan(predicted, blobs(pose, hidden=hidden), at_s, DT_S)
     return own.update(predicted, scan), scan
@@ -71,7 +71,7 @@ def test_hand_filter_search_allows_for_the_skins_scatter(monkeypatch: pytest.Mon
 def test_hand_filter_collinear_discs_fade_the_rate_about_their_line() -> None:
     own = HandFilter(calibration(), CAMERA, TrackerSettings(use_surface=False))
     run(own, 10)
-    posterior, scan = updated(own, 10 * DT_S, swing(1, 40.0, 1.0)(10 * DT_S), (WRIST, CMC1, MCP2))
+    posterior, scan = update_filter(own, 10 * DT_S, swing(1, 40.0, 1.0)(10 * DT_S), (WRIST, CMC1, MCP2))
     assert np.count_nonzero(posterior.palm.assigned >= 0) == 3
     assert (posterior.palm.assigned[[MCP3, MCP4, MCP5]] >= 0).all()
     own.accept(posterior, scan, is_seen=True, is_linked=True)
@@ -105,7 +105,7 @@ def test_hand_filter_prediction_is_computed_once_per_time() -> None:
     assert own.predict(2.0 * DT_S) is not first
     assert np.trace(own.predict(5.0 * DT_S).nominal.covariance) > np.trace(first.nominal.covariance)
     again = own.predict(DT_S)
-    posterior, scan = updated(own, 1.0, swing(1, 40.0, 1.0)(10 * DT_S))
+    posterior, scan = update_filter(own, 1.0, swing(1, 40.0, 1.0)(10 * DT_S))
     own.accept(posterior, scan, is_seen=True, is_linked=True)
     assert own.predict(DT_S) is not again, "the state is another"
 
@@ -113,7 +113,7 @@ def test_hand_filter_prediction_is_computed_once_per_time() -> None:
 def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     """The filter of a hand with fingers, all known as calibrated, and the blobs of its first picture."""
     seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=1.0))
-    known = calibrated(seen)
+    known = calibrate_sequence(seen)
     corner = palm_calibration(known).marker_position_w0_m[:4]
     x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-0.02, 0.11, 0.0015), np.arange(-0.05, 0.05, 0.0015)))
     level = np.full(x.size, np.median(corner[:, 2]))

@@ -36,7 +36,7 @@ def estimate(pip_deg: float, sd_deg: float) -> ModeMixture:
     return ModeMixture(mean, covariance, np.ones((N_DIGITS, 1)))
 
 
-def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:
+def apply_to_angle(pip_deg: float, sd_deg: float) -> tuple[float, float]:
     """PIP and its standard deviation after the limits, degrees."""
     before = estimate(pip_deg, sd_deg)
     after = apply_soft_limits(before, before.mean[:, 0, :N_SLOTS])
@@ -56,7 +56,7 @@ def test_joint_limits_far_outside_act_as_a_measurement() -> None:
     limit, sd = 125.0, 10.0
     soft = math.degrees(LIMIT_SD_RAD)
     as_measurement = 175.0 + sd**2 / (sd**2 + soft**2) * (limit - 175.0)
-    angle, after_sd = pulled(175.0, sd)
+    angle, after_sd = apply_to_angle(175.0, sd)
     assert angle == pytest.approx(as_measurement, abs=2.5)
     assert angle > limit - 3.0
     assert after_sd < 0.5 * sd
@@ -64,13 +64,13 @@ def test_joint_limits_far_outside_act_as_a_measurement() -> None:
 
 def test_joint_limits_sure_angle_outside_stays_outside() -> None:
     """A hypermobile finger that is well seen is reported as it is."""
-    angle, _ = pulled(-25.0, 0.5)
+    angle, _ = apply_to_angle(-25.0, 0.5)
     assert -25.0 < angle < -24.0
 
 
 def test_joint_limits_unknown_angle_stays_within_range() -> None:
     low, high = (math.degrees(bound) for bound in HARD_LIMITS_RAD["PIP2_flexion"])
-    angle, sd = pulled(120.0, 40.0)
+    angle, sd = apply_to_angle(120.0, 40.0)
     assert low + sd < angle < high - 0.5 * sd
     assert 10.0 < sd < (high - low) / math.sqrt(12.0)
 
@@ -81,7 +81,7 @@ def test_joint_limits_moments_match_sampling() -> None:
     mean, sd, limit, soft = 120.0, 12.0, 125.0, math.degrees(LIMIT_SD_RAD)
     sample = rng.normal(mean, sd, 1_000_000)
     kept = sample[sample < limit + rng.normal(0.0, soft, sample.size)]
-    angle, after_sd = pulled(mean, sd)
+    angle, after_sd = apply_to_angle(mean, sd)
     assert angle == pytest.approx(float(kept.mean()), abs=0.1)
     assert after_sd == pytest.approx(float(kept.std()), rel=0.02)
 
@@ -124,9 +124,9 @@ def test_range_sd_is_that_of_a_uniform_angle() -> None:
 @pytest.mark.parametrize("pip_deg", [112.0, 118.0])
 def test_joint_limits_act_within_three_sd(pip_deg: float) -> None:
     """125 degrees less 3 times 5 and the step of 3."""
-    angle, _ = pulled(pip_deg, 5.0)
+    angle, _ = apply_to_angle(pip_deg, 5.0)
     assert angle < pip_deg
-    assert pulled(104.0, 5.0)[0] == pytest.approx(104.0, abs=1e-9)
+    assert apply_to_angle(104.0, 5.0)[0] == pytest.approx(104.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])

@@ -94,7 +94,7 @@ def test_knuckle_flexion_variance_counts_correlated_frames(monkeypatch: pytest.M
     assert single.variance_rad2[INDEX] < least_sd_rad**2
 
 
-def covered(at: float, off_m: float) -> SurfaceSamples:
+def cover_readings(at: float, off_m: float) -> SurfaceSamples:
     """A finger bent by 50 degrees, its end beyond a share of its length read ``off_m`` too far."""
     bare = readings(50.0)
     in_w = (CAMERA.backproject(bare.pixel, np.full(len(bare.pixel), MIDDLE_M[2])) - MIDDLE_M) @ FROM_ABOVE
@@ -104,6 +104,6 @@ def covered(at: float, off_m: float) -> SurfaceSamples:
 
 
 def test_knuckle_flexion_free_space_excludes_a_finger() -> None:
-    past, before = (bends(covered(0.75, off_m)) for off_m in (0.03, -0.03))
+    past, before = (bends(cover_readings(0.75, off_m)) for off_m in (0.03, -0.03))
     assert math.degrees(past.value_rad[INDEX]) > 70.0, "so it is bent out of the way"
     assert not before.is_any

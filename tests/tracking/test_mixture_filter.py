@@ -216,7 +216,7 @@ class LinearTrajectory:
         return now[0] + correction, covariance
 
 
-def estimates_of(trajectory: LinearTrajectory) -> dict[int, tuple[FloatArray, FloatArray]]:
+def smooth_trajectory(trajectory: LinearTrajectory) -> dict[int, tuple[FloatArray, FloatArray]]:
     found = {frame: estimate for frame, estimate in smooth_backwards(trajectory) if estimate is not None}
     assert len(found) == len(trajectory)
     return found
@@ -238,7 +238,7 @@ def test_smoother_equals_batch_least_squares() -> None:
         mixture = update_mixture(mixture, linearised, seen[None, k], r[None]).mixture
         filtered.append(mixture)
     trajectory = LinearTrajectory(filtered, forward, noise, [0.1] * (steps - 1) + [None])
-    found = estimates_of(trajectory)
+    found = smooth_trajectory(trajectory)
     smoothed, covariance = [found[k][0][0] for k in range(steps)], found[0][1][0]
     information = np.zeros((steps * n, steps * n))
     vector = np.zeros(steps * n)
@@ -256,7 +256,7 @@ def test_smoother_equals_batch_least_squares() -> None:
     assert np.allclose(smoothed, batch, atol=1e-8)
     assert np.allclose(covariance, np.linalg.inv(information)[:n, :n], atol=1e-8)
 
-    apart = estimates_of(LinearTrajectory(filtered, forward, noise, [0.1, None, 0.1, 0.0, 0.1, None]))
+    apart = smooth_trajectory(LinearTrajectory(filtered, forward, noise, [0.1, None, 0.1, 0.0, 0.1, None]))
     assert np.array_equal(apart[1][0], filtered[1].mean[:, 0]), "begun anew after it"
     assert apart[3] is apart[4], "of one moment there is one estimate"
     assert not np.allclose(apart[0][0], smoothed[0]), "what came after the break says nothing"

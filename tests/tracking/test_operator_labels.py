@@ -22,7 +22,7 @@ def spots(*place_px: tuple[float, float]) -> Detections:
     return Detections(np.reshape(np.array(place_px), (count, 2)), *(np.ones(count),) * 4)
 
 
-def shown(
+def apply_frame(
     hints: OperatorLabels, index: int, time_s: float, seen: Detections, at: FloatArray = EXPECTED_PX
 ) -> LabelledDetections:
     return hints.apply_labels(index, time_s, seen, lambda: at)
@@ -30,41 +30,41 @@ def shown(
 
 def test_operator_label_blob_is_followed_to_the_next_frame() -> None:
     hints = OperatorLabels(MARKERS)
-    shown(hints, 0, 0.0, spots((50.0, 50.0), (199.0, 100.0)))
+    apply_frame(hints, 0, 0.0, spots((50.0, 50.0), (199.0, 100.0)))
     hints.add(MarkerLabel(0, "MCP3", (200.0, 101.0)))
-    heard = shown(hints, 1, 0.1, spots((203.0, 104.0), (50.0, 50.0)))
+    heard = apply_frame(hints, 1, 0.1, spots((203.0, 104.0), (50.0, 50.0)))
     assert heard.labelled is not None
     assert (heard.labelled.marker, heard.labelled.blob, heard.labelled.label.frame_index) == (1, 0, 1)
     assert heard.labelled.label.pixel == (203.0, 104.0)
     assert hints.pop_applied() == [], "by the tracker, if it follows the hand"
     hints.mark_applied(heard.labelled)
     assert [one.marker for one in hints.pop_applied()] == ["MCP3"]
-    assert shown(hints, 2, 0.2, spots((203.0, 104.0))).labelled is None
+    assert apply_frame(hints, 2, 0.2, spots((203.0, 104.0))).labelled is None
 
 
 @pytest.mark.parametrize(("after_s", "is_heard"), [(0.9, True), (1.1, False)])
 def test_operator_label_waits_for_its_blob_until_timeout(after_s: float, is_heard: bool) -> None:
     hints = OperatorLabels(MARKERS)
-    shown(hints, 0, 0.0, spots((200.0, 100.0)))
+    apply_frame(hints, 0, 0.0, spots((200.0, 100.0)))
     hints.add(MarkerLabel(0, "MCP3", (200.0, 100.0)))
     hints.add(MarkerLabel(0, "NOBODY", (200.0, 100.0)))
     later_s = after_s * LABEL_TIMEOUT_S
     for index, at_s in ((1, 0.0), (2, later_s)):
-        assert shown(hints, index, at_s, spots((20.0, 20.0))).labelled is None
-    assert (shown(hints, 3, later_s, spots((200.0, 100.0))).labelled is not None) == is_heard
+        assert apply_frame(hints, index, at_s, spots((20.0, 20.0))).labelled is None
+    assert (apply_frame(hints, 3, later_s, spots((200.0, 100.0))).labelled is not None) == is_heard
 
 
 @pytest.mark.parametrize(("after_s", "is_out"), [(0.99, True), (1.01, False)])
 def test_rejected_blob_stays_excluded_for_its_time(after_s: float, is_out: bool) -> None:
     hints = OperatorLabels(MARKERS)
     both = spots((200.0, 100.0), (230.0, 100.0))
-    shown(hints, 0, 0.0, both)
+    apply_frame(hints, 0, 0.0, both)
     hints.add(MarkerLabel(0, "MCP3", None, ((230.0, 100.0),)))
-    first = shown(hints, 1, 0.0, both)
+    first = apply_frame(hints, 1, 0.0, both)
     assert first.is_rejected.tolist() == [False, True]
     assert first.detections.pixel.tolist() == [[200.0, 100.0]]
     assert len(hints.pop_applied()) == 1
-    assert shown(hints, 2, after_s * REJECTION_VALID_S, both).is_rejected.tolist() == [False, is_out]
+    assert apply_frame(hints, 2, after_s * REJECTION_VALID_S, both).is_rejected.tolist() == [False, is_out]
 
 
 def test_rejected_blob_yields_to_a_measured_marker() -> None:
@@ -73,21 +73,21 @@ def test_rejected_blob_yields_to_a_measured_marker() -> None:
         hints = OperatorLabels(MARKERS)
         near = EXPECTED_PX[0] + [10.0, 0.0]
         seen = spots((float(near[0]), float(near[1])))
-        shown(hints, 0, 0.0, seen)
+        apply_frame(hints, 0, 0.0, seen)
         hints.add(MarkerLabel(0, "MCP3", None, ((float(near[0]), float(near[1])),)))
-        assert shown(hints, 1, 0.1, seen).is_rejected.all()
+        assert apply_frame(hints, 1, 0.1, seen).is_rejected.all()
         hints.follow(EXPECTED_PX if is_held else np.full((2, 2), np.nan))
         back = EXPECTED_PX[0] + [4.0, 0.0]
-        found = shown(hints, 2, 0.2, spots((float(back[0]), float(back[1]))))
+        found = apply_frame(hints, 2, 0.2, spots((float(back[0]), float(back[1]))))
         assert found.is_rejected.tolist() == [not is_held]
 
 
 def test_rejected_blob_of_a_lost_hand_is_found_by_position() -> None:
     hints, nowhere = OperatorLabels(MARKERS), np.full((2, 2), np.nan)
     seen = spots((230.0, 100.0))
-    shown(hints, 0, 0.0, seen, nowhere)
+    apply_frame(hints, 0, 0.0, seen, nowhere)
     hints.add(MarkerLabel(0, "MCP3", None, ((230.0, 100.0),)))
-    assert shown(hints, 1, 0.1, seen, nowhere).is_rejected.all()
-    assert len(shown(hints, 2, 0.2, spots(), nowhere).is_rejected) == 0
-    assert shown(hints, 3, 0.3, spots((236.0, 100.0)), nowhere).is_rejected.all()
-    assert not shown(hints, 4, 0.4, spots((300.0, 100.0)), nowhere).is_rejected.any()
+    assert apply_frame(hints, 1, 0.1, seen, nowhere).is_rejected.all()
+    assert len(apply_frame(hints, 2, 0.2, spots(), nowhere).is_rejected) == 0
+    assert apply_frame(hints, 3, 0.3, spots((236.0, 100.0)), nowhere).is_rejected.all()
+    assert not apply_frame(hints, 4, 0.4, spots((300.0, 100.0)), nowhere).is_rejected.any()

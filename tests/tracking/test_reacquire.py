@@ -25,9 +25,9 @@ from tests.tracking.hands import (
     WRIST,
     Pose,
     blobs,
+    build_rotation,
+    combine_motions,
     palm,
-    rotation_of,
-    together,
 )
 
 ANYHOW = TurnLimits(np.eye(3), np.pi, np.pi)
@@ -47,7 +47,7 @@ def clutter(rng: np.random.Generator, count: int) -> list[tuple[float, float]]:
     return [(float(rng.uniform(20, 620)), float(rng.uniform(20, 460))) for _ in range(count)]
 
 
-def looked_for(seen: Detections, side: Side = "right", about: TurnLimits = ANYHOW) -> FoundPalm | None:
+def search_palm(seen: Detections, side: Side = "right", about: TurnLimits = ANYHOW) -> FoundPalm | None:
     """What is found among blobs of a palm of which nothing else is known."""
     return find_palm(seen, view(side), STRAYS, about)
 
@@ -57,10 +57,10 @@ def looked_for(seen: Detections, side: Side = "right", about: TurnLimits = ANYHO
 def test_find_palm_among_shuffled_blobs_and_clutter(side: Side, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pose = some_pose(rng)
-    found = looked_for(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), side)
+    found = search_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), side)
     assert found is not None
     position, rotation = found.position_m, found.rotation_w2_w0
-    true = rotation_of(*pose.angles_deg, side=side)
+    true = build_rotation(*pose.angles_deg, side=side)
     discs, there = palm(side) @ rotation.T + position, palm(side) @ true.T + pose.position_m
     assert np.linalg.norm(discs - there, axis=1).max() < 0.004
     assert found.count == 6
@@ -73,11 +73,11 @@ def test_find_palm_four_or_five_markers_are_enough(side: Side, hidden: tuple[int
     found_right = 0
     for _ in range(10):
         pose = some_pose(rng)
-        found = looked_for(blobs(pose, rng, side=side, hidden=hidden), side)
+        found = search_palm(blobs(pose, rng, side=side, hidden=hidden), side)
         if found is None:
             continue  # two poses explain the four discs: then none is taken
         assert found.count >= 6 - len(hidden)
-        there = palm(side) @ rotation_of(*pose.angles_deg, side=side).T + pose.position_m
+        there = palm(side) @ build_rotation(*pose.angles_deg, side=side).T + pose.position_m
         shown = np.setdiff1d(np.arange(6), hidden)
         discs = palm(side) @ found.rotation_w2_w0.T + found.position_m
         assert np.linalg.norm((discs - there)[shown], axis=1).max() < 0.006
@@ -90,16 +90,16 @@ def test_find_palm_three_markers_are_not_enough(side: Side) -> None:
     rng = np.random.default_rng(30)
     for _ in range(20):
         hidden = rng.choice(6, 3, replace=False)
-        assert looked_for(blobs(some_pose(rng), rng, side=side, hidden=hidden), side) is None
+        assert search_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), side) is None
 
 
 def test_find_palm_four_ill_fitting_blobs_give_none(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each lies within millimetres of its place, but across the finger no skin glides so far."""
     four = blobs(Pose(), hidden=(CMC1, MCP5))
-    assert looked_for(four) is not None
+    assert search_palm(four) is not None
     pixel = four.pixel.copy()
     pixel[2, 0] += 525.0 * 0.005 / four.depth_m[2]  # MCP3
-    found = looked_for(replace(four, pixel=pixel))
+    found = search_palm(replace(four, pixel=pixel))
     assert found is None
     monkeypatch.setattr(reacquire, "MISFIT_PROBABILITY", 1.0 - 1e-12)
     assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW) is not None
@@ -109,7 +109,7 @@ def test_find_palm_three_markers_and_far_clutter_give_none() -> None:
     rng = np.random.default_rng(31)
     for _ in range(20):
         seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
-        assert looked_for(seen) is None
+        assert search_palm(seen) is None
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -120,7 +120,7 @@ def test_find_palm_other_hand_gives_none(side: Side) -> None:
     refused = 0
     for _ in range(20):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
-        found = looked_for(blobs(pose, rng, side=other), side)
+        found = search_palm(blobs(pose, rng, side=other), side)
         refused += found is None
     assert refused == 20
 
@@ -132,7 +132,7 @@ def test_find_palm_five_markers_of_the_other_hand_give_none(side: Side, hidden: 
     rng = np.random.default_rng(45)
     for _ in range(8):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
-        assert looked_for(blobs(pose, rng, side=other, hidden=[hidden]), side) is None
+        assert search_palm(blobs(pose, rng, side=other, hidden=[hidden]), side) is None
 
 
 @pytest.mark.parametrize("hidden", [(), (WRIST,), (MCP5,)])
@@ -155,7 +155,7 @@ def test_find_palm_other_hand_in_view_is_no_obstacle() -> None:
     rng = np.random.default_rng(47)
     own = blobs(Pose(), rng, hidden=(CMC1,))
     other = blobs(Pose(position_m=np.array([0.0, 0.2, 0.0])), rng, side="left")
-    found = looked_for(together(own, other))
+    found = search_palm(combine_motions(own, other))
     assert found is not None
     assert np.linalg.norm(found.position_m) < 0.004
 
@@ -180,16 +180,16 @@ def test_find_palm_four_markers_are_labelled_right_or_not_at_all() -> None:
 @pytest.mark.parametrize(("turned_deg", "is_one"), [(60.0, True), (106.0, True), (112.0, False), (170.0, False)])
 def test_find_palm_beyond_turn_limits_gives_none(turned_deg: float, is_one: bool) -> None:
     turned, most_rad = blobs(Pose(np.array([turned_deg, 0.0, 0.0]))), MAX_TURN_RAD
-    assert looked_for(turned) is not None
-    assert (looked_for(turned, about=TurnLimits(np.eye(3), most_rad, most_rad)) is not None) == is_one
+    assert search_palm(turned) is not None
+    assert (search_palm(turned, about=TurnLimits(np.eye(3), most_rad, most_rad)) is not None) == is_one
 
 
 def test_find_palm_all_markers_override_the_predicted_turn() -> None:
     turned = Pose(np.array([0.0, 60.0, 0.0]))
     about = TurnLimits(np.eye(3), 0.5, 1.9)
-    assert looked_for(blobs(turned), about=about) is not None
-    assert looked_for(blobs(turned, hidden=[WRIST]), about=about) is None
-    assert looked_for(blobs(turned, hidden=[WRIST])) is not None
+    assert search_palm(blobs(turned), about=about) is not None
+    assert search_palm(blobs(turned, hidden=[WRIST]), about=about) is None
+    assert search_palm(blobs(turned, hidden=[WRIST])) is not None
 
 
 def test_find_palm_palmar_side_gives_none() -> None:
@@ -197,19 +197,19 @@ def test_find_palm_palmar_side_gives_none() -> None:
     rng = np.random.default_rng(41)
     for _ in range(10):
         pose = Pose(np.array([rng.uniform(-40, 40), 0.0, 180.0]))
-        assert looked_for(blobs(pose, rng)) is None
+        assert search_palm(blobs(pose, rng)) is None
 
 
 def test_find_palm_without_depth_gives_none() -> None:
-    assert looked_for(blobs(Pose(), np.random.default_rng(1), with_depth=False)) is None
-    assert looked_for(Detections.none()) is None
+    assert search_palm(blobs(Pose(), np.random.default_rng(1), with_depth=False)) is None
+    assert search_palm(Detections.none()) is None
 
 
 def test_find_palm_two_palms_give_none() -> None:
     """Two equal constellations far apart: neither is taken."""
     one, other = blobs(Pose()), blobs(Pose(position_m=np.array([0.0, 0.12, 0.0])))
-    assert looked_for(together(one, other)) is None
-    assert looked_for(one) is not None
+    assert search_palm(combine_motions(one, other)) is None
+    assert search_palm(one) is not None
 
 
 def test_find_palm_many_blobs_searches_the_most_similar() -> None:
@@ -218,7 +218,7 @@ def test_find_palm_many_blobs_searches_the_most_similar() -> None:
     likeness = np.where(
         np.linalg.norm(seen.pixel[:, None] - blobs(Pose()).pixel[None], axis=-1).min(axis=1) < 1.0, 0.95, 0.6
     )
-    found = looked_for(replace(seen, similarity=likeness))
+    found = search_palm(replace(seen, similarity=likeness))
     assert found is not None
     assert found.count == 6
 
@@ -231,10 +231,10 @@ def test_found_palm_covariance_covers_its_error(hidden: tuple[int, ...]) -> None
     squared = []
     for _ in range(60):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * 15.0)
-        found = looked_for(blobs(pose, rng, hidden=hidden))
+        found = search_palm(blobs(pose, rng, hidden=hidden))
         if found is None:
             continue
-        true = rotation_of(*pose.angles_deg)
+        true = build_rotation(*pose.angles_deg)
         error = np.concatenate((pose.position_m - found.position_m, so3.log(found.rotation_w2_w0.T @ true)))
         covariance = found.pose_covariance(palm("right"))
         assert np.linalg.eigvalsh(covariance)[0] > 0.0
@@ -245,8 +245,8 @@ def test_found_palm_covariance_covers_its_error(hidden: tuple[int, ...]) -> None
 
 
 def test_found_palm_knuckles_leave_turn_about_their_line_open() -> None:
-    knuckles = looked_for(blobs(Pose(), hidden=(0, 1)))
-    whole = looked_for(blobs(Pose()))
+    knuckles = search_palm(blobs(Pose(), hidden=(0, 1)))
+    whole = search_palm(blobs(Pose()))
     assert knuckles is not None
     assert whole is not None
     about_y = [np.sqrt(f.pose_covariance(palm("right"))[4, 4]) for f in (knuckles, whole)]

@@ -43,7 +43,7 @@ def height_m(x: FloatArray, y: FloatArray) -> FloatArray:
     return 0.02 * x - 6.0 * y**2 - 0.5 * (x - 0.04) ** 2
 
 
-def place_on(rotation: FloatArray, position: FloatArray) -> SurfaceSamples:
+def get_surface_point(rotation: FloatArray, position: FloatArray) -> SurfaceSamples:
     """Readings of that surface at a pose, on a lattice of pixels: each ray meets it once."""
     u, v = np.meshgrid(np.arange(250.0, 400.0, 2.0), np.arange(150.0, 330.0, 2.0))
     pixel = np.stack((u.ravel(), v.ravel()), axis=1)
@@ -68,25 +68,25 @@ def surface() -> DorsalSurface:
     return found
 
 
-def estimate_at(rotation: FloatArray, position: FloatArray) -> PalmEstimate:
+def build_estimate(rotation: FloatArray, position: FloatArray) -> PalmEstimate:
     value = np.zeros(SIZE)
     value[POSITION] = position
     return PalmEstimate(rotation, value, np.eye(SIZE))
 
 
-def thinned(samples: SurfaceSamples, most: int = 800) -> SurfaceSamples:
+def thin_readings(samples: SurfaceSamples, most: int = 800) -> SurfaceSamples:
     """As many readings as a picture gives, from all over the surface."""
     kept = np.random.default_rng(0).permutation(len(samples.depth_m))[:most]
     return SurfaceSamples(samples.pixel[kept], samples.depth_m[kept])
 
 
-HERE = estimate_at(np.eye(3), np.zeros(3))
-ALL_READINGS = place_on(np.eye(3), np.zeros(3))
-READINGS = thinned(ALL_READINGS)
+HERE = build_estimate(np.eye(3), np.zeros(3))
+ALL_READINGS = get_surface_point(np.eye(3), np.zeros(3))
+READINGS = thin_readings(ALL_READINGS)
 """Of the surface where it is believed to be."""
 
 
-def measured(
+def measure_readings(
     surface: DorsalSurface,
     samples: SurfaceSamples = READINGS,
     settings: SurfaceSettings | None = None,
@@ -98,10 +98,10 @@ def measured(
     return found
 
 
-def fitted(surface: DorsalSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
+def fit_readings(surface: DorsalSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
     """From a pose 3 degrees and a millimetre off."""
-    off = estimate_at(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
-    return measured(surface, samples, settings, off)
+    off = build_estimate(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
+    return measure_readings(surface, samples, settings, off)
 
 
 @pytest.mark.parametrize("seed", few(range(5), 2))
@@ -109,11 +109,11 @@ def test_surface_fit_wrong_pose_measures_its_error(surface: DorsalSurface, seed:
     rng = np.random.default_rng(seed)
     rotation, position = so3.exp(rng.normal(0.0, 0.15, 3)), rng.normal(0.0, 0.01, 3)
     turn, shift = rng.normal(0.0, 0.03, 3) * [1.0, 1.0, 0.3], rng.normal(0.0, 0.001, 3)
-    believed = estimate_at(rotation @ so3.exp(turn), position + shift)
-    found = measured(surface, place_on(rotation, position), believed=believed)
+    believed = build_estimate(rotation @ so3.exp(turn), position + shift)
+    found = measure_readings(surface, get_surface_point(rotation, position), believed=believed)
     for part in (SURFACE, RELIEF):
         assert np.array_equal(found.slope[:, part], np.eye(3)), "what calibration was wrong by, or relief has changed"
-    error = believed.compute_error(estimate_at(rotation, position))
+    error = believed.compute_error(build_estimate(rotation, position))
     assert found.value == pytest.approx(found.slope @ error, abs=6e-4)
     assert abs(found.value[0]) > 1e-3 or abs(turn[0]) < 2e-3
 
@@ -129,13 +129,13 @@ def test_surface_fit_lasting_deformation_does_not_keep_turning_the_hand(surface:
     """Ten seconds of a back of the hand 1.2 degrees off its calibrated shape: pose and relief share what was seen as
     their prior uncertainties say, once."""
     off_rad, turn_sd, relief_sd = sign * np.radians(1.2), 0.004, 0.012
-    seen = thinned(place_on(so3.exp(np.array([0.0, off_rad, 0.0])), np.zeros(3)))
-    estimate = estimate_at(np.eye(3), np.zeros(3))
+    seen = thin_readings(get_surface_point(so3.exp(np.array([0.0, off_rad, 0.0])), np.zeros(3)))
+    estimate = build_estimate(np.eye(3), np.zeros(3))
     covariance = 1e-10 * np.eye(SIZE)
     covariance[TURN, TURN], covariance[RELIEF, RELIEF] = turn_sd**2 * np.eye(3), relief_sd**2 * np.eye(3)
     mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), covariance[None], 2)
     for _ in range(300):
-        found = measured(surface, seen, believed=estimate)
+        found = measure_readings(surface, seen, believed=estimate)
         estimate, mixture = reset_error(estimate, update_by_surface(mixture, found).mixture)
     turned, relief = so3.log(estimate.rotation_w2_w0)[1], estimate.value[RELIEF][1]
     assert turned + relief == pytest.approx(off_rad, rel=0.02)
@@ -145,7 +145,7 @@ def test_surface_fit_lasting_deformation_does_not_keep_turning_the_hand(surface:
 def test_surface_calibration_covariance_is_a_share_of_one_frames(surface: DorsalSurface) -> None:
     settings = SurfaceSettings()
     found = surface_calibration_covariance(surface, VIEW, settings)
-    one = fitted(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
+    one = fit_readings(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
     ratio = np.diag(found) / (np.diag(one.covariance) / settings.goes_on)
     assert (ratio < 2.0 * settings.stays**2).all()
     assert (ratio > 0.5 * settings.stays**2).all()
@@ -166,7 +166,7 @@ def test_surface_fit_depth_noise_scatters_as_stated(surface: DorsalSurface, shar
             noise = cv2.blur(noise, (9, 9)) * 9.0
         column, row = np.round(READINGS.pixel).astype(int).T
         noisy = SurfaceSamples(READINGS.pixel, READINGS.depth_m + sd_m * noise[row, column])
-        one = measured(surface, noisy, settings)
+        one = measure_readings(surface, noisy, settings)
         found.append(one.value)
         stated.append(np.sqrt(np.diag(one.covariance)))
     assert np.std(found, axis=0) == pytest.approx(np.mean(stated, axis=0), rel=0.25)
@@ -175,24 +175,24 @@ def test_surface_fit_depth_noise_scatters_as_stated(surface: DorsalSurface, shar
 def test_surface_fit_covariance_follows_the_sensor(surface: DorsalSurface) -> None:
     """Errors alike over 80 pixels tilt all of it; those of a wide window average less than those of a narrow one."""
 
-    def stated(sensor: DepthSensor) -> FloatArray:
+    def get_stated_sd(sensor: DepthSensor) -> FloatArray:
         view = replace(VIEW, camera=replace(VIEW.camera, sensor=sensor))
-        found = measured(surface, settings=SurfaceSettings(turn_sd_rad=0.0, up_sd_m=0.0), view=view)
+        found = measure_readings(surface, settings=SurfaceSettings(turn_sd_rad=0.0, up_sd_m=0.0), view=view)
         return np.sqrt(np.diag(found.covariance))
 
     depth_m = float(np.median(READINGS.depth_m))
     stays_m = float(AZURE_KINECT.bias_sd_m(np.array(depth_m)))
     even = replace(AZURE_KINECT, stays_px=0.0)
     tilt_rad = stays_m / (80.0 * depth_m / VIEW.camera.fx_px)
-    assert stated(AZURE_KINECT) == pytest.approx(np.hypot(stated(even), [tilt_rad, tilt_rad, stays_m]))
-    assert (stated(replace(even, patch_px=11.0)) > 1.5 * stated(even)).all()
-    assert (stated(D435) > 1.2 * stated(PRIMESENSE)).all()
+    assert get_stated_sd(AZURE_KINECT) == pytest.approx(np.hypot(get_stated_sd(even), [tilt_rad, tilt_rad, stays_m]))
+    assert (get_stated_sd(replace(even, patch_px=11.0)) > 1.5 * get_stated_sd(even)).all()
+    assert (get_stated_sd(D435) > 1.2 * get_stated_sd(PRIMESENSE)).all()
 
 
 def test_surface_fit_finger_over_the_hand_does_not_tilt_it(surface: DorsalSurface) -> None:
     column = ALL_READINGS.pixel[:, 0]
     depth = np.where((column > 300) & (column < 315), ALL_READINGS.depth_m - 0.03, ALL_READINGS.depth_m)
-    found = measured(surface, SurfaceSamples(ALL_READINGS.pixel, depth))
+    found = measure_readings(surface, SurfaceSamples(ALL_READINGS.pixel, depth))
     assert np.abs(np.degrees(found.value[:2])).max() < 0.3
 
 
@@ -207,25 +207,27 @@ def test_surface_fit_far_readings_have_no_weight_near_ones_less(
 ) -> None:
     clean, settings = READINGS, SurfaceSettings()
     one_side = clean.pixel[:, 1] > np.quantile(clean.pixel[:, 1], 0.85)
-    without = fitted(surface, SurfaceSamples(clean.pixel[~one_side], clean.depth_m[~one_side]), settings)
-    far = fitted(surface, SurfaceSamples(clean.pixel, clean.depth_m - 0.03 * one_side), settings)
+    without = fit_readings(surface, SurfaceSamples(clean.pixel[~one_side], clean.depth_m[~one_side]), settings)
+    far = fit_readings(surface, SurfaceSamples(clean.pixel, clean.depth_m - 0.03 * one_side), settings)
     assert far.count == without.count
     assert far.value == pytest.approx(without.value, abs=1e-9)
-    whole = fitted(surface, clean, settings).value
+    whole = fit_readings(surface, clean, settings).value
     near = SurfaceSamples(clean.pixel, clean.depth_m - 0.006 * one_side)
-    robust, plain = (fitted(surface, near, replace(settings, huber_m=at_m)).value for at_m in (settings.huber_m, 1.0))
+    robust, plain = (
+        fit_readings(surface, near, replace(settings, huber_m=at_m)).value for at_m in (settings.huber_m, 1.0)
+    )
     assert np.abs(robust - whole).max() < 0.8 * np.abs(plain - whole).max()
 
 
 def test_surface_fit_gauss_newton_converges_above_the_floor(surface: DorsalSurface) -> None:
     clean, settings = READINGS, SurfaceSettings()
-    found, further = fitted(surface, clean, settings), fitted(surface, clean, replace(settings, steps=8))
+    found, further = fit_readings(surface, clean, settings), fit_readings(surface, clean, replace(settings, steps=8))
     assert found.value == pytest.approx(further.value, abs=5e-5)
     bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0)
-    floor = found.covariance - fitted(surface, clean, bare).covariance
+    floor = found.covariance - fit_readings(surface, clean, bare).covariance
     assert floor == pytest.approx(np.diag([0.004**2, 0.004**2, 0.0002**2]), abs=1e-12)
     wide, wider = (replace(bare, reading_per_m=per_m) for per_m in (0.02, 0.04))
-    ratio = fitted(surface, clean, wider).covariance / fitted(surface, clean, wide).covariance
+    ratio = fit_readings(surface, clean, wider).covariance / fit_readings(surface, clean, wide).covariance
     assert ratio == pytest.approx(4.0), "readings that agree are no surer than readings are"
 
 
@@ -243,7 +245,7 @@ def test_surface_fit_too_few_readings_gives_none(surface: DorsalSurface) -> None
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
 def test_surface_update_beyond_max_nis_is_left_out(surface: DorsalSurface, off_sd: float, heard: bool) -> None:
     """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
-    found = measured(surface)
+    found = measure_readings(surface)
     covariance = 1e-12 * np.eye(SIZE)
     covariance[TURN, TURN] = 0.01**2 * np.eye(3)
     expected = np.linalg.inv(found.slope @ covariance @ found.slope.T + found.covariance)

@@ -31,29 +31,29 @@ def manager(*, amid_digits: bool = False) -> TrackManager:
     return out
 
 
-def found(count: int, turned_rad: float = 0.0) -> FoundPalm:
+def build_found(count: int, turned_rad: float = 0.0) -> FoundPalm:
     return FoundPalm(np.zeros(3), so3.exp(np.array([turned_rad, 0.0, 0.0])), np.arange(6) < count)
 
 
-def seen(track: TrackManager, at_s: float, count: int, *, fits: bool = True) -> TrackStatus:
+def update_track(track: TrackManager, at_s: float, count: int, *, fits: bool = True) -> TrackStatus:
     track.start_frame(at_s)
     return track.update_status(at_s, count, is_consistent=fits)
 
 
 def test_track_hidden_hand_coasts_then_is_deleted() -> None:
     track = manager()
-    assert seen(track, 0.0, 6) is TrackStatus.TRACKED
-    assert seen(track, 0.1, MIN_PALM_MARKERS) is TrackStatus.TRACKED
-    assert seen(track, 0.1 + LOST_AFTER_S, MIN_PALM_MARKERS - 1) is TrackStatus.PREDICTED
+    assert update_track(track, 0.0, 6) is TrackStatus.TRACKED
+    assert update_track(track, 0.1, MIN_PALM_MARKERS) is TrackStatus.TRACKED
+    assert update_track(track, 0.1 + LOST_AFTER_S, MIN_PALM_MARKERS - 1) is TrackStatus.PREDICTED
     assert track.stage is TrackStage.COASTED
-    assert seen(track, 0.2 + LOST_AFTER_S, 0) is TrackStatus.LOST
-    assert seen(manager(), 9.0, 0) is TrackStatus.PREDICTED, "the time runs from when it began"
+    assert update_track(track, 0.2 + LOST_AFTER_S, 0) is TrackStatus.LOST
+    assert update_track(manager(), 9.0, 0) is TrackStatus.PREDICTED, "the time runs from when it began"
 
 
 def test_track_without_frames_times_out() -> None:
     track = manager()
     assert not track.is_timed_out(99.0), "before the first frame there is nothing to be late for"
-    seen(track, 2.0, 6)
+    update_track(track, 2.0, 6)
     assert not track.is_timed_out(2.0 + LOST_AFTER_S)
     assert track.is_timed_out(2.01 + LOST_AFTER_S)
     assert track.time_step_s(2.5) == 0.5
@@ -70,36 +70,36 @@ def test_track_found_by_fewest_markers_is_tentative(count: int, stage: TrackStag
     track = manager()
     track.drop_track(1.0)
     assert track.is_lost
-    assert track.try_initiate(found(count), 1.1)
+    assert track.try_initiate(build_found(count), 1.1)
     assert track.stage is stage
     assert track.is_reacquisition_due(5, 0, 0.0) == (stage is TrackStage.TENTATIVE)
     assert track.turn_limits(np.eye(3), 1.1).max_rad == (
         MAX_TURN_RAD if stage is TrackStage.TENTATIVE else pytest.approx(TURN_SLACK_RAD)
     )
-    seen(track, 1.2, 5, fits=False)
+    update_track(track, 1.2, 5, fits=False)
     assert track.stage is stage
-    seen(track, 1.3, 4)
+    update_track(track, 1.3, 4)
     assert track.stage is stage
-    seen(track, 1.4, 5)
+    update_track(track, 1.4, 5)
     assert track.stage is TrackStage.CONFIRMED
 
 
 def test_track_unconfirmed_or_few_markers_is_uncertain() -> None:
     track = manager()
-    seen(track, 0.0, 6)
+    update_track(track, 0.0, 6)
     assert not track.is_uncertain(MIN_PALM_MARKERS + 1, VAGUE_SD_RAD)
     assert track.is_uncertain(MIN_PALM_MARKERS, 0.0)
     assert track.is_uncertain(6, VAGUE_SD_RAD + 0.01)
-    seen(track, 0.1, 0)
+    update_track(track, 0.1, 0)
     assert track.is_uncertain(6, 0.0)
-    seen(track, 0.2, 6)
+    update_track(track, 0.2, 6)
     assert not track.is_uncertain(6, 0.0)
 
 
 def test_track_reacquired_is_refuted_within_probation_only() -> None:
     track = manager()
     track.drop_track(1.0)
-    track.try_initiate(found(6), 1.1)
+    track.try_initiate(build_found(6), 1.1)
     least = MIN_PALM_MARKERS
     assert track.is_refuted(least, 1.1)
     assert not track.is_refuted(least + 1, 1.1)
@@ -109,27 +109,27 @@ def test_track_reacquired_is_refuted_within_probation_only() -> None:
 
 
 def test_track_four_markers_among_fingers_need_confirmation() -> None:
-    assert manager().try_initiate(found(4), 0.0)
-    assert manager(amid_digits=True).try_initiate(found(5), 0.0)
+    assert manager().try_initiate(build_found(4), 0.0)
+    assert manager(amid_digits=True).try_initiate(build_found(5), 0.0)
     step_s = 0.4 * CONFIRMATION_S
 
-    def begun(*turned_rad: float, counts: tuple[int, ...] = (4, 4, 4, 4)) -> list[bool]:
+    def start_track(*turned_rad: float, counts: tuple[int, ...] = (4, 4, 4, 4)) -> list[bool]:
         track = manager(amid_digits=True)
         track.drop_track(0.0)
         out = []
         for k, (turn, count) in enumerate(zip(turned_rad, counts, strict=True)):
             track.start_frame(k * step_s)
-            out.append(track.try_initiate(found(count, turn), k * step_s) if count else False)
+            out.append(track.try_initiate(build_found(count, turn), k * step_s) if count else False)
         return out
 
-    assert begun(0.0, 0.1, 0.2, 0.3) == [False, False, False, True]
-    assert not any(begun(0.0, 0.1, 0.1 + 1.1 * TURN_SLACK_RAD, 0.1 + 1.1 * TURN_SLACK_RAD))
-    assert not any(begun(0.0, 0.0, 0.0, 0.0, counts=(4, 4, 0, 4))), "not seen for a picture it begins anew"
+    assert start_track(0.0, 0.1, 0.2, 0.3) == [False, False, False, True]
+    assert not any(start_track(0.0, 0.1, 0.1 + 1.1 * TURN_SLACK_RAD, 0.1 + 1.1 * TURN_SLACK_RAD))
+    assert not any(start_track(0.0, 0.0, 0.0, 0.0, counts=(4, 4, 0, 4))), "not seen for a picture it begins anew"
 
 
 def test_turn_limits_grow_with_time_up_to_the_maximum() -> None:
     track, turned = manager(), so3.exp(np.array([0.0, 0.4, 0.0]))
-    seen(track, 0.0, 6)
+    update_track(track, 0.0, 6)
     capped_s = (MAX_TURN_RAD - TURN_SLACK_RAD) / MAX_RATE_RAD_S
     at = [track.turn_limits(turned, gone_s) for gone_s in (0.0, 0.05, 0.99 * capped_s, 1.01 * capped_s, 9.0)]
     most = [TURN_SLACK_RAD + gone_s * MAX_RATE_RAD_S for gone_s in (0.0, 0.05, 0.99 * capped_s)]

@@ -25,13 +25,13 @@ from tests.tracking.hands import (
     Pose,
     angles_deg,
     blobs,
+    build_rotation,
     calibration,
+    combine_motions,
     discs_cam_m,
     is_unknown,
-    moved,
-    rotation_of,
+    shift_pose,
     swing,
-    together,
     track,
     truth_deg,
 )
@@ -77,7 +77,7 @@ def _asked_for(tracker: Tracker, time_s: float) -> Tracker:
     return tracker
 
 
-def still(_time_s: float) -> Pose:
+def hold_still(_time_s: float) -> Pose:
     return Pose()
 
 
@@ -187,7 +187,7 @@ def test_tracker_hidden_hand_sd_grows_and_covers_the_truth() -> None:
 
 def test_tracker_hand_hidden_for_long_is_lost_until_found() -> None:
     rng = np.random.default_rng(3)
-    elsewhere = moved(Pose(np.array([15.0, 20.0, -10.0])), [0.06, 0.05, 0.03])
+    elsewhere = shift_pose(Pose(np.array([15.0, 20.0, -10.0])), [0.06, 0.05, 0.03])
     tracked = track(
         (t, blobs(elsewhere if k >= 90 else Pose(), rng, hidden=ALL if 20 <= k < 90 else ()))
         for k, t in enumerate(times(120))
@@ -250,7 +250,7 @@ def test_tracker_motion_while_hidden_is_covered_by_the_sd(
 
 def test_tracker_jump_in_sight_is_followed_within_three_frames() -> None:
     rng = np.random.default_rng(4)
-    there = moved(Pose(np.array([-15.0, 30.0, 10.0])), [0.05, -0.06, 0.02])
+    there = shift_pose(Pose(np.array([-15.0, 30.0, 10.0])), [0.05, -0.06, 0.02])
     frames = track([(t, blobs(Pose() if k < 20 else there, rng)) for k, t in enumerate(times(40))])
     late = frames[23:]
     assert set(statuses(late)) == {TrackStatus.TRACKED}
@@ -328,7 +328,7 @@ def test_tracker_start_angles_are_added_as_rotations(
 
     frames = track(seen(turning, 75, side=side), tracker=tracker)
     assert angles_deg(frames)[3] == pytest.approx(start_deg, abs=1.0)
-    expected = rotation_of(*start_deg, side) @ rotation_of(0.0, flexes_deg, 0.0, side)
+    expected = build_rotation(*start_deg, side) @ build_rotation(0.0, flexes_deg, 0.0, side)
     assert np.allclose(frames[-1].kinematics.rotation_w2_w0, expected, atol=0.03)
     assert angles_deg(frames)[-1] == pytest.approx(reads_deg, abs=1.5)
 
@@ -388,12 +388,12 @@ def test_tracker_prediction_covers_the_markers() -> None:
 def test_tracker_restart_does_not_link_to_the_old_track() -> None:
     """After the still capture the tracker starts anew: nothing of before is counted twice."""
 
-    def knows_of_shape(tracker: Tracker, step: int) -> float:
+    def get_shape_sd(tracker: Tracker, step: int) -> float:
         estimate = tracker.record.history[step].estimate
         assert estimate is not None
         return float(np.trace(estimate.covariance[SHAPE, SHAPE]))
 
-    first, second = seen(still, 15, seed=1), [(15 * DT_S + t, found) for t, found in seen(still, 30, seed=2)]
+    first, second = seen(hold_still, 15, seed=1), [(15 * DT_S + t, found) for t, found in seen(hold_still, 30, seed=2)]
     again, fresh, on = (Tracker(calibration(), CAMERA, RIGID) for _ in range(3))
     track(first, tracker=again)
     again.begin_at_neutral()
@@ -401,13 +401,13 @@ def test_tracker_restart_does_not_link_to_the_old_track() -> None:
     track(second, tracker=fresh)
     track([*first, *second], tracker=on)
     for k in range(30):
-        assert knows_of_shape(again, 15 + k) == pytest.approx(knows_of_shape(fresh, k), rel=0.05)
-    assert knows_of_shape(on, 15) < 0.9 * knows_of_shape(again, 15)
+        assert get_shape_sd(again, 15 + k) == pytest.approx(get_shape_sd(fresh, k), rel=0.05)
+    assert get_shape_sd(on, 15) < 0.9 * get_shape_sd(again, 15)
 
 
 def test_tracker_without_history_records_no_steps() -> None:
     tracker = Tracker(calibration(), CAMERA, TrackerSettings(), keep_history=False)
-    track(seen(still, 10), tracker=tracker)
+    track(seen(hold_still, 10), tracker=tracker)
     assert tracker.record.history == []
 
 
@@ -524,9 +524,9 @@ def test_tracker_blob_at_far_depth_is_never_associated(before_m: float) -> None:
 def test_tracker_four_false_blobs_do_not_move_a_hand_of_three() -> None:
     """They are one more than what is seen of the hand, and as far away as no hand was predicted to be."""
     rng = np.random.default_rng(9)
-    like = blobs(moved(Pose(np.array([38.0, 0.0, 0.0])), [0.05, 0.03, 0.0]), rng, hidden=(MCP3, MCP4))
+    like = blobs(shift_pose(Pose(np.array([38.0, 0.0, 0.0])), [0.05, 0.03, 0.0]), rng, hidden=(MCP3, MCP4))
     frames = [(t, blobs(Pose(), rng, hidden=(CMC1, MCP3, MCP4) if k >= 20 else ())) for k, t in enumerate(times(40))]
-    tracked = track([*frames[:20], *((t, together(own, like)) for t, own in frames[20:])])
+    tracked = track([*frames[:20], *((t, combine_motions(own, like)) for t, own in frames[20:])])
     assert set(statuses(tracked)) == {TrackStatus.TRACKED}
     assert all(named_rightly(frame, Pose()) for frame in tracked)
     assert np.abs(angles_deg(tracked)).max() < 4.0
@@ -544,7 +544,9 @@ def test_tracker_other_hand_is_never_tracked(seed: int, side: Side) -> None:
         hand = blobs(own(t), rng, side=side, hidden=ALL if covered else ())
         hidden = (int(rng.integers(6)),) if rng.random() < 0.3 else ()
         mirrored: Side = "left" if side == "right" else "right"
-        frames.append((t, together(hand, blobs(moved(other(t), beside_m), rng, side=mirrored, hidden=hidden))))
+        frames.append(
+            (t, combine_motions(hand, blobs(shift_pose(other(t), beside_m), rng, side=mirrored, hidden=hidden)))
+        )
     tracked = track(frames, side=side)
     assert set(statuses(tracked[:30])) == set(statuses(tracked[88:])) == {TrackStatus.TRACKED}
     assert TrackStatus.TRACKED not in statuses(tracked[30:85])
@@ -556,7 +558,7 @@ def test_tracker_other_hand_is_never_tracked(seed: int, side: Side) -> None:
 def test_tracker_long_gap_reacquires_the_hand() -> None:
     """The camera stood still for twelve seconds in the middle of a stroke: nothing is carried over them."""
     rng = np.random.default_rng(8)
-    moving, elsewhere = swing(1, 30.0, 0.5), moved(Pose(np.array([-10.0, 20.0, 5.0])), [0.04, 0.03, 0.0])
+    moving, elsewhere = swing(1, 30.0, 0.5), shift_pose(Pose(np.array([-10.0, 20.0, 5.0])), [0.04, 0.03, 0.0])
     before = [(t, blobs(moving(t), rng)) for t in times(65)]
     after = [(before[-1][0] + 12.0 + t, blobs(elsewhere, rng)) for t in times(10)]
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
@@ -568,7 +570,7 @@ def test_tracker_long_gap_reacquires_the_hand() -> None:
     assert max(np.linalg.norm(frame.kinematics.velocity_m_s) for frame in frames) < 0.3
 
 
-def lost_and_found(shown_after: int) -> list[TrackStatus]:
+def lose_and_find(shown_after: int) -> list[TrackStatus]:
     """A hand hidden until it is lost, then there for ``shown_after`` pictures, then all but one disc hidden again."""
     gone, back, rng = 20, 90, np.random.default_rng(11)
     hidden = [()] * gone + [tuple(ALL)] * (back - gone) + [()] * shown_after + [(0, 1, 2, 4, 5)] * 3
@@ -592,10 +594,10 @@ def test_tracker_doubt_widens_only_the_sd(
 
 def test_tracker_reacquired_hand_is_on_probation() -> None:
     """Found out of nothing and gone in the next pictures, it was no hand; borne out for a while, it is one hidden."""
-    brief = lost_and_found(2)
+    brief = lose_and_find(2)
     assert brief[:2] == [TrackStatus.TRACKED] * 2
     assert brief[2:] == [TrackStatus.LOST] * 3
-    just_short = lost_and_found(5)
+    just_short = lose_and_find(5)
     assert just_short[5:] == [TrackStatus.LOST] * 3
-    long = lost_and_found(8)
+    long = lose_and_find(8)
     assert long[8:] == [TrackStatus.PREDICTED] * 3

@@ -11,7 +11,7 @@ from carpus.core.model.types import FloatArray
 from carpus.core.tracking.digits.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
 from carpus.core.tracking.digits.digit_update import compute_disc_areas
 from carpus.core.tracking.filter.settings import TrackerSettings
-from tests.tracking.test_fingers import weighed
+from tests.tracking.test_fingers import update_digits_once
 
 CHAIN, PIP, DIP, TIP = 2, 0, 1, 2
 RADIUS_PX, SETTINGS = 4.5, TrackerSettings()
@@ -23,10 +23,10 @@ def shared_px2(gap_px: float) -> float:
     return float(2.0 * RADIUS_PX**2 * np.arccos(half / RADIUS_PX) - 2.0 * half * np.sqrt(RADIUS_PX**2 - half**2))
 
 
-def scene_of(gap_px: float, blob_of: int) -> tuple[DigitScene, DigitAssignment, FloatArray]:
+def build_scene(gap_px: float, blob_of: int) -> tuple[DigitScene, DigitAssignment, FloatArray]:
     """A finger whose last two discs lie so near that one blob, named ``blob_of``, is both; and where they are (2, 2).
     They are expected a little further on."""
-    trial, _ = weighed(1e-4, (0.0, 0.0))
+    trial, _ = update_digits_once(1e-4, (0.0, 0.0))
     scene, names = trial.scene, trial.update.assignment
     value = scene.linearised.value.reshape(5, 3, 3).copy()
     along = value[CHAIN, TIP, :2] - value[CHAIN, DIP, :2]
@@ -52,7 +52,7 @@ def scene_of(gap_px: float, blob_of: int) -> tuple[DigitScene, DigitAssignment, 
     return near, DigitAssignment(assigned, with_depth), place
 
 
-def measured_of(scene: DigitScene, names: DigitAssignment) -> tuple[FloatArray, FloatArray]:
+def measure_scene(scene: DigitScene, names: DigitAssignment) -> tuple[FloatArray, FloatArray]:
     """What is measured of the discs (5, 3, 3), and how surely."""
     measured, variance = measurements_from_assignment(scene, names, SETTINGS)
     return measured.reshape(5, 3, 3), np.sqrt(variance.reshape(5, 3, 3))
@@ -61,8 +61,8 @@ def measured_of(scene: DigitScene, names: DigitAssignment) -> tuple[FloatArray, 
 @pytest.mark.parametrize("gap_px", [4.0, 6.0, 8.0])
 @pytest.mark.parametrize("blob_of", [DIP, TIP])
 def test_merged_blob_measures_both_discs(gap_px: float, blob_of: int) -> None:
-    scene, names, place = scene_of(gap_px, blob_of)
-    measured, sd = measured_of(scene, names)
+    scene, names, place = build_scene(gap_px, blob_of)
+    measured, sd = measure_scene(scene, names)
     off, stated = np.abs(measured[CHAIN, DIP:, :2] - place), sd[CHAIN, DIP:, :2]
     assert (off < 0.4 * gap_px).all(), "nearer than the blob's own centre"
     assert (off < 2.0 * stated).all()
@@ -72,20 +72,20 @@ def test_merged_blob_measures_both_discs(gap_px: float, blob_of: int) -> None:
 
 
 def test_single_blob_measures_its_disc_alone() -> None:
-    scene, names, _ = scene_of(6.0, DIP)
+    scene, names, _ = build_scene(6.0, DIP)
     blob = names.assigned[CHAIN, DIP]
     just_large = scene.area_px.copy()
     just_large[blob] = 1.2 * scene.whole_px[CHAIN, DIP]
     for one in (replace(scene, area_px=just_large), replace(scene, visible=np.full((5, 3), 0.3))):
-        measured, sd = measured_of(one, names)
+        measured, sd = measure_scene(one, names)
         assert measured[CHAIN, DIP, :2] == pytest.approx(scene.blobs.value[blob, :2])
         assert (sd[CHAIN, DIP, :2] < 1.0).all()
         assert np.isnan(measured[CHAIN, TIP]).all()
 
 
 def test_disc_area_of_a_possibly_merged_blob_is_not_learnt() -> None:
-    trial, _ = weighed(1e-4, (0.0, 0.0))
-    scene, names, _ = scene_of(6.0, DIP)
+    trial, _ = update_digits_once(1e-4, (0.0, 0.0))
+    scene, names, _ = build_scene(6.0, DIP)
     named = replace(trial.update, assignment=names)
     learnt = compute_disc_areas(named, scene.area_px, np.zeros((5, 3)), np.full((5, 3), 5e5))
     assert np.isnan(learnt[CHAIN]).all()

@@ -13,7 +13,7 @@ from tests.tracking.hands import RIGHT_PALM_M, palm
 UP = np.array([0.0, 0.0, 1.0])
 
 
-def placed(side: Side, seed: int) -> tuple[FloatArray, FloatArray]:
+def place_palm(side: Side, seed: int) -> tuple[FloatArray, FloatArray]:
     """The palm somewhere in space, and the direction its back faces there."""
     rng = np.random.default_rng(seed)
     rotation = so3.exp(rng.normal(size=3))
@@ -23,7 +23,7 @@ def placed(side: Side, seed: int) -> tuple[FloatArray, FloatArray]:
 @pytest.mark.parametrize("side", ["right", "left"])
 @pytest.mark.parametrize("seed", range(8))
 def test_wrist_axes_match_the_definition(side: Side, seed: int) -> None:
-    discs, back = placed(side, seed)
+    discs, back = place_palm(side, seed)
     axes = wrist_axes(discs, back)
     x, y, z = axes.T
     assert np.allclose(axes.T @ axes, np.eye(3), atol=1e-12)
@@ -37,7 +37,7 @@ def test_wrist_axes_match_the_definition(side: Side, seed: int) -> None:
 
 
 def test_wrist_axes_z_is_the_least_squares_normal() -> None:
-    discs, back = placed("right", 3)
+    discs, back = place_palm("right", 3)
     plane = discs[[0, 2, 3, 4, 5]]
     normal = np.linalg.svd(plane - plane.mean(axis=0))[2][2]
     x = (discs[3] - discs[0]) / np.linalg.norm(discs[3] - discs[0])
@@ -47,7 +47,7 @@ def test_wrist_axes_z_is_the_least_squares_normal() -> None:
 
 
 def test_wrist_axes_ignore_cmc1() -> None:
-    discs, back = placed("right", 4)
+    discs, back = place_palm("right", 4)
     moved = discs.copy()
     moved[1] += 0.01 * back
     assert np.array_equal(wrist_axes(moved, back), wrist_axes(discs, back))

@@ -14,7 +14,7 @@ from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.model.types import Detections, FloatArray, Side, TrackedFrame
 from carpus.core.research.papers.hand_model import PaperSettings
 from carpus.core.research.papers.tracker import PaperTracker
-from tests.tracking.hands import FROM_ABOVE, palm, rotation_of
+from tests.tracking.hands import FROM_ABOVE, build_rotation, palm
 
 MIDDLE_M = np.array([0.01, 0.07, 0.68])
 
@@ -42,7 +42,7 @@ def straight_hand() -> tuple[HandAnatomy, FloatArray]:
     return anatomy, joint_centres(anatomy, np.zeros(17))
 
 
-def tilted(degrees: float) -> FloatArray:
+def tilt_palm(degrees: float) -> FloatArray:
     """g_w0c of a hand whose fingers point away from, or towards, a camera above."""
     return np.asarray(FROM_ABOVE @ Rotation.from_euler("y", degrees, degrees=True).as_matrix())
 
@@ -55,7 +55,7 @@ def blobs(pixel: FloatArray, rng: np.random.Generator | None = None, sd_px: floa
     return Detections(pixel, np.full(count, np.nan), np.full(count, np.nan), np.full(count, 60.0), np.full(count, 0.9))
 
 
-def followed(tracker: PaperTracker, seen: Iterable[Detections], fps: float = 30.0) -> list[TrackedFrame]:
+def track_poses(tracker: PaperTracker, seen: Iterable[Detections], fps: float = 30.0) -> list[TrackedFrame]:
     return [tracker.step(i, i / fps, found) for i, found in enumerate(seen)]
 
 
@@ -64,7 +64,7 @@ def palm_blobs(
 ) -> list[Detections]:
     """An arched palm that turns about its WRIST disc."""
     rng = np.random.default_rng(seed)
-    turns = [rotation_of(*angles_deg(i / 30.0), side=side) for i in range(count)]
+    turns = [build_rotation(*angles_deg(i / 30.0), side=side) for i in range(count)]
     return [blobs(seen_px(palm(side) @ turn.T @ FROM_ABOVE.T + MIDDLE_M), rng) for turn in turns]
 
 

@@ -55,7 +55,7 @@ def moved(state: FloatArray, noise: FloatArray) -> FloatArray:
     return np.stack((x + pace * np.cos(heading), y + pace * np.sin(heading), heading), axis=-1)
 
 
-def shown(state: FloatArray) -> FloatArray:
+def project_state(state: FloatArray) -> FloatArray:
     x, y = state[..., 0], state[..., 1]
     return np.stack((np.hypot(x + 4.0, y), np.arctan2(y, x + 4.0)), axis=-1)
 
@@ -65,11 +65,11 @@ def shown(state: FloatArray) -> FloatArray:
 def test_predict_and_update_are_filterpys(spread: UnscentedParameters, seed: int) -> None:
     rng = np.random.default_rng(seed)
     x, p, q = rng.normal(size=3), 0.02 * some_covariance(rng, 3), 0.03 * some_covariance(rng, 2)
-    r, y = np.array([0.04, 0.01]), shown(x) + 0.2 * rng.normal(size=2)
+    r, y = np.array([0.04, 0.01]), project_state(x) + 0.2 * rng.normal(size=2)
 
     points = MerweScaledSigmaPoints(5, spread.alpha, spread.beta, spread.kappa)
     oracle = UnscentedKalmanFilter(
-        5, 2, 1.0, lambda s: shown(s[:3]), lambda s, _dt: np.concatenate((moved(s[:3], s[3:]), s[3:])), points
+        5, 2, 1.0, lambda s: project_state(s[:3]), lambda s, _dt: np.concatenate((moved(s[:3], s[3:]), s[3:])), points
     )
     oracle.x, oracle.P = np.concatenate((x, np.zeros(2))), np.zeros((5, 5))
     oracle.P[:3, :3], oracle.P[3:, 3:] = p, q
@@ -83,7 +83,7 @@ def test_predict_and_update_are_filterpys(spread: UnscentedParameters, seed: int
 
     oracle.sigmas_f = predicted_points  # it draws new ones; (9) goes on with those that were moved
     oracle.update(y)
-    after = update_state(ahead, predict_outputs(ahead, shown(ahead.points)), y, r)
+    after = update_state(ahead, predict_outputs(ahead, project_state(ahead.points)), y, r)
     assert np.allclose(after.state.mean, oracle.x[:3], rtol=1e-8, atol=1e-10)
     assert np.allclose(after.state.covariance, oracle.P[:3, :3], rtol=1e-8, atol=1e-10)
     assert np.linalg.norm(after.state.mean - ahead.state.mean) > 1e-3

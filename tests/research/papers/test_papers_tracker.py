@@ -12,10 +12,10 @@ from tests.research.papers.hands import (
     blobs,
     calibration,
     finger_blobs,
-    followed,
     hand_calibration,
     palm_blobs,
-    tilted,
+    tilt_palm,
+    track_poses,
 )
 from tests.tracking.hands import CAMERA, RIGHT_PALM_M, is_unknown, palm
 
@@ -44,7 +44,7 @@ def test_a_rigid_palm_without_clutter_is_followed_to_a_few_degrees(
     which: int, amplitude_deg: float, side: Side
 ) -> None:
     at = swing(which, amplitude_deg)
-    frames = followed(wrist_tracker(side), palm_blobs(at, FRAMES, side=side))
+    frames = track_poses(wrist_tracker(side), palm_blobs(at, FRAMES, side=side))
     error = errors_deg(frames, at)
     assert (np.sqrt(np.mean(error**2, axis=0)) < 4.0).all()
     assert all(frame.status is TrackStatus.TRACKED for frame in frames)
@@ -56,13 +56,13 @@ def test_a_rigid_palm_without_clutter_is_followed_to_a_few_degrees(
 def test_papers_tracker_ignores_depth() -> None:
     seen = palm_blobs(swing(1, 30.0), 30)
     wrong = [Detections(b.pixel, np.full(6, 0.2), np.full(6, 1e-6), b.area_px, b.similarity) for b in seen]
-    one, other = followed(wrist_tracker(), seen), followed(wrist_tracker(), wrong)
+    one, other = track_poses(wrist_tracker(), seen), track_poses(wrist_tracker(), wrong)
     assert np.array_equal([f.kinematics.angles_rad for f in one], [f.kinematics.angles_rad for f in other])
 
 
 def test_papers_tracker_visible_hand_is_tracked() -> None:
     """Seen at a slant, so that the picture tells which way a finger bends."""
-    rotation = tilted(20.0)
+    rotation = tilt_palm(20.0)
 
     def bent(time_s: float) -> FloatArray:
         out = np.zeros(17)
@@ -70,7 +70,9 @@ def test_papers_tracker_visible_hand_is_tracked() -> None:
         out[5], out[14] = np.radians(8.0), np.radians(-8.0)
         return out * min(1.0, time_s)
 
-    frames = followed(PaperTracker(hand_calibration(rotation), CAMERA, MEASURED), finger_blobs(bent, FRAMES, rotation))
+    frames = track_poses(
+        PaperTracker(hand_calibration(rotation), CAMERA, MEASURED), finger_blobs(bent, FRAMES, rotation)
+    )
     assert all(frame.status is TrackStatus.TRACKED for frame in frames)
     error = np.degrees([frame.kinematics.joint_angles_rad - bent(frame.timestamp_s) for frame in frames])
     rmse = np.sqrt(np.mean(error[15:] ** 2, axis=0))
@@ -87,7 +89,7 @@ def test_papers_tracker_visible_hand_is_tracked() -> None:
 
 def test_papers_tracker_wrist_marker_is_at_the_position() -> None:
     made = calibration(RIGHT_PALM_M)
-    for frame in followed(wrist_tracker(), palm_blobs(swing(1, 30.0), 30)):
+    for frame in track_poses(wrist_tracker(), palm_blobs(swing(1, 30.0), 30)):
         place = made.rotation_w0_cam @ frame.kinematics.position_m + made.translation_w0_cam_m
         assert np.allclose(place, frame.marker_position_cam_m[0], atol=1e-9)
 
@@ -96,11 +98,11 @@ def test_papers_tracker_wrist_marker_is_at_the_position() -> None:
 def test_papers_tracker_hidden_hand_is_predicted_lost_and_found(whole_hand: bool) -> None:
     at = swing(0, 0.0)
     if whole_hand:
-        tracker = PaperTracker(hand_calibration(tilted(0.0)), CAMERA, MEASURED)
-        seen = finger_blobs(lambda _t: np.zeros(17), 20, tilted(0.0))
+        tracker = PaperTracker(hand_calibration(tilt_palm(0.0)), CAMERA, MEASURED)
+        seen = finger_blobs(lambda _t: np.zeros(17), 20, tilt_palm(0.0))
     else:
         tracker, seen = wrist_tracker(), palm_blobs(at, 20)
-    away = followed(tracker, [*seen, *(NOTHING,) * 70])
+    away = track_poses(tracker, [*seen, *(NOTHING,) * 70])
     status = [frame.status for frame in away]
     assert status[:20] == [TrackStatus.TRACKED] * 20
     last = 20 + status[20:].index(TrackStatus.LOST)
@@ -121,7 +123,7 @@ def test_papers_tracker_hidden_hand_is_predicted_lost_and_found(whole_hand: bool
 
 def test_papers_tracker_gap_loses_the_hand() -> None:
     tracker, seen = wrist_tracker(), palm_blobs(swing(0, 0.0), 5)
-    followed(tracker, seen)
+    track_poses(tracker, seen)
     assert is_unknown(tracker.step(5, 9.0, seen[0]))
     assert tracker.step(6, 9.03, seen[0]).status is TrackStatus.TRACKED
 
@@ -129,7 +131,7 @@ def test_papers_tracker_gap_loses_the_hand() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_papers_tracker_random_blobs_never_fail(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    for tracker in (wrist_tracker(), PaperTracker(hand_calibration(tilted(0.0)), CAMERA, MEASURED)):
+    for tracker in (wrist_tracker(), PaperTracker(hand_calibration(tilt_palm(0.0)), CAMERA, MEASURED)):
         for i in range(150):
             found = blobs(rng.uniform((0.0, 0.0), (640.0, 480.0), (int(rng.integers(0, 40)), 2)))
             frame = tracker.step(i, i / 30.0 + (i > 75) * 4.0, found)
@@ -145,7 +147,7 @@ def test_papers_tracker_random_blobs_never_fail(seed: int) -> None:
 def test_angles_and_sds_are_those_of_the_state() -> None:
     """The papers' state holds the angles themselves: their covariance is read, not worked out anew."""
     tracker = wrist_tracker()
-    frame = followed(tracker, palm_blobs(lambda t: np.array([12.0, 25.0, -14.0]) * min(1.0, t), 40))[-1]
+    frame = track_poses(tracker, palm_blobs(lambda t: np.array([12.0, 25.0, -14.0]) * min(1.0, t), 40))[-1]
     state = tracker._state
     assert np.allclose(frame.kinematics.angles_rad, state.mean[6:9])
     assert np.allclose(frame.kinematics.angles_sd_rad, np.sqrt(np.diag(state.covariance)[6:9]))
