@@ -24,7 +24,7 @@ from tests.compiled.oracle import surface as oracle
 from tests.compiled.test_palm import mixture_about
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 from tests.tracking.test_palm_filter import moving
-from tests.tracking.test_surface_fit import place_on
+from tests.tracking.test_surface_fit import get_surface_point
 from tests.tracking.test_surface_fit import surface as surface_of_a_hand
 
 surface, SETTINGS = surface_of_a_hand, SurfaceSettings()
@@ -37,7 +37,7 @@ def seen_of(seed: int, every: int = 9) -> tuple[PalmEstimate, SurfaceSamples]:
     estimate = moving(seed)
     estimate.value[RELIEF], estimate.value[SURFACE] = 0.01 * rng.normal(size=(2, 3))
     estimate.value[:3] = position
-    samples = place_on(rotation, position)
+    samples = get_surface_point(rotation, position)
     some = SurfaceSamples(samples.pixel[::every].copy(), samples.depth_m[::every] + 1e-3 * rng.normal(size=1))
     return replace(estimate, rotation_w2_w0=rotation @ so3.exp(0.01 * rng.normal(size=3))), some
 
