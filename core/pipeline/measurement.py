@@ -332,7 +332,11 @@ class MeasurementController:
         assert pipeline is not None
         assert noise is not None
         path = self._new_sessions.new_path(self._set_up)
-        _check_free_space(path.parent)
+        free = shutil.disk_usage(path.parent).free
+        if free < MIN_FREE_BYTES:
+            free_mb, least_mb = format_rounded(free / 1e6), format_rounded(MIN_FREE_BYTES / 1e6)
+            reason = phrase("{free} MB free, {least_free_bytes} MB are needed", free=free_mb, least_free_bytes=least_mb)
+            raise DiskFull(path.parent, reason)
         now = datetime.now().astimezone()
         recorded, identity = self._identity or (to_iso(now), str(uuid.uuid4()))
         header = new_header(
@@ -418,7 +422,13 @@ class MeasurementController:
             if self._pipeline is not None:
                 self._pipeline.on_steps = self._pipeline.on_frame = None
         if self._marker_image_rgb is not None:
-            _save_image(path.with_suffix(MARKERS_SUFFIX), self._marker_image_rgb)
+            bgr = cv2.cvtColor(self._marker_image_rgb, cv2.COLOR_RGB2BGR)
+            is_encoded, data = cv2.imencode(".jpg", bgr)
+            image_path = path.with_suffix(MARKERS_SUFFIX)
+            with suppress(OSError):  # the session is complete without this image
+                if is_encoded:
+                    image_path.touch(mode=0o600)
+                    image_path.write_bytes(data.tobytes())
         return self._new_sessions.register(self._set_up, path)
 
     def close(self) -> None:
@@ -437,21 +447,3 @@ def _crop_markers(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:
     left, top = (int(max(0.0, value - margin)) for value in low)
     right, bottom = (int(value + margin) + 1 for value in high)
     return np.ascontiguousarray(color_rgb[top:bottom, left:right])
-
-
-def _save_image(path: Path, color_rgb: ByteImage) -> None:
-    """Save a small image beside the session; a failure is ignored, since it is not needed."""
-    done, data = cv2.imencode(".jpg", cv2.cvtColor(color_rgb, cv2.COLOR_RGB2BGR))
-    if done:
-        with suppress(OSError):
-            path.touch(mode=0o600)
-            path.write_bytes(data.tobytes())
-
-
-def _check_free_space(folder: Path) -> None:
-    """Raise :class:`DiskFull` if there is too little space for a recording."""
-    free = shutil.disk_usage(folder).free
-    if free < MIN_FREE_BYTES:
-        free_mb, least_mb = format_rounded(free / 1e6), format_rounded(MIN_FREE_BYTES / 1e6)
-        why = phrase("{free} MB free, {least_free_bytes} MB are needed", free=free_mb, least_free_bytes=least_mb)
-        raise DiskFull(folder, why)

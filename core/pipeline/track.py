@@ -378,7 +378,12 @@ def start_tracking(
         There is no frame.
     """
     frames: Iterator[AnyFrame] = source.lazy_frames() if isinstance(source, RawRecording) else source.frames()
-    opening, camera = _read_neutral_frames(frames, settings.calibration.still_s), source.info.camera
+    camera = source.info.camera
+    opening: list[Frame] = []
+    for given in frames:  # as far as the neutral pose may reach, and one more
+        opening.append(frame := given.decode(None))
+        if frame.timestamp_s - opening[0].timestamp_s > settings.calibration.still_s:
+            break
     if not opening:
         raise RecordingEmpty(source.info.name)
     outcome = calibrate_hand(clicks, opening, camera, settings.calibration, settings.detection, start_angles_rad)
@@ -573,16 +578,6 @@ def create_retrack_writer(
         recording_id=old.recording_id,
     )
     return SessionWriter.create(output, header, session.camera, calibration)
-
-
-def _read_neutral_frames(frames: Iterator[AnyFrame], still_s: float) -> list[Frame]:
-    """Return the first frames, as far as the neutral pose may reach, and one more."""
-    opening: list[Frame] = []
-    for seen in frames:
-        opening.append(frame := seen.decode(None))
-        if frame.timestamp_s - opening[0].timestamp_s > still_s:
-            break
-    return opening
 
 
 def write_tracked(

@@ -7,7 +7,6 @@ in the child, after its threads and signals are set up. This module does not loa
 
 from __future__ import annotations
 
-import contextlib
 import multiprocessing
 import os
 import pickle
@@ -16,7 +15,7 @@ import sys
 import threading
 import time
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from importlib import import_module
 from multiprocessing.connection import Connection
 from typing import Any
@@ -67,8 +66,19 @@ class ChildProcess:
             target=_run_child, args=(theirs, work, packed, is_forked), name=f"carpus-{name}", daemon=True
         )
         try:
-            with _STARTING, _allow_children(), _hide_main():
-                self._process.start()
+            with _STARTING:
+                own: Any = multiprocessing.current_process()
+                is_daemon, main = own.daemon, sys.modules["__main__"]
+                try:
+                    if is_daemon:  # a worker of Dask or of a pool; its child does not outlive it
+                        own.daemon = False
+                    # a child would run the main script again, for which researchers' scripts are not made
+                    sys.modules["__main__"] = types.ModuleType("__main__")
+                    self._process.start()
+                finally:
+                    sys.modules["__main__"] = main
+                    if is_daemon:
+                        own.daemon = True
         except BaseException:
             self.link.close()
             raise
@@ -131,31 +141,6 @@ def call_in_child(function: Callable[..., Any], *arguments: object, limit_s: flo
     if fault is not None:
         raise fault
     return value
-
-
-@contextlib.contextmanager
-def _allow_children() -> Iterator[None]:
-    """Let a daemonic process, such as a worker of Dask, start a child, which does not outlive it."""
-    own: Any = multiprocessing.current_process()
-    is_daemon = own.daemon
-    if is_daemon:
-        own.daemon = False
-    try:
-        yield
-    finally:
-        if is_daemon:
-            own.daemon = True
-
-
-@contextlib.contextmanager
-def _hide_main() -> Iterator[None]:
-    """Hide the main script, which a child would run again: researchers' scripts are not made for that."""
-    main = sys.modules["__main__"]
-    sys.modules["__main__"] = types.ModuleType("__main__")
-    try:
-        yield
-    finally:
-        sys.modules["__main__"] = main
 
 
 # --- in the child -------------------------------------------------------------------------------------------------

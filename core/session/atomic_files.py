@@ -93,25 +93,21 @@ def publish(whole: Path, target: Path) -> None:
         if sys.platform == "win32":
             whole.rename(target)  # refuses an existing target there
         else:
-            _rename_to_free_name(whole, target)
+            try:
+                os.link(whole, target)
+            except FileExistsError:
+                raise
+            except OSError:  # no hard links (FAT, some network shares); a name taken first would stay after a kill
+                if os.path.lexists(target):
+                    raise FileExistsError(target) from None
+                whole.rename(target)
+            else:
+                whole.unlink()
     except FileExistsError as cause:
         raise OutputExists(target) from cause
     except OSError as cause:
         raise write_fault(target, cause) from cause
     sync_folder(target.parent)
-
-
-def _rename_to_free_name(whole: Path, target: Path) -> None:
-    try:
-        os.link(whole, target)
-    except FileExistsError:
-        raise
-    except OSError:  # no hard links here (FAT, some network shares); a name taken first would stay after a kill
-        if os.path.lexists(target):
-            raise FileExistsError(target) from None
-        whole.rename(target)
-    else:
-        whole.unlink()
 
 
 def repair_file_end(part: Path) -> None:

@@ -333,6 +333,15 @@ class _SessionFile:
                 self._path,
                 phrase("{count} joint angles with other names than {name} has", count=len(joints), name=protocol.name),
             )
+        if (
+            _format_version(self._file) == 1
+        ):  # the times are the date if they count from 1970, else it is that of the file
+            first = self._file["/frames/timestamp"][:1]
+            moment = moment_from_timestamp(float(first[0])) if len(first) else None
+            recorded = str(self._read_attribute("created")) if moment is None else to_iso(moment)
+            recording_id = str(self._file.attrs.get("origin", "") or self._read_attribute("session_id"))
+        else:
+            recorded, recording_id = (str(self._read_attribute(name)) for name in ("recorded", "recording_id"))
         header = SessionHeader(
             session_id=str(self._read_attribute("session_id")),
             subject_id=str(self._read_attribute("subject_id")),
@@ -344,26 +353,11 @@ class _SessionFile:
             parameters=str(self._read_attribute("parameters")),
             origin=str(self._file.attrs.get("origin", "")),
             joint_names=joints,
-            recorded=self._read_recording_date(),
-            recording_id=self._read_recording_id(),
+            recorded=recorded,
+            recording_id=recording_id,
         )
         check_header(self._path, header, json.loads(header.parameters))
         return header
-
-    def _read_recording_date(self) -> str:
-        """Return the date; in version 1 it is in the times if these count from 1970, else that of the file."""
-        if _format_version(self._file) > 1:
-            return str(self._read_attribute("recorded"))
-        created = str(self._read_attribute("created"))
-        first = self._file["/frames/timestamp"][:1]
-        moment = moment_from_timestamp(float(first[0])) if len(first) else None
-        return created if moment is None else to_iso(moment)
-
-    def _read_recording_id(self) -> str:
-        """Return the recording's id; version 1 only names the session that was tracked again."""
-        if _format_version(self._file) > 1:
-            return str(self._read_attribute("recording_id"))
-        return str(self._file.attrs.get("origin", "") or self._read_attribute("session_id"))
 
     @cached_property
     def _rows(self) -> RowCounts:
