@@ -118,8 +118,9 @@ def find_likeliest(odds: Array) -> NDArray[np.int64] | None:
     markers: Py_ssize_t = odds.shape[0]
     blobs: Py_ssize_t = odds.shape[1]
     value: cython.const[double][:, ::1] = as_array(odds, "odds", (markers, blobs))
-    out = np.full(markers, -1, dtype=np.int64)
+    out = np.empty(markers, dtype=np.int64)
     taken: cython.longlong[::1] = out
+    taken[:] = -1
     is_used: cython.uchar[::1] = np.zeros(blobs, dtype=np.uint8)
     j: Py_ssize_t
     i: Py_ssize_t

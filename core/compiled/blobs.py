@@ -529,8 +529,9 @@ class BlobWindows:
         averages: cython.bint = sensor.averages
         metres: double[::1] = np.empty(near)
         ordered: double[::1] = np.empty(self.core)
-        found = np.full((2, self.count), NAN)
+        found = np.empty((2, self.count))
         out: double[:, ::1] = found
+        out[:] = NAN
         for b in range(self.count):
             own: cython.int = 0
             valid: cython.int = 0

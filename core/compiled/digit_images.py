@@ -13,7 +13,7 @@ import numpy as np
 from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.association import fill_log_odds
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
-from cython.cimports.libc.math import acos, cos, exp, expm1, isfinite, log, sqrt
+from cython.cimports.libc.math import NAN, acos, cos, exp, expm1, isfinite, log, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.digits import BENT, OTHER, POSE
@@ -591,9 +591,11 @@ def measure_assigned_discs(
     was_seen: double = merging[0]
     merged_from: double = merging[1]
     merged_share: double = merging[2]
-    out = np.full((5, 9), np.nan), np.ones((5, 9))
+    out = np.empty((5, 9)), np.empty((5, 9))
     measured: double[:, ::1] = out[0]
     variance: double[:, ::1] = out[1]
+    measured[:] = NAN
+    variance[:] = 1.0
     alone: cython.uchar[::1] = np.empty(3, dtype=np.uint8)
     other: cython.int
     for r in range(5):
@@ -607,7 +609,7 @@ def measure_assigned_discs(
             for k in range(3):
                 measured[r, 3 * d + k], variance[r, 3 * d + k] = value[b, k], noise[b, k]
             if not with_depth[r, d]:
-                measured[r, 3 * d + 2] = float("nan")
+                measured[r, 3 * d + 2] = NAN
             missing = max(whole_from - area[b] / whole[r, d], 0.0)
             stray2 = own2 + wanders * wanders * whole[r, d] / _PI * missing * missing
             if (d > 0 and _is_near(expected[r], d - 1, d, reach)) or (d < 2 and _is_near(expected[r], d, d + 1, reach)):

@@ -147,7 +147,7 @@ def compute_palm_transition(
     turning: double = noise.turning
     unseen_scale: double = motion.unseen_scale
 
-    moving, turns = np.eye(MOVING), np.empty((5, 3, 3))
+    moving, turns = np.zeros((MOVING, MOVING)), np.empty((5, 3, 3))
     forward: double[:, ::1] = moving
     each: double[:, :, ::1] = turns
     turn: double[:, ::1] = each[0]
@@ -157,6 +157,8 @@ def compute_palm_transition(
     along_square: double[:, ::1] = each[4]
     fill_rotation(omega[0] * dt, omega[1] * dt, omega[2] * dt, turn)
     fill_right_jacobian(omega[0] * dt, omega[1] * dt, omega[2] * dt, jacobian)
+    for i in range(MOVING):
+        forward[i, i] = 1.0
     for i in range(3):
         forward[POSITION + i, VELOCITY + i] = dt
         for j in range(3):
@@ -187,8 +189,9 @@ def compute_palm_transition(
     thumb: double = digits[0]
     fingers: double = digits[1]
     per_rad: double = dt / tissue.lasts_rad if tissue.is_joint_driven else 0.0
-    left, relaxing = np.ones((modes, SIZE)), np.empty((modes, SOFT, SOFT))
+    left, relaxing = np.empty((modes, SIZE)), np.empty((modes, SOFT, SOFT))
     kept: double[:, ::1] = left
+    kept[:] = 1.0
     relaxed: double[:, :, ::1] = relaxing
     for k in range(modes):
         for i in range(SOFT):

@@ -80,10 +80,11 @@ class OutputRowBuilder:
         camera = predicted.view.camera
         # Rows of the markers: the palm's as predicted before the update, the fingers' on the palm as updated.
         blob = order.to_protocol_order(palm.assigned, None if fingers is None else fingers.blob)
-        measured_px, measured_depth_m = np.full((blob.size, 2), np.nan), np.full(blob.size, np.nan)
         if len(detections):
             measured_px = np.where((blob >= 0)[:, None], detections.pixel.take(blob, 0), np.nan)
             measured_depth_m = np.where(blob >= 0, detections.depth_m.take(blob), np.nan)
+        else:
+            measured_px, measured_depth_m = np.full((blob.size, 2), np.nan), np.full(blob.size, np.nan)
         pixel, covariance = predicted.mean[:, :2], predicted.covariance[:, :2, :2]
         disc_cam_m = predicted.view.discs_cam_m(posterior.estimate)
         residual_norm2 = np.vecdot(palm.raw_residual, palm.raw_residual)

@@ -100,13 +100,14 @@ def update_palm(
     used[:] = (assigned >= 0)[:, None]
     used[:, 2] &= with_depth
     surface = blobs.surface
-    value = variance = np.full((1, used.size), np.nan)
     if used.any():
         value = np.where(used, blobs.value.take(assigned, 0), np.nan).reshape(1, -1)
         variance = (blobs.variance.take(assigned, 0) * noise_factor).reshape(1, -1)
     elif surface is None:
         nothing = np.zeros(used.shape)
         return UpdatedPalm(predicted.mixture, assigned, float("nan"), 0, used, nothing, nothing)
+    else:
+        value = variance = np.full((1, used.size), np.nan)
     measurement = predicted.linearised, value, variance
     if surface is not None:
         measurement = surface.append_to(*measurement)

@@ -105,11 +105,11 @@ class JointAngleMap:
 
     def compute_angles(self, slots: FloatArray) -> FloatArray:
         """Return joint angles (..., J) of slots (..., 5, 5)."""
-        return np.asarray(np.sum(slots[..., self.chain, :] * self.weight, axis=-1))
+        return np.asarray(np.vecdot(slots[..., self.chain, :], self.weight))
 
     def compute_variances(self, covariance: FloatArray) -> FloatArray:
         """Return variances (J,) from covariances (5, 5, 5) of the slots."""
-        return np.asarray(np.einsum("ji,jik,jk->j", self.weight, covariance[self.chain], self.weight))
+        return np.asarray(np.vecdot((self.weight[:, None] @ covariance[self.chain])[:, 0], self.weight))
 
 
 def direct_marker_rows(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:

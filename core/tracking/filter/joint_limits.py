@@ -50,7 +50,7 @@ def slot_limits_rad(slots: FloatArray) -> FloatArray:
 
 def compute_limit_excess(slots: FloatArray) -> FloatArray:
     """Return by how much (5, 5) the angles lie beyond their limits; 0 inside, negative below."""
-    angles = np.einsum("rjs,rs->rj", _DIRECTION, slots)
+    angles = np.vecdot(_DIRECTION, slots[:, None])
     limits = slot_limits_rad(slots)
     return np.asarray(np.maximum(angles - limits[..., 1], 0.0) + np.minimum(angles - limits[..., 0], 0.0))
 
