@@ -25,6 +25,7 @@ from carpus.core.tracking.filter.soft_tissue import CUPPING_DISCS
 _NONE = np.empty(0)
 _NOWHERE = np.empty((0, 3))
 _STILL = np.eye(3)
+_CUPPING = slice(int(CUPPING_DISCS[0]), int(CUPPING_DISCS[-1]) + 1)
 _CUPPING_ROWS = SKIN.start + 3 * CUPPING_DISCS + 2
 _DORSAL = np.array([0.0, 0.0, 1.0])
 _TILT_RANK_TOLERANCE = 1e-3  # share of the best known direction below which depths say nothing of a turn
@@ -40,11 +41,6 @@ class WristAxes:
     axes: FloatArray
     sensitivity: FloatArray
     shape_m: FloatArray
-
-
-def _turned_axes(known: WristAxes, estimate: PalmEstimate) -> FloatArray:
-    """Return the axes (3, 3) as the shape has turned them since they were computed, to first order."""
-    return np.asarray(known.axes @ so3.exp(known.sensitivity @ (estimate.value[SHAPE] - known.shape_m)))
 
 
 def _turn_covariance(by_turn: FloatArray, by_shape: FloatArray, estimate: PalmEstimate) -> FloatArray:
@@ -69,6 +65,7 @@ class Readout:
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
         self._has_start = bool(np.any(calibration.start_angles_rad))
         self._axes: WristAxes | None = None
+        self._turned: tuple[PalmEstimate, FloatArray] | None = None
 
     def _axes_near(self, estimate: PalmEstimate) -> WristAxes:
         """Return axes of a shape so near to the estimate's that they follow it to first order."""
@@ -77,6 +74,14 @@ class Readout:
             axes, sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
             self._axes = WristAxes(axes, sensitivity, shape.copy())
         return self._axes
+
+    def _axes_of(self, estimate: PalmEstimate) -> tuple[WristAxes, FloatArray]:
+        """Return the axes near the estimate's, and as its shape has turned them since, to first order (3, 3)."""
+        known = self._axes_near(estimate)
+        if self._turned is None or self._turned[0] is not estimate:
+            turn = so3.exp(known.sensitivity @ (estimate.value[SHAPE] - known.shape_m))
+            self._turned = estimate, np.asarray(known.axes @ turn)
+        return known, self._turned[1]
 
     def compute_base(
         self, estimate: PalmEstimate, view: PalmView
@@ -97,12 +102,11 @@ class Readout:
         turn_covariance : (3, 3)
             Of the turn of the palm's axes, in camera axes.
         """
-        known = self._axes_near(estimate)
-        axes = _turned_axes(known, estimate)
+        known, axes = self._axes_of(estimate)
         disc_m = self._disc_m + estimate.shape_m
-        disc_m[CUPPING_DISCS, 1:] += estimate.skin_m[CUPPING_DISCS, 1:]
+        disc_m[_CUPPING, 1:] += estimate.skin_m[_CUPPING, 1:]
         cup, cup_sd = np.zeros((2, N_DIGITS))
-        cup[-2:] = -estimate.skin_m[CUPPING_DISCS, 2] / METACARPAL_M
+        cup[-2:] = -estimate.skin_m[_CUPPING, 2] / METACARPAL_M
         cup_sd[-2:] = np.sqrt(estimate.covariance[_CUPPING_ROWS, _CUPPING_ROWS]) / METACARPAL_M
         palm = PalmGeometry.from_discs(disc_m, axes, self._side, cup, cup_sd)
         body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
@@ -120,8 +124,7 @@ class Readout:
         axes turn S s, make of it Q Exp(A' d + (1 - Q') S s). The origin of W2 is the WRIST disc where the skin has
         carried it; the axes are those of the fixed unit.
         """
-        known = self._axes_near(estimate)
-        axes = _turned_axes(known, estimate)
+        known, axes = self._axes_of(estimate)
         disc = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
         rotation = axes.T @ estimate.rotation_w2_w0 @ axes
         covariance = _turn_covariance(axes.T, known.sensitivity - rotation.T @ known.sensitivity, estimate)
