@@ -93,7 +93,7 @@ class TopBarController(QObject):
             lines.append(self.tr("This session does not count."))
         if findings:
             said = " ".join(finding_words(finding).summary for finding in findings)
-            lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))
+            lines.append(self.tr("Measured although uncertain: {findings}").format(findings=said))
         return [*lines, *self._navigator.current_flow.banner_lines()]
 
     def show_camera(self) -> None:

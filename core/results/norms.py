@@ -52,14 +52,14 @@ class Norm:
     def sentence(self) -> str:
         """Return the source and whom it covers as a sentence."""
         return phrase(
-            "Usual: {source}; {ages}, {sexes}; not for children or old age.",
+            "Reference: {source}; {ages}, {sexes}; not for children or old age.",
             source=self.source, ages=self.ages, sexes=self.sexes
         )  # fmt: skip
 
 
-_ADULTS, _BOTH = phrase("adults, ages not told"), phrase("women and men together")
+_ADULTS, _BOTH = phrase("adults, ages not given"), phrase("women and men together")
 _WRIST_SOURCE = phrase("AMA Guides; AAOS 1965 (goniometer)")
-_TOTAL_SOURCE = phrase("ASSH, sum of active bending in a fist")
+_TOTAL_SOURCE = phrase("ASSH, sum of active flexion in a fist")
 _WRIST_DEG: Mapping[str, tuple[float, float]] = {
     "flexion": (60.0, 80.0), "extension": (60.0, 70.0), "radial": (20.0, 20.0), "ulnar": (30.0, 30.0),
     "pronation": (80.0, 80.0), "supination": (80.0, 80.0),

@@ -4,6 +4,14 @@
 <context>
     <name></name>
     <message>
+        <source>Palm. abd.</source>
+        <translation>Palm.-Abd.</translation>
+    </message>
+    <message>
+        <source>DIP (thumb: IP)</source>
+        <translation>DIP (Daumen: IP)</translation>
+    </message>
+    <message>
         <source>Close Carpus</source>
         <translation>Carpus schließen</translation>
     </message>
@@ -20,16 +28,16 @@
         <translation>Flexion–Extension</translation>
     </message>
     <message>
-        <source>Side movement</source>
-        <translation>Seitbewegung</translation>
+        <source>Radial–ulnar deviation</source>
+        <translation>Radial-/Ulnarduktion</translation>
     </message>
     <message>
         <source>Turning</source>
         <translation>Drehung</translation>
     </message>
     <message>
-        <source>Thumb, knuckle sideways</source>
-        <translation>Daumen, Grundgelenk seitlich</translation>
+        <source>Thumb MCP, abduction–adduction</source>
+        <translation>Daumen MCP, Ab-/Adduktion</translation>
     </message>
     <message>
         <source>flexion</source>
@@ -92,16 +100,16 @@
         <translation>Spitzgriff</translation>
     </message>
     <message>
-        <source>Round the wrist</source>
-        <translation>Umfang Handgelenk</translation>
+        <source>Wrist circumference</source>
+        <translation>Umfangsmaß Handgelenk</translation>
     </message>
     <message>
-        <source>Round the palm</source>
-        <translation>Umfang Mittelhand</translation>
+        <source>Palm circumference (MCP level)</source>
+        <translation>Umfangsmaß Mittelhand (MCP)</translation>
     </message>
     <message>
-        <source>Figure of eight</source>
-        <translation>Achtertour</translation>
+        <source>Figure-of-eight (hand oedema)</source>
+        <translation>Achtertour (Handödem)</translation>
     </message>
     <message>
         <source>Volume of the hand</source>
@@ -112,20 +120,20 @@
         <translation>Schmerz in Ruhe</translation>
     </message>
     <message>
-        <source>Pain when moving</source>
-        <translation>Schmerz bei Bewegung</translation>
+        <source>Pain on movement</source>
+        <translation>Bewegungsschmerz</translation>
     </message>
     <message>
-        <source>knuckle</source>
-        <translation>Grundgelenk</translation>
+        <source>MCP</source>
+        <translation>MCP</translation>
     </message>
     <message>
-        <source>middle joint</source>
-        <translation>Mittelgelenk</translation>
+        <source>PIP</source>
+        <translation>PIP</translation>
     </message>
     <message>
-        <source>end joint</source>
-        <translation>Endgelenk</translation>
+        <source>DIP</source>
+        <translation>DIP</translation>
     </message>
     <message>
         <source>Thumb</source>
@@ -144,14 +152,6 @@
         <translation>{finger}, {joint}, {movement}</translation>
     </message>
     <message>
-        <source>straight</source>
-        <translation>Streckung</translation>
-    </message>
-    <message>
-        <source>bent</source>
-        <translation>Beugung</translation>
-    </message>
-    <message>
         <source>active</source>
         <translation>aktiv</translation>
     </message>
@@ -165,27 +165,27 @@
     </message>
     <message>
         <source>Goniometer</source>
-        <translation>Winkelmesser</translation>
+        <translation>Goniometer</translation>
     </message>
     <message>
         <source>Force</source>
         <translation>Kraft</translation>
     </message>
     <message>
-        <source>Size</source>
-        <translation>Umfang</translation>
+        <source>Circumference and volume</source>
+        <translation>Umfangsmaße und Volumen</translation>
     </message>
     <message>
         <source>Scores</source>
         <translation>Punktwerte</translation>
     </message>
     <message>
-        <source>less is better</source>
-        <translation>weniger ist besser</translation>
+        <source>lower is better</source>
+        <translation>niedriger ist besser</translation>
     </message>
     <message>
-        <source>more is better</source>
-        <translation>mehr ist besser</translation>
+        <source>higher is better</source>
+        <translation>höher ist besser</translation>
     </message>
     <message>
         <source>{side}, {day}</source>
@@ -336,7 +336,7 @@
         <translation>Unterschied</translation>
     </message>
     <message>
-        <source>not judged</source>
+        <source>not assessed</source>
         <translation>nicht beurteilt</translation>
     </message>
     <message>
@@ -352,8 +352,8 @@
         <translation>{before} → {after} seit {day}</translation>
     </message>
     <message>
-        <source>(error {size})</source>
-        <translation>(Fehler {size})</translation>
+        <source>(MDC {size})</source>
+        <translation>(MDC {size})</translation>
     </message>
     <message>
         <source>left edge</source>
@@ -428,7 +428,7 @@
         <translation>Tafel weiter weg</translation>
     </message>
     <message>
-        <source>More light: the picture is too dark.</source>
+        <source>More light: the image is too dark.</source>
         <translation>Mehr Licht: Das Bild ist zu dunkel.</translation>
     </message>
     <message>
@@ -456,44 +456,44 @@
         <translation>Abstand</translation>
     </message>
     <message>
-        <source>Work out · show the board</source>
+        <source>Calculate · show the board</source>
         <translation>Berechnen · Tafel zeigen</translation>
     </message>
     <message>
-        <source>Work out · 1 picture to go</source>
+        <source>Calculate · 1 more image</source>
         <translation>Berechnen · noch 1 Bild</translation>
     </message>
     <message>
-        <source>Work out · {count} pictures to go</source>
+        <source>Calculate · {count} more images</source>
         <translation>Berechnen · noch {count} Bilder</translation>
     </message>
     <message>
-        <source>Work out · more places and tilts</source>
+        <source>Calculate · more places and tilts</source>
         <translation>Berechnen · mehr Stellen und Neigungen</translation>
     </message>
     <message>
-        <source>Work out</source>
+        <source>Calculate</source>
         <translation>Berechnen</translation>
     </message>
     <message>
-        <source>Not good enough: lines land {error} px off.</source>
-        <translation>Nicht gut genug: Linien liegen {error} px daneben.</translation>
+        <source>Not good enough: reprojection error {error} px.</source>
+        <translation>Nicht gut genug: Reprojektionsfehler {error} px.</translation>
     </message>
     <message>
         <source>Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures again.</source>
         <translation>Nichts ist geändert. Kleben Sie die Tafel auf etwas Flaches, Steifes, geben Sie Licht, und nehmen Sie die Bilder neu auf.</translation>
     </message>
     <message>
-        <source>Depth lies {apart} px beside the colours.</source>
-        <translation>Die Tiefe liegt {apart} px neben den Farben.</translation>
+        <source>Depth and colour are misaligned by {apart} px.</source>
+        <translation>Tiefe und Farbe sind um {apart} px versetzt.</translation>
     </message>
     <message>
         <source>Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how.</source>
         <translation>Nichts ist geändert. Schalten Sie die Deckung von Tiefe und Farbe in der Kamera ein: „carpus doctor“ sagt, wie.</translation>
     </message>
     <message>
-        <source>Lines land within {error} pixels of where they are.</source>
-        <translation>Linien liegen auf {error} Pixel genau.</translation>
+        <source>The reprojection error is {error} pixels.</source>
+        <translation>Der Reprojektionsfehler beträgt {error} Pixel.</translation>
     </message>
     <message>
         <source>The camera is calibrated. {depth}</source>
@@ -504,7 +504,7 @@
         <translation>Ihre Tiefe wurde nicht geprüft.</translation>
     </message>
     <message>
-        <source>Depth reads right.</source>
+        <source>Depth is correct.</source>
         <translation>Die Tiefe stimmt.</translation>
     </message>
     <message>
@@ -528,16 +528,16 @@
         <translation>schlecht: über {limit} px</translation>
     </message>
     <message>
-        <source>Lines land within</source>
-        <translation>Linien genau auf</translation>
+        <source>Reprojection error</source>
+        <translation>Reprojektionsfehler</translation>
     </message>
     <message>
         <source>Focal length</source>
         <translation>Brennweite</translation>
     </message>
     <message>
-        <source>put right</source>
-        <translation>berichtigt</translation>
+        <source>corrected</source>
+        <translation>korrigiert</translation>
     </message>
     <message>
         <source>Depth</source>
@@ -565,11 +565,11 @@
     </message>
     <message>
         <source>registration is off</source>
-        <translation>Deckung ist aus</translation>
+        <translation>Registrierung ist aus</translation>
     </message>
     <message>
-        <source>This camera does not say its number, so nothing can be kept for it. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
-        <translation>Diese Kamera nennt ihre Nummer nicht, darum kann für sie nichts aufbewahrt werden. „carpus calibrate-camera --output“ schreibt eine Kameradatei, die die Einstellungen nennen können.</translation>
+        <source>This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
+        <translation>Diese Kamera meldet keine Seriennummer, daher kann ihre Kalibrierung nicht gespeichert werden. „carpus calibrate-camera --output“ schreibt eine Kameradatei, die in den Einstellungen genannt werden kann.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -612,20 +612,8 @@
         <translation>Alle sechs Punkte sind zu sehen. Lassen Sie die Karte liegen.</translation>
     </message>
     <message>
-        <source>Lift</source>
-        <translation>Abheben</translation>
-    </message>
-    <message>
-        <source>Knuckle</source>
-        <translation>Grundgelenk</translation>
-    </message>
-    <message>
-        <source>Middle joint</source>
-        <translation>Mittelgelenk</translation>
-    </message>
-    <message>
-        <source>End joint</source>
-        <translation>Endgelenk</translation>
+        <source>Palmar abduction</source>
+        <translation>Palmarabduktion</translation>
     </message>
     <message>
         <source>Spread</source>
@@ -640,12 +628,12 @@
         <translation>{finger}, {joint}</translation>
     </message>
     <message>
-        <source>In the palm’s plane</source>
-        <translation>In der Handebene</translation>
+        <source>In the plane of the palm (0°)</source>
+        <translation>In der Handebene (0°)</translation>
     </message>
     <message>
-        <source>Lifted {angle}</source>
-        <translation>Abgehoben {angle}</translation>
+        <source>Palmar abduction {angle}</source>
+        <translation>Palmarabduktion {angle}</translation>
     </message>
     <message>
         <source>Straight</source>
@@ -664,12 +652,12 @@
         <translation>Radial {angle}</translation>
     </message>
     <message>
-        <source>Inwards {angle}</source>
-        <translation>Nach innen {angle}</translation>
+        <source>Adducted {angle}</source>
+        <translation>Adduziert {angle}</translation>
     </message>
     <message>
-        <source>Away {angle}</source>
-        <translation>Weg {angle}</translation>
+        <source>Abducted {angle}</source>
+        <translation>Abduziert {angle}</translation>
     </message>
     <message>
         <source>in</source>
@@ -736,8 +724,8 @@
         <translation>Aktive Gesamtbeweglichkeit (TAM)</translation>
     </message>
     <message>
-        <source>{row}, range</source>
-        <translation>{row}, Umfang</translation>
+        <source>{row}, range of motion</source>
+        <translation>{row}, Bewegungsausmaß</translation>
     </message>
     <message>
         <source>Blue matt paper, 12 mm, on clean dry skin</source>
@@ -1092,8 +1080,8 @@
         <translation>Notiz</translation>
     </message>
     <message>
-        <source>Sheet for home</source>
-        <translation>Blatt für zu Hause</translation>
+        <source>Home exercise sheet</source>
+        <translation>Übungsblatt für zu Hause</translation>
     </message>
     <message>
         <source>Pain score</source>
@@ -1208,7 +1196,7 @@
         <translation>{marker} verdeckt</translation>
     </message>
     <message>
-        <source>Thumb hidden</source>
+        <source>Thumb occluded</source>
         <translation>Daumen verdeckt</translation>
     </message>
     <message>
@@ -1220,7 +1208,7 @@
         <translation>Fingerenden verdeckt</translation>
     </message>
     <message>
-        <source>{count} markers hidden</source>
+        <source>{count} markers occluded</source>
         <translation>{count} Marker verdeckt</translation>
     </message>
     <message>
@@ -1804,7 +1792,7 @@
         <translation>schraffiert: innerhalb Ihrer Grenze</translation>
     </message>
     <message>
-        <source>seconds after the first picture</source>
+        <source>seconds after the first frame</source>
         <translation>Sekunden nach dem ersten Bild</translation>
     </message>
     <message>
@@ -1836,16 +1824,16 @@
         <translation>war {angle}</translation>
     </message>
     <message>
-        <source>Usual, adults {span}</source>
-        <translation>Üblich, Erwachsene {span}</translation>
+        <source>Reference, adults {span}</source>
+        <translation>Referenz, Erwachsene {span}</translation>
     </message>
     <message>
-        <source>Whole arc</source>
-        <translation>Gesamtumfang</translation>
+        <source>Total arc</source>
+        <translation>Gesamtbewegung</translation>
     </message>
     <message>
-        <source>Error band ±{gap}{limit}</source>
-        <translation>Fehlerband ±{gap}{limit}</translation>
+        <source>Measurement error ±{gap}{limit}</source>
+        <translation>Messfehler ±{gap}{limit}</translation>
     </message>
     <message>
         <source>Goal {angle}</source>
@@ -1860,20 +1848,20 @@
         <translation>nicht verglichen</translation>
     </message>
     <message>
-        <source>at least: hidden in part</source>
-        <translation>mindestens: zum Teil verdeckt</translation>
+        <source>≥: partly occluded</source>
+        <translation>≥: zum Teil verdeckt</translation>
     </message>
     <message>
-        <source>lift</source>
-        <translation>Abheben</translation>
+        <source>palm. abd.</source>
+        <translation>Palm.-Abd.</translation>
     </message>
     <message>
-        <source>{number} out</source>
-        <translation>{number} aus</translation>
+        <source>{number} (excluded)</source>
+        <translation>{number} (ausgeschl.)</translation>
     </message>
     <message>
-        <source>{number} passive</source>
-        <translation>{number} passiv</translation>
+        <source>{number} (passive)</source>
+        <translation>{number} (passiv)</translation>
     </message>
     <message>
         <source>Place</source>
@@ -1888,16 +1876,12 @@
         <translation>α und γ stehen da, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Nullstellung sind nur β und α + γ bekannt.</translation>
     </message>
     <message>
-        <source>Target {angle}</source>
-        <translation>Ziel {angle}</translation>
-    </message>
-    <message>
         <source>no value</source>
         <translation>kein Wert</translation>
     </message>
     <message>
-        <source>Bending</source>
-        <translation>Beugung</translation>
+        <source>Flexion</source>
+        <translation>Flexion</translation>
     </message>
     <message>
         <source>Spreading</source>
@@ -1944,20 +1928,20 @@
         <translation>Noch keine Sitzungen dieser Übung.</translation>
     </message>
     <message>
-        <source>1 session is left out.</source>
-        <translation>1 Sitzung ist ausgelassen.</translation>
+        <source>1 session is excluded.</source>
+        <translation>1 Sitzung ist ausgeschlossen.</translation>
     </message>
     <message>
-        <source>{count} sessions are left out.</source>
-        <translation>{count} Sitzungen sind ausgelassen.</translation>
+        <source>{count} sessions are excluded.</source>
+        <translation>{count} Sitzungen sind ausgeschlossen.</translation>
     </message>
     <message>
         <source>Nothing to compare: {left_out}</source>
         <translation>Nichts zu vergleichen: {left_out}</translation>
     </message>
     <message>
-        <source>One session does not make a course.</source>
-        <translation>Eine Sitzung ergibt noch keinen Verlauf.</translation>
+        <source>At least two sessions are needed to show progress.</source>
+        <translation>Für einen Verlauf braucht es mindestens zwei Sitzungen.</translation>
     </message>
     <message>
         <source>Compare after the next session of the same kind.</source>
@@ -1976,19 +1960,15 @@
         <translation>{name} ist seit {day} um {size} besser.</translation>
     </message>
     <message>
-        <source>{name} has lost {size} since {day}.</source>
-        <translation>{name} hat seit {day} {size} verloren.</translation>
+        <source>{name} has decreased by {size} since {day}.</source>
+        <translation>{name} hat seit {day} um {size} abgenommen.</translation>
     </message>
     <message>
-        <source>Not judged: the joints were hidden in part.</source>
+        <source>Not assessed: the joints were partly occluded.</source>
         <translation>Nicht beurteilt: Die Gelenke waren zum Teil verdeckt.</translation>
     </message>
     <message>
-        <source>What is hidden does not count.</source>
-        <translation>Was verdeckt ist, zählt nicht.</translation>
-    </message>
-    <message>
-        <source>Not judged: {why}.</source>
+        <source>Not assessed: {why}.</source>
         <translation>Nicht beurteilt: {why}.</translation>
     </message>
     <message>
@@ -2000,8 +1980,8 @@
         <translation>{joint} ({finger})</translation>
     </message>
     <message>
-        <source>The whole arc</source>
-        <translation>Der Gesamtumfang</translation>
+        <source>The total arc</source>
+        <translation>Die Gesamtbewegung</translation>
     </message>
     <message>
         <source>From {before} to {after}: more than the measurement error of {limit}.</source>
@@ -2020,24 +2000,24 @@
         <translation>{name}: {change}.</translation>
     </message>
     <message>
-        <source>What is left out, or was measured otherwise, is not compared.</source>
-        <translation>Was ausgelassen oder anders gemessen wurde, wird nicht verglichen.</translation>
+        <source>Excluded sessions and sessions with another set-up are not compared.</source>
+        <translation>Ausgeschlossene Sitzungen und solche mit anderem Aufbau werden nicht verglichen.</translation>
     </message>
     <message>
-        <source>hidden in part, or too few</source>
+        <source>partly occluded, or too few</source>
         <translation>zum Teil verdeckt oder zu wenige</translation>
     </message>
     <message>
-        <source>at least {change}, error {limit}</source>
-        <translation>mindestens {change}, Fehler {limit}</translation>
+        <source>at least {change}, MDC {limit}</source>
+        <translation>mindestens {change}, MDC {limit}</translation>
     </message>
     <message>
-        <source>{change}, error {limit}</source>
-        <translation>{change}, Fehler {limit}</translation>
+        <source>{change}, MDC {limit}</source>
+        <translation>{change}, MDC {limit}</translation>
     </message>
     <message>
-        <source>{day}: measured although doubtful. {findings}</source>
-        <translation>{day}: trotz Zweifel gemessen. {findings}</translation>
+        <source>{day}: measured although uncertain. {findings}</source>
+        <translation>{day}: trotz Unsicherheit gemessen. {findings}</translation>
     </message>
     <message>
         <source>camera {step} cm further away</source>
@@ -2052,12 +2032,12 @@
         <translation>der Unterarm bewegte sich {distance}</translation>
     </message>
     <message>
-        <source>{day}: {reasons}. Shown as a ring and left out.</source>
-        <translation>{day}: {reasons}. Als Ring gezeigt und ausgelassen.</translation>
+        <source>{day}: {reasons}. Excluded (shown as an open circle).</source>
+        <translation>{day}: {reasons}. Ausgeschlossen (offener Kreis).</translation>
     </message>
     <message>
-        <source>{day}: {reasons}. Left out.</source>
-        <translation>{day}: {reasons}. Ausgelassen.</translation>
+        <source>{day}: {reasons}. Excluded.</source>
+        <translation>{day}: {reasons}. Ausgeschlossen.</translation>
     </message>
     <message>
         <source>{count} pairs of one session, against {kind}</source>
@@ -2085,7 +2065,7 @@
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Spitzentempo</translation>
+        <translation>Maximalgeschwindigkeit</translation>
     </message>
     <message>
         <source>{name}, out</source>
@@ -2100,20 +2080,20 @@
         <translation>{name}, quer</translation>
     </message>
     <message>
-        <source>Peak reached after</source>
-        <translation>Spitze erreicht nach</translation>
+        <source>Time to peak</source>
+        <translation>Zeit bis zum Maximum</translation>
     </message>
     <message>
-        <source>Length of the way</source>
-        <translation>Länge des Weges</translation>
+        <source>Path length</source>
+        <translation>Weglänge</translation>
     </message>
     <message>
-        <source>Way / straight line</source>
-        <translation>Weg / gerade Strecke</translation>
+        <source>Path length ratio</source>
+        <translation>Wegverhältnis</translation>
     </message>
     <message>
-        <source>Peaks of speed</source>
-        <translation>Geschwindigkeitsspitzen</translation>
+        <source>Number of speed peaks</source>
+        <translation>Anzahl der Geschwindigkeitsmaxima</translation>
     </message>
     <message>
         <source>Smoothness (SPARC)</source>
@@ -2124,28 +2104,28 @@
         <translation>Größte Öffnung, Daumen–Zeigefinger</translation>
     </message>
     <message>
-        <source>Wrist at the grasp</source>
-        <translation>Handgelenk beim Greifen</translation>
+        <source>Wrist angle at grasp</source>
+        <translation>Handgelenkwinkel beim Greifen</translation>
     </message>
     <message>
         <source>Hand span, thumb–little</source>
         <translation>Handspanne, Daumen–Kleinfinger</translation>
     </message>
     <message>
-        <source>Its pose coherent meanwhile</source>
-        <translation>Dabei Haltung stimmig</translation>
+        <source>Pose plausible while occluded</source>
+        <translation>Haltung plausibel, während verdeckt</translation>
     </message>
     <message>
-        <source>Its pose known to 15° meanwhile</source>
-        <translation>Dabei Haltung auf 15° bekannt</translation>
+        <source>Pose within 15° while occluded</source>
+        <translation>Haltung auf 15° bekannt, während verdeckt</translation>
     </message>
     <message>
-        <source>Jump when seen again</source>
-        <translation>Sprung beim Wiedersehen</translation>
+        <source>Jump on reappearance</source>
+        <translation>Sprung beim Wiederauftauchen</translation>
     </message>
     <message>
-        <source>All fingers as one movement</source>
-        <translation>Alle Finger als eine Bewegung</translation>
+        <source>Movement synergy (variance explained)</source>
+        <translation>Bewegungssynergie (erklärte Varianz)</translation>
     </message>
     <message>
         <source>Tremor, 3 to 12 Hz (rms)</source>
@@ -2172,16 +2152,16 @@
         <translation>{other} später als {one}</translation>
     </message>
     <message>
-        <source>How far {other} moves with {one}</source>
-        <translation>Wie weit {other} mit {one} mitgeht</translation>
+        <source>Enslaving of {other} by {one}</source>
+        <translation>Mitbewegung {other} durch {one}</translation>
     </message>
     <message>
-        <source>Widest span, {one}–{other}</source>
-        <translation>Spanne {one}–{other}</translation>
+        <source>Largest span, {one}–{other}</source>
+        <translation>Größte Spanne, {one}–{other}</translation>
     </message>
     <message>
-        <source>Nearest, {one}–{other}</source>
-        <translation>Abstand {one}–{other}</translation>
+        <source>Smallest distance, {one}–{other}</source>
+        <translation>Kleinster Abstand, {one}–{other}</translation>
     </message>
     <message>
         <source>Touches, {one}–{other}</source>
@@ -2192,32 +2172,32 @@
         <translation>zu langsam zum Beurteilen</translation>
     </message>
     <message>
-        <source>hidden from the camera</source>
-        <translation>für die Kamera verdeckt</translation>
+        <source>occluded</source>
+        <translation>verdeckt</translation>
     </message>
     <message>
-        <source>Out in {time}, fastest {speed}, way {straight} of straight, opened {opening}, wrist {wrist}</source>
-        <translation>Hin in {time}, schnellstens {speed}, Weg {straight} der Geraden, Öffnung {opening}, Handgelenk {wrist}</translation>
+        <source>Reach {time}, peak speed {speed}, path ratio {straight}, grip aperture {opening}, wrist {wrist}</source>
+        <translation>Greifweg {time}, Maximalgeschwindigkeit {speed}, Wegverhältnis {straight}, Greiföffnung {opening}, Handgelenk {wrist}</translation>
     </message>
     <message>
-        <source>The thumb touched {met} of {all} finger tips</source>
+        <source>The thumb touched {met} of {all} fingertips</source>
         <translation>Der Daumen berührte {met} von {all} Fingerspitzen</translation>
     </message>
     <message>
-        <source>Whether the thumb touched the finger tips was hidden from the camera</source>
-        <translation>Ob der Daumen die Fingerspitzen berührte, war für die Kamera verdeckt</translation>
+        <source>Thumb contact was occluded</source>
+        <translation>Daumenkontakt war verdeckt</translation>
     </message>
     <message>
-        <source>{words}; of {hidden} the camera did not see it</source>
-        <translation>{words}; bei {hidden} sah die Kamera es nicht</translation>
+        <source>{words}; {hidden} occluded</source>
+        <translation>{words}; {hidden} verdeckt</translation>
     </message>
     <message>
-        <source>Out in {time}</source>
-        <translation>Hin in {time}</translation>
+        <source>Reach {time}</source>
+        <translation>Greifweg {time}</translation>
     </message>
     <message>
-        <source>Touches hidden</source>
-        <translation>Berührungen verdeckt</translation>
+        <source>Contact occluded</source>
+        <translation>Kontakt verdeckt</translation>
     </message>
     <message>
         <source>Touched {met} of {all}</source>
@@ -2236,36 +2216,36 @@
         <translation>Spannen</translation>
     </message>
     <message>
-        <source>Fingers together</source>
-        <translation>Finger gemeinsam</translation>
+        <source>Finger coordination</source>
+        <translation>Fingerkoordination</translation>
     </message>
     <message>
-        <source>Further figures</source>
-        <translation>Weitere Werte</translation>
+        <source>Additional measures</source>
+        <translation>Weitere Maße</translation>
     </message>
     <message>
         <source>Range of motion of the fingers</source>
-        <translation>Bewegungsumfang der Finger</translation>
+        <translation>Bewegungsausmaß der Finger</translation>
     </message>
     <message>
-        <source>whole arcs over the same time</source>
-        <translation>Gesamtumfänge über dieselbe Zeit</translation>
+        <source>total arcs over the same period</source>
+        <translation>Gesamtbewegungen über dieselbe Zeit</translation>
     </message>
     <message>
-        <source>not seen</source>
-        <translation>nicht gesehen</translation>
+        <source>not visible</source>
+        <translation>nicht sichtbar</translation>
     </message>
     <message>
-        <source>dashed: hidden; hatched: lost</source>
+        <source>dashed: occluded; hatched: lost</source>
         <translation>gestrichelt: verdeckt; schraffiert: verloren</translation>
     </message>
     <message>
-        <source>Bending over time</source>
-        <translation>Beugung</translation>
+        <source>Finger flexion over time</source>
+        <translation>Fingerflexion über die Zeit</translation>
     </message>
     <message>
-        <source>Middle joint, of the thumb lift</source>
-        <translation>Mittelgelenk, Daumen: Abheben</translation>
+        <source>PIP (thumb: palmar abduction)</source>
+        <translation>PIP (Daumen: Palmarabduktion)</translation>
     </message>
     <message>
         <source>not graded</source>
@@ -2292,32 +2272,16 @@
         <translation>Spreizung</translation>
     </message>
     <message>
-        <source>PIP</source>
-        <translation>PIP</translation>
-    </message>
-    <message>
-        <source>Knuckle (MCP)</source>
-        <translation>Grund (MCP)</translation>
-    </message>
-    <message>
-        <source>Middle (PIP)</source>
-        <translation>Mittel (PIP)</translation>
-    </message>
-    <message>
-        <source>End (DIP)</source>
-        <translation>End (DIP)</translation>
-    </message>
-    <message>
         <source>Total (TAM)</source>
         <translation>Gesamt (TAM)</translation>
     </message>
     <message>
-        <source>Of other hand</source>
-        <translation>Von anderer Hand</translation>
+        <source>% of other hand</source>
+        <translation>% der anderen Hand</translation>
     </message>
     <message>
-        <source>Of usual</source>
-        <translation>Vom Üblichen</translation>
+        <source>% of reference</source>
+        <translation>% der Referenz</translation>
     </message>
     <message>
         <source>{what}, {day}</source>
@@ -2328,20 +2292,20 @@
         <translation>Änderung seit {day}</translation>
     </message>
     <message>
-        <source>lift of the thumb</source>
-        <translation>Abheben des Daumens</translation>
+        <source>palmar abduction of the thumb</source>
+        <translation>Palmarabduktion des Daumens</translation>
     </message>
     <message>
-        <source>knuckles of {fingers}</source>
-        <translation>Grundgelenke: {fingers}</translation>
+        <source>MCP of {fingers}</source>
+        <translation>MCP: {fingers}</translation>
     </message>
     <message>
-        <source>middle joints of {fingers}</source>
-        <translation>Mittelgelenke: {fingers}</translation>
+        <source>PIP of {fingers}</source>
+        <translation>PIP: {fingers}</translation>
     </message>
     <message>
-        <source>end joints of {fingers}</source>
-        <translation>Endgelenke: {fingers}</translation>
+        <source>DIP of {fingers}</source>
+        <translation>DIP: {fingers}</translation>
     </message>
     <message>
         <source>spreading of {fingers}</source>
@@ -2352,64 +2316,60 @@
         <translation>alle Finger</translation>
     </message>
     <message>
-        <source>Limited by the camera’s view ({sign}: at least): {parts}. Hidden stretches do not count.</source>
-        <translation>Durch die Sicht der Kamera begrenzt ({sign}: mindestens): {parts}. Verdeckte Strecken zählen nicht.</translation>
+        <source>Partly occluded ({sign} = minimum): {parts}. Occluded frames are not analysed.</source>
+        <translation>Zum Teil verdeckt ({sign} = Mindestwert): {parts}. Verdeckte Bilder werden nicht ausgewertet.</translation>
     </message>
     <message>
-        <source>Not seen: {joints}.</source>
-        <translation>Nicht gesehen: {joints}.</translation>
+        <source>Not visible: {joints}.</source>
+        <translation>Nicht sichtbar: {joints}.</translation>
     </message>
     <message>
-        <source>Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.</source>
-        <translation>Aktive Gesamtbeweglichkeit (TAM): größte Summe der Beugung eines Fingers in einem Moment, alle Gelenke gesehen.</translation>
+        <source>Total active motion (TAM): largest sum of a finger’s flexion at one moment with all joints visible.</source>
+        <translation>Aktive Gesamtbeweglichkeit (TAM): größte Summe der Flexion eines Fingers in einem Moment, alle Gelenke sichtbar.</translation>
     </message>
     <message>
-        <source>No total active motion (TAM): no finger’s joints were all seen at once.</source>
-        <translation>Keine aktive Gesamtbeweglichkeit (TAM): Bei keinem Finger waren alle Gelenke zugleich zu sehen.</translation>
+        <source>No total active motion (TAM): no finger had all joints visible at once.</source>
+        <translation>Keine aktive Gesamtbeweglichkeit (TAM): Bei keinem Finger waren alle Gelenke zugleich sichtbar.</translation>
     </message>
     <message>
-        <source>It is missing where a finger’s joints were never all seen at once.</source>
-        <translation>Sie fehlt, wo nie alle Gelenke eines Fingers zugleich zu sehen waren.</translation>
+        <source>It is missing for fingers whose joints were never all visible at once.</source>
+        <translation>Sie fehlt bei Fingern, deren Gelenke nie alle zugleich sichtbar waren.</translation>
     </message>
     <message>
-        <source>DIP not measured: TAM takes it as two thirds of PIP.</source>
-        <translation>DIP nicht gemessen: Die TAM setzt dafür zwei Drittel des PIP an.</translation>
+        <source>DIP not measured: TAM assumes two thirds of PIP.</source>
+        <translation>DIP nicht gemessen: TAM rechnet mit zwei Dritteln des PIP.</translation>
     </message>
     <message>
-        <source>Share of the other hand’s TAM, else of the usual 260° (thumb 140°): excellent from 100 %, good above 75 %, fair above 50 %, else poor (ASSH).</source>
-        <translation>Anteil an der TAM der anderen Hand, sonst an 260° (Daumen 140°): sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht (ASSH).</translation>
+        <source>Share of the other hand’s TAM, else of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, else poor.</source>
+        <translation>Anteil an der TAM der anderen Hand, sonst am Referenzwert von 260° (Daumen 140°). ASSH: sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht.</translation>
     </message>
     <message>
-        <source>Middle joints</source>
-        <translation>Mittelgelenke</translation>
+        <source>PIP joints</source>
+        <translation>PIP-Gelenke</translation>
     </message>
     <message>
         <source>{what}: {fingers}.</source>
         <translation>{what}: {fingers}.</translation>
     </message>
     <message>
-        <source>{sign}: the camera did not see the end of that movement.</source>
-        <translation>{sign}: Die Kamera sah das Ende dieser Bewegung nicht.</translation>
+        <source>{sign}: the end of this movement was occluded.</source>
+        <translation>{sign}: Das Ende dieser Bewegung war verdeckt.</translation>
     </message>
     <message>
         <source>the first session on {day}</source>
         <translation>der ersten Sitzung am {day}</translation>
     </message>
     <message>
-        <source>Change since {when} is not judged: {why}.</source>
+        <source>Change since {when} is not assessed: {why}.</source>
         <translation>Änderung seit {when} nicht beurteilt: {why}.</translation>
     </message>
     <message>
-        <source>What was hidden in part is not judged.</source>
-        <translation>Was zum Teil verdeckt war, wird nicht beurteilt.</translation>
+        <source>Partly occluded joints are not assessed.</source>
+        <translation>Zum Teil verdeckte Gelenke werden nicht beurteilt.</translation>
     </message>
     <message>
-        <source>Since {when}: {changes} (error {limit}).</source>
-        <translation>Seit {when}: {changes} (Fehler {limit}).</translation>
-    </message>
-    <message>
-        <source>MCP</source>
-        <translation>MCP</translation>
+        <source>Since {when}: {changes} (MDC {limit}).</source>
+        <translation>Seit {when}: {changes} (MDC {limit}).</translation>
     </message>
     <message>
         <source>IP</source>
@@ -2420,12 +2380,12 @@
         <translation>nicht gemessen</translation>
     </message>
     <message>
-        <source>not judged: {why}</source>
+        <source>not assessed: {why}</source>
         <translation>nicht beurteilt: {why}</translation>
     </message>
     <message>
-        <source>bends {full}, lacks {missing}</source>
-        <translation>beugt {full}, fehlen {missing}</translation>
+        <source>flexion {full}, deficit {missing}</source>
+        <translation>Flexion {full}, Defizit {missing}</translation>
     </message>
     <message>
         <source>TAM of all fingers</source>
@@ -2436,8 +2396,8 @@
         <translation>Spreizung aller Finger</translation>
     </message>
     <message>
-        <source>Lift and spread of the thumb</source>
-        <translation>Abheben und Spreizung des Daumens</translation>
+        <source>Palmar and radial abduction of the thumb</source>
+        <translation>Palmar- und Radialabduktion des Daumens</translation>
     </message>
     <message>
         <source>Path of the wrist</source>
@@ -2448,12 +2408,12 @@
         <translation>mit den Achsen der Hand</translation>
     </message>
     <message>
-        <source>joint centres; dashed: disc hidden</source>
-        <translation>Gelenkmitten; gestrichelt: Punkt verdeckt</translation>
+        <source>joint centres; dashed: marker occluded</source>
+        <translation>Gelenkmitten; gestrichelt: Marker verdeckt</translation>
     </message>
     <message>
-        <source>Ways of the finger tips</source>
-        <translation>Wege der Fingerspitzen</translation>
+        <source>Fingertip paths</source>
+        <translation>Bahnen der Fingerspitzen</translation>
     </message>
     <message>
         <source>X (black) to the fingers, Y (blue) to the thumb, Z (orange) up</source>
@@ -2528,15 +2488,15 @@
         <translation>Von Hand eingetragen</translation>
     </message>
     <message>
-        <source>never joined with the figures above</source>
-        <translation>nie mit den Werten oben verrechnet</translation>
+        <source>not combined with the values above</source>
+        <translation>nicht mit den Werten oben verrechnet</translation>
     </message>
     <message>
-        <source>Fair comparison</source>
+        <source>Comparability</source>
         <translation>Vergleichbarkeit</translation>
     </message>
     <message>
-        <source>All sessions were set up alike.</source>
+        <source>All sessions used the same set-up.</source>
         <translation>Alle Sitzungen hatten den gleichen Aufbau.</translation>
     </message>
     <message>
@@ -2580,8 +2540,8 @@
         <translation>Länge</translation>
     </message>
     <message>
-        <source>Markers were put right by hand; the result as measured is kept.</source>
-        <translation>Marker wurden von Hand berichtigt; das gemessene Ergebnis bleibt erhalten.</translation>
+        <source>Markers were corrected by hand. The original result is kept.</source>
+        <translation>Marker wurden von Hand korrigiert. Das ursprüngliche Ergebnis bleibt erhalten.</translation>
     </message>
     <message>
         <source>{weeks} before</source>
@@ -2589,7 +2549,7 @@
     </message>
     <message>
         <source>Range of motion</source>
-        <translation>Bewegungsumfang</translation>
+        <translation>Bewegungsausmaß</translation>
     </message>
     <message>
         <source>Active and passive</source>
@@ -2600,7 +2560,7 @@
         <translation>grau: Wiederholungen; Band: ± 1 SD des Winkels</translation>
     </message>
     <message>
-        <source>dashed: target</source>
+        <source>dashed: goal</source>
         <translation>gestrichelt: Ziel</translation>
     </message>
     <message>
@@ -2608,36 +2568,32 @@
         <translation>Winkel über die Zeit</translation>
     </message>
     <message>
-        <source>Today side</source>
-        <translation>Heute seitlich</translation>
+        <source>Deviation</source>
+        <translation>Duktion</translation>
     </message>
     <message>
-        <source>Today bending</source>
-        <translation>Heute Beugung</translation>
-    </message>
-    <message>
-        <source>Today turning</source>
-        <translation>Heute Drehung</translation>
+        <source>Pronation–supination</source>
+        <translation>Pro-/Supination</translation>
     </message>
     <message>
         <source>Today</source>
         <translation>Heute</translation>
     </message>
     <message>
-        <source>Range today, last time and other hand</source>
-        <translation>Umfang heute, letztes Mal und andere Hand</translation>
+        <source>Range of motion: today, last time and other hand</source>
+        <translation>Bewegungsausmaß: heute, letztes Mal und andere Hand</translation>
     </message>
     <message>
-        <source>Range today</source>
-        <translation>Umfang heute</translation>
+        <source>Range of motion today</source>
+        <translation>Bewegungsausmaß heute</translation>
     </message>
     <message>
-        <source>grey: usual in adults (AMA, AAOS)</source>
-        <translation>grau: üblich bei Erwachsenen (AMA, AAOS)</translation>
+        <source>grey: reference values of adults (AMA, AAOS)</source>
+        <translation>grau: Referenzwerte Erwachsener (AMA, AAOS)</translation>
     </message>
     <message>
-        <source>How sure are these figures?</source>
-        <translation>Wie sicher sind diese Werte?</translation>
+        <source>How reliable are these values?</source>
+        <translation>Wie zuverlässig sind diese Werte?</translation>
     </message>
     <message>
         <source>Speed, pain, note</source>
@@ -2660,8 +2616,8 @@
         <translation>Sehr geehrte Damen und Herren,</translation>
     </message>
     <message>
-        <source>On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.</source>
-        <translation>am {day} haben wir gemessen: {exercise}, {hand}. Gezählte Wiederholungen: {count}.</translation>
+        <source>On {day} we measured: {exercise}, {hand}. Repetitions analysed: {count}.</source>
+        <translation>am {day} haben wir gemessen: {exercise}, {hand}. Ausgewertete Wiederholungen: {count}.</translation>
     </message>
     <message>
         <source>The comment is too long for this letter; it is in the report.</source>
@@ -2720,12 +2676,12 @@
         <translation>Bestwert</translation>
     </message>
     <message>
-        <source>Usual (adults)</source>
-        <translation>Üblich (Erw.)</translation>
+        <source>Reference (adults)</source>
+        <translation>Referenz (Erw.)</translation>
     </message>
     <message>
-        <source>{count} ways out and back; ranges over the whole recording</source>
-        <translation>{count} Wege hin und zurück; Umfänge über die ganze Aufnahme</translation>
+        <source>{count} strokes out and back; ranges over the whole recording</source>
+        <translation>{count} Hin- und Rückbewegungen; Bewegungsausmaß über die ganze Aufnahme</translation>
     </message>
     <message>
         <source>1 repetition</source>
@@ -2740,72 +2696,64 @@
         <translation>keine aktive Wiederholung</translation>
     </message>
     <message>
-        <source>1 passive beside it</source>
-        <translation>daneben 1 passive</translation>
+        <source>plus 1 passive</source>
+        <translation>zusätzlich 1 passive</translation>
     </message>
     <message>
-        <source>{count} passive beside it</source>
-        <translation>daneben {count} passive</translation>
+        <source>plus {count} passive</source>
+        <translation>zusätzlich {count} passive</translation>
     </message>
     <message>
-        <source>not seen well enough</source>
-        <translation>nicht gut genug gesehen</translation>
+        <source>not visible enough</source>
+        <translation>nicht ausreichend sichtbar</translation>
     </message>
     <message>
-        <source>the recording began in it</source>
-        <translation>die Aufnahme begann mitten darin</translation>
+        <source>cut off at the start of the recording</source>
+        <translation>am Anfang der Aufnahme abgeschnitten</translation>
     </message>
     <message>
-        <source>the hand went out of sight in it</source>
-        <translation>die Hand war mittendrin nicht zu sehen</translation>
+        <source>the hand left the camera’s view</source>
+        <translation>die Hand verließ das Kamerabild</translation>
     </message>
     <message>
-        <source>the recording ended in it</source>
-        <translation>die Aufnahme endete mitten darin</translation>
+        <source>cut off at the end of the recording</source>
+        <translation>am Ende der Aufnahme abgeschnitten</translation>
     </message>
     <message>
-        <source>number {number} left out: {reason}</source>
-        <translation>Nummer {number} ausgelassen: {reason}</translation>
+        <source>number {number} excluded: {reason}</source>
+        <translation>Nummer {number} ausgeschlossen: {reason}</translation>
     </message>
     <message>
-        <source>without what was passive</source>
-        <translation>ohne das Passive</translation>
+        <source>passive repetitions excluded</source>
+        <translation>passive Wiederholungen ausgeschlossen</translation>
     </message>
     <message>
-        <source>one range over the whole recording; no repetitions</source>
-        <translation>ein Umfang über die ganze Aufnahme; keine Wiederholungen</translation>
+        <source>range over the whole recording; no repetitions</source>
+        <translation>Bewegungsausmaß über die ganze Aufnahme; keine Wiederholungen</translation>
     </message>
     <message>
         <source>it is too short</source>
         <translation>sie ist zu kurz</translation>
     </message>
     <message>
-        <source>what is trained was not seen</source>
-        <translation>das Geübte war nicht zu sehen</translation>
+        <source>the exercised joint was not visible</source>
+        <translation>das geübte Gelenk war nicht sichtbar</translation>
     </message>
     <message>
         <source>less than 10° of movement</source>
         <translation>weniger als 10° Bewegung</translation>
     </message>
     <message>
-        <source>it never went there and back</source>
-        <translation>kein Hin und Zurück</translation>
+        <source>no complete movement cycle</source>
+        <translation>kein vollständiger Bewegungszyklus</translation>
     </message>
     <message>
         <source>each was quicker than 0.4 s</source>
         <translation>jede war kürzer als 0,4 s</translation>
     </message>
     <message>
-        <source>{seconds} s not seen and not counted</source>
-        <translation>{seconds} s nicht gesehen und nicht gezählt</translation>
-    </message>
-    <message>
-        <source>limited by the camera&apos;s view</source>
-        <translation>durch die Sicht der Kamera begrenzt</translation>
-    </message>
-    <message>
-        <source>limited by view</source>
-        <translation>durch Sicht begrenzt</translation>
+        <source>{seconds} s occluded and not analysed</source>
+        <translation>{seconds} s verdeckt und nicht ausgewertet</translation>
     </message>
     <message>
         <source>Up and down</source>
@@ -2820,40 +2768,40 @@
         <translation>unter {angle}</translation>
     </message>
     <message>
-        <source>as asked: the hand stays in line</source>
-        <translation>wie gewünscht: Die Hand bleibt in Linie</translation>
+        <source>as intended: the hand stays in line</source>
+        <translation>wie vorgesehen: Hand bleibt in der Achse</translation>
     </message>
     <message>
-        <source>more than asked: watch the exercise</source>
-        <translation>mehr als gewünscht: Achten Sie auf die Übung</translation>
+        <source>more than intended: check the exercise technique</source>
+        <translation>mehr als vorgesehen: Ausführung prüfen</translation>
     </message>
     <message>
-        <source>not judged: no error limit is known</source>
-        <translation>nicht beurteilt: keine Fehlergrenze bekannt</translation>
+        <source>not assessed: no MDC is known</source>
+        <translation>nicht beurteilt: keine MDC bekannt</translation>
     </message>
     <message>
         <source>No range could be measured.</source>
-        <translation>Kein Bewegungsumfang messbar.</translation>
+        <translation>Kein Bewegungsausmaß messbar.</translation>
     </message>
     <message>
-        <source>whole arc</source>
-        <translation>Gesamtumfang</translation>
+        <source>total arc</source>
+        <translation>Gesamtbewegung</translation>
     </message>
     <message>
         <source>No active range was measured.</source>
-        <translation>Kein aktiver Bewegungsumfang gemessen.</translation>
+        <translation>Kein aktives Bewegungsausmaß gemessen.</translation>
     </message>
     <message>
-        <source>{name} {size} better</source>
-        <translation>{name} {size} besser</translation>
+        <source>{name} improved by {size}</source>
+        <translation>{name} um {size} besser</translation>
     </message>
     <message>
-        <source>{name} {size} less</source>
-        <translation>{name} {size} weniger</translation>
+        <source>{name} decreased by {size}</source>
+        <translation>{name} um {size} weniger</translation>
     </message>
     <message>
-        <source>(error {limit})</source>
-        <translation>(Fehler {limit})</translation>
+        <source>(MDC {limit})</source>
+        <translation>(MDC {limit})</translation>
     </message>
     <message>
         <source>Since {when}: {changes}.</source>
@@ -2868,16 +2816,16 @@
         <translation>Winkel in der Reihenfolge der ISB: Flexion, Deviation, Pro-/Supination; {zero}.</translation>
     </message>
     <message>
-        <source>Fingers: zero is straight, below it bent back. Wrist: {zero}.</source>
-        <translation>Finger: Null ist gerade, darunter überstreckt. Handgelenk: {zero}.</translation>
+        <source>Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.</source>
+        <translation>Finger: 0° = gestreckt; negativ = Überstreckung. Handgelenk: {zero}.</translation>
     </message>
     <message>
-        <source>Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. Wrist: {zero}.</source>
-        <translation>Finger: Null ist gerade, darunter überstreckt; TAM ist Beugung minus Streckdefizit. Handgelenk: {zero}.</translation>
+        <source>Fingers: 0° = straight; negative = hyperextension. TAM = total flexion minus extension deficit. Wrist: {zero}.</source>
+        <translation>Finger: 0° = gestreckt; negativ = Überstreckung. TAM = Gesamtflexion minus Streckdefizit. Handgelenk: {zero}.</translation>
     </message>
     <message>
-        <source>zero is straight by the therapist’s goniometer: the hand started at {angles}</source>
-        <translation>Null ist gerade nach dem Winkelmesser der Therapie: Die Hand begann bei {angles}</translation>
+        <source>0° set by goniometer, start position {angles}</source>
+        <translation>0° mit dem Goniometer bestimmt, Startstellung {angles}</translation>
     </message>
     <message>
         <source>Method: {markers} markers, colour and depth camera, {distance} away.</source>
@@ -2888,8 +2836,8 @@
         <translation>Die Winkel des Handgelenks stehen in der Reihenfolge der ISB.</translation>
     </message>
     <message>
-        <source>Carpus measures the hand in the room: it is the wrist only while the forearm rests.</source>
-        <translation>Carpus misst die Hand im Raum: Das ist das Handgelenk nur, solange der Unterarm ruht.</translation>
+        <source>Angles are relative to the room. They equal wrist angles only while the forearm is still.</source>
+        <translation>Winkel gelten relativ zum Raum. Handgelenkwinkel sind sie nur, solange der Unterarm ruht.</translation>
     </message>
     <message>
         <source>Camera not calibrated with a board.</source>
@@ -2904,28 +2852,28 @@
         <translation>Kamera kalibriert am {day}, {days} Tage zuvor.</translation>
     </message>
     <message>
-        <source>± is the spread between repetitions; each angle itself is known to about {sd} where seen.</source>
-        <translation>± ist die Streuung zwischen Wiederholungen; jeder gesehene Winkel selbst ist auf etwa {sd} bekannt.</translation>
+        <source>± = SD between repetitions. A visible angle is known to about {sd}.</source>
+        <translation>± = SD zwischen den Wiederholungen. Ein sichtbarer Winkel ist auf etwa {sd} bekannt.</translation>
     </message>
     <message>
-        <source>± is the spread between repetitions, of fewer than 3 the tracker’s own sd of one value; each angle itself is known to about {sd} where seen.</source>
-        <translation>± ist die Streuung zwischen Wiederholungen, bei weniger als 3 die SD der Verfolgung für einen Wert; jeder gesehene Winkel selbst ist auf etwa {sd} bekannt.</translation>
+        <source>± = SD between repetitions (with fewer than 3: SD of the estimate). A visible angle is known to about {sd}.</source>
+        <translation>± = SD zwischen den Wiederholungen (bei weniger als 3: SD der Schätzung). Ein sichtbarer Winkel ist auf etwa {sd} bekannt.</translation>
     </message>
     <message>
-        <source>± is the tracker’s own sd of one value: there was no spread to give; each angle is known to about {sd}.</source>
-        <translation>± ist die SD der Verfolgung für einen Wert: Eine Streuung gab es nicht; jeder Winkel ist auf etwa {sd} bekannt.</translation>
+        <source>± = SD of the estimate, as there are too few repetitions. Each angle is known to about {sd}.</source>
+        <translation>± = SD der Schätzung, da es zu wenige Wiederholungen gibt. Jeder Winkel ist auf etwa {sd} bekannt.</translation>
     </message>
     <message>
-        <source>Simulated hand: nobody’s movement was measured.</source>
-        <translation>Simulierte Hand: Es wurde keine echte Bewegung gemessen.</translation>
+        <source>Simulated data: no patient was measured.</source>
+        <translation>Simulierte Daten: Es wurde kein Patient gemessen.</translation>
     </message>
     <message>
-        <source>Measured although doubtful: {findings}</source>
-        <translation>Trotz Zweifel gemessen: {findings}</translation>
+        <source>Measured although uncertain: {findings}</source>
+        <translation>Trotz Unsicherheit gemessen: {findings}</translation>
     </message>
     <message>
-        <source>This session is marked as not counting.</source>
-        <translation>Diese Sitzung ist als nicht zählend markiert.</translation>
+        <source>This session is excluded from analysis.</source>
+        <translation>Diese Sitzung ist von der Auswertung ausgeschlossen.</translation>
     </message>
     <message>
         <source>An older result: there is a newer one of the same recording.</source>
@@ -2964,20 +2912,20 @@
         <translation>{share} % der Wiederholungen</translation>
     </message>
     <message>
-        <source>Pictures measured</source>
+        <source>Frames measured</source>
         <translation>Gemessene Bilder</translation>
     </message>
     <message>
-        <source>Markers hidden</source>
+        <source>Markers occluded</source>
         <translation>Verdeckte Marker</translation>
     </message>
     <message>
-        <source>{count} of {all} figures</source>
+        <source>{count} of {all} values</source>
         <translation>{count} von {all} Werten</translation>
     </message>
     <message>
-        <source>At least (≥) or not seen</source>
-        <translation>Mindestens (≥) oder nicht gesehen</translation>
+        <source>Minimum (≥) or not visible</source>
+        <translation>Mindestwert (≥) oder nicht sichtbar</translation>
     </message>
     <message>
         <source>{distance} (limit {limit})</source>
@@ -2988,11 +2936,11 @@
         <translation>Unterarm bewegt</translation>
     </message>
     <message>
-        <source>{depth} under its disc (scatter {residual})</source>
-        <translation>{depth} unter dem Punkt (Streuung {residual})</translation>
+        <source>{depth} below its marker (scatter {residual})</source>
+        <translation>{depth} unter dem Marker (Streuung {residual})</translation>
     </message>
     <message>
-        <source>Point the wrist turns about</source>
+        <source>Wrist rotation centre</source>
         <translation>Drehpunkt des Handgelenks</translation>
     </message>
     <message>
@@ -3001,14 +2949,14 @@
     </message>
     <message>
         <source>Peak speed, mean ± sd</source>
-        <translation>Spitzentempo, Mittel ± SD</translation>
+        <translation>Maximalgeschwindigkeit, Mittel ± SD</translation>
     </message>
     <message>
         <source>Smoothness (SPARC; 0 is smoothest)</source>
         <translation>Flüssigkeit der Bewegung (SPARC; 0 am flüssigsten)</translation>
     </message>
     <message>
-        <source>Target</source>
+        <source>Goal</source>
         <translation>Ziel</translation>
     </message>
     <message>
@@ -3104,10 +3052,6 @@
         <translation>Handgelenk Flexion–Extension</translation>
     </message>
     <message>
-        <source>Wrist side to side</source>
-        <translation>Handgelenk zur Seite</translation>
-    </message>
-    <message>
         <source>Free movement</source>
         <translation>Freie Bewegung</translation>
     </message>
@@ -3124,8 +3068,8 @@
         <translation>Finger spreizen</translation>
     </message>
     <message>
-        <source>Thumb across the palm</source>
-        <translation>Daumen über die Handfläche</translation>
+        <source>Thumb opposition</source>
+        <translation>Daumenopposition</translation>
     </message>
     <message>
         <source>Free movement of the fingers</source>
@@ -3240,10 +3184,6 @@
         <translation>Ulnar</translation>
     </message>
     <message>
-        <source>Flexion</source>
-        <translation>Flexion</translation>
-    </message>
-    <message>
         <source>Extension</source>
         <translation>Extension</translation>
     </message>
@@ -3280,8 +3220,8 @@
         <translation>Pronationsdefizit</translation>
     </message>
     <message>
-        <source>lacks {angle}</source>
-        <translation>es fehlen {angle}</translation>
+        <source>{angle} deficit</source>
+        <translation>{angle} Defizit</translation>
     </message>
     <message>
         <source>Radial deviation</source>
@@ -3290,14 +3230,6 @@
     <message>
         <source>Ulnar deviation</source>
         <translation>Ulnarduktion</translation>
-    </message>
-    <message>
-        <source>Side arc</source>
-        <translation>Umfang seitlich</translation>
-    </message>
-    <message>
-        <source>Bending arc</source>
-        <translation>Umfang Beugung</translation>
     </message>
     <message>
         <source>Right hand</source>
@@ -3396,12 +3328,12 @@
         <translation>simulierte Hand</translation>
     </message>
     <message>
-        <source>marked as not counting</source>
-        <translation>als nicht zählend markiert</translation>
+        <source>excluded from analysis</source>
+        <translation>von der Auswertung ausgeschlossen</translation>
     </message>
     <message>
-        <source>measured although the markers were doubtful</source>
-        <translation>gemessen, obwohl die Marker zweifelhaft waren</translation>
+        <source>measured although the markers were uncertain</source>
+        <translation>trotz unsicherer Marker gemessen</translation>
     </message>
     <message>
         <source>the camera was at another distance</source>
@@ -3416,28 +3348,24 @@
         <translation>der Unterarm hat sich bewegt</translation>
     </message>
     <message>
-        <source>hidden in part</source>
-        <translation>zum Teil verdeckt</translation>
-    </message>
-    <message>
         <source>angles in another order</source>
         <translation>Winkel in anderer Reihenfolge</translation>
     </message>
     <message>
-        <source>A recording counts once, by its newest result: 1 earlier result is left out.</source>
-        <translation>Eine Aufnahme zählt einmal, mit ihrem neuesten Ergebnis: 1 früheres Ergebnis ist ausgelassen.</translation>
+        <source>Only the newest result of a recording is analysed: 1 earlier result is excluded.</source>
+        <translation>Nur das neueste Ergebnis einer Aufnahme wird ausgewertet: 1 früheres ist ausgeschlossen.</translation>
     </message>
     <message>
-        <source>A recording counts once, by its newest result: {count} earlier results are left out.</source>
-        <translation>Eine Aufnahme zählt einmal, mit ihrem neuesten Ergebnis: {count} frühere Ergebnisse sind ausgelassen.</translation>
+        <source>Only the newest result of a recording is analysed: {count} earlier results are excluded.</source>
+        <translation>Nur das neueste Ergebnis einer Aufnahme wird ausgewertet: {count} frühere sind ausgeschlossen.</translation>
     </message>
     <message>
-        <source>“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where it has none of its own, experts’ choice for Carpus. For the same protocol, side and set-up.</source>
-        <translation>„Fehler“ ist die kleinste nachweisbare Veränderung (MDC95), von dieser Einrichtung am {date} mit {count} Personen gemessen; wo es keine eigene gibt, von Fachleuten für Carpus gewählt. Für gleiche Marker, Seite und gleichen Aufbau.</translation>
+        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people, otherwise it is the expert default of Carpus. It holds for the same protocol, side and set-up.</source>
+        <translation>MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen, sonst gilt die Expertenvorgabe von Carpus. Für gleiche Marker, Seite und gleichen Aufbau.</translation>
     </message>
     <message>
-        <source>“Error” is the smallest difference called a change: experts’ choice for Carpus, not published figures; of an arc, which has two ends, √2 as much. For the same protocol, side and set-up, until the clinic has measured its own.</source>
-        <translation>„Fehler“ ist der kleinste Unterschied, der Änderung heißt: von Fachleuten für Carpus gewählt, nicht veröffentlicht; bei einem Gesamtumfang mit seinen zwei Enden das √2-Fache. Für gleiche Marker, Seite und gleichen Aufbau, bis die Einrichtung selbst gemessen hat.</translation>
+        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same protocol, side and set-up.</source>
+        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für eine Gesamtbewegung mit ihren zwei Enden ist sie √2-mal so groß. Für gleiche Marker, Seite und gleichen Aufbau.</translation>
     </message>
     <message>
         <source>{size} more</source>
@@ -3452,20 +3380,20 @@
         <translation>{difference} seit der ersten</translation>
     </message>
     <message>
-        <source>{difference}, within error ({limit})</source>
-        <translation>{difference}, im Fehler ({limit})</translation>
+        <source>{difference}, within MDC ({limit})</source>
+        <translation>{difference}, innerhalb MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}, beyond error ({limit})</source>
-        <translation>{difference}, über dem Fehler ({limit})</translation>
+        <source>{difference}, beyond MDC ({limit})</source>
+        <translation>{difference}, über MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}: within measurement error ({limit})</source>
-        <translation>{difference}: im Messfehler ({limit})</translation>
+        <source>{difference}: within MDC ({limit})</source>
+        <translation>{difference}: innerhalb MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}: beyond measurement error ({limit})</source>
-        <translation>{difference}: über dem Messfehler ({limit})</translation>
+        <source>{difference}: beyond MDC ({limit})</source>
+        <translation>{difference}: über MDC ({limit})</translation>
     </message>
     <message>
         <source>Another blue spot fits the {markers} better.</source>
@@ -4764,8 +4692,8 @@
         <translation>Verdeckte Gelenke zählen nicht.</translation>
     </message>
     <message>
-        <source>± is the spread between repetitions.</source>
-        <translation>± ist die Streuung zwischen Wiederholungen.</translation>
+        <source>± is the SD between repetitions.</source>
+        <translation>± ist die SD zwischen den Wiederholungen.</translation>
     </message>
     <message>
         <source>thumb</source>
@@ -4980,16 +4908,16 @@
         <translation>Flexion {flexion}, Extension {extension}.</translation>
     </message>
     <message>
-        <source>The whole arc is {arc}. {change}</source>
-        <translation>Der Gesamtumfang ist {arc}. {change}</translation>
+        <source>The total arc is {arc}. {change}</source>
+        <translation>Die Gesamtbewegung ist {arc}. {change}</translation>
     </message>
     <message>
         <source>Splint as before; exercises at home three times a day.</source>
         <translation>Schiene wie bisher; dreimal täglich zu Hause üben.</translation>
     </message>
     <message>
-        <source>Check again in two weeks.</source>
-        <translation>Kontrolle in zwei Wochen.</translation>
+        <source>Reassess in two weeks.</source>
+        <translation>Erneut untersuchen in zwei Wochen.</translation>
     </message>
     <message>
         <source>Practice patient</source>
@@ -5100,23 +5028,23 @@
         <translation>AMA Guides; AAOS 1965 (Goniometer)</translation>
     </message>
     <message>
-        <source>ASSH, sum of active bending in a fist</source>
-        <translation>ASSH, Summe der aktiven Beugung in der Faust</translation>
+        <source>ASSH, sum of active flexion in a fist</source>
+        <translation>ASSH, Summe der aktiven Flexion in der Faust</translation>
     </message>
     <message>
         <source>The packed program does without {packages}; Carpus from its source can have it.</source>
         <translation>Das gepackte Programm kommt ohne {packages} aus; Carpus aus den Quellen kann es haben.</translation>
     </message>
     <message>
-        <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>
-        <translation>Üblich: {source}; {ages}, {sexes}; nicht für Kinder und hohes Alter.</translation>
+        <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
+        <translation>Referenz: {source}; {ages}, {sexes}; nicht für Kinder und hohes Alter.</translation>
     </message>
     <message>
         <source>a study&apos;s table has the columns person, session and reference</source>
         <translation>die Tabelle einer Studie hat die Spalten person, session und reference</translation>
     </message>
     <message>
-        <source>adults, ages not told</source>
+        <source>adults, ages not given</source>
         <translation>Erwachsene, Alter nicht angegeben</translation>
     </message>
     <message>
@@ -5232,36 +5160,36 @@
         <translation>{count} je Bewegung, zusammen {seconds} s</translation>
     </message>
     <message>
-        <source>Stops on the way, mean</source>
-        <translation>Halte unterwegs, Mittel</translation>
+        <source>Pauses during the movement, mean</source>
+        <translation>Pausen während der Bewegung, Mittel</translation>
     </message>
     <message>
-        <source>No change proven since {day}.</source>
-        <translation>Seit {day} keine Änderung nachgewiesen.</translation>
+        <source>No change beyond measurement error since {day}.</source>
+        <translation>Seit {day} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
-        <source>{name}: no change proven.</source>
-        <translation>{name}: keine Änderung nachgewiesen.</translation>
+        <source>{name}: no change beyond measurement error.</source>
+        <translation>{name}: keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
-        <source>No change proven since {when}.</source>
-        <translation>Seit {when} keine Änderung nachgewiesen.</translation>
+        <source>No change beyond measurement error since {when}.</source>
+        <translation>Seit {when} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
-        <source>no change proven</source>
-        <translation>keine Änderung nachgewiesen</translation>
+        <source>no change beyond MDC</source>
+        <translation>keine Änderung über MDC</translation>
     </message>
     <message>
-        <source>Each joint where it was bent most; ± is the spread between repetitions.</source>
-        <translation>Jedes Gelenk dort, wo es am meisten gebeugt war; ± ist die Streuung zwischen den Wiederholungen.</translation>
+        <source>Each joint at its largest flexion; ± is the SD between repetitions.</source>
+        <translation>Jedes Gelenk bei größter Flexion; ± ist die SD zwischen den Wiederholungen.</translation>
     </message>
     <message>
-        <source>{sign}: at least, the camera did not see the end of that movement.</source>
-        <translation>{sign}: mindestens, die Kamera sah das Ende dieser Bewegung nicht.</translation>
+        <source>{sign} = minimum: the end of this movement was occluded.</source>
+        <translation>{sign} = Mindestwert: Das Ende dieser Bewegung war verdeckt.</translation>
     </message>
     <message>
-        <source>{sign}: measured by hand that day, active / passive; never averaged with the rest.</source>
-        <translation>{sign}: an diesem Tag von Hand gemessen, aktiv / passiv; nie mit dem Übrigen gemittelt.</translation>
+        <source>{sign}: measured by hand that day, active / passive; not combined with the other values.</source>
+        <translation>{sign}: an diesem Tag von Hand gemessen, aktiv / passiv; nicht mit den anderen Werten verrechnet.</translation>
     </message>
     <message>
         <source>Active</source>
@@ -5272,8 +5200,8 @@
         <translation>Passiv</translation>
     </message>
     <message>
-        <source>Passive goes further</source>
-        <translation>Passiv geht weiter</translation>
+        <source>Passive minus active</source>
+        <translation>Passiv minus aktiv</translation>
     </message>
     <message>
         <source>By hand</source>
@@ -5284,36 +5212,36 @@
         <translation>Finger</translation>
     </message>
     <message>
-        <source>within the error</source>
-        <translation>innerhalb des Fehlers</translation>
+        <source>within MDC</source>
+        <translation>innerhalb MDC</translation>
     </message>
     <message>
-        <source>{gap} (error {limit})</source>
-        <translation>{gap} (Fehler {limit})</translation>
+        <source>{gap} (MDC {limit})</source>
+        <translation>{gap} (MDC {limit})</translation>
     </message>
     <message>
-        <source>{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.</source>
-        <translation>{name}: {active} von selbst, {passive} mit Hilfe. Die {gap} dazwischen sind mehr als der Fehler.</translation>
+        <source>{name}: active {active}, passive {passive}. The difference of {gap} is beyond the measurement error.</source>
+        <translation>{name}: aktiv {active}, passiv {passive}. Die Differenz von {gap} ist größer als der Messfehler.</translation>
     </message>
     <message>
-        <source>Active and passive are shown, not judged: {why}.</source>
-        <translation>Aktiv und passiv werden gezeigt, nicht beurteilt: {why}.</translation>
+        <source>Active and passive range are shown without an assessment: {why}.</source>
+        <translation>Aktives und passives Bewegungsausmaß ohne Beurteilung: {why}.</translation>
     </message>
     <message>
-        <source>You are holding what you reached.</source>
-        <translation>Sie halten, was Sie erreicht haben.</translation>
+        <source>You have kept the progress you made.</source>
+        <translation>Sie haben Ihren Fortschritt gehalten.</translation>
     </message>
     <message>
         <source>You have reached our goal.</source>
         <translation>Sie haben unser Ziel erreicht.</translation>
     </message>
     <message>
-        <source>More than half of the way is done.</source>
-        <translation>Mehr als die Hälfte des Weges ist geschafft.</translation>
+        <source>You are more than halfway to our goal.</source>
+        <translation>Sie haben mehr als die Hälfte bis zu unserem Ziel geschafft.</translation>
     </message>
     <message>
-        <source>You come further than at the start.</source>
-        <translation>Sie kommen weiter als am Anfang.</translation>
+        <source>You can move further than when you started.</source>
+        <translation>Sie kommen weiter als zu Beginn.</translation>
     </message>
     <message>
         <source>Your hand at home</source>
@@ -5344,11 +5272,11 @@
         <translation>{count}-mal am Tag</translation>
     </message>
     <message>
-        <source>dashed: at the start; full line: today</source>
+        <source>dashed: at the start; solid: today</source>
         <translation>gestrichelt: am Anfang; durchgezogen: heute</translation>
     </message>
     <message>
-        <source>dashed: at the start; full line: today; green: our goal</source>
+        <source>dashed: at the start; solid: today; green: our goal</source>
         <translation>gestrichelt: am Anfang; durchgezogen: heute; grün: unser Ziel</translation>
     </message>
     <message>
@@ -5356,8 +5284,8 @@
         <translation>unser Ziel</translation>
     </message>
     <message>
-        <source>See you again</source>
-        <translation>Wir sehen uns wieder</translation>
+        <source>Next appointment</source>
+        <translation>Nächster Termin</translation>
     </message>
     <message>
         <source>Notes, or what to ask next time</source>
@@ -5412,7 +5340,7 @@
         <translation>Simulierte Hand</translation>
     </message>
     <message>
-        <source>1 marker hidden</source>
+        <source>1 marker occluded</source>
         <translation>1 Marker verdeckt</translation>
     </message>
     <message>
@@ -5437,7 +5365,7 @@
     </message>
     <message>
         <source>Range of motion, fingers</source>
-        <translation>Bewegungsumfang, Finger</translation>
+        <translation>Bewegungsausmaß, Finger</translation>
     </message>
     <message>
         <source>Movement of the other angles</source>
@@ -5460,16 +5388,12 @@
         <translation>Greifbewegungen</translation>
     </message>
     <message>
-        <source>Thumb opposition</source>
-        <translation>Daumenopposition</translation>
-    </message>
-    <message>
         <source>not available: fewer than {count} frames a second</source>
         <translation>nicht verfügbar: weniger als {count} Bilder pro Sekunde</translation>
     </message>
     <message>
-        <source>not available: it could not be computed</source>
-        <translation>nicht verfügbar: Berechnung nicht möglich</translation>
+        <source>not available: the calculation failed</source>
+        <translation>nicht verfügbar: Berechnung fehlgeschlagen</translation>
     </message>
     <message>
         <source>{verdict} Checked {day}.</source>
@@ -5640,10 +5564,6 @@
         <translation>Die Winkel zählen ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen verschwinden die Marker bei etwa 25° Pronation. Ein Ziel vor Daumen oben hat ein Minus: Supination −25°.</translation>
     </message>
     <message>
-        <source>Pronation–supination</source>
-        <translation>Pronation–Supination</translation>
-    </message>
-    <message>
         <source>Calibrate the camera again, or correct the file.</source>
         <translation>Kalibrieren Sie die Kamera neu, oder korrigieren Sie die Datei.</translation>
     </message>
@@ -5656,8 +5576,8 @@
         <translation>einmal gemessen</translation>
     </message>
     <message>
-        <source>Kept for this camera, number {serial}. Sessions measured before keep their values and say so.</source>
-        <translation>Wird für diese Kamera mit der Nummer {serial} aufbewahrt. Früher gemessene Sitzungen behalten ihre Werte und sagen es.</translation>
+        <source>Saved for this camera, number {serial}. Earlier sessions keep their values.</source>
+        <translation>Wird für diese Kamera mit der Nummer {serial} gespeichert. Frühere Sitzungen behalten ihre Werte.</translation>
     </message>
     <message>
         <source>Distance: near and far missing</source>
@@ -5729,7 +5649,7 @@
     </message>
     <message>
         <source>Passive range does not exceed active range by more than the measurement error.</source>
-        <translation>Der passive Umfang übertrifft den aktiven nicht um mehr als den Messfehler.</translation>
+        <translation>Das passive Bewegungsausmaß übertrifft das aktive nicht um mehr als den Messfehler.</translation>
     </message>
     <message>
         <source>another filter than Carpus’ own tracked it</source>
@@ -5764,8 +5684,8 @@
         <translation>dem Namen nach keiner der Punkte, von der anderen Hand oder nie gesehen</translation>
     </message>
     <message>
-        <source>the hand went out of sight during the movement</source>
-        <translation>die Hand war während der Bewegung zeitweise nicht zu sehen</translation>
+        <source>the hand left the camera’s view during the movement</source>
+        <translation>die Hand verließ während der Bewegung das Kamerabild</translation>
     </message>
     <message>
         <source>Compiled parts</source>
@@ -6614,10 +6534,6 @@
     <message>
         <source>Program</source>
         <translation>Programm</translation>
-    </message>
-    <message>
-        <source>not visible</source>
-        <translation>nicht sichtbar</translation>
     </message>
     <message>
         <source>Not kept: {names}. Also correct a later frame.</source>
@@ -7614,8 +7530,8 @@
         <translation>Esc</translation>
     </message>
     <message>
-        <source>What you typed is not kept yet. Esc once more closes without it.</source>
-        <translation>Was Sie getippt haben, ist noch nicht gespeichert. Noch einmal Esc verwirft es.</translation>
+        <source>Your entries are not saved yet. Press Esc again to close without saving.</source>
+        <translation>Ihre Eingaben sind noch nicht gespeichert. Noch einmal Esc schließt ohne Speichern.</translation>
     </message>
 </context>
 <context>
@@ -7683,8 +7599,8 @@
         <translation>Schmerz</translation>
     </message>
     <message>
-        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
-        <translation>Passiv: Jemand anders hat die Hand bewegt. Sie zählt für sich, neben den aktiven.</translation>
+        <source>Passive (moved by the therapist): analysed separately from active repetitions.</source>
+        <translation>Passiv (vom Therapeuten bewegt): getrennt von den aktiven Wiederholungen ausgewertet.</translation>
     </message>
     <message>
         <source>Passive</source>
@@ -7695,8 +7611,8 @@
         <translation>Passiv, und alle danach</translation>
     </message>
     <message>
-        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
-        <translation>Weggelassen: Sie bleibt in der Aufnahme und in den Kurven und zählt nicht mehr. Der Bericht sagt es.</translation>
+        <source>Excluded from the results; still shown on the curves and mentioned in the report.</source>
+        <translation>Aus den Ergebnissen ausgeschlossen; in den Kurven weiter gezeigt und im Bericht erwähnt.</translation>
     </message>
     <message>
         <source>other movement</source>
@@ -7711,16 +7627,16 @@
         <translation>Anderer Grund</translation>
     </message>
     <message>
-        <source>Keep it in</source>
-        <translation>Doch behalten</translation>
+        <source>Keep included</source>
+        <translation>Nicht ausschließen</translation>
     </message>
     <message>
-        <source>Is repetition {number} passive, or left out?</source>
-        <translation>Ist Wiederholung {number} passiv oder weggelassen?</translation>
+        <source>Is repetition {number} passive or excluded?</source>
+        <translation>Ist Wiederholung {number} passiv oder ausgeschlossen?</translation>
     </message>
     <message>
-        <source>Leave it out</source>
-        <translation>Auslassen</translation>
+        <source>Exclude</source>
+        <translation>Ausschließen</translation>
     </message>
 </context>
 <context>
@@ -7922,20 +7838,20 @@
         <translation>Gelenkwinkel der letzten zehn Sekunden, je Finger</translation>
     </message>
     <message>
-        <source>follows the middle joint</source>
-        <translation>folgt dem Mittelgelenk</translation>
+        <source>coupled to the PIP</source>
+        <translation>an PIP gekoppelt</translation>
     </message>
     <message>
-        <source>follows</source>
-        <translation>folgt</translation>
+        <source>coupled</source>
+        <translation>gekoppelt</translation>
     </message>
     <message>
         <source>Last 10 s</source>
         <translation>Letzte 10 s</translation>
     </message>
     <message>
-        <source>Bending</source>
-        <translation>Beugung</translation>
+        <source>Flexion</source>
+        <translation>Flexion</translation>
     </message>
     <message>
         <source>Spreading</source>
@@ -8078,20 +7994,20 @@ von oben</translation>
 <context>
     <name>HandImageDialog</name>
     <message>
-        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
-        <translation>Die Hand allein mit ihrem Winkel: Gesicht und Raum sind weggeschnitten, es steht kein Name dabei. Wo die Bewegung nicht in der Bildebene liegt, steht der Winkel nur in Worten da.</translation>
+        <source>The hand alone, with its angle. Face and room are removed, and there is no name. If the movement is not in the image plane, the angle is given in words only.</source>
+        <translation>Die Hand allein mit ihrem Winkel. Gesicht und Raum sind entfernt, es steht kein Name dabei. Liegt die Bewegung nicht in der Bildebene, steht der Winkel nur in Worten da.</translation>
     </message>
     <message>
-        <source>Picture of the hand</source>
+        <source>Image of the hand</source>
         <translation>Bild der Hand</translation>
     </message>
     <message>
-        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
-        <translation>Wer die Datei hat, kann sie ansehen: Carpus kann sie dort nicht schützen. Im Protokoll wird es vermerkt.</translation>
+        <source>Carpus cannot protect the saved file: anyone who has it can open it. The export is logged.</source>
+        <translation>Carpus kann die gespeicherte Datei nicht schützen: Wer sie hat, kann sie öffnen. Der Export wird protokolliert.</translation>
     </message>
     <message>
-        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
-        <translation>Die Hand ist hier nicht sichtbar, oder die Zuordnung ihrer Marker ist zweifelhaft. Wählen Sie einen anderen Zeitpunkt.</translation>
+        <source>The hand is not visible here, or its marker labels are uncertain. Choose another moment.</source>
+        <translation>Die Hand ist hier nicht sichtbar oder ihre Markerbezeichnungen sind unsicher. Wählen Sie einen anderen Moment.</translation>
     </message>
     <message>
         <source>The patient has agreed</source>
@@ -8161,12 +8077,12 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>HomeDialog</name>
     <message>
-        <source>Sheet for home</source>
-        <translation>Blatt für zu Hause</translation>
+        <source>Home exercise sheet</source>
+        <translation>Übungsblatt für zu Hause</translation>
     </message>
     <message>
-        <source>One page for the patient, without figures or diagnosis. Up to {count} exercises.</source>
-        <translation>Eine Seite für den Patienten, ohne Zahlen und Diagnose. Bis zu {count} Übungen.</translation>
+        <source>One page for the patient, without values or diagnosis. Up to {count} exercises.</source>
+        <translation>Eine Seite für den Patienten, ohne Werte und Diagnose. Bis zu {count} Übungen.</translation>
     </message>
     <message>
         <source>&amp;Times</source>
@@ -8197,11 +8113,11 @@ Umschalt+F8 von der Seite</translation>
         <translation>Das Blatt zeigen</translation>
     </message>
     <message>
-        <source>Time: {count} letters too many</source>
+        <source>Time: {count} characters too long</source>
         <translation>Uhrzeit: {count} Zeichen zu viel</translation>
     </message>
     <message>
-        <source>Line: {count} letters too many</source>
+        <source>Line: {count} characters too long</source>
         <translation>Zeile: {count} Zeichen zu viel</translation>
     </message>
 </context>
@@ -8212,8 +8128,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Arztbrief</translation>
     </message>
     <message>
-        <source>One page, with the figures of this session and your comment. Addresses stay in your list.</source>
-        <translation>Eine Seite, mit den Werten dieser Sitzung und Ihrer Bemerkung. Anschriften bleiben in Ihrer Liste.</translation>
+        <source>One page with the values of this session and your comment. Addresses stay in your list.</source>
+        <translation>Eine Seite mit den Werten dieser Sitzung und Ihrer Bemerkung. Anschriften bleiben in Ihrer Liste.</translation>
     </message>
     <message>
         <source>Written to before</source>
@@ -8391,8 +8307,8 @@ Umschalt+F8 von der Seite</translation>
         <translation> · Kreuz: Drehpunkt des Handgelenks; er muss im Ring bleiben</translation>
     </message>
     <message>
-        <source>arm moved ({distance})</source>
-        <translation>Arm bewegt ({distance})</translation>
+        <source>forearm moved ({distance})</source>
+        <translation>Unterarm bewegt ({distance})</translation>
     </message>
     <message>
         <source>forearm still ({distance})</source>
@@ -9103,8 +9019,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>vorhergesagt</translation>
     </message>
     <message>
-        <source>follows the middle joint</source>
-        <translation>folgt dem Mittelgelenk</translation>
+        <source>coupled to the PIP</source>
+        <translation>an PIP gekoppelt</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -9123,7 +9039,7 @@ Umschalt+F8 von der Seite</translation>
         <translation>Bestwert {movement}</translation>
     </message>
     <message>
-        <source>Target {angle}</source>
+        <source>Goal {angle}</source>
         <translation>Ziel {angle}</translation>
     </message>
     <message>
@@ -9188,8 +9104,8 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>PathsChart</name>
     <message>
-        <source>Ways in three planes</source>
-        <translation>Wege in drei Ebenen</translation>
+        <source>Paths in three planes</source>
+        <translation>Bahnen in drei Ebenen</translation>
     </message>
 </context>
 <context>
@@ -9599,11 +9515,11 @@ Umschalt+F8 von der Seite</translation>
         <translation>Wiederholung…</translation>
     </message>
     <message>
-        <source>Passive, or left out (X); [ and ] go to another</source>
-        <translation>Passiv oder weggelassen (X); [ und ] gehen zu einer anderen</translation>
+        <source>Passive or excluded (X); [ and ] select another</source>
+        <translation>Passiv oder ausgeschlossen (X); [ und ] wählen eine andere</translation>
     </message>
     <message>
-        <source>picture</source>
+        <source>frame</source>
         <translation>Bild</translation>
     </message>
 </context>
@@ -9652,8 +9568,8 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>ProgressChart</name>
     <message>
-        <source>Range over the sessions</source>
-        <translation>Umfang über die Sitzungen</translation>
+        <source>Range of motion over the sessions</source>
+        <translation>Bewegungsausmaß über die Sitzungen</translation>
     </message>
     <message>
         <source>{name} {value}, {count} repetitions</source>
@@ -9722,8 +9638,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die Sitzungen lassen sich nicht lesen.</translation>
     </message>
     <message>
-        <source>Simulated sessions are drawn and compared for practice only: they count nowhere.</source>
-        <translation>Simulierte Sitzungen sind nur zum Üben gezeichnet und verglichen: Sie zählen nirgends.</translation>
+        <source>Simulated sessions are shown for practice only and excluded from analysis.</source>
+        <translation>Simulierte Sitzungen dienen nur der Übung und sind von der Auswertung ausgeschlossen.</translation>
     </message>
     <message>
         <source>{count} sessions, {last}</source>
@@ -9743,22 +9659,22 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Spitzentempo</translation>
+        <translation>Maximalgeschwindigkeit</translation>
     </message>
     <message>
-        <source>error not yet known</source>
-        <translation>Fehler noch unbekannt</translation>
+        <source>MDC not yet known</source>
+        <translation>MDC noch unbekannt</translation>
     </message>
     <message>
         <source>Measured by hand</source>
         <translation>Von Hand gemessen</translation>
     </message>
     <message>
-        <source>Fair comparison</source>
+        <source>Comparability</source>
         <translation>Vergleichbarkeit</translation>
     </message>
     <message>
-        <source>All sessions were set up alike.</source>
+        <source>All sessions used the same set-up.</source>
         <translation>Alle Sitzungen hatten den gleichen Aufbau.</translation>
     </message>
 </context>
@@ -10139,8 +10055,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Bemerkung</translation>
     </message>
     <message>
-        <source>Printed on the report and kept with the session. No names here, please.</source>
-        <translation>Wird auf den Bericht gedruckt und mit der Sitzung aufbewahrt. Bitte keine Namen.</translation>
+        <source>Printed on the report and saved with the session. No names here, please.</source>
+        <translation>Steht auf dem Bericht und wird mit der Sitzung gespeichert. Bitte keine Namen.</translation>
     </message>
     <message>
         <source>Comment on the report</source>
@@ -10155,20 +10071,20 @@ Umschalt+F8 von der Seite</translation>
         <translation>Teil eines Satzes eingeben</translation>
     </message>
     <message>
-        <source>These places take the session’s figures: {places}</source>
-        <translation>Diese Stellen nehmen die Werte der Sitzung auf: {places}</translation>
+        <source>These placeholders take the session’s values: {places}</source>
+        <translation>Diese Platzhalter nehmen die Werte der Sitzung auf: {places}</translation>
     </message>
     <message>
         <source>Insert</source>
         <translation>Einfügen</translation>
     </message>
     <message>
-        <source>Remember</source>
-        <translation>Merken</translation>
+        <source>Save</source>
+        <translation>Speichern</translation>
     </message>
     <message>
-        <source>Forget</source>
-        <translation>Vergessen</translation>
+        <source>Delete</source>
+        <translation>Löschen</translation>
     </message>
     <message>
         <source>Parts of the report</source>
@@ -10187,12 +10103,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Kurven und Wiederholungen</translation>
     </message>
     <message>
-        <source>Range as bars</source>
-        <translation>Umfang als Balken</translation>
+        <source>Range of motion as bars</source>
+        <translation>Bewegungsausmaß als Balken</translation>
     </message>
     <message>
-        <source>How sure the figures are</source>
-        <translation>Wie sicher die Werte sind</translation>
+        <source>Reliability of the values</source>
+        <translation>Zuverlässigkeit der Werte</translation>
     </message>
     <message>
         <source>Speed, pain, note</source>
@@ -10203,7 +10119,7 @@ Umschalt+F8 von der Seite</translation>
         <translation>Von Hand eingetragen</translation>
     </message>
     <message>
-        <source>Page of movement</source>
+        <source>Motion page</source>
         <translation>Bewegungsseite</translation>
     </message>
     <message>
@@ -10234,8 +10150,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Arztbrief…</translation>
     </message>
     <message>
-        <source>Sheet for home…</source>
-        <translation>Blatt für zu Hause…</translation>
+        <source>Home exercise sheet…</source>
+        <translation>Übungsblatt…</translation>
     </message>
     <message>
         <source>Back to the report</source>
@@ -10262,16 +10178,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>{count} A4-Seiten</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. It carries the made-up name, never a real one.</source>
-        <translation>{pages}, auch in Grau lesbar. Darauf steht der erfundene Name, nie ein echter.</translation>
+        <source>{pages}, readable in grey. Contains the pseudonym, never the real name.</source>
+        <translation>{pages}, in Grau lesbar. Enthält das Pseudonym, nie den echten Namen.</translation>
     </message>
     <message>
         <source>Not saved yet</source>
         <translation>Noch nicht gespeichert</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. It carries the patient’s real name: mind where you save it.</source>
-        <translation>{pages}, auch in Grau lesbar. Darauf steht der echte Name: Achten Sie darauf, wo Sie speichern.</translation>
+        <source>{pages}, readable in grey. Contains the patient’s real name: store it securely.</source>
+        <translation>{pages}, in Grau lesbar. Enthält den echten Namen: sicher aufbewahren.</translation>
     </message>
     <message>
         <source>Save report</source>
@@ -10371,19 +10287,19 @@ Umschalt+F8 von der Seite</translation>
     <name>ReviewCard</name>
     <message>
         <source>Range of motion</source>
-        <translation>Bewegungsumfang</translation>
+        <translation>Bewegungsausmaß</translation>
     </message>
     <message>
         <source>Another set</source>
         <translation>Neuer Durchgang</translation>
     </message>
     <message>
-        <source>Do not count</source>
-        <translation>Nicht zählen</translation>
+        <source>Exclude</source>
+        <translation>Ausschließen</translation>
     </message>
     <message>
-        <source>The session stays, and is compared with none. Can be taken back.</source>
-        <translation>Die Sitzung bleibt und wird mit keiner verglichen. Lässt sich zurücknehmen.</translation>
+        <source>The session is kept but not analysed. It can be included again.</source>
+        <translation>Die Sitzung bleibt, wird aber nicht ausgewertet. Sie kann wieder eingeschlossen werden.</translation>
     </message>
     <message>
         <source>Side by side…</source>
@@ -10398,12 +10314,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Zum Bericht</translation>
     </message>
     <message>
-        <source>older result, does not count</source>
-        <translation>älteres Ergebnis, zählt nicht</translation>
+        <source>older result, excluded</source>
+        <translation>älteres Ergebnis, ausgeschlossen</translation>
     </message>
     <message>
-        <source>Let it count again</source>
-        <translation>Wieder zählen lassen</translation>
+        <source>Include again</source>
+        <translation>Wieder einschließen</translation>
     </message>
     <message>
         <source>No other session of this exercise yet.</source>
@@ -10426,30 +10342,30 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Path of the wrist, with the hand’s axes</source>
-        <translation>Weg des Handgelenks, mit den Achsen der Hand</translation>
+        <translation>Bahn des Handgelenks, mit den Achsen der Hand</translation>
     </message>
     <message>
-        <source>Ways of the finger tips</source>
-        <translation>Wege der Fingerspitzen</translation>
+        <source>Fingertip paths</source>
+        <translation>Bahnen der Fingerspitzen</translation>
     </message>
     <message>
-        <source>Ways of the joints: {finger}</source>
-        <translation>Wege der Gelenke: {finger}</translation>
+        <source>Joint paths: {finger}</source>
+        <translation>Bahnen der Gelenke: {finger}</translation>
     </message>
 </context>
 <context>
     <name>ReviewFlow</name>
     <message>
-        <source>This result counts from now on.</source>
-        <translation>Ab jetzt zählt dieses Ergebnis.</translation>
+        <source>This result is used from now on.</source>
+        <translation>Ab jetzt wird dieses Ergebnis verwendet.</translation>
     </message>
     <message>
         <source>The others stay as they were.</source>
         <translation>Die anderen bleiben, wie sie waren.</translation>
     </message>
     <message>
-        <source>It stands there once more, as the newest.</source>
-        <translation>Es steht dort noch einmal, als neuestes.</translation>
+        <source>It was saved again as the newest.</source>
+        <translation>Es wurde noch einmal als neuestes gespeichert.</translation>
     </message>
     <message>
         <source>Go on</source>
@@ -10460,15 +10376,15 @@ Umschalt+F8 von der Seite</translation>
         <translation>Bild speichern</translation>
     </message>
     <message>
-        <source>there is no picture of it</source>
-        <translation>es gibt kein Bild davon</translation>
+        <source>no frame of it was stored</source>
+        <translation>es wurde kein Bild davon gespeichert</translation>
     </message>
 </context>
 <context>
     <name>ReviewFrameView</name>
     <message>
-        <source>Put markers right…</source>
-        <translation>Marker berichtigen…</translation>
+        <source>Correct markers…</source>
+        <translation>Marker korrigieren…</translation>
     </message>
     <message>
         <source>A marker is wrong or missing here (Shift+F10)</source>
@@ -10479,12 +10395,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Winkel</translation>
     </message>
     <message>
-        <source>The angle drawn on the picture (A)</source>
-        <translation>Der Winkel ins Bild gezeichnet (A)</translation>
+        <source>The angle drawn on the frame (A)</source>
+        <translation>Winkel im Bild einzeichnen (A)</translation>
     </message>
     <message>
-        <source>Put right…</source>
-        <translation>Berichtigen…</translation>
+        <source>Correct…</source>
+        <translation>Korrigieren…</translation>
     </message>
     <message>
         <source>Not measured here</source>
@@ -10503,8 +10419,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Speichern…</translation>
     </message>
     <message>
-        <source>This picture with the hand alone (F)</source>
-        <translation>Dieses Bild nur mit der Hand (F)</translation>
+        <source>Image of the hand alone (F)</source>
+        <translation>Bild der Hand allein (F)</translation>
     </message>
 </context>
 <context>
@@ -11022,8 +10938,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Diese Sitzung zählt nicht.</translation>
     </message>
     <message>
-        <source>Measured although doubtful: {findings}</source>
-        <translation>Trotz Zweifel gemessen: {findings}</translation>
+        <source>Measured although uncertain: {findings}</source>
+        <translation>Trotz Unsicherheit gemessen: {findings}</translation>
     </message>
     <message>
         <source>Saved {time}</source>
@@ -11139,12 +11055,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>{number} · {day}</translation>
     </message>
     <message>
-        <source>{result}, counts</source>
-        <translation>{result}, zählt</translation>
+        <source>{result}, in use</source>
+        <translation>{result}, verwendet</translation>
     </message>
     <message>
-        <source>Let this one count</source>
-        <translation>Dieses zählen lassen</translation>
+        <source>Use this result</source>
+        <translation>Dieses Ergebnis verwenden</translation>
     </message>
 </context>
 <context>

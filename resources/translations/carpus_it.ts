@@ -4,6 +4,14 @@
 <context>
     <name></name>
     <message>
+        <source>Palm. abd.</source>
+        <translation>Abd. palm.</translation>
+    </message>
+    <message>
+        <source>DIP (thumb: IP)</source>
+        <translation>IFD (pollice: IF)</translation>
+    </message>
+    <message>
         <source>Close Carpus</source>
         <translation>Chiudi Carpus</translation>
     </message>
@@ -20,16 +28,16 @@
         <translation>Flesso-estensione</translation>
     </message>
     <message>
-        <source>Side movement</source>
-        <translation>Movimento laterale</translation>
+        <source>Radial–ulnar deviation</source>
+        <translation>Deviazione radio-ulnare</translation>
     </message>
     <message>
         <source>Turning</source>
         <translation>Rotazione</translation>
     </message>
     <message>
-        <source>Thumb, knuckle sideways</source>
-        <translation>Pollice, nocca di lato</translation>
+        <source>Thumb MCP, abduction–adduction</source>
+        <translation>Pollice MCF, abduzione-adduzione</translation>
     </message>
     <message>
         <source>flexion</source>
@@ -92,16 +100,16 @@
         <translation>Pinza di punta</translation>
     </message>
     <message>
-        <source>Round the wrist</source>
+        <source>Wrist circumference</source>
         <translation>Circonferenza del polso</translation>
     </message>
     <message>
-        <source>Round the palm</source>
-        <translation>Circonferenza del palmo</translation>
+        <source>Palm circumference (MCP level)</source>
+        <translation>Circonferenza del palmo (MCF)</translation>
     </message>
     <message>
-        <source>Figure of eight</source>
-        <translation>Misura a otto</translation>
+        <source>Figure-of-eight (hand oedema)</source>
+        <translation>Figura a otto (edema della mano)</translation>
     </message>
     <message>
         <source>Volume of the hand</source>
@@ -112,20 +120,20 @@
         <translation>Dolore a riposo</translation>
     </message>
     <message>
-        <source>Pain when moving</source>
-        <translation>Dolore nel movimento</translation>
+        <source>Pain on movement</source>
+        <translation>Dolore al movimento</translation>
     </message>
     <message>
-        <source>knuckle</source>
-        <translation>nocca</translation>
+        <source>MCP</source>
+        <translation>MCF</translation>
     </message>
     <message>
-        <source>middle joint</source>
-        <translation>articolazione media</translation>
+        <source>PIP</source>
+        <translation>IFP</translation>
     </message>
     <message>
-        <source>end joint</source>
-        <translation>articolazione distale</translation>
+        <source>DIP</source>
+        <translation>IFD</translation>
     </message>
     <message>
         <source>Thumb</source>
@@ -142,14 +150,6 @@
     <message>
         <source>{finger}, {joint}, {movement}</source>
         <translation>{finger}, {joint}, {movement}</translation>
-    </message>
-    <message>
-        <source>straight</source>
-        <translation>estensione</translation>
-    </message>
-    <message>
-        <source>bent</source>
-        <translation>flessione</translation>
     </message>
     <message>
         <source>active</source>
@@ -172,20 +172,20 @@
         <translation>Forza</translation>
     </message>
     <message>
-        <source>Size</source>
-        <translation>Misure</translation>
+        <source>Circumference and volume</source>
+        <translation>Circonferenza e volume</translation>
     </message>
     <message>
         <source>Scores</source>
         <translation>Punteggi</translation>
     </message>
     <message>
-        <source>less is better</source>
-        <translation>meno è meglio</translation>
+        <source>lower is better</source>
+        <translation>più basso è meglio</translation>
     </message>
     <message>
-        <source>more is better</source>
-        <translation>più è meglio</translation>
+        <source>higher is better</source>
+        <translation>più alto è meglio</translation>
     </message>
     <message>
         <source>{side}, {day}</source>
@@ -336,7 +336,7 @@
         <translation>Differenza</translation>
     </message>
     <message>
-        <source>not judged</source>
+        <source>not assessed</source>
         <translation>non valutato</translation>
     </message>
     <message>
@@ -352,8 +352,8 @@
         <translation>{before} → {after} rispetto a {day}</translation>
     </message>
     <message>
-        <source>(error {size})</source>
-        <translation>(errore {size})</translation>
+        <source>(MDC {size})</source>
+        <translation>(MDC {size})</translation>
     </message>
     <message>
         <source>left edge</source>
@@ -428,7 +428,7 @@
         <translation>Allontanare la tavola</translation>
     </message>
     <message>
-        <source>More light: the picture is too dark.</source>
+        <source>More light: the image is too dark.</source>
         <translation>Più luce: l’immagine è troppo scura.</translation>
     </message>
     <message>
@@ -456,44 +456,44 @@
         <translation>Distanza</translation>
     </message>
     <message>
-        <source>Work out · show the board</source>
+        <source>Calculate · show the board</source>
         <translation>Calcola · mostrare la tavola</translation>
     </message>
     <message>
-        <source>Work out · 1 picture to go</source>
+        <source>Calculate · 1 more image</source>
         <translation>Calcola · manca 1 immagine</translation>
     </message>
     <message>
-        <source>Work out · {count} pictures to go</source>
+        <source>Calculate · {count} more images</source>
         <translation>Calcola · mancano {count} immagini</translation>
     </message>
     <message>
-        <source>Work out · more places and tilts</source>
+        <source>Calculate · more places and tilts</source>
         <translation>Calcola · più posizioni e inclinazioni</translation>
     </message>
     <message>
-        <source>Work out</source>
+        <source>Calculate</source>
         <translation>Calcola</translation>
     </message>
     <message>
-        <source>Not good enough: lines land {error} px off.</source>
-        <translation>Non basta: le linee cadono a {error} px dal posto giusto.</translation>
+        <source>Not good enough: reprojection error {error} px.</source>
+        <translation>Non basta: errore di riproiezione {error} px.</translation>
     </message>
     <message>
         <source>Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures again.</source>
         <translation>Nulla è cambiato. Incollare la tavola su qualcosa di piano e rigido, illuminarla e rifare le immagini.</translation>
     </message>
     <message>
-        <source>Depth lies {apart} px beside the colours.</source>
-        <translation>La profondità è spostata di {apart} px rispetto ai colori.</translation>
+        <source>Depth and colour are misaligned by {apart} px.</source>
+        <translation>Profondità e colore sono sfasati di {apart} px.</translation>
     </message>
     <message>
         <source>Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how.</source>
         <translation>Nulla è cambiato. Attivare la registrazione profondità-colore della telecamera: “carpus doctor” dice come.</translation>
     </message>
     <message>
-        <source>Lines land within {error} pixels of where they are.</source>
-        <translation>Le linee cadono entro {error} pixel dal posto giusto.</translation>
+        <source>The reprojection error is {error} pixels.</source>
+        <translation>L’errore di riproiezione è di {error} pixel.</translation>
     </message>
     <message>
         <source>The camera is calibrated. {depth}</source>
@@ -504,8 +504,8 @@
         <translation>La profondità non è stata controllata.</translation>
     </message>
     <message>
-        <source>Depth reads right.</source>
-        <translation>La profondità è giusta.</translation>
+        <source>Depth is correct.</source>
+        <translation>La profondità è corretta.</translation>
     </message>
     <message>
         <source>Depth read {share} % too long.</source>
@@ -528,15 +528,15 @@
         <translation>scarso: sopra {limit} px</translation>
     </message>
     <message>
-        <source>Lines land within</source>
-        <translation>Le linee cadono entro</translation>
+        <source>Reprojection error</source>
+        <translation>Errore di riproiezione</translation>
     </message>
     <message>
         <source>Focal length</source>
         <translation>Distanza focale</translation>
     </message>
     <message>
-        <source>put right</source>
+        <source>corrected</source>
         <translation>corretto</translation>
     </message>
     <message>
@@ -565,11 +565,11 @@
     </message>
     <message>
         <source>registration is off</source>
-        <translation>registrazione non attiva</translation>
+        <translation>allineamento profondità-colore non attivo</translation>
     </message>
     <message>
-        <source>This camera does not say its number, so nothing can be kept for it. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
-        <translation>Questa telecamera non comunica il suo numero, quindi per lei non si può salvare nulla. “carpus calibrate-camera --output” scrive un file della telecamera da indicare nelle impostazioni.</translation>
+        <source>This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
+        <translation>Questa telecamera non comunica un numero di serie, quindi la sua calibrazione non può essere salvata. “carpus calibrate-camera --output” scrive un file di telecamera che si può indicare nelle impostazioni.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -612,20 +612,8 @@
         <translation>Tutti i sei dischetti sono visti. Non toccare il cartoncino.</translation>
     </message>
     <message>
-        <source>Lift</source>
-        <translation>Sollev.</translation>
-    </message>
-    <message>
-        <source>Knuckle</source>
-        <translation>Nocca</translation>
-    </message>
-    <message>
-        <source>Middle joint</source>
-        <translation>Artic. media</translation>
-    </message>
-    <message>
-        <source>End joint</source>
-        <translation>Artic. distale</translation>
+        <source>Palmar abduction</source>
+        <translation>Abd. palmare</translation>
     </message>
     <message>
         <source>Spread</source>
@@ -640,12 +628,12 @@
         <translation>{finger}, {joint}</translation>
     </message>
     <message>
-        <source>In the palm’s plane</source>
-        <translation>Nel piano del palmo</translation>
+        <source>In the plane of the palm (0°)</source>
+        <translation>Nel piano del palmo (0°)</translation>
     </message>
     <message>
-        <source>Lifted {angle}</source>
-        <translation>Sollevato {angle}</translation>
+        <source>Palmar abduction {angle}</source>
+        <translation>Abduzione palmare {angle}</translation>
     </message>
     <message>
         <source>Straight</source>
@@ -664,12 +652,12 @@
         <translation>Radiale {angle}</translation>
     </message>
     <message>
-        <source>Inwards {angle}</source>
-        <translation>All’interno {angle}</translation>
+        <source>Adducted {angle}</source>
+        <translation>Addotto {angle}</translation>
     </message>
     <message>
-        <source>Away {angle}</source>
-        <translation>All’esterno {angle}</translation>
+        <source>Abducted {angle}</source>
+        <translation>Abdotto {angle}</translation>
     </message>
     <message>
         <source>in</source>
@@ -736,7 +724,7 @@
         <translation>Movimento attivo totale (TAM)</translation>
     </message>
     <message>
-        <source>{row}, range</source>
+        <source>{row}, range of motion</source>
         <translation>{row}, escursione</translation>
     </message>
     <message>
@@ -1092,8 +1080,8 @@
         <translation>Nota</translation>
     </message>
     <message>
-        <source>Sheet for home</source>
-        <translation>Foglio per casa</translation>
+        <source>Home exercise sheet</source>
+        <translation>Scheda di esercizi a casa</translation>
     </message>
     <message>
         <source>Pain score</source>
@@ -1208,7 +1196,7 @@
         <translation>Nascosto: {marker}</translation>
     </message>
     <message>
-        <source>Thumb hidden</source>
+        <source>Thumb occluded</source>
         <translation>Pollice nascosto</translation>
     </message>
     <message>
@@ -1220,7 +1208,7 @@
         <translation>Punte delle dita nascoste</translation>
     </message>
     <message>
-        <source>{count} markers hidden</source>
+        <source>{count} markers occluded</source>
         <translation>{count} marcatori nascosti</translation>
     </message>
     <message>
@@ -1804,8 +1792,8 @@
         <translation>righe: entro il limite fissato</translation>
     </message>
     <message>
-        <source>seconds after the first picture</source>
-        <translation>secondi dalla prima immagine</translation>
+        <source>seconds after the first frame</source>
+        <translation>secondi dal primo fotogramma</translation>
     </message>
     <message>
         <source>number of the reading</source>
@@ -1836,16 +1824,16 @@
         <translation>era {angle}</translation>
     </message>
     <message>
-        <source>Usual, adults {span}</source>
-        <translation>Usuale, adulti {span}</translation>
+        <source>Reference, adults {span}</source>
+        <translation>Riferimento, adulti {span}</translation>
     </message>
     <message>
-        <source>Whole arc</source>
+        <source>Total arc</source>
         <translation>Arco totale</translation>
     </message>
     <message>
-        <source>Error band ±{gap}{limit}</source>
-        <translation>Fascia d’errore ±{gap}{limit}</translation>
+        <source>Measurement error ±{gap}{limit}</source>
+        <translation>Errore di misura ±{gap}{limit}</translation>
     </message>
     <message>
         <source>Goal {angle}</source>
@@ -1860,20 +1848,20 @@
         <translation>non confrontato</translation>
     </message>
     <message>
-        <source>at least: hidden in part</source>
-        <translation>almeno: in parte nascosto</translation>
+        <source>≥: partly occluded</source>
+        <translation>≥: in parte nascosto</translation>
     </message>
     <message>
-        <source>lift</source>
-        <translation>sollev.</translation>
+        <source>palm. abd.</source>
+        <translation>abd. palm.</translation>
     </message>
     <message>
-        <source>{number} out</source>
-        <translation>{number} esclusa</translation>
+        <source>{number} (excluded)</source>
+        <translation>{number} (esclusa)</translation>
     </message>
     <message>
-        <source>{number} passive</source>
-        <translation>{number} passiva</translation>
+        <source>{number} (passive)</source>
+        <translation>{number} (passiva)</translation>
     </message>
     <message>
         <source>Place</source>
@@ -1888,15 +1876,11 @@
         <translation>α e γ sono indicati dove la loro DS resta sotto 30° ({share} del tempo): vicino alla posizione neutra sono noti solo β e α + γ.</translation>
     </message>
     <message>
-        <source>Target {angle}</source>
-        <translation>Obiettivo {angle}</translation>
-    </message>
-    <message>
         <source>no value</source>
         <translation>nessun valore</translation>
     </message>
     <message>
-        <source>Bending</source>
+        <source>Flexion</source>
         <translation>Flessione</translation>
     </message>
     <message>
@@ -1944,11 +1928,11 @@
         <translation>Ancora nessuna seduta di questo esercizio.</translation>
     </message>
     <message>
-        <source>1 session is left out.</source>
+        <source>1 session is excluded.</source>
         <translation>1 seduta è esclusa.</translation>
     </message>
     <message>
-        <source>{count} sessions are left out.</source>
+        <source>{count} sessions are excluded.</source>
         <translation>{count} sedute sono escluse.</translation>
     </message>
     <message>
@@ -1956,8 +1940,8 @@
         <translation>Nulla da confrontare: {left_out}</translation>
     </message>
     <message>
-        <source>One session does not make a course.</source>
-        <translation>Una sola seduta non fa un andamento.</translation>
+        <source>At least two sessions are needed to show progress.</source>
+        <translation>Per mostrare i progressi servono almeno due sedute.</translation>
     </message>
     <message>
         <source>Compare after the next session of the same kind.</source>
@@ -1976,19 +1960,15 @@
         <translation>{name}: miglioramento di {size} rispetto a {day}.</translation>
     </message>
     <message>
-        <source>{name} has lost {size} since {day}.</source>
-        <translation>{name}: perdita di {size} rispetto a {day}.</translation>
+        <source>{name} has decreased by {size} since {day}.</source>
+        <translation>{name}: diminuzione di {size} rispetto a {day}.</translation>
     </message>
     <message>
-        <source>Not judged: the joints were hidden in part.</source>
+        <source>Not assessed: the joints were partly occluded.</source>
         <translation>Non valutato: le articolazioni erano in parte nascoste.</translation>
     </message>
     <message>
-        <source>What is hidden does not count.</source>
-        <translation>Ciò che è nascosto non conta.</translation>
-    </message>
-    <message>
-        <source>Not judged: {why}.</source>
+        <source>Not assessed: {why}.</source>
         <translation>Non valutato: {why}.</translation>
     </message>
     <message>
@@ -2000,8 +1980,8 @@
         <translation>{joint}, {finger}</translation>
     </message>
     <message>
-        <source>The whole arc</source>
-        <translation>Arco totale</translation>
+        <source>The total arc</source>
+        <translation>L’arco totale</translation>
     </message>
     <message>
         <source>From {before} to {after}: more than the measurement error of {limit}.</source>
@@ -2020,24 +2000,24 @@
         <translation>{name}: {change}.</translation>
     </message>
     <message>
-        <source>What is left out, or was measured otherwise, is not compared.</source>
-        <translation>Ciò che è escluso, o misurato in altro modo, non viene confrontato.</translation>
+        <source>Excluded sessions and sessions with another set-up are not compared.</source>
+        <translation>Le sedute escluse o con un’altra preparazione non vengono confrontate.</translation>
     </message>
     <message>
-        <source>hidden in part, or too few</source>
-        <translation>in parte nascosto, o troppo pochi</translation>
+        <source>partly occluded, or too few</source>
+        <translation>in parte nascosto, o troppo poche</translation>
     </message>
     <message>
-        <source>at least {change}, error {limit}</source>
-        <translation>almeno {change}, errore {limit}</translation>
+        <source>at least {change}, MDC {limit}</source>
+        <translation>almeno {change}, MDC {limit}</translation>
     </message>
     <message>
-        <source>{change}, error {limit}</source>
-        <translation>{change}, errore {limit}</translation>
+        <source>{change}, MDC {limit}</source>
+        <translation>{change}, MDC {limit}</translation>
     </message>
     <message>
-        <source>{day}: measured although doubtful. {findings}</source>
-        <translation>{day}: misurata benché dubbia. {findings}</translation>
+        <source>{day}: measured although uncertain. {findings}</source>
+        <translation>{day}: misurata nonostante l’incertezza. {findings}</translation>
     </message>
     <message>
         <source>camera {step} cm further away</source>
@@ -2052,11 +2032,11 @@
         <translation>avambraccio spostato di {distance}</translation>
     </message>
     <message>
-        <source>{day}: {reasons}. Shown as a ring and left out.</source>
-        <translation>{day}: {reasons}. Mostrata come anello ed esclusa.</translation>
+        <source>{day}: {reasons}. Excluded (shown as an open circle).</source>
+        <translation>{day}: {reasons}. Esclusa (cerchio vuoto).</translation>
     </message>
     <message>
-        <source>{day}: {reasons}. Left out.</source>
+        <source>{day}: {reasons}. Excluded.</source>
         <translation>{day}: {reasons}. Esclusa.</translation>
     </message>
     <message>
@@ -2085,7 +2065,7 @@
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Velocità max</translation>
+        <translation>Velocità massima</translation>
     </message>
     <message>
         <source>{name}, out</source>
@@ -2100,20 +2080,20 @@
         <translation>{name}, attraverso</translation>
     </message>
     <message>
-        <source>Peak reached after</source>
-        <translation>Picco raggiunto dopo</translation>
+        <source>Time to peak</source>
+        <translation>Tempo al picco</translation>
     </message>
     <message>
-        <source>Length of the way</source>
+        <source>Path length</source>
         <translation>Lunghezza del percorso</translation>
     </message>
     <message>
-        <source>Way / straight line</source>
-        <translation>Percorso / linea retta</translation>
+        <source>Path length ratio</source>
+        <translation>Rapporto di percorso</translation>
     </message>
     <message>
-        <source>Peaks of speed</source>
-        <translation>Picchi di velocità</translation>
+        <source>Number of speed peaks</source>
+        <translation>Numero di picchi di velocità</translation>
     </message>
     <message>
         <source>Smoothness (SPARC)</source>
@@ -2124,28 +2104,28 @@
         <translation>Apertura massima pollice–indice</translation>
     </message>
     <message>
-        <source>Wrist at the grasp</source>
-        <translation>Polso alla presa</translation>
+        <source>Wrist angle at grasp</source>
+        <translation>Angolo del polso alla presa</translation>
     </message>
     <message>
         <source>Hand span, thumb–little</source>
         <translation>Apertura della mano, pollice–mignolo</translation>
     </message>
     <message>
-        <source>Its pose coherent meanwhile</source>
-        <translation>Intanto posizione coerente</translation>
+        <source>Pose plausible while occluded</source>
+        <translation>Posizione plausibile mentre è nascosto</translation>
     </message>
     <message>
-        <source>Its pose known to 15° meanwhile</source>
-        <translation>Intanto posizione nota entro 15°</translation>
+        <source>Pose within 15° while occluded</source>
+        <translation>Posizione entro 15° mentre è nascosto</translation>
     </message>
     <message>
-        <source>Jump when seen again</source>
-        <translation>Salto quando si rivede</translation>
+        <source>Jump on reappearance</source>
+        <translation>Salto alla ricomparsa</translation>
     </message>
     <message>
-        <source>All fingers as one movement</source>
-        <translation>Dita come un solo movimento</translation>
+        <source>Movement synergy (variance explained)</source>
+        <translation>Sinergia di movimento (varianza spiegata)</translation>
     </message>
     <message>
         <source>Tremor, 3 to 12 Hz (rms)</source>
@@ -2172,15 +2152,15 @@
         <translation>{other} dopo {one}: ritardo</translation>
     </message>
     <message>
-        <source>How far {other} moves with {one}</source>
-        <translation>Quanto {other} segue {one}</translation>
+        <source>Enslaving of {other} by {one}</source>
+        <translation>Trascinamento di {other} da {one}</translation>
     </message>
     <message>
-        <source>Widest span, {one}–{other}</source>
-        <translation>Apertura massima, {one}–{other}</translation>
+        <source>Largest span, {one}–{other}</source>
+        <translation>Ampiezza massima, {one}–{other}</translation>
     </message>
     <message>
-        <source>Nearest, {one}–{other}</source>
+        <source>Smallest distance, {one}–{other}</source>
         <translation>Distanza minima, {one}–{other}</translation>
     </message>
     <message>
@@ -2192,32 +2172,32 @@
         <translation>troppo lento per valutare</translation>
     </message>
     <message>
-        <source>hidden from the camera</source>
-        <translation>nascosto alla telecamera</translation>
+        <source>occluded</source>
+        <translation>nascosto</translation>
     </message>
     <message>
-        <source>Out in {time}, fastest {speed}, way {straight} of straight, opened {opening}, wrist {wrist}</source>
-        <translation>Andata in {time}, punta {speed}, percorso {straight} della retta, apertura {opening}, polso {wrist}</translation>
+        <source>Reach {time}, peak speed {speed}, path ratio {straight}, grip aperture {opening}, wrist {wrist}</source>
+        <translation>Raggiungimento {time}, velocità massima {speed}, rapporto di percorso {straight}, apertura {opening}, polso {wrist}</translation>
     </message>
     <message>
-        <source>The thumb touched {met} of {all} finger tips</source>
-        <translation>Il pollice ha toccato {met} punte delle dita su {all}</translation>
+        <source>The thumb touched {met} of {all} fingertips</source>
+        <translation>Il pollice ha toccato {met} polpastrelli su {all}</translation>
     </message>
     <message>
-        <source>Whether the thumb touched the finger tips was hidden from the camera</source>
-        <translation>I contatti del pollice con le punte delle dita erano nascosti alla telecamera</translation>
+        <source>Thumb contact was occluded</source>
+        <translation>Il contatto del pollice era nascosto</translation>
     </message>
     <message>
-        <source>{words}; of {hidden} the camera did not see it</source>
-        <translation>{words}; per {hidden} la telecamera non l’ha visto</translation>
+        <source>{words}; {hidden} occluded</source>
+        <translation>{words}; {hidden} nascosti</translation>
     </message>
     <message>
-        <source>Out in {time}</source>
-        <translation>Andata in {time}</translation>
+        <source>Reach {time}</source>
+        <translation>Raggiungimento {time}</translation>
     </message>
     <message>
-        <source>Touches hidden</source>
-        <translation>Contatti nascosti</translation>
+        <source>Contact occluded</source>
+        <translation>Contatto nascosto</translation>
     </message>
     <message>
         <source>Touched {met} of {all}</source>
@@ -2236,36 +2216,36 @@
         <translation>Aperture</translation>
     </message>
     <message>
-        <source>Fingers together</source>
-        <translation>Dita insieme</translation>
+        <source>Finger coordination</source>
+        <translation>Coordinazione delle dita</translation>
     </message>
     <message>
-        <source>Further figures</source>
-        <translation>Altri valori</translation>
+        <source>Additional measures</source>
+        <translation>Misure aggiuntive</translation>
     </message>
     <message>
         <source>Range of motion of the fingers</source>
         <translation>Escursione articolare delle dita</translation>
     </message>
     <message>
-        <source>whole arcs over the same time</source>
-        <translation>archi totali nello stesso tempo</translation>
+        <source>total arcs over the same period</source>
+        <translation>archi totali nello stesso periodo</translation>
     </message>
     <message>
-        <source>not seen</source>
-        <translation>non visto</translation>
+        <source>not visible</source>
+        <translation>non visibile</translation>
     </message>
     <message>
-        <source>dashed: hidden; hatched: lost</source>
+        <source>dashed: occluded; hatched: lost</source>
         <translation>tratteggio: nascosto; righe: perso</translation>
     </message>
     <message>
-        <source>Bending over time</source>
-        <translation>Flessione nel tempo</translation>
+        <source>Finger flexion over time</source>
+        <translation>Flessione delle dita nel tempo</translation>
     </message>
     <message>
-        <source>Middle joint, of the thumb lift</source>
-        <translation>Artic. media (pollice: sollev.)</translation>
+        <source>PIP (thumb: palmar abduction)</source>
+        <translation>IFP (pollice: abduzione palmare)</translation>
     </message>
     <message>
         <source>not graded</source>
@@ -2292,32 +2272,16 @@
         <translation>divaricazione</translation>
     </message>
     <message>
-        <source>PIP</source>
-        <translation>IFP</translation>
-    </message>
-    <message>
-        <source>Knuckle (MCP)</source>
-        <translation>Nocca (MCF)</translation>
-    </message>
-    <message>
-        <source>Middle (PIP)</source>
-        <translation>Media (IFP)</translation>
-    </message>
-    <message>
-        <source>End (DIP)</source>
-        <translation>Distale (IFD)</translation>
-    </message>
-    <message>
         <source>Total (TAM)</source>
         <translation>Totale (TAM)</translation>
     </message>
     <message>
-        <source>Of other hand</source>
-        <translation>Dell’altra mano</translation>
+        <source>% of other hand</source>
+        <translation>% dell’altra mano</translation>
     </message>
     <message>
-        <source>Of usual</source>
-        <translation>Del valore usuale</translation>
+        <source>% of reference</source>
+        <translation>% del riferimento</translation>
     </message>
     <message>
         <source>{what}, {day}</source>
@@ -2328,20 +2292,20 @@
         <translation>Rispetto a {day}</translation>
     </message>
     <message>
-        <source>lift of the thumb</source>
-        <translation>sollevamento del pollice</translation>
+        <source>palmar abduction of the thumb</source>
+        <translation>abduzione palmare del pollice</translation>
     </message>
     <message>
-        <source>knuckles of {fingers}</source>
-        <translation>nocche di: {fingers}</translation>
+        <source>MCP of {fingers}</source>
+        <translation>MCF di: {fingers}</translation>
     </message>
     <message>
-        <source>middle joints of {fingers}</source>
-        <translation>articolazioni medie di: {fingers}</translation>
+        <source>PIP of {fingers}</source>
+        <translation>IFP di: {fingers}</translation>
     </message>
     <message>
-        <source>end joints of {fingers}</source>
-        <translation>articolazioni distali di: {fingers}</translation>
+        <source>DIP of {fingers}</source>
+        <translation>IFD di: {fingers}</translation>
     </message>
     <message>
         <source>spreading of {fingers}</source>
@@ -2352,64 +2316,60 @@
         <translation>tutte le dita</translation>
     </message>
     <message>
-        <source>Limited by the camera’s view ({sign}: at least): {parts}. Hidden stretches do not count.</source>
-        <translation>Limitati dalla visuale della telecamera ({sign}: almeno): {parts}. I tratti nascosti non contano.</translation>
+        <source>Partly occluded ({sign} = minimum): {parts}. Occluded frames are not analysed.</source>
+        <translation>In parte nascosti ({sign} = minimo): {parts}. I fotogrammi nascosti non vengono analizzati.</translation>
     </message>
     <message>
-        <source>Not seen: {joints}.</source>
-        <translation>Non visti: {joints}.</translation>
+        <source>Not visible: {joints}.</source>
+        <translation>Non visibili: {joints}.</translation>
     </message>
     <message>
-        <source>Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.</source>
-        <translation>Movimento attivo totale (TAM): la massima somma delle flessioni di un dito in uno stesso istante, con tutte le articolazioni viste.</translation>
+        <source>Total active motion (TAM): largest sum of a finger’s flexion at one moment with all joints visible.</source>
+        <translation>Movimento attivo totale (TAM): massima somma delle flessioni di un dito in un istante con tutte le articolazioni visibili.</translation>
     </message>
     <message>
-        <source>No total active motion (TAM): no finger’s joints were all seen at once.</source>
-        <translation>Nessun movimento attivo totale (TAM): di nessun dito si sono viste tutte le articolazioni insieme.</translation>
+        <source>No total active motion (TAM): no finger had all joints visible at once.</source>
+        <translation>Nessun movimento attivo totale (TAM): nessun dito aveva tutte le articolazioni visibili insieme.</translation>
     </message>
     <message>
-        <source>It is missing where a finger’s joints were never all seen at once.</source>
-        <translation>Manca dove le articolazioni di un dito non si sono mai viste tutte insieme.</translation>
+        <source>It is missing for fingers whose joints were never all visible at once.</source>
+        <translation>Manca per le dita le cui articolazioni non erano mai tutte visibili insieme.</translation>
     </message>
     <message>
-        <source>DIP not measured: TAM takes it as two thirds of PIP.</source>
-        <translation>IFD non misurata: il TAM la considera due terzi della IFP.</translation>
+        <source>DIP not measured: TAM assumes two thirds of PIP.</source>
+        <translation>IFD non misurata: il TAM assume due terzi della IFP.</translation>
     </message>
     <message>
-        <source>Share of the other hand’s TAM, else of the usual 260° (thumb 140°): excellent from 100 %, good above 75 %, fair above 50 %, else poor (ASSH).</source>
-        <translation>Quota del TAM dell’altra mano, altrimenti dei 260° usuali (pollice 140°): ottimo da 100 %, buono oltre 75 %, discreto oltre 50 %, altrimenti scarso (ASSH).</translation>
+        <source>Share of the other hand’s TAM, else of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, else poor.</source>
+        <translation>Quota del TAM dell’altra mano, altrimenti del valore di riferimento di 260° (pollice 140°). ASSH: ottimo da 100 %, buono oltre 75 %, discreto oltre 50 %, altrimenti scarso.</translation>
     </message>
     <message>
-        <source>Middle joints</source>
-        <translation>Articolazioni medie</translation>
+        <source>PIP joints</source>
+        <translation>Articolazioni IFP</translation>
     </message>
     <message>
         <source>{what}: {fingers}.</source>
         <translation>{what}: {fingers}.</translation>
     </message>
     <message>
-        <source>{sign}: the camera did not see the end of that movement.</source>
-        <translation>{sign}: la telecamera non ha visto la fine di quel movimento.</translation>
+        <source>{sign}: the end of this movement was occluded.</source>
+        <translation>{sign}: la fine di questo movimento era nascosta.</translation>
     </message>
     <message>
         <source>the first session on {day}</source>
         <translation>la prima seduta ({day})</translation>
     </message>
     <message>
-        <source>Change since {when} is not judged: {why}.</source>
+        <source>Change since {when} is not assessed: {why}.</source>
         <translation>Confronto con {when} non valutato: {why}.</translation>
     </message>
     <message>
-        <source>What was hidden in part is not judged.</source>
-        <translation>Ciò che era in parte nascosto non è valutato.</translation>
+        <source>Partly occluded joints are not assessed.</source>
+        <translation>Le articolazioni in parte nascoste non sono valutate.</translation>
     </message>
     <message>
-        <source>Since {when}: {changes} (error {limit}).</source>
-        <translation>Confronto con {when}: {changes} (errore {limit}).</translation>
-    </message>
-    <message>
-        <source>MCP</source>
-        <translation>MCF</translation>
+        <source>Since {when}: {changes} (MDC {limit}).</source>
+        <translation>Confronto con {when}: {changes} (MDC {limit}).</translation>
     </message>
     <message>
         <source>IP</source>
@@ -2420,12 +2380,12 @@
         <translation>non misurato</translation>
     </message>
     <message>
-        <source>not judged: {why}</source>
+        <source>not assessed: {why}</source>
         <translation>non valutato: {why}</translation>
     </message>
     <message>
-        <source>bends {full}, lacks {missing}</source>
-        <translation>flette {full}, manca {missing}</translation>
+        <source>flexion {full}, deficit {missing}</source>
+        <translation>flessione {full}, deficit {missing}</translation>
     </message>
     <message>
         <source>TAM of all fingers</source>
@@ -2436,8 +2396,8 @@
         <translation>Divaricazione di tutte le dita</translation>
     </message>
     <message>
-        <source>Lift and spread of the thumb</source>
-        <translation>Sollevamento e divaricazione del pollice</translation>
+        <source>Palmar and radial abduction of the thumb</source>
+        <translation>Abduzione palmare e radiale del pollice</translation>
     </message>
     <message>
         <source>Path of the wrist</source>
@@ -2448,12 +2408,12 @@
         <translation>con gli assi della mano lungo il percorso</translation>
     </message>
     <message>
-        <source>joint centres; dashed: disc hidden</source>
-        <translation>centri articolari; tratteggio: dischetto nascosto</translation>
+        <source>joint centres; dashed: marker occluded</source>
+        <translation>centri articolari; tratteggio: marcatore nascosto</translation>
     </message>
     <message>
-        <source>Ways of the finger tips</source>
-        <translation>Percorsi delle punte delle dita</translation>
+        <source>Fingertip paths</source>
+        <translation>Percorsi dei polpastrelli</translation>
     </message>
     <message>
         <source>X (black) to the fingers, Y (blue) to the thumb, Z (orange) up</source>
@@ -2528,16 +2488,16 @@
         <translation>Inseriti a mano</translation>
     </message>
     <message>
-        <source>never joined with the figures above</source>
-        <translation>mai uniti ai valori sopra</translation>
+        <source>not combined with the values above</source>
+        <translation>non combinati con i valori sopra</translation>
     </message>
     <message>
-        <source>Fair comparison</source>
-        <translation>Confronto corretto</translation>
+        <source>Comparability</source>
+        <translation>Confrontabilità</translation>
     </message>
     <message>
-        <source>All sessions were set up alike.</source>
-        <translation>Tutte le sedute sono state preparate allo stesso modo.</translation>
+        <source>All sessions used the same set-up.</source>
+        <translation>Tutte le sedute hanno la stessa preparazione.</translation>
     </message>
     <message>
         <source>Session report</source>
@@ -2580,8 +2540,8 @@
         <translation>Durata</translation>
     </message>
     <message>
-        <source>Markers were put right by hand; the result as measured is kept.</source>
-        <translation>I marcatori sono stati corretti a mano; il risultato originale è conservato.</translation>
+        <source>Markers were corrected by hand. The original result is kept.</source>
+        <translation>I marcatori sono stati corretti a mano. Il risultato originale è conservato.</translation>
     </message>
     <message>
         <source>{weeks} before</source>
@@ -2589,7 +2549,7 @@
     </message>
     <message>
         <source>Range of motion</source>
-        <translation>Escursione articolare (ROM)</translation>
+        <translation>Escursione articolare</translation>
     </message>
     <message>
         <source>Active and passive</source>
@@ -2600,7 +2560,7 @@
         <translation>grigio: ripetizioni; fascia: ± 1 DS dell’angolo</translation>
     </message>
     <message>
-        <source>dashed: target</source>
+        <source>dashed: goal</source>
         <translation>tratteggio: obiettivo</translation>
     </message>
     <message>
@@ -2608,36 +2568,32 @@
         <translation>Angoli nel tempo</translation>
     </message>
     <message>
-        <source>Today side</source>
-        <translation>Oggi, laterale</translation>
+        <source>Deviation</source>
+        <translation>Deviazione</translation>
     </message>
     <message>
-        <source>Today bending</source>
-        <translation>Oggi, flessione</translation>
-    </message>
-    <message>
-        <source>Today turning</source>
-        <translation>Oggi, rotazione</translation>
+        <source>Pronation–supination</source>
+        <translation>Prono-supinazione</translation>
     </message>
     <message>
         <source>Today</source>
         <translation>Oggi</translation>
     </message>
     <message>
-        <source>Range today, last time and other hand</source>
-        <translation>Escursione di oggi, della volta scorsa e dell’altra mano</translation>
+        <source>Range of motion: today, last time and other hand</source>
+        <translation>Escursione: oggi, ultima volta e altra mano</translation>
     </message>
     <message>
-        <source>Range today</source>
+        <source>Range of motion today</source>
         <translation>Escursione di oggi</translation>
     </message>
     <message>
-        <source>grey: usual in adults (AMA, AAOS)</source>
-        <translation>grigio: usuale negli adulti (AMA, AAOS)</translation>
+        <source>grey: reference values of adults (AMA, AAOS)</source>
+        <translation>grigio: valori di riferimento degli adulti (AMA, AAOS)</translation>
     </message>
     <message>
-        <source>How sure are these figures?</source>
-        <translation>Quanto sono sicuri questi valori?</translation>
+        <source>How reliable are these values?</source>
+        <translation>Quanto sono affidabili questi valori?</translation>
     </message>
     <message>
         <source>Speed, pain, note</source>
@@ -2660,8 +2616,8 @@
         <translation>Gentile collega,</translation>
     </message>
     <message>
-        <source>On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.</source>
-        <translation>In data {day} abbiamo misurato: {exercise}, {hand}. Ripetizioni valide: {count}.</translation>
+        <source>On {day} we measured: {exercise}, {hand}. Repetitions analysed: {count}.</source>
+        <translation>In data {day} abbiamo misurato: {exercise}, {hand}. Ripetizioni analizzate: {count}.</translation>
     </message>
     <message>
         <source>The comment is too long for this letter; it is in the report.</source>
@@ -2720,12 +2676,12 @@
         <translation>Migliore</translation>
     </message>
     <message>
-        <source>Usual (adults)</source>
-        <translation>Usuale (adulti)</translation>
+        <source>Reference (adults)</source>
+        <translation>Riferimento (adulti)</translation>
     </message>
     <message>
-        <source>{count} ways out and back; ranges over the whole recording</source>
-        <translation>{count} andate e ritorni; escursioni su tutta la registrazione</translation>
+        <source>{count} strokes out and back; ranges over the whole recording</source>
+        <translation>{count} movimenti di andata e ritorno; escursioni su tutta la registrazione</translation>
     </message>
     <message>
         <source>1 repetition</source>
@@ -2740,72 +2696,64 @@
         <translation>nessuna ripetizione attiva</translation>
     </message>
     <message>
-        <source>1 passive beside it</source>
-        <translation>accanto 1 passiva</translation>
+        <source>plus 1 passive</source>
+        <translation>più 1 passiva</translation>
     </message>
     <message>
-        <source>{count} passive beside it</source>
-        <translation>accanto {count} passive</translation>
+        <source>plus {count} passive</source>
+        <translation>più {count} passive</translation>
     </message>
     <message>
-        <source>not seen well enough</source>
-        <translation>non vista abbastanza bene</translation>
+        <source>not visible enough</source>
+        <translation>non abbastanza visibile</translation>
     </message>
     <message>
-        <source>the recording began in it</source>
-        <translation>la registrazione è iniziata a metà</translation>
+        <source>cut off at the start of the recording</source>
+        <translation>tagliata all’inizio della registrazione</translation>
     </message>
     <message>
-        <source>the hand went out of sight in it</source>
-        <translation>la mano è uscita dalla vista a metà</translation>
+        <source>the hand left the camera’s view</source>
+        <translation>la mano è uscita dalla visuale</translation>
     </message>
     <message>
-        <source>the recording ended in it</source>
-        <translation>la registrazione è finita a metà</translation>
+        <source>cut off at the end of the recording</source>
+        <translation>tagliata alla fine della registrazione</translation>
     </message>
     <message>
-        <source>number {number} left out: {reason}</source>
+        <source>number {number} excluded: {reason}</source>
         <translation>numero {number} esclusa: {reason}</translation>
     </message>
     <message>
-        <source>without what was passive</source>
-        <translation>senza ciò che è stato passivo</translation>
+        <source>passive repetitions excluded</source>
+        <translation>ripetizioni passive escluse</translation>
     </message>
     <message>
-        <source>one range over the whole recording; no repetitions</source>
-        <translation>un’unica escursione su tutta la registrazione; nessuna ripetizione</translation>
+        <source>range over the whole recording; no repetitions</source>
+        <translation>escursione su tutta la registrazione; nessuna ripetizione</translation>
     </message>
     <message>
         <source>it is too short</source>
         <translation>è troppo breve</translation>
     </message>
     <message>
-        <source>what is trained was not seen</source>
-        <translation>ciò che si esercita non è stato visto</translation>
+        <source>the exercised joint was not visible</source>
+        <translation>l’articolazione esercitata non era visibile</translation>
     </message>
     <message>
         <source>less than 10° of movement</source>
         <translation>meno di 10° di movimento</translation>
     </message>
     <message>
-        <source>it never went there and back</source>
-        <translation>nessuna andata e ritorno</translation>
+        <source>no complete movement cycle</source>
+        <translation>nessun ciclo di movimento completo</translation>
     </message>
     <message>
         <source>each was quicker than 0.4 s</source>
         <translation>ognuna più veloce di 0,4 s</translation>
     </message>
     <message>
-        <source>{seconds} s not seen and not counted</source>
-        <translation>{seconds} s non visti e non contati</translation>
-    </message>
-    <message>
-        <source>limited by the camera&apos;s view</source>
-        <translation>limitato dalla visuale della telecamera</translation>
-    </message>
-    <message>
-        <source>limited by view</source>
-        <translation>limitato dalla visuale</translation>
+        <source>{seconds} s occluded and not analysed</source>
+        <translation>{seconds} s nascosti e non analizzati</translation>
     </message>
     <message>
         <source>Up and down</source>
@@ -2820,40 +2768,40 @@
         <translation>sotto {angle}</translation>
     </message>
     <message>
-        <source>as asked: the hand stays in line</source>
-        <translation>come richiesto: la mano resta in linea</translation>
+        <source>as intended: the hand stays in line</source>
+        <translation>come previsto: la mano resta in asse</translation>
     </message>
     <message>
-        <source>more than asked: watch the exercise</source>
-        <translation>più del richiesto: osservare l’esercizio</translation>
+        <source>more than intended: check the exercise technique</source>
+        <translation>più del previsto: controllare l’esecuzione</translation>
     </message>
     <message>
-        <source>not judged: no error limit is known</source>
-        <translation>non valutato: limite d’errore non noto</translation>
+        <source>not assessed: no MDC is known</source>
+        <translation>non valutato: MDC non nota</translation>
     </message>
     <message>
         <source>No range could be measured.</source>
-        <translation>Non è stato possibile misurare l’escursione.</translation>
+        <translation>Nessuna escursione misurabile.</translation>
     </message>
     <message>
-        <source>whole arc</source>
+        <source>total arc</source>
         <translation>arco totale</translation>
     </message>
     <message>
         <source>No active range was measured.</source>
-        <translation>Nessun movimento attivo è stato misurato.</translation>
+        <translation>Nessuna escursione attiva misurata.</translation>
     </message>
     <message>
-        <source>{name} {size} better</source>
-        <translation>{name} {size} in più</translation>
+        <source>{name} improved by {size}</source>
+        <translation>{name} migliora di {size}</translation>
     </message>
     <message>
-        <source>{name} {size} less</source>
-        <translation>{name} {size} in meno</translation>
+        <source>{name} decreased by {size}</source>
+        <translation>{name} diminuisce di {size}</translation>
     </message>
     <message>
-        <source>(error {limit})</source>
-        <translation>(errore {limit})</translation>
+        <source>(MDC {limit})</source>
+        <translation>(MDC {limit})</translation>
     </message>
     <message>
         <source>Since {when}: {changes}.</source>
@@ -2868,16 +2816,16 @@
         <translation>Angoli nell’ordine ISB: flessione, deviazione, prono-supinazione; {zero}.</translation>
     </message>
     <message>
-        <source>Fingers: zero is straight, below it bent back. Wrist: {zero}.</source>
-        <translation>Dita: lo zero è il dito dritto, sotto zero è iperesteso. Polso: {zero}.</translation>
+        <source>Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.</source>
+        <translation>Dita: 0° = dritto; negativo = iperestensione. Polso: {zero}.</translation>
     </message>
     <message>
-        <source>Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. Wrist: {zero}.</source>
-        <translation>Dita: lo zero è il dito dritto, sotto zero è iperesteso; il TAM è la flessione meno il deficit di estensione. Polso: {zero}.</translation>
+        <source>Fingers: 0° = straight; negative = hyperextension. TAM = total flexion minus extension deficit. Wrist: {zero}.</source>
+        <translation>Dita: 0° = dritto; negativo = iperestensione. TAM = flessione totale meno deficit di estensione. Polso: {zero}.</translation>
     </message>
     <message>
-        <source>zero is straight by the therapist’s goniometer: the hand started at {angles}</source>
-        <translation>lo zero è la posizione dritta secondo il goniometro del terapista: la mano partiva da {angles}</translation>
+        <source>0° set by goniometer, start position {angles}</source>
+        <translation>0° fissato con il goniometro, posizione iniziale {angles}</translation>
     </message>
     <message>
         <source>Method: {markers} markers, colour and depth camera, {distance} away.</source>
@@ -2888,8 +2836,8 @@
         <translation>Gli angoli del polso sono nell’ordine ISB.</translation>
     </message>
     <message>
-        <source>Carpus measures the hand in the room: it is the wrist only while the forearm rests.</source>
-        <translation>Carpus misura la mano nello spazio: è il polso solo se l’avambraccio è appoggiato e fermo.</translation>
+        <source>Angles are relative to the room. They equal wrist angles only while the forearm is still.</source>
+        <translation>Gli angoli sono relativi allo spazio. Sono angoli del polso solo se l’avambraccio resta fermo.</translation>
     </message>
     <message>
         <source>Camera not calibrated with a board.</source>
@@ -2904,28 +2852,28 @@
         <translation>Telecamera calibrata: {day}, {days} giorni prima.</translation>
     </message>
     <message>
-        <source>± is the spread between repetitions; each angle itself is known to about {sd} where seen.</source>
-        <translation>± è la dispersione fra ripetizioni; ogni angolo, dove è visto, è noto a circa {sd}.</translation>
+        <source>± = SD between repetitions. A visible angle is known to about {sd}.</source>
+        <translation>± = DS fra le ripetizioni. Un angolo visibile è noto a circa {sd}.</translation>
     </message>
     <message>
-        <source>± is the spread between repetitions, of fewer than 3 the tracker’s own sd of one value; each angle itself is known to about {sd} where seen.</source>
-        <translation>± è la dispersione fra ripetizioni; con meno di 3, la DS di un singolo valore secondo il tracciamento; ogni angolo, dove è visto, è noto a circa {sd}.</translation>
+        <source>± = SD between repetitions (with fewer than 3: SD of the estimate). A visible angle is known to about {sd}.</source>
+        <translation>± = DS fra le ripetizioni (con meno di 3: DS della stima). Un angolo visibile è noto a circa {sd}.</translation>
     </message>
     <message>
-        <source>± is the tracker’s own sd of one value: there was no spread to give; each angle is known to about {sd}.</source>
-        <translation>± è la DS di un singolo valore secondo il tracciamento: non c’era una dispersione da indicare; ogni angolo è noto a circa {sd}.</translation>
+        <source>± = SD of the estimate, as there are too few repetitions. Each angle is known to about {sd}.</source>
+        <translation>± = DS della stima, perché le ripetizioni sono troppo poche. Ogni angolo è noto a circa {sd}.</translation>
     </message>
     <message>
-        <source>Simulated hand: nobody’s movement was measured.</source>
-        <translation>Mano simulata: non è stato misurato il movimento di nessuno.</translation>
+        <source>Simulated data: no patient was measured.</source>
+        <translation>Dati simulati: nessun paziente è stato misurato.</translation>
     </message>
     <message>
-        <source>Measured although doubtful: {findings}</source>
-        <translation>Misurata benché dubbia: {findings}</translation>
+        <source>Measured although uncertain: {findings}</source>
+        <translation>Misurata nonostante l’incertezza: {findings}</translation>
     </message>
     <message>
-        <source>This session is marked as not counting.</source>
-        <translation>Questa seduta è segnata come non valida.</translation>
+        <source>This session is excluded from analysis.</source>
+        <translation>Questa seduta è esclusa dall’analisi.</translation>
     </message>
     <message>
         <source>An older result: there is a newer one of the same recording.</source>
@@ -2964,20 +2912,20 @@
         <translation>{share} % delle ripetizioni</translation>
     </message>
     <message>
-        <source>Pictures measured</source>
-        <translation>Immagini misurate</translation>
+        <source>Frames measured</source>
+        <translation>Fotogrammi misurati</translation>
     </message>
     <message>
-        <source>Markers hidden</source>
+        <source>Markers occluded</source>
         <translation>Marcatori nascosti</translation>
     </message>
     <message>
-        <source>{count} of {all} figures</source>
+        <source>{count} of {all} values</source>
         <translation>{count} valori su {all}</translation>
     </message>
     <message>
-        <source>At least (≥) or not seen</source>
-        <translation>Almeno (≥) o non visti</translation>
+        <source>Minimum (≥) or not visible</source>
+        <translation>Minimo (≥) o non visibile</translation>
     </message>
     <message>
         <source>{distance} (limit {limit})</source>
@@ -2988,12 +2936,12 @@
         <translation>Spostamento avambraccio</translation>
     </message>
     <message>
-        <source>{depth} under its disc (scatter {residual})</source>
-        <translation>{depth} sotto (dispersione {residual})</translation>
+        <source>{depth} below its marker (scatter {residual})</source>
+        <translation>{depth} sotto il marcatore (dispersione {residual})</translation>
     </message>
     <message>
-        <source>Point the wrist turns about</source>
-        <translation>Centro del polso</translation>
+        <source>Wrist rotation centre</source>
+        <translation>Centro di rotazione del polso</translation>
     </message>
     <message>
         <source>{angle} at most (limit {limit})</source>
@@ -3008,7 +2956,7 @@
         <translation>Fluidità (SPARC; 0 è la massima)</translation>
     </message>
     <message>
-        <source>Target</source>
+        <source>Goal</source>
         <translation>Obiettivo</translation>
     </message>
     <message>
@@ -3104,10 +3052,6 @@
         <translation>Flesso-estensione del polso</translation>
     </message>
     <message>
-        <source>Wrist side to side</source>
-        <translation>Polso di lato</translation>
-    </message>
-    <message>
         <source>Free movement</source>
         <translation>Movimento libero</translation>
     </message>
@@ -3124,8 +3068,8 @@
         <translation>Divaricare le dita</translation>
     </message>
     <message>
-        <source>Thumb across the palm</source>
-        <translation>Pollice attraverso il palmo</translation>
+        <source>Thumb opposition</source>
+        <translation>Opposizione del pollice</translation>
     </message>
     <message>
         <source>Free movement of the fingers</source>
@@ -3240,10 +3184,6 @@
         <translation>Ulnare</translation>
     </message>
     <message>
-        <source>Flexion</source>
-        <translation>Flessione</translation>
-    </message>
-    <message>
         <source>Extension</source>
         <translation>Estensione</translation>
     </message>
@@ -3280,8 +3220,8 @@
         <translation>Deficit di pronazione</translation>
     </message>
     <message>
-        <source>lacks {angle}</source>
-        <translation>mancano {angle}</translation>
+        <source>{angle} deficit</source>
+        <translation>deficit {angle}</translation>
     </message>
     <message>
         <source>Radial deviation</source>
@@ -3290,14 +3230,6 @@
     <message>
         <source>Ulnar deviation</source>
         <translation>Deviazione ulnare</translation>
-    </message>
-    <message>
-        <source>Side arc</source>
-        <translation>Arco laterale</translation>
-    </message>
-    <message>
-        <source>Bending arc</source>
-        <translation>Arco di flesso-estensione</translation>
     </message>
     <message>
         <source>Right hand</source>
@@ -3396,12 +3328,12 @@
         <translation>una mano simulata</translation>
     </message>
     <message>
-        <source>marked as not counting</source>
-        <translation>segnata come non valida</translation>
+        <source>excluded from analysis</source>
+        <translation>esclusa dall’analisi</translation>
     </message>
     <message>
-        <source>measured although the markers were doubtful</source>
-        <translation>misurata con marcatori dubbi</translation>
+        <source>measured although the markers were uncertain</source>
+        <translation>misurata con marcatori incerti</translation>
     </message>
     <message>
         <source>the camera was at another distance</source>
@@ -3416,28 +3348,24 @@
         <translation>l’avambraccio si è spostato</translation>
     </message>
     <message>
-        <source>hidden in part</source>
-        <translation>in parte nascosto</translation>
-    </message>
-    <message>
         <source>angles in another order</source>
         <translation>angoli in un altro ordine</translation>
     </message>
     <message>
-        <source>A recording counts once, by its newest result: 1 earlier result is left out.</source>
-        <translation>Una registrazione conta una volta sola, con il risultato più recente: 1 risultato precedente è escluso.</translation>
+        <source>Only the newest result of a recording is analysed: 1 earlier result is excluded.</source>
+        <translation>Di ogni registrazione si analizza solo il risultato più recente: 1 precedente è escluso.</translation>
     </message>
     <message>
-        <source>A recording counts once, by its newest result: {count} earlier results are left out.</source>
-        <translation>Una registrazione conta una volta sola, con il risultato più recente: {count} risultati precedenti sono esclusi.</translation>
+        <source>Only the newest result of a recording is analysed: {count} earlier results are excluded.</source>
+        <translation>Di ogni registrazione si analizza solo il risultato più recente: {count} precedenti sono esclusi.</translation>
     </message>
     <message>
-        <source>“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where it has none of its own, experts’ choice for Carpus. For the same protocol, side and set-up.</source>
-        <translation>“Errore” è la minima differenza rilevabile (MDC95), misurata da questo centro in data {date} con {count} persone; dove il centro non ne ha una propria, è una scelta di esperti per Carpus. A parità di protocollo, lato e preparazione.</translation>
+        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people, otherwise it is the expert default of Carpus. It holds for the same protocol, side and set-up.</source>
+        <translation>MDC95 (errore di misura) è stata misurata da questo centro in data {date} con {count} persone, altrimenti è il valore predefinito degli esperti di Carpus. A parità di protocollo, lato e preparazione.</translation>
     </message>
     <message>
-        <source>“Error” is the smallest difference called a change: experts’ choice for Carpus, not published figures; of an arc, which has two ends, √2 as much. For the same protocol, side and set-up, until the clinic has measured its own.</source>
-        <translation>“Errore” è la minima differenza considerata un cambiamento: scelta di esperti per Carpus, non valori pubblicati; per un arco, che ha due estremi, √2 volte tanto. A parità di protocollo, lato e preparazione, finché il centro non ha misurato i propri limiti.</translation>
+        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same protocol, side and set-up.</source>
+        <translation>MDC (errore di misura) è il valore predefinito degli esperti di Carpus, non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. A parità di protocollo, lato e preparazione.</translation>
     </message>
     <message>
         <source>{size} more</source>
@@ -3452,20 +3380,20 @@
         <translation>{difference} dalla prima</translation>
     </message>
     <message>
-        <source>{difference}, within error ({limit})</source>
-        <translation>{difference}, entro l’errore ({limit})</translation>
+        <source>{difference}, within MDC ({limit})</source>
+        <translation>{difference}, entro MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}, beyond error ({limit})</source>
-        <translation>{difference}, oltre l’errore ({limit})</translation>
+        <source>{difference}, beyond MDC ({limit})</source>
+        <translation>{difference}, oltre MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}: within measurement error ({limit})</source>
-        <translation>{difference}: entro l’errore di misura ({limit})</translation>
+        <source>{difference}: within MDC ({limit})</source>
+        <translation>{difference}: entro MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}: beyond measurement error ({limit})</source>
-        <translation>{difference}: oltre l’errore di misura ({limit})</translation>
+        <source>{difference}: beyond MDC ({limit})</source>
+        <translation>{difference}: oltre MDC ({limit})</translation>
     </message>
     <message>
         <source>Another blue spot fits the {markers} better.</source>
@@ -4764,8 +4692,8 @@
         <translation>Le articolazioni nascoste non contano.</translation>
     </message>
     <message>
-        <source>± is the spread between repetitions.</source>
-        <translation>± è la dispersione fra ripetizioni.</translation>
+        <source>± is the SD between repetitions.</source>
+        <translation>± è la DS fra le ripetizioni.</translation>
     </message>
     <message>
         <source>thumb</source>
@@ -4980,7 +4908,7 @@
         <translation>Flessione {flexion}, estensione {extension}.</translation>
     </message>
     <message>
-        <source>The whole arc is {arc}. {change}</source>
+        <source>The total arc is {arc}. {change}</source>
         <translation>L’arco totale è {arc}. {change}</translation>
     </message>
     <message>
@@ -4988,8 +4916,8 @@
         <translation>Tutore come prima; esercizi a casa tre volte al giorno.</translation>
     </message>
     <message>
-        <source>Check again in two weeks.</source>
-        <translation>Controllo fra due settimane.</translation>
+        <source>Reassess in two weeks.</source>
+        <translation>Rivalutare tra due settimane.</translation>
     </message>
     <message>
         <source>Practice patient</source>
@@ -5100,7 +5028,7 @@
         <translation>AMA Guides; AAOS 1965 (goniometro)</translation>
     </message>
     <message>
-        <source>ASSH, sum of active bending in a fist</source>
+        <source>ASSH, sum of active flexion in a fist</source>
         <translation>ASSH, somma della flessione attiva nel pugno</translation>
     </message>
     <message>
@@ -5108,15 +5036,15 @@
         <translation>Il programma impacchettato fa a meno di {packages}; Carpus dai sorgenti può averlo.</translation>
     </message>
     <message>
-        <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>
-        <translation>Usuale: {source}; {ages}, {sexes}; non per bambini e anziani.</translation>
+        <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
+        <translation>Riferimento: {source}; {ages}, {sexes}; non per bambini o anziani.</translation>
     </message>
     <message>
         <source>a study&apos;s table has the columns person, session and reference</source>
         <translation>la tabella di uno studio ha le colonne person, session e reference</translation>
     </message>
     <message>
-        <source>adults, ages not told</source>
+        <source>adults, ages not given</source>
         <translation>adulti, età non indicata</translation>
     </message>
     <message>
@@ -5232,36 +5160,36 @@
         <translation>{count} per movimento, {seconds} s in tutto</translation>
     </message>
     <message>
-        <source>Stops on the way, mean</source>
-        <translation>Soste durante il movimento, media</translation>
+        <source>Pauses during the movement, mean</source>
+        <translation>Pause durante il movimento, media</translation>
     </message>
     <message>
-        <source>No change proven since {day}.</source>
-        <translation>Nessun cambiamento dimostrato rispetto a {day}.</translation>
+        <source>No change beyond measurement error since {day}.</source>
+        <translation>Nessun cambiamento oltre l’errore di misura rispetto a {day}.</translation>
     </message>
     <message>
-        <source>{name}: no change proven.</source>
-        <translation>{name}: nessun cambiamento dimostrato.</translation>
+        <source>{name}: no change beyond measurement error.</source>
+        <translation>{name}: nessun cambiamento oltre l’errore di misura.</translation>
     </message>
     <message>
-        <source>No change proven since {when}.</source>
-        <translation>Confronto con {when}: nessun cambiamento dimostrato.</translation>
+        <source>No change beyond measurement error since {when}.</source>
+        <translation>Confronto con {when}: nessun cambiamento oltre l’errore di misura.</translation>
     </message>
     <message>
-        <source>no change proven</source>
-        <translation>nessun cambiamento dimostrato</translation>
+        <source>no change beyond MDC</source>
+        <translation>nessun cambiamento oltre MDC</translation>
     </message>
     <message>
-        <source>Each joint where it was bent most; ± is the spread between repetitions.</source>
-        <translation>Ogni articolazione nel punto di massima flessione; ± è la variazione tra le ripetizioni.</translation>
+        <source>Each joint at its largest flexion; ± is the SD between repetitions.</source>
+        <translation>Ogni articolazione alla massima flessione; ± è la DS fra le ripetizioni.</translation>
     </message>
     <message>
-        <source>{sign}: at least, the camera did not see the end of that movement.</source>
-        <translation>{sign}: almeno, la telecamera non ha visto la fine di quel movimento.</translation>
+        <source>{sign} = minimum: the end of this movement was occluded.</source>
+        <translation>{sign} = minimo: la fine di questo movimento era nascosta.</translation>
     </message>
     <message>
-        <source>{sign}: measured by hand that day, active / passive; never averaged with the rest.</source>
-        <translation>{sign}: misurato a mano quel giorno, attivo / passivo; mai in media con il resto.</translation>
+        <source>{sign}: measured by hand that day, active / passive; not combined with the other values.</source>
+        <translation>{sign}: misurato a mano quel giorno, attivo / passivo; non combinato con gli altri valori.</translation>
     </message>
     <message>
         <source>Active</source>
@@ -5272,8 +5200,8 @@
         <translation>Passivo</translation>
     </message>
     <message>
-        <source>Passive goes further</source>
-        <translation>Passivo va oltre</translation>
+        <source>Passive minus active</source>
+        <translation>Passivo meno attivo</translation>
     </message>
     <message>
         <source>By hand</source>
@@ -5284,36 +5212,36 @@
         <translation>Dito</translation>
     </message>
     <message>
-        <source>within the error</source>
-        <translation>entro l’errore</translation>
+        <source>within MDC</source>
+        <translation>entro MDC</translation>
     </message>
     <message>
-        <source>{gap} (error {limit})</source>
-        <translation>{gap} (errore {limit})</translation>
+        <source>{gap} (MDC {limit})</source>
+        <translation>{gap} (MDC {limit})</translation>
     </message>
     <message>
-        <source>{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.</source>
-        <translation>{name}: {active} da solo, {passive} con aiuto. I {gap} di differenza superano l’errore.</translation>
+        <source>{name}: active {active}, passive {passive}. The difference of {gap} is beyond the measurement error.</source>
+        <translation>{name}: attivo {active}, passivo {passive}. La differenza di {gap} supera l’errore di misura.</translation>
     </message>
     <message>
-        <source>Active and passive are shown, not judged: {why}.</source>
-        <translation>Attivo e passivo sono mostrati, non giudicati: {why}.</translation>
+        <source>Active and passive range are shown without an assessment: {why}.</source>
+        <translation>Escursione attiva e passiva senza valutazione: {why}.</translation>
     </message>
     <message>
-        <source>You are holding what you reached.</source>
-        <translation>Lei mantiene ciò che ha raggiunto.</translation>
+        <source>You have kept the progress you made.</source>
+        <translation>Lei ha mantenuto i progressi fatti.</translation>
     </message>
     <message>
         <source>You have reached our goal.</source>
         <translation>Ha raggiunto il nostro obiettivo.</translation>
     </message>
     <message>
-        <source>More than half of the way is done.</source>
-        <translation>Più di metà della strada è fatta.</translation>
+        <source>You are more than halfway to our goal.</source>
+        <translation>Lei è oltre la metà del percorso verso il nostro obiettivo.</translation>
     </message>
     <message>
-        <source>You come further than at the start.</source>
-        <translation>Arriva più lontano che all’inizio.</translation>
+        <source>You can move further than when you started.</source>
+        <translation>Lei riesce a muovere più di quando ha iniziato.</translation>
     </message>
     <message>
         <source>Your hand at home</source>
@@ -5344,11 +5272,11 @@
         <translation>{count} volte al giorno</translation>
     </message>
     <message>
-        <source>dashed: at the start; full line: today</source>
+        <source>dashed: at the start; solid: today</source>
         <translation>tratteggiata: all’inizio; continua: oggi</translation>
     </message>
     <message>
-        <source>dashed: at the start; full line: today; green: our goal</source>
+        <source>dashed: at the start; solid: today; green: our goal</source>
         <translation>tratteggiata: all’inizio; continua: oggi; verde: il nostro obiettivo</translation>
     </message>
     <message>
@@ -5356,8 +5284,8 @@
         <translation>obiettivo</translation>
     </message>
     <message>
-        <source>See you again</source>
-        <translation>Ci rivediamo</translation>
+        <source>Next appointment</source>
+        <translation>Prossimo appuntamento</translation>
     </message>
     <message>
         <source>Notes, or what to ask next time</source>
@@ -5412,7 +5340,7 @@
         <translation>Mano simulata</translation>
     </message>
     <message>
-        <source>1 marker hidden</source>
+        <source>1 marker occluded</source>
         <translation>1 marcatore nascosto</translation>
     </message>
     <message>
@@ -5460,15 +5388,11 @@
         <translation>Movimenti di raggiungimento</translation>
     </message>
     <message>
-        <source>Thumb opposition</source>
-        <translation>Opposizione del pollice</translation>
-    </message>
-    <message>
         <source>not available: fewer than {count} frames a second</source>
         <translation>non disponibile: meno di {count} immagini al secondo</translation>
     </message>
     <message>
-        <source>not available: it could not be computed</source>
+        <source>not available: the calculation failed</source>
         <translation>non disponibile: calcolo non riuscito</translation>
     </message>
     <message>
@@ -5640,10 +5564,6 @@
         <translation>Gli angoli si contano dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori escono di vista a circa 25° di pronazione. Un obiettivo prima del pollice in alto ha il meno: supinazione −25°.</translation>
     </message>
     <message>
-        <source>Pronation–supination</source>
-        <translation>Pronazione–supinazione</translation>
-    </message>
-    <message>
         <source>Calibrate the camera again, or correct the file.</source>
         <translation>Calibrare di nuovo la telecamera, o correggere il file.</translation>
     </message>
@@ -5656,8 +5576,8 @@
         <translation>misurata una volta</translation>
     </message>
     <message>
-        <source>Kept for this camera, number {serial}. Sessions measured before keep their values and say so.</source>
-        <translation>Viene salvata per questa telecamera, numero {serial}. Le sedute misurate prima mantengono i loro valori e lo dicono.</translation>
+        <source>Saved for this camera, number {serial}. Earlier sessions keep their values.</source>
+        <translation>Viene salvata per questa telecamera, numero {serial}. Le sedute precedenti mantengono i loro valori.</translation>
     </message>
     <message>
         <source>Distance: near and far missing</source>
@@ -5729,7 +5649,7 @@
     </message>
     <message>
         <source>Passive range does not exceed active range by more than the measurement error.</source>
-        <translation>L’escursione passiva non supera quella attiva di più dell’errore di misura.</translation>
+        <translation>L’escursione passiva non supera quella attiva oltre l’errore di misura.</translation>
     </message>
     <message>
         <source>another filter than Carpus’ own tracked it</source>
@@ -5764,8 +5684,8 @@
         <translation>dal nome non sono dischi, sono dell’altra mano o non si vedono mai</translation>
     </message>
     <message>
-        <source>the hand went out of sight during the movement</source>
-        <translation>la mano è uscita di vista durante il movimento</translation>
+        <source>the hand left the camera’s view during the movement</source>
+        <translation>la mano è uscita dalla visuale durante il movimento</translation>
     </message>
     <message>
         <source>Compiled parts</source>
@@ -6614,10 +6534,6 @@
     <message>
         <source>Program</source>
         <translation>Programma</translation>
-    </message>
-    <message>
-        <source>not visible</source>
-        <translation>non visibile</translation>
     </message>
     <message>
         <source>Not kept: {names}. Also correct a later frame.</source>
@@ -7614,8 +7530,8 @@
         <translation>Esc</translation>
     </message>
     <message>
-        <source>What you typed is not kept yet. Esc once more closes without it.</source>
-        <translation>Ciò che è stato scritto non è ancora salvato. Esc un’altra volta chiude senza.</translation>
+        <source>Your entries are not saved yet. Press Esc again to close without saving.</source>
+        <translation>I dati inseriti non sono ancora salvati. Premere di nuovo Esc per chiudere senza salvare.</translation>
     </message>
 </context>
 <context>
@@ -7683,8 +7599,8 @@
         <translation>dolore</translation>
     </message>
     <message>
-        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
-        <translation>Passiva: la mano è stata mossa da un’altra persona. Conta a parte, accanto a quelle attive.</translation>
+        <source>Passive (moved by the therapist): analysed separately from active repetitions.</source>
+        <translation>Passiva (mossa dal terapista): analizzata separatamente dalle ripetizioni attive.</translation>
     </message>
     <message>
         <source>Passive</source>
@@ -7695,8 +7611,8 @@
         <translation>Passiva, e tutte le seguenti</translation>
     </message>
     <message>
-        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
-        <translation>Esclusa: resta nella registrazione e nelle curve e non conta più. La relazione lo dice.</translation>
+        <source>Excluded from the results; still shown on the curves and mentioned in the report.</source>
+        <translation>Esclusa dai risultati; resta visibile nelle curve e viene citata nella relazione.</translation>
     </message>
     <message>
         <source>other movement</source>
@@ -7711,15 +7627,15 @@
         <translation>Un altro motivo</translation>
     </message>
     <message>
-        <source>Keep it in</source>
-        <translation>Tienila</translation>
+        <source>Keep included</source>
+        <translation>Non escludere</translation>
     </message>
     <message>
-        <source>Is repetition {number} passive, or left out?</source>
+        <source>Is repetition {number} passive or excluded?</source>
         <translation>La ripetizione {number} è passiva o esclusa?</translation>
     </message>
     <message>
-        <source>Leave it out</source>
+        <source>Exclude</source>
         <translation>Escludi</translation>
     </message>
 </context>
@@ -7922,19 +7838,19 @@
         <translation>Angoli articolari degli ultimi dieci secondi, per dito</translation>
     </message>
     <message>
-        <source>follows the middle joint</source>
-        <translation>segue l’articolazione media</translation>
+        <source>coupled to the PIP</source>
+        <translation>legata alla IFP</translation>
     </message>
     <message>
-        <source>follows</source>
-        <translation>segue</translation>
+        <source>coupled</source>
+        <translation>legata</translation>
     </message>
     <message>
         <source>Last 10 s</source>
         <translation>Ultimi 10 s</translation>
     </message>
     <message>
-        <source>Bending</source>
+        <source>Flexion</source>
         <translation>Flessione</translation>
     </message>
     <message>
@@ -8078,20 +7994,20 @@ dall’alto</translation>
 <context>
     <name>HandImageDialog</name>
     <message>
-        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
-        <translation>La sola mano con il suo angolo: viso e stanza sono tagliati via, non c’è alcun nome. Dove il movimento non giace nel piano dell’immagine, l’angolo è detto solo a parole.</translation>
+        <source>The hand alone, with its angle. Face and room are removed, and there is no name. If the movement is not in the image plane, the angle is given in words only.</source>
+        <translation>La sola mano con il suo angolo. Viso e stanza sono rimossi e non c’è alcun nome. Se il movimento non è nel piano dell’immagine, l’angolo è indicato solo a parole.</translation>
     </message>
     <message>
-        <source>Picture of the hand</source>
+        <source>Image of the hand</source>
         <translation>Immagine della mano</translation>
     </message>
     <message>
-        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
-        <translation>Chi ha il file può guardarlo: lì Carpus non può proteggerlo. Viene annotato nel registro.</translation>
+        <source>Carpus cannot protect the saved file: anyone who has it can open it. The export is logged.</source>
+        <translation>Carpus non può proteggere il file salvato: chi lo possiede può aprirlo. L’esportazione viene annotata nel registro.</translation>
     </message>
     <message>
-        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
-        <translation>Qui la mano non è visibile, o i nomi dei suoi marcatori sono dubbi. Scegliere un altro momento.</translation>
+        <source>The hand is not visible here, or its marker labels are uncertain. Choose another moment.</source>
+        <translation>La mano qui non è visibile, o le etichette dei marcatori sono incerte. Scegliere un altro momento.</translation>
     </message>
     <message>
         <source>The patient has agreed</source>
@@ -8161,12 +8077,12 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>HomeDialog</name>
     <message>
-        <source>Sheet for home</source>
-        <translation>Foglio per casa</translation>
+        <source>Home exercise sheet</source>
+        <translation>Scheda di esercizi a casa</translation>
     </message>
     <message>
-        <source>One page for the patient, without figures or diagnosis. Up to {count} exercises.</source>
-        <translation>Una pagina per il paziente, senza cifre né diagnosi. Fino a {count} esercizi.</translation>
+        <source>One page for the patient, without values or diagnosis. Up to {count} exercises.</source>
+        <translation>Una pagina per il paziente, senza valori né diagnosi. Fino a {count} esercizi.</translation>
     </message>
     <message>
         <source>&amp;Times</source>
@@ -8197,12 +8113,12 @@ Maiusc+F8 di lato</translation>
         <translation>Mostra il foglio</translation>
     </message>
     <message>
-        <source>Time: {count} letters too many</source>
-        <translation>Ora: {count} lettere di troppo</translation>
+        <source>Time: {count} characters too long</source>
+        <translation>Ora: {count} caratteri di troppo</translation>
     </message>
     <message>
-        <source>Line: {count} letters too many</source>
-        <translation>Riga: {count} lettere di troppo</translation>
+        <source>Line: {count} characters too long</source>
+        <translation>Riga: {count} caratteri di troppo</translation>
     </message>
 </context>
 <context>
@@ -8212,8 +8128,8 @@ Maiusc+F8 di lato</translation>
         <translation>Lettera al medico</translation>
     </message>
     <message>
-        <source>One page, with the figures of this session and your comment. Addresses stay in your list.</source>
-        <translation>Una pagina, con i valori di questa seduta e il commento. Gli indirizzi restano nell’elenco.</translation>
+        <source>One page with the values of this session and your comment. Addresses stay in your list.</source>
+        <translation>Una pagina con i valori di questa seduta e il commento. Gli indirizzi restano nell’elenco.</translation>
     </message>
     <message>
         <source>Written to before</source>
@@ -8391,8 +8307,8 @@ Maiusc+F8 di lato</translation>
         <translation> · croce: centro di rotazione del polso; deve restare nell’anello</translation>
     </message>
     <message>
-        <source>arm moved ({distance})</source>
-        <translation>braccio spostato ({distance})</translation>
+        <source>forearm moved ({distance})</source>
+        <translation>avambraccio spostato ({distance})</translation>
     </message>
     <message>
         <source>forearm still ({distance})</source>
@@ -9103,8 +9019,8 @@ Maiusc+F8 di lato</translation>
         <translation>stimato</translation>
     </message>
     <message>
-        <source>follows the middle joint</source>
-        <translation>segue l’articolazione media</translation>
+        <source>coupled to the PIP</source>
+        <translation>legata alla IFP</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -9123,7 +9039,7 @@ Maiusc+F8 di lato</translation>
         <translation>Migliore {movement}</translation>
     </message>
     <message>
-        <source>Target {angle}</source>
+        <source>Goal {angle}</source>
         <translation>Obiettivo {angle}</translation>
     </message>
     <message>
@@ -9188,7 +9104,7 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>PathsChart</name>
     <message>
-        <source>Ways in three planes</source>
+        <source>Paths in three planes</source>
         <translation>Percorsi in tre piani</translation>
     </message>
 </context>
@@ -9599,12 +9515,12 @@ Maiusc+F8 di lato</translation>
         <translation>Ripetizione…</translation>
     </message>
     <message>
-        <source>Passive, or left out (X); [ and ] go to another</source>
-        <translation>Passiva, o esclusa (X); [ e ] vanno a un’altra</translation>
+        <source>Passive or excluded (X); [ and ] select another</source>
+        <translation>Passiva o esclusa (X); [ e ] selezionano un’altra</translation>
     </message>
     <message>
-        <source>picture</source>
-        <translation>immagine</translation>
+        <source>frame</source>
+        <translation>fotogramma</translation>
     </message>
 </context>
 <context>
@@ -9652,7 +9568,7 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>ProgressChart</name>
     <message>
-        <source>Range over the sessions</source>
+        <source>Range of motion over the sessions</source>
         <translation>Escursione nelle sedute</translation>
     </message>
     <message>
@@ -9722,8 +9638,8 @@ Maiusc+F8 di lato</translation>
         <translation>Non è possibile leggere le sedute.</translation>
     </message>
     <message>
-        <source>Simulated sessions are drawn and compared for practice only: they count nowhere.</source>
-        <translation>Le sedute simulate sono disegnate e confrontate solo per esercitarsi: non contano da nessuna parte.</translation>
+        <source>Simulated sessions are shown for practice only and excluded from analysis.</source>
+        <translation>Le sedute simulate servono solo per esercitarsi e sono escluse dall’analisi.</translation>
     </message>
     <message>
         <source>{count} sessions, {last}</source>
@@ -9743,23 +9659,23 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Peak speed</source>
-        <translation>Velocità max</translation>
+        <translation>Velocità massima</translation>
     </message>
     <message>
-        <source>error not yet known</source>
-        <translation>errore non ancora noto</translation>
+        <source>MDC not yet known</source>
+        <translation>MDC non ancora nota</translation>
     </message>
     <message>
         <source>Measured by hand</source>
         <translation>Misurati a mano</translation>
     </message>
     <message>
-        <source>Fair comparison</source>
-        <translation>Confronto corretto</translation>
+        <source>Comparability</source>
+        <translation>Confrontabilità</translation>
     </message>
     <message>
-        <source>All sessions were set up alike.</source>
-        <translation>Tutte le sedute sono state preparate allo stesso modo.</translation>
+        <source>All sessions used the same set-up.</source>
+        <translation>Tutte le sedute hanno la stessa preparazione.</translation>
     </message>
 </context>
 <context>
@@ -10139,8 +10055,8 @@ Maiusc+F8 di lato</translation>
         <translation>Commento</translation>
     </message>
     <message>
-        <source>Printed on the report and kept with the session. No names here, please.</source>
-        <translation>Stampato sulla relazione e conservato con la seduta. Niente nomi, per favore.</translation>
+        <source>Printed on the report and saved with the session. No names here, please.</source>
+        <translation>Stampato sulla relazione e salvato con la seduta. Niente nomi qui, per favore.</translation>
     </message>
     <message>
         <source>Comment on the report</source>
@@ -10155,7 +10071,7 @@ Maiusc+F8 di lato</translation>
         <translation>Scrivere parte di una frase</translation>
     </message>
     <message>
-        <source>These places take the session’s figures: {places}</source>
+        <source>These placeholders take the session’s values: {places}</source>
         <translation>Questi segnaposto prendono i valori della seduta: {places}</translation>
     </message>
     <message>
@@ -10163,12 +10079,12 @@ Maiusc+F8 di lato</translation>
         <translation>Inserisci</translation>
     </message>
     <message>
-        <source>Remember</source>
-        <translation>Ricorda</translation>
+        <source>Save</source>
+        <translation>Salva</translation>
     </message>
     <message>
-        <source>Forget</source>
-        <translation>Dimentica</translation>
+        <source>Delete</source>
+        <translation>Elimina</translation>
     </message>
     <message>
         <source>Parts of the report</source>
@@ -10187,12 +10103,12 @@ Maiusc+F8 di lato</translation>
         <translation>Curve e ripetizioni</translation>
     </message>
     <message>
-        <source>Range as bars</source>
+        <source>Range of motion as bars</source>
         <translation>Escursione a barre</translation>
     </message>
     <message>
-        <source>How sure the figures are</source>
-        <translation>Sicurezza dei valori</translation>
+        <source>Reliability of the values</source>
+        <translation>Affidabilità dei valori</translation>
     </message>
     <message>
         <source>Speed, pain, note</source>
@@ -10203,7 +10119,7 @@ Maiusc+F8 di lato</translation>
         <translation>Inseriti a mano</translation>
     </message>
     <message>
-        <source>Page of movement</source>
+        <source>Motion page</source>
         <translation>Pagina del movimento</translation>
     </message>
     <message>
@@ -10234,8 +10150,8 @@ Maiusc+F8 di lato</translation>
         <translation>Lettera al medico…</translation>
     </message>
     <message>
-        <source>Sheet for home…</source>
-        <translation>Foglio per casa…</translation>
+        <source>Home exercise sheet…</source>
+        <translation>Scheda esercizi…</translation>
     </message>
     <message>
         <source>Back to the report</source>
@@ -10262,16 +10178,16 @@ Maiusc+F8 di lato</translation>
         <translation>{count} pagine A4</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. It carries the made-up name, never a real one.</source>
-        <translation>{pages}; si legge anche in grigio. Porta il nome inventato, mai uno vero.</translation>
+        <source>{pages}, readable in grey. Contains the pseudonym, never the real name.</source>
+        <translation>{pages}, leggibile in grigio. Contiene lo pseudonimo, mai il nome reale.</translation>
     </message>
     <message>
         <source>Not saved yet</source>
         <translation>Non ancora salvata</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. It carries the patient’s real name: mind where you save it.</source>
-        <translation>{pages}; si legge anche in grigio. Porta il nome vero del paziente: attenzione a dove si salva.</translation>
+        <source>{pages}, readable in grey. Contains the patient’s real name: store it securely.</source>
+        <translation>{pages}, leggibile in grigio. Contiene il nome reale del paziente: conservare in luogo sicuro.</translation>
     </message>
     <message>
         <source>Save report</source>
@@ -10378,12 +10294,12 @@ Maiusc+F8 di lato</translation>
         <translation>Altra serie</translation>
     </message>
     <message>
-        <source>Do not count</source>
-        <translation>Non contare</translation>
+        <source>Exclude</source>
+        <translation>Escludi</translation>
     </message>
     <message>
-        <source>The session stays, and is compared with none. Can be taken back.</source>
-        <translation>La seduta resta, e non si confronta con nessuna. Si può annullare.</translation>
+        <source>The session is kept but not analysed. It can be included again.</source>
+        <translation>La seduta resta ma non viene analizzata. Si può includere di nuovo.</translation>
     </message>
     <message>
         <source>Side by side…</source>
@@ -10398,12 +10314,12 @@ Maiusc+F8 di lato</translation>
         <translation>Crea la relazione</translation>
     </message>
     <message>
-        <source>older result, does not count</source>
-        <translation>risultato precedente, non conta</translation>
+        <source>older result, excluded</source>
+        <translation>risultato precedente, escluso</translation>
     </message>
     <message>
-        <source>Let it count again</source>
-        <translation>Conta di nuovo</translation>
+        <source>Include again</source>
+        <translation>Includi di nuovo</translation>
     </message>
     <message>
         <source>No other session of this exercise yet.</source>
@@ -10429,27 +10345,27 @@ Maiusc+F8 di lato</translation>
         <translation>Percorso del polso, con gli assi della mano</translation>
     </message>
     <message>
-        <source>Ways of the finger tips</source>
-        <translation>Percorsi delle punte delle dita</translation>
+        <source>Fingertip paths</source>
+        <translation>Percorsi dei polpastrelli</translation>
     </message>
     <message>
-        <source>Ways of the joints: {finger}</source>
+        <source>Joint paths: {finger}</source>
         <translation>Percorsi delle articolazioni: {finger}</translation>
     </message>
 </context>
 <context>
     <name>ReviewFlow</name>
     <message>
-        <source>This result counts from now on.</source>
-        <translation>Da ora conta questo risultato.</translation>
+        <source>This result is used from now on.</source>
+        <translation>Da ora si usa questo risultato.</translation>
     </message>
     <message>
         <source>The others stay as they were.</source>
         <translation>Gli altri restano com’erano.</translation>
     </message>
     <message>
-        <source>It stands there once more, as the newest.</source>
-        <translation>Compare lì un’altra volta, come il più recente.</translation>
+        <source>It was saved again as the newest.</source>
+        <translation>È stato salvato di nuovo come il più recente.</translation>
     </message>
     <message>
         <source>Go on</source>
@@ -10460,15 +10376,15 @@ Maiusc+F8 di lato</translation>
         <translation>Salva immagine</translation>
     </message>
     <message>
-        <source>there is no picture of it</source>
-        <translation>non ce n’è alcuna immagine</translation>
+        <source>no frame of it was stored</source>
+        <translation>non è stato salvato alcun fotogramma</translation>
     </message>
 </context>
 <context>
     <name>ReviewFrameView</name>
     <message>
-        <source>Put markers right…</source>
-        <translation>Correggi i marcatori…</translation>
+        <source>Correct markers…</source>
+        <translation>Correggi marcatori…</translation>
     </message>
     <message>
         <source>A marker is wrong or missing here (Shift+F10)</source>
@@ -10479,11 +10395,11 @@ Maiusc+F8 di lato</translation>
         <translation>Angolo</translation>
     </message>
     <message>
-        <source>The angle drawn on the picture (A)</source>
-        <translation>L’angolo disegnato sull’immagine (A)</translation>
+        <source>The angle drawn on the frame (A)</source>
+        <translation>L’angolo disegnato sul fotogramma (A)</translation>
     </message>
     <message>
-        <source>Put right…</source>
+        <source>Correct…</source>
         <translation>Correggi…</translation>
     </message>
     <message>
@@ -10503,8 +10419,8 @@ Maiusc+F8 di lato</translation>
         <translation>Salva…</translation>
     </message>
     <message>
-        <source>This picture with the hand alone (F)</source>
-        <translation>Questa immagine con la sola mano (F)</translation>
+        <source>Image of the hand alone (F)</source>
+        <translation>Immagine della sola mano (F)</translation>
     </message>
 </context>
 <context>
@@ -11022,8 +10938,8 @@ Maiusc+F8 di lato</translation>
         <translation>Questa seduta non conta.</translation>
     </message>
     <message>
-        <source>Measured although doubtful: {findings}</source>
-        <translation>Misurata benché dubbia: {findings}</translation>
+        <source>Measured although uncertain: {findings}</source>
+        <translation>Misurata nonostante l’incertezza: {findings}</translation>
     </message>
     <message>
         <source>Saved {time}</source>
@@ -11139,12 +11055,12 @@ Maiusc+F8 di lato</translation>
         <translation>{number} · {day}</translation>
     </message>
     <message>
-        <source>{result}, counts</source>
-        <translation>{result}, conta</translation>
+        <source>{result}, in use</source>
+        <translation>{result}, in uso</translation>
     </message>
     <message>
-        <source>Let this one count</source>
-        <translation>Far contare questo</translation>
+        <source>Use this result</source>
+        <translation>Usa questo risultato</translation>
     </message>
 </context>
 <context>

@@ -46,7 +46,7 @@ def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop)
     qtbot.keyClick(shown_list, Qt.Key.Key_C)
     assert journey.place == "beside"
     qtbot.waitUntil(lambda: screen.comparison is not None)
-    assert screen.answer.text() == "The whole arc has improved by 30° since 13 Nov."
+    assert screen.answer.text() == "The total arc has improved by 30° since 13 Nov."
     assert [row[-1].text for row in screen.differences.table.rows][:3] == ["improved (above MDC)"] * 3
 
     start, starts = screen.playing.time_s, screen.alignment.step.starts_s

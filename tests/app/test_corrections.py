@@ -498,7 +498,7 @@ def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
     ReviewFlow(context)._restore_version(str(new))
     qtbot.waitUntil(lambda: len(told.shown) == 2)
     assert [one.session_id for one in kept.library.result_versions(str(new))][1:] == [new, told.shown[1][1]]
-    assert told.asked == ["This result counts from now on."]
+    assert told.asked == ["This result is used from now on."]
 
 
 @pytest.mark.parametrize("is_answered", ["before the end", "after the end"])

@@ -38,7 +38,7 @@ def test_the_card_of_a_hook_fist_has_the_middle_joints() -> None:
 def test_plain_lines_have_every_joint() -> None:
     lines = format_results(compute_session_results(hand_session()))
     assert any(line.startswith("Ring finger, TAM: at least ") for line in lines)
-    assert any(line.startswith("Index finger, knuckle: ") for line in lines)
+    assert any(line.startswith("Index finger, MCP: ") for line in lines)
 
 
 def test_the_markers_shown_are_those_of_the_same_hand_with_the_same_discs(tmp_path: Path) -> None:

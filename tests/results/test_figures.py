@@ -289,5 +289,5 @@ def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
     assert repr(found.wrist_ranges) == repr(figures.wrist_ranges), "by repr: a NaN equals no NaN"
     assert repr(found.measures_in_group("speed")) == repr(figures.measures_in_group("speed"))
     (missing,) = (one for one in found.measures_in_group("task") if one.unknown_reason == "failed")
-    assert value_words(missing) == "not available: it could not be computed"
+    assert value_words(missing) == "not available: the calculation failed"
     assert measure_name(missing)[0].isupper()

@@ -157,8 +157,8 @@ def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
             assert unseen.unknown_reason == "hidden"
             assert math.isnan(unseen.mean)
             assert named(plain, name, f"TIP1-TIP{k}").unknown_reason == ""
-    assert task_summary(figures) == "Whether the thumb touched the finger tips was hidden from the camera"
-    assert short_task_summary(figures) == "Touches hidden"
+    assert task_summary(figures) == "Thumb contact was occluded"
+    assert short_task_summary(figures) == "Contact occluded"
     assert not any(
         math.isfinite(item.mean)
         for item in figures.measures_in_group("task")
@@ -166,7 +166,7 @@ def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
     )
     rows = [row[place : place + 2] for row in task_table(figures).rows for place in (0, 3)]
     said = [today for name, today in rows if "across" in str(name)]
-    assert said == ["hidden from the camera"], "one line for all that is not known of the ways"
+    assert said == ["occluded"], "one line for all that is not known of the ways"
 
 
 @pytest.mark.parametrize(("sds", "touches"), [(2.2, 0.0), (1.8, math.nan)])

@@ -30,7 +30,7 @@ class FakeStoredSessions(SessionStore):
         number = int(line.entry.session_id[1:])
         if number == 4:
             return replace(line, is_damaged=True)
-        words = "mean of 9 repetitions; number 7 left out: pain"
+        words = "mean of 9 repetitions; number 7 excluded: pain"
         return replace(
             line, main_value=f"Flexion {57 - 3 * number}° ± 2°", counted_repetitions="9 / 10", counted_words=words
         )

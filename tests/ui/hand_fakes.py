@@ -20,7 +20,7 @@ SECONDS, SPEED_HZ = 40.0, 0.2
 JOINT_SD_DEG = 2.0
 SD_GROWS_DEG_S = 12.0
 HIDES_BEYOND_DEG = 55.0
-"""Bending of the middle joint beyond which the finger's outer discs are not seen."""
+"Bending of the middle joint beyond which the finger's outer discs are not seen."
 
 
 @made_once

@@ -65,7 +65,7 @@ def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exerci
 
     assert free((HELPED_S, PASSIVE)).find("flexion", "flexion").best < 0.75 * free().find("flexion", "flexion").best
     assert not free((0.0, PASSIVE)).wrist_ranges, "nothing was active"
-    assert repetition_words(free((HELPED_S, PASSIVE))).endswith("without what was passive")
+    assert repetition_words(free((HELPED_S, PASSIVE))).endswith("passive repetitions excluded")
     assert "passive" not in repetition_words(free())
 
 
@@ -87,7 +87,7 @@ def test_a_passive_repetition_that_was_hidden_says_that() -> None:
     number = next(number for number, one in enumerate(figures.repetitions) if one.is_passive)
     shown = list(figures.repetitions)
     shown[number] = replace(shown[number], unmeasured_reason="hidden")
-    assert f"number {number + 1} left out: not seen well enough" in repetition_words(
+    assert f"number {number + 1} excluded: not visible enough" in repetition_words(
         replace(figures, repetitions=tuple(shown))
     )
 
@@ -124,19 +124,19 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     assert flexion[4] == f"{MANUAL_SIGN} 48° / 60°"
     assert f"{mean_of(figures):.0f}°" in flexion[1]
     assert f"{mean_of(figures.passive_results()):.0f}°" in flexion[2]
-    assert "error" in flexion[3]
-    assert "when helped" in found.sentence
+    assert "MDC" in flexion[3]
+    assert ", passive " in found.sentence
     assert build_active_passive(figures_once(session()), ()) is None, "one way alone has no table"
 
 
 def test_where_passive_went_less_far_the_table_says_so_and_the_sentence_keeps_the_sign() -> None:
     found = build_active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
-    arc = next(row for row in found.table.rows if row[0] == "Whole arc")
+    arc = next(row for row in found.table.rows if row[0] == "Total arc")
     assert arc[3].startswith("\N{MINUS SIGN}")
-    assert "error" in arc[3]
+    assert "MDC" in arc[3]
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     made = with_ranges(figures, lambda row: {"mean": -12.0} if row.quantity == "flexion" and not row.is_passive else {})
-    assert "\N{MINUS SIGN}12° by itself" in build_active_passive(made, ()).sentence, "it does not reach neutral"
+    assert "active \N{MINUS SIGN}12°" in build_active_passive(made, ()).sentence, "it does not reach neutral"
 
 
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:
@@ -155,4 +155,4 @@ def test_the_report_prints_both_and_what_was_measured_by_hand(tmp_path: Path) ->
     words = words_of(path)
     assert "Active and passive" in words
     assert f"{MANUAL_SIGN} 48° / 60°" in words
-    assert "passive beside it" in words
+    assert "passive" in words

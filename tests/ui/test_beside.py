@@ -45,19 +45,20 @@ def lines_of(both: SessionPair) -> dict[str, list[str]]:
 
 
 def test_the_sentence_names_the_hand_that_moves_less(right: SessionResults, left: SessionResults) -> None:
-    assert headline(compare_pair(right, left))[0] == "Whole arc: 23° less on the right than on the left."
-    assert headline(compare_pair(left, right))[0] == "Whole arc: 23° more on the left than on the right."
+    assert headline(compare_pair(right, left))[0] == "Total arc: 23° less on the right than on the left."
+    assert headline(compare_pair(left, right))[0] == "Total arc: 23° more on the left than on the right."
     sentence, basis = headline(compare_pair(right, replace(right, side="left")))
     assert sentence == "No difference beyond measurement error between right and left."
     assert "within the measurement error of 14°" in basis
     both = compare_pair(right, left)
     words = {name: row[-1] for name, row in lines_of(both).items()}
-    assert words["Whole arc"] == "less than left (above MDC)"
+    assert words["Total arc"] == "less than left (above MDC)"
     assert words["Extension"] == "less than left (above MDC)"
     assert facts_words(both) == (
         "same exercise, same day, same set-up; "
-        "Right: mean of 8 repetitions; number 7 left out: pain; number 10 left out: the recording ended in it; "
-        "Left: mean of 9 repetitions; number 10 left out: the recording ended in it"
+        "Right: mean of 8 repetitions; number 7 excluded: pain; "
+        "number 10 excluded: cut off at the end of the recording; "
+        "Left: mean of 9 repetitions; number 10 excluded: cut off at the end of the recording"
     )
 
 
@@ -69,7 +70,7 @@ def test_of_fingers_a_lower_bound_is_said_to_be_one() -> None:
     rows = lines_of(both)
     assert rows["Middle finger, TAM"][2].startswith("≥")
     assert rows["Middle finger, TAM"][3].startswith("≥")
-    assert rows["Index finger, TAM"][5] == "not compared: hidden in part"
+    assert rows["Index finger, TAM"][5] == "not compared: partly occluded"
     assert rows["Index finger, TAM"][3] == "–"
 
 
@@ -91,7 +92,7 @@ def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionResul
     rows = lines_of(both)
     assert {row[5] for row in rows.values()} == {"not compared"}
     assert not any(one.is_beyond_error for one in both.ranges)
-    assert rows["Whole arc"][3] == "23° less", "the values are shown"
+    assert rows["Total arc"][3] == "23° less", "the values are shown"
 
 
 def test_the_left_hand_is_mirrored_and_says_so_until_m(

@@ -64,7 +64,7 @@ def test_a_point_under_the_mouse_says_date_value_set_up_and_remarks(chart: Progr
         assert chart.mouse_target.cursor().shape() == Qt.CursorShape.PointingHandCursor
     key = chart.panels()[0][1]
     newest = " · ".join(chart.describe_point(6, key))
-    for word in ("20 Nov 2026", "Whole arc", "±", "repetitions", "Camera 66 cm away", "stopped for pain"):
+    for word in ("20 Nov 2026", "Total arc", "±", "repetitions", "Camera 66 cm away", "stopped for pain"):
         assert word in newest, word
     far = " · ".join(chart.describe_point(3, key))
     assert "Camera 84 cm away" in far

@@ -122,7 +122,7 @@ SHEETS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     LetterDialog: _opened(LetterDialog, LetterDialog.open_form, "Show the letter", ["Dr A"], has_name=True),
     RetestDialog: _opened(RetestDialog, RetestDialog.show_studies, "Cancel", retest_studies(), 0, date(2026, 11, 27)),
     HandImageDialog: _opened(HandImageDialog, HandImageDialog.open_form, "Cancel"),
-    ExclusionDialog: _opened(ExclusionDialog, ExclusionDialog.open_form, "Keep it in", 3),
+    ExclusionDialog: _opened(ExclusionDialog, ExclusionDialog.open_form, "Keep included", 3),
     ExcludeDialog: _opened(ExcludeDialog, ExcludeDialog.request_reason, "Cancel"),
     ChoiceDialog: _opened(
         ChoiceDialog,

@@ -62,7 +62,7 @@ from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once,
 from tests.ui.hand_fakes import hand_session
 
 BOX = QRectF(0.0, 0.0, 800.0, 500.0)
-ONCE = "counts once, by its newest result"
+ONCE = "Only the newest result of a recording is analysed"
 
 
 @pytest.mark.parametrize("of_hand", [False, True])
@@ -197,44 +197,44 @@ def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme:
     course = compute_progress([before, not_reaching((10.0, 60.0), session_id="after")])
     item = next(item for item in course.comparisons if item.after.quantity == "extension")
     assert item.verdict == "improved"
-    assert value_pair(item).count("lacks") == 2
+    assert value_pair(item).count("deficit") == 2
     panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, 1) if key[1] == "extension")
     assert panel.scale.low < item.before.mean + 5.0
     card = PatientCardView(theme, NOW.date)
     row = replace(item.after, mean=-20.0)
     card.show_card(PatientCard(FakeStore().rows[5], ((row, None),), has_sessions=True), is_camera_ready=True)
-    assert "lacks 20°" in said(card)
+    assert "1° deficit" in said(card)
 
 
 # --- whose figures ----------------------------------------------------------------------------------------
 def test_the_footnote_names_the_sd_that_is_printed() -> None:
     many = figures_once(session())
-    assert "spread between repetitions" in method_words(many, 6, compared=False)
-    assert "tracker’s own" not in method_words(many, 6, compared=False)
+    assert "SD between repetitions." in method_words(many, 6, compared=False)
+    assert "SD of the estimate" not in method_words(many, 6, compared=False)
     single = with_ranges(many, lambda row: {"sd": math.nan, "values": row.values[:1]})
-    assert "tracker’s own" in method_words(single, 6, compared=False)
-    assert "spread between repetitions" not in method_words(single, 6, compared=False)
+    assert "SD of the estimate" in method_words(single, 6, compared=False)
+    assert "SD between repetitions." not in method_words(single, 6, compared=False)
     mixed = with_ranges(many, lambda row: {} if row.quantity == "arc" else {"sd": math.nan, "values": row.values[:1]})
-    assert "of fewer than 3 the tracker’s own" in method_words(mixed, 6, compared=False)
+    assert "with fewer than 3: SD of the estimate" in method_words(mixed, 6, compared=False)
 
 
 def test_an_error_that_all_changes_share_is_said_once_and_else_with_each() -> None:
     made = figures_once(session())
     before = with_ranges(replace(made, session_id="before"), lambda row: {"mean": row.mean - 40.0})
-    assert change_sentence(made, before, "then").count("(error ") == 3, "an arc has two ends"
+    assert change_sentence(made, before, "then").count("(MDC ") == 3, "an arc has two ends"
     ends = replace(made, measures=tuple(row for row in made.measures if row.quantity != "arc"))
     said = change_sentence(ends, before, "then")
-    assert said.endswith("(error 10°).")
-    assert said.count("40° better") == 2
-    assert said.count("(error ") == 1
+    assert said.endswith("(MDC 10°).")
+    assert said.count("improved by 40°") == 2
+    assert said.count("(MDC ") == 1
 
 
 def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_larger(
     theme: Theme, background: Background, qtbot: QtBot
 ) -> None:
     words = error_limit_words()
-    assert "experts’ choice" in words
-    assert "not published" in words
+    assert "expert default" in words
+    assert "not a published value" in words
     assert "√2" in words
     assert words in method_words(figures_once(session()), 6, compared=True)
     screen = ProgressScreen(theme, background, FakeSessions())
@@ -268,22 +268,22 @@ def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None
 @pytest.mark.parametrize(
     ("uncounted", "words"),
     [
-        ("nothing_seen", "what is trained was not seen"), ("too_short", "it is too short"),
-        ("small_range", "less than 10° of movement"), ("no_return", "it never went there and back"),
+        ("nothing_seen", "the exercised joint was not visible"), ("too_short", "it is too short"),
+        ("small_range", "less than 10° of movement"), ("no_return", "no complete movement cycle"),
         ("too_quick", "each was quicker than 0.4 s"),
     ],
 )  # fmt: skip
 def test_why_no_repetition_was_counted_is_said(uncounted: NoRepetitionReason, words: str) -> None:
     made = replace(figures_once(session()), repetitions=(), no_repetitions_reason=uncounted)
-    assert repetition_words(made) == f"one range over the whole recording; no repetitions: {words}"
+    assert repetition_words(made) == f"range over the whole recording; no repetitions: {words}"
     free = replace(figures_once(session(exercise="FREE")), no_repetitions_reason=None)
-    assert repetition_words(free) == "one range over the whole recording; no repetitions"
+    assert repetition_words(free) == "range over the whole recording; no repetitions"
 
 
 def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
     made = figures_once(session())
-    assert repetition_words(replace(made, occluded_s=6.2)).endswith("6 s not seen and not counted")
-    assert "not seen" not in repetition_words(replace(made, occluded_s=0.0))
+    assert repetition_words(replace(made, occluded_s=6.2)).endswith("6 s occluded and not analysed")
+    assert "not visible" not in repetition_words(replace(made, occluded_s=0.0))
     lost = summarise_values("speed", made.main_angle, "peak speed", "deg/s", (math.nan,), unknown_reason="too_slow")
     slow = replace(made, measures=tuple(lost if row.key == lost.key else row for row in made.measures))
     assert next(row for row in range_table(slow, None, None).rows if row[0] == "Peak speed")[1] == ("too slow to judge")
@@ -294,7 +294,7 @@ def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is
 # --- what is not beyond the error ------------------------------------------------------------------------
 @SOURCES
 def test_no_change_is_never_claimed() -> None:
-    assert verdict_word("no_change") == change_since_first("no_change", 2.0) == "no change proven"
+    assert verdict_word("no_change") == change_since_first("no_change", 2.0) == "no change beyond MDC"
     assert difference_words(0.2) == "0°"
     said = []
     for path in modules("ui", "app", "core"):
@@ -303,7 +303,7 @@ def test_no_change_is_never_claimed() -> None:
                 said += [one.value for one in node.args if isinstance(one, ast.Constant)]
     claims = [words for words in said if isinstance(words, str) and "no change" in words.casefold()]
     assert claims
-    assert all("no change proven" in words.casefold() for words in claims), claims
+    assert all("no change beyond m" in words.casefold() for words in claims), claims
 
 
 @pytest.mark.parametrize(("speed", "words"), [(2.0, "<\N{NO-BREAK SPACE}10°/s"), (38.0, "38°/s"), (math.nan, "–")])

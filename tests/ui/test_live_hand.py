@@ -157,17 +157,17 @@ def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: L
 def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
     tried = live(feed_of(), CLOSED_S)
     feed, screen = tried.feed, tried.screen
-    assert screen.number_card.movement_name() == "Middle finger, knuckle"
+    assert screen.number_card.movement_name() == "Middle finger, MCP"
     assert screen.number_card.reading.target_positive_deg == 90.0
     spot = screen.finger_curves.cell(FingerAngle(4, "knuckle")).center().toPoint()
     qtbot.mouseClick(screen.finger_curves.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
-    assert screen.number_card.movement_name() == "Ring finger, knuckle"
+    assert screen.number_card.movement_name() == "Ring finger, MCP"
     assert math.isnan(screen.number_card.reading.target_positive_deg)  # the target is the trained joint's
     angle = feed.frames[feed.place].kinematics.joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
     assert screen.number_card.reading.value_deg == pytest.approx(math.degrees(angle))
     screen.show_angle(screen.number_card.reading.with_next_angle())
     screen.show_angle(screen.number_card.reading.with_next_finger())
-    assert screen.number_card.movement_name() == "Little finger, middle joint"
+    assert screen.number_card.movement_name() == "Little finger, PIP"
     for _ in range(3):
         screen.show_angle(screen.number_card.reading.with_next_angle())
     assert screen.number_card.movement_name() == "Little finger, total active motion (TAM)"
@@ -188,8 +188,11 @@ def test_spreading_says_its_side_and_the_thumbs_lift_runs_from_the_palms_plane(q
         )
     lift = FingerAngle(1, "middle")
     assert lift.joint == "CMC1_abduction"
-    assert (lift.range_deg, lift.range_end_names) == ((0.0, 60.0), ("In the palm’s plane", "Lifted 60°"))
-    assert angle_suffix(lift, 20.0) == "lift"
+    assert (lift.range_deg, lift.range_end_names) == (
+        (0.0, 60.0),
+        ("In the plane of the palm (0°)", "Palmar abduction 60°"),
+    )
+    assert angle_suffix(lift, 20.0) == "palm. abd."
 
 
 def test_a_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
@@ -213,7 +216,7 @@ def test_the_wrist_keeps_its_own_screen(live: Live) -> None:
     [
         ((), "Tracking well", "All 21 markers seen"),
         (("TIP4",), "Ring tip hidden", "Raise the hand"),
-        (("MCP1", "IP1", "TIP1"), "Thumb hidden", "Turn the thumb side up"),
+        (("MCP1", "IP1", "TIP1"), "Thumb occluded", "Turn the thumb side up"),
         (("DIP2", "TIP2"), "Index finger hidden", "Turn the back of the fingers to the camera"),
         (("TIP2", "TIP3", "DIP3"), "Finger ends hidden", "Turn the back of the fingers to the camera"),
         (("MCP5",), "Little knuckle hidden", "Turn the little-finger side up"),

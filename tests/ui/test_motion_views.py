@@ -154,7 +154,7 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(review: Re
     store.sessions = {"hand-7": made}
     screen = review(store, "hand-7")
     names = {cell.text for row in screen.card.tables.task_table.rows for cell in row}
-    for name in ("Movement time, out", "Peak speed, back", "Way / straight line, out", "Widest opening, thumb–index"):
+    for name in ("Movement time, out", "Peak speed, back", "Path length ratio, out", "Widest opening, thumb–index"):
         assert name in names
     assert screen.card.tables.task_table.isVisibleTo(screen)
     screen.player.view.setCurrentIndex(screen.player.view.findData("path"))
@@ -174,15 +174,15 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     ]  # fmt: skip
     assert all(all(row) for row in rows[:2])
     assert str(rows[0][1]).endswith("s")
-    assert task_summary(figures).startswith("Out in 1.")
+    assert task_summary(figures).startswith("Reach 1.")
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
-    assert task_summary(touched) == "The thumb touched 4 of 4 finger tips"
+    assert task_summary(touched) == "The thumb touched 4 of 4 fingertips"
     assert task_summary(figures_once(hand_session())) == ""
 
 
 def test_list_and_card_say_of_a_reach_what_it_is_about(theme: Theme) -> None:
     reach = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    assert main_result_words(reach).startswith("Out in 1.")
+    assert main_result_words(reach).startswith("Reach 1.")
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     assert main_result_words(touched) == "Touched 4 of 4"
     assert "°" in main_result_words(figures_once(hand_session()))
@@ -198,7 +198,7 @@ def shares_of(figures: SessionResults, other: SessionResults | None = None) -> l
 
 def test_totals_are_graded_beside_their_share() -> None:
     whole = figures_once(hand_session(hides_beyond_deg=999.0))
-    assert finger_table(whole, None).heads[6] == "Of usual"
+    assert finger_table(whole, None).heads[6] == "% of reference"
     shares = shares_of(whole)
     assert all(share.text.endswith("%") for share in shares)
     index = whole.find("TAM2", "arc")
@@ -208,7 +208,7 @@ def test_totals_are_graded_beside_their_share() -> None:
     assert hidden[1].text.startswith("≥")
     assert hidden[1].subtext == "not graded"
     other = figures_once(hand_session(side="left", hides_beyond_deg=999.0))
-    assert finger_table(whole, None, other).heads[6] == "Of other hand"
+    assert finger_table(whole, None, other).heads[6] == "% of other hand"
     assert shares_of(whole, other)[1].subtext in ("excellent", "good")
 
 
@@ -218,9 +218,9 @@ def test_the_second_page_has_the_papers_figures(tmp_path: Path) -> None:
     path = write_session_report(made, tmp_path / "reach.pdf")
     first, second = (words_of(path, page) for page in (1, 2))
     for words in (
-        "page 2", "Path of the wrist", "Ways of the finger tips", "Place, speed, turning", "ZYZ angles", "XY", "ZX",
-        "ZY", "Movement time, out", "mm/s", "Peaks of speed, back", "Not a medical device",
+        "page 2", "Path of the wrist", "Fingertip paths", "Place, speed, turning", "ZYZ angles", "XY", "ZX",
+        "ZY", "Movement time, out", "mm/s", "Number of speed peaks, back", "Not a medical device",
     ):  # fmt: skip
         assert words in second, words
-    assert "Out in 1." in first
+    assert "Reach 1." in first
     assert "TAM" not in first

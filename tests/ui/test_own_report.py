@@ -93,10 +93,10 @@ def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
     made = report(form=ReportForm(excluded_sections=frozenset(SECTIONS)))
     doubtful = replace(made, results=replace(made.results, is_simulated=True))
     words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
-    sure = "How sure are these figures?"
-    for kept in (LEGAL_SENTENCE, "Simulated hand", sure, "Method: 6 markers", "known to about", "Carpus 1"):
+    sure = "How reliable are these values?"
+    for kept in (LEGAL_SENTENCE, "Simulated data", sure, "Method: 6 markers", "known to about", "Carpus 1"):
         assert kept in words
-    for gone in ("Range of motion", "Angles over time", "Range today", "Speed, pain, note", "ZYZ angles"):
+    for gone in ("Range of motion", "Angles over time", "Range of motion today", "Speed, pain, note", "ZYZ angles"):
         assert gone not in words
 
 
@@ -195,7 +195,9 @@ def test_the_sheet_for_home_is_one_page_in_the_patients_language(
     with use_language(language):
         said = [task_words(name) for name in names]
     assert all(one in words for one in said)
-    told = {"en": "More than half of the way is done.", "de": "Mehr als die Hälfte", "it": "Più di metà"}[language]
+    told = {"en": "You are more than halfway to our goal.", "de": "mehr als die Hälfte", "it": "oltre la metà"}[
+        language
+    ]
     assert told in words
     assert "11:30" in words
     assert "Linden 42" in words
@@ -236,7 +238,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     assert not sheet.exercise_checks["FIST_HOOK"].isEnabled(), "there is room for three"
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert [task.exercise.id for task in asked[0].tasks] == ["WRIST_FE", "FIST_COMPOSITE", "THUMB_OPP"]
-    assert asked[0].again is None, "nobody chose a day"
+    assert asked[0].next_appointment is None, "nobody chose a day"
     sheet.form["times"].setValue(42)
     sheet.open_form(report(), date(2026, 11, 20))
     assert sheet.form["times"].value() == 10, "what the last patient was told is nobody else's"
@@ -246,7 +248,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
         assert not sheet.accept_button.isEnabled(), typed
     sheet.appointment.setEditText("3.2.2027")
     sheet.form["note"].setText("n" * 170)
-    assert (sheet.accept_button.text(), len(sheet.form["note"].text())) == ("Line: 10 letters too many", 170)
+    assert (sheet.accept_button.text(), len(sheet.form["note"].text())) == ("Line: 10 characters too long", 170)
     sheet.form["note"].setText("Bring the splint")
     sheet.form["language"].choose("it")
     sheet.accept_button.click()
@@ -259,7 +261,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     assert (sheet.form["note"].text(), sheet.form["language"].value()) == ("", "it")
     sheet.appointment.setCurrentIndex(0)
     sheet.accept_button.click()
-    assert asked[-1].again is None
+    assert asked[-1].next_appointment is None
     sheet.open_form(report(), date(2026, 11, 20))
     assert (sheet.form["note"].text(), sheet.form["language"].value()) == ("", "en"), "the language is the patient's"
     sheet.close_dialog()
@@ -289,7 +291,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
 def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:
     made = report()
     words = words_of(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
-    kept = ("Dr A", "Vienna", "22 Nov 2026", "Whole arc", "± ", "first session on", LEGAL_SENTENCE[:60])
+    kept = ("Dr A", "Vienna", "22 Nov 2026", "Total arc", "± ", "first session on", LEGAL_SENTENCE[:60])
     assert all(one in words for one in (f"camera: {made.pseudonym} Dear", *kept))
 
 

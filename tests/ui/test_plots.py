@@ -404,8 +404,8 @@ def test_a_target_short_of_thumb_up_keeps_its_sign_and_its_words_off_the_curve(v
     places = {
         item.toPlainText(): item.sceneBoundingRect() for item in view.scene().items() if isinstance(item, ChartText)
     }
-    assert places["Target −40°"].bottom() <= float(panel.y(-40.0))
-    assert places["Target 70°"].top() >= float(panel.y(-70.0))
+    assert places["Goal −40°"].bottom() <= float(panel.y(-40.0))
+    assert places["Goal 70°"].top() >= float(panel.y(-70.0))
 
 
 def test_time_axis_label_at_the_end_lies_within_the_paper(view: SessionChart, monkeypatch: pytest.MonkeyPatch) -> None:

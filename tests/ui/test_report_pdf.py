@@ -71,8 +71,8 @@ def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
     figures = figures_once(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
     for row in figures.wrist_ranges:
         assert f"{row.mean:.0f}° ± {max(1, round(row.sd))}°" in words
-    assert "mean of 8 repetitions; number 7 left out: pain" in words
-    assert "within error (14°)" in words
+    assert "mean of 8 repetitions; number 7 excluded: pain" in words
+    assert "within MDC (14°)" in words
     assert "Linden 42" in words
     assert "20 Nov 2026, 11:36" in words
     assert re.search(r"2 ?/ ?3", words)
@@ -104,21 +104,21 @@ def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(report: 
     )
     doubted, usual = words_of(write_session_report(stored, tmp_path / "report.pdf")), words_of(report)
     for words in (
-        "Simulated hand: nobody’s movement was measured.",
-        "Measured although doubtful: The hand is tilted 22° to the camera",
+        "Simulated data: no patient was measured.",
+        "Measured although uncertain: The hand is tilted 22° to the camera",
         "Warning at the top of the page",
         "Flexion 45°, Extension 30°",
-        "dashed: target",
+        "dashed: goal",
     ):
         assert words in doubted
         assert words not in usual
 
 
 def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path: Path) -> None:
-    assert "within error" in words_of(report) or "beyond error" in words_of(report)
-    assert "“Error” is" in words_of(report)
+    assert "within MDC" in words_of(report) or "beyond MDC" in words_of(report)
+    assert "MDC (measurement error) is" in words_of(report)
     alone = write_session_report(session(), tmp_path / "x.pdf")
-    assert "rror" not in words_of(alone)
+    assert "MDC" not in words_of(alone)
 
 
 def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None:
@@ -194,7 +194,7 @@ def test_a_name_longer_than_the_page_leaves_the_page_its_size(qapp: QApplication
 def test_the_progress_report_gives_the_answer_and_names_what_was_left_out(tmp_path: Path) -> None:
     path = write_progress_report(FakeSessions().history("linden"), tmp_path / "p.pdf")
     words = words_of(path)
-    for said in ("The whole arc has improved by", "camera 18 cm further away", LEGAL_SENTENCE):
+    for said in ("The total arc has improved by", "camera 18 cm further away", LEGAL_SENTENCE):
         assert said in words
     assert pages_of(path) == 1
 

@@ -74,7 +74,7 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
     qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].is_session_excluded)
     assert screen.results.is_excluded
-    assert screen.card.include_button.text() == "Let it count again"
+    assert screen.card.include_button.text() == "Include again"
     screen.toggle_excluded()
     screen._exclude_repetition(screen.current + 1, "pain", and_after=False)
     assert screen.results.is_excluded, "other corrections leave it"
@@ -86,10 +86,10 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
 
 def test_the_card_has_figures_beside_others_notes_pain_and_when_it_was_stored(screen: ReviewScreen) -> None:
     movement, *_, other_hand, _, last, change = (cell.text for cell in screen.card.tables.range_table.rows[0])
-    assert movement == "Whole arc"
+    assert movement == "Total arc"
     assert last.endswith("°")
     assert other_hand.endswith("°")
-    assert "within measurement error (14°)" in change
+    assert "within MDC (14°)" in change
     figures, notes = screen.results, screen.card.tables.notes
     assert figures.notes
     assert figures.pain_scores
@@ -122,7 +122,7 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     screen.exclusion_dialog.reason_buttons[0].click()
     qtbot.waitUntil(lambda: "session-7" in store.kept)
     assert store.kept["session-7"].excluded == {3: "pain"}
-    assert "number 4 left out: pain" in screen.card.count_text.text()
+    assert "number 4 excluded: pain" in screen.card.count_text.text()
     assert "mean of 8 repetitions" in screen.card.count_text.text()
     screen.select_repetition(3)
     qtbot.keyClick(screen, Qt.Key.Key_X)
@@ -134,9 +134,9 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     qtbot.mouseClick(screen.exclusion_dialog.passive_onwards_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: bool(store.kept["session-7"].excluded))
     assert set(store.kept["session-7"].excluded.items()) >= {(7, "passive"), (8, "passive")}
-    assert screen.card.count_text.text().startswith("mean of 7 repetitions; 2 passive beside it")
+    assert screen.card.count_text.text().startswith("mean of 7 repetitions; plus 2 passive")
     assert screen.card.tables.passive_table.isVisible()
-    assert [row[0].text for row in screen.card.tables.passive_table.rows] == ["Whole arc", "Flexion", "Extension"]
+    assert [row[0].text for row in screen.card.tables.passive_table.rows] == ["Total arc", "Flexion", "Extension"]
     screen.select_repetition(7)
     qtbot.keyClick(screen, Qt.Key.Key_X)
     qtbot.waitUntil(lambda: store.kept["session-7"].excluded[7] == "")
@@ -170,7 +170,7 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     screen = show(ProgressScreen(theme, background, store))
     screen.load_patient("linden", "session-7")
     qtbot.waitUntil(lambda: len(screen.progress.points) == 7)
-    assert screen.answer_text.text().startswith("The whole arc has improved by")
+    assert screen.answer_text.text().startswith("The total arc has improved by")
     assert [point.is_comparable for point in screen.progress.points].count(False) == 1
     assert panel_keys(screen.progress)[0][1] == "arc"
     assert screen.exercise_choice.count() == 2
@@ -179,7 +179,7 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     assert len(asked.args[0]) == 7
     assert not render_image(screen.chart).isNull()
     screen.exercise_choice.setCurrentIndex(1 - screen.exercise_choice.currentIndex())
-    assert screen.answer_text.text() == "One session does not make a course."
+    assert screen.answer_text.text() == "At least two sessions are needed to show progress."
 
 
 def test_progress_of_nobody_says_so() -> None:
@@ -263,7 +263,7 @@ def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: Revie
         store.owners = owners
         screen.load_session("linden", session_id)
         qtbot.waitUntil(lambda: screen.is_loaded)
-        assert screen.card.count_text.text().startswith("older result, does not count") is is_older
+        assert screen.card.count_text.text().startswith("older result, excluded") is is_older
 
 
 def test_an_older_result_is_told_by_its_time_and_can_count_again(
@@ -271,10 +271,10 @@ def test_an_older_result_is_told_by_its_time_and_can_count_again(
 ) -> None:
     choice, both = show(VersionChoice(theme)), results(datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29))
     choice.show_versions(both, "session-6")
-    assert [button.text() for button in choice.buttons] == ["1 · 21 Nov, 09:05", "2 · 21 Nov, 15:29, counts"]
+    assert [button.text() for button in choice.buttons] == ["1 · 21 Nov, 09:05", "2 · 21 Nov, 15:29, in use"]
     assert len(choice.findChildren(Button)) == 2, "what counts needs no button to count"
     choice.show_versions(both, "session-7")
-    again = next(one for one in choice.findChildren(Button) if one.text() == "Let this one count")
+    again = next(one for one in choice.findChildren(Button) if one.text() == "Use this result")
     with qtbot.waitSignal(choice.restore_requested) as asked:
         again.click()
     assert asked.args == ["session-7"]

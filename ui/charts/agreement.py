@@ -91,10 +91,12 @@ class AgreementPlot:
     def scale(self) -> Scale:
         """Return the vertical scale: symmetric for differences, else around both curves."""
         if self.view == "differences":
-            figures = self.pairs.agreement_deg
-            values = [*(self.carpus_deg - self.reference_deg), *figures.lower_interval, *figures.upper_interval]
-            most = max((abs(value) for value in (*values, 1.5 * self.limit_deg) if math.isfinite(value)), default=5.0)
-            reach = next((one for one in AXIS_LIMITS_DEG if most <= one), AXIS_LIMITS_DEG[-1])
+            agreement = self.pairs.agreement_deg
+            values = [*(self.carpus_deg - self.reference_deg), *agreement.lower_interval, *agreement.upper_interval]
+            maximum = max(
+                (abs(value) for value in (*values, 1.5 * self.limit_deg) if math.isfinite(value)), default=5.0
+            )
+            reach = next((one for one in AXIS_LIMITS_DEG if maximum <= one), AXIS_LIMITS_DEG[-1])
             step = reach / 2
             ticks = tuple(step * k for k in (2, 1, 0, -1, -2))
             named = tuple((tick, f"{numbers.format_shortest(abs(tick))}°") for tick in ticks)
@@ -141,14 +143,14 @@ class AgreementPlot:
 def _line_labels(plot: AgreementPlot) -> list[tuple[str, ...]]:
     if plot.view == "curves":
         return [(tr("Carpus"),), (tr("Reference"),)]
-    name, figures = plot.pairs.name, plot.pairs.agreement_deg
+    name, agreement = plot.pairs.name, plot.pairs.agreement_deg
     pattern = tr("Limit {value}")
     out: list[tuple[str, ...]] = [
         (pattern.format(value=format_difference(value, name)), f"({format_interval(about, name)})")
-        for value, about in zip(figures.limits, (figures.lower_interval, figures.upper_interval), strict=True)
+        for value, about in zip(agreement.limits, (agreement.lower_interval, agreement.upper_interval), strict=True)
     ]
-    mean = tr("Mean {value}").format(value=format_difference(figures.bias, name))
-    return [*out, (mean, f"({format_interval(figures.bias_interval, name)})")]
+    mean = tr("Mean {value}").format(value=format_difference(agreement.bias, name))
+    return [*out, (mean, f"({format_interval(agreement.bias_interval, name)})")]
 
 
 def _direction_labels(name: str) -> tuple[str, str]:
@@ -158,13 +160,13 @@ def _direction_labels(name: str) -> tuple[str, str]:
     return words.format(what=more), words.format(what=less)
 
 
-def _hatched() -> str:
+def _limit_label() -> str:
     return tr("hatched: within the limit you set")
 
 
 def _axis_caption(plot: AgreementPlot) -> str:
     if plot.view == "curves":
-        return tr("seconds after the first picture") if plot.is_time_series else tr("number of the reading")
+        return tr("seconds after the first frame") if plot.is_time_series else tr("number of the reading")
     if plot.is_time_series:
         return tr("mean of both · one point each 0.2 s, {count} points").format(count=len(plot.point_rows))
     return tr("mean of both · one point each reading, {count} readings").format(count=len(plot.point_rows))
@@ -200,7 +202,7 @@ class AgreementChart(Chart):
     def _add_limit(self, plot: Plot) -> None:
         limit, box = self._plot.limit_deg, plot.panel.box
         plot.add_to_layer(Hatching(plot, [(-math.inf, math.inf, -limit, limit)], "accent", 90), BAND)
-        words = self.add_text(_hatched(), self.plot_style.label_font, "accent", (1.0, 0.0))
+        words = self.add_text(_limit_label(), self.plot_style.label_font, "accent", (1.0, 0.0))
         words.setPos(box.right() - 6 * self.plot_style.unit, float(plot.panel.y(-limit)) + 2 * self.plot_style.unit)
 
     def _add_dots(self, plot: Plot, x: FloatArray, y: FloatArray, token: str, radius: float) -> None:
@@ -212,26 +214,26 @@ class AgreementChart(Chart):
         self.add_symbols("o", 2.0 * radius, pg.mkPen(None), token, at, DOT_ALPHA)
 
     def _add_differences(self, plot: Plot) -> None:
-        shown, figures = self._plot, self._plot.pairs.agreement_deg
+        shown, agreement = self._plot, self._plot.pairs.agreement_deg
         token, unit, rows = angle_token(shown.pairs.name), self.plot_style.unit, shown.point_rows
         differences = (shown.carpus_deg - shown.reference_deg)[rows]
         self._add_dots(plot, shown.mean_deg[rows], differences, token, 3.0 if shown.is_time_series else 4.5)
-        for value in figures.limits:
+        for value in agreement.limits:
             plot.add_horizontal_line(value, "text", (7.0, 5.0))
-        plot.add_horizontal_line(figures.bias, token, ())
+        plot.add_horizontal_line(agreement.bias, token, ())
         reach = max(plot.panel.scale.ticks)
         for value, words in zip((0.85 * reach, -reach), _direction_labels(shown.pairs.name), strict=True):
             plot.add_label(value, words, small=True)
-        height, taken = 2 * QFontMetricsF(self.plot_style.end_label_font).height(), -math.inf
-        box, at = plot.panel.box, [*figures.limits, figures.bias]
+        height, occupied = 2 * QFontMetricsF(self.plot_style.end_label_font).height(), -math.inf
+        box, at = plot.panel.box, [*agreement.limits, agreement.bias]
         lines = sorted(zip(at, _line_labels(shown), (False, False, True), strict=True), key=lambda row: -row[0])
         room = box.bottom() + 0.5 * height - len(lines) * (height + 2 * unit)
         for value, (first, second), is_mean in lines:
             if not math.isfinite(value):
                 continue
-            top = min(max(float(plot.panel.y(value)) - height / 2, taken), max(room, box.top()))
+            top = min(max(float(plot.panel.y(value)) - height / 2, occupied), max(room, box.top()))
             room += height + 2 * unit
-            taken = top + height + 2 * unit
+            occupied = top + height + 2 * unit
             left = box.right() + 12 * unit
             self.add_text(first, self.plot_style.end_label_font, token if is_mean else "text").setPos(left, top)
             self.add_text(second, self.plot_style.label_font, "text2").setPos(left, top + height / 2)

@@ -415,7 +415,7 @@ class Axis(pg.AxisItem):
         start, end = own.start_s, own.end_s
         panel = Panel(self.plot.panel.box, own.scale, start, end)
         unit = style.unit
-        taken: list[tuple[float, float]] = []
+        occupied: list[tuple[float, float]] = []
         for label in self._labels(start, end):
             face = style.end_label_font if label.is_bold else style.label_font
             metrics = QFontMetricsF(face)
@@ -431,9 +431,9 @@ class Axis(pg.AxisItem):
                 apart = metrics.height() if self.orientation == "bottom" else 4 * unit
                 if not panel.box.left() - 0.5 <= middle <= panel.box.right() + 0.5:
                     continue
-            if any(low < other_high + apart and high > other_low - apart for other_low, other_high in taken):
+            if any(low < other_high + apart and high > other_low - apart for other_low, other_high in occupied):
                 continue
-            taken.append((low, high))
+            occupied.append((low, high))
             color = style.color(label.token)
             if self.orientation == "left":
                 height, right = metrics.height(), panel.box.left() - gap
@@ -542,9 +542,9 @@ class Chart(pg.GraphicsView):
         gap: float,
     ) -> Axis:
         """Add labels left of, under or over a plot: a fixed list, or a function of the visible range."""
-        said = labels if callable(labels) else lambda *_, own=tuple(labels): own
+        select_labels = labels if callable(labels) else lambda *_, fixed=tuple(labels): fixed
         room = math.inf if self.is_printing else plot.panel.box.left() - gap * self.plot_style.unit - 2.0
-        return Axis(plot, side, said, gap, room)
+        return Axis(plot, side, select_labels, gap, room)
 
     def add_text(
         self, words: str, face: QFont, token: str = "text", anchor: tuple[float, float] = (0.0, 0.0)
@@ -575,10 +575,10 @@ class Chart(pg.GraphicsView):
         """Add labels (value, text, token) at the right ends of lines, moved apart where they would touch."""
         panel, unit, face = plot.panel, self.plot_style.unit, self.plot_style.end_label_font
         height = QFontMetricsF(face).height()
-        taken, lowest = -math.inf, panel.box.bottom() + height / 2 - len(labels) * height
+        occupied, lowest = -math.inf, panel.box.bottom() + height / 2 - len(labels) * height
         for middle, text, token in sorted((float(panel.y(value)), text, token) for value, text, token in labels):
-            top, lowest = max(min(middle - height / 2, lowest), taken), lowest + height
-            taken = top + height
+            top, lowest = max(min(middle - height / 2, lowest), occupied), lowest + height
+            occupied = top + height
             self.add_text(text, face, token).setPos(panel.box.right() + 12 * unit, top)
 
     def legend_lines(

@@ -159,7 +159,8 @@ class FingerCurves(Chart):
                 if finger == 1:
                     self.add_axis(own, "left", scale_labels(panel), 12)
                 is_chosen = finger == self._angle.finger and (self._angle.kind == "spread") == (rows == SPREADING_ROWS)
-                if is_chosen and self._has_target():
+                has_target = math.isfinite(self._target_deg) and self._angle.kind != "tam" and not self._speeds
+                if is_chosen and has_target:
                     own.add_horizontal_line(self._target_deg, "accent", (6.0, 4.0))
                 self._curves.append((own.add_curves(is_cached=False), [FingerAngle(finger, row) for row in rows]))
         area = QRectF(0.0, self.values_top(), self.width(), self.height() - self.values_top() - 1)
@@ -172,8 +173,8 @@ class FingerCurves(Chart):
             return
         block = self._history.angle_block(speeds=self._speeds)
         placed = [
-            (curves.plot.local_panel, [Curve(block.series(_ANGLE_INDEX[one]), one.token) for one in figures])
-            for curves, figures in self._curves
+            (curves.plot.local_panel, [Curve(block.series(_ANGLE_INDEX[one]), one.token) for one in angles])
+            for curves, angles in self._curves
         ]
         drawing = CurveDrawing(self.plot_style, placed)
         for number, (curves, _) in enumerate(self._curves):
@@ -205,9 +206,9 @@ class FingerCurves(Chart):
         wide_px = words.metrics.horizontalAdvance
         beside = numbers.format_sd(sd)
         if inferred and beside:
-            beside = self.tr("follows the middle joint")
+            beside = self.tr("coupled to the PIP")
             if wide_px(beside) > cell.right() - left:
-                beside = self.tr("follows")
+                beside = self.tr("coupled")
         if name := angle_suffix(angle, value):
             both = f"{beside} {name}"
             # What an angle is goes before how sure it is.
@@ -248,7 +249,7 @@ class FingerCurves(Chart):
         if bending.box.height() > 0.0:
             labels_px = max(QFontMetricsF(style.label_font).horizontalAdvance(text) for _, text in bending.scale.labels)
             top = bending.box.top() - 4 * scale
-            self._text(painter, self.tr("Bending"), 20, top, 14, MEDIUM, "text", room_px - labels_px)
+            self._text(painter, self.tr("Flexion"), 20, top, 14, MEDIUM, "text", room_px - labels_px)
         if spreading.box.height() > 0.0:
             above = 17 if self._has_spreading() else 4
             self._text(
@@ -259,9 +260,6 @@ class FingerCurves(Chart):
             painter.setPen(QPen(theme.color("line"), 1))
             painter.drawLine(QPointF(20, round(top) + 0.5), QPointF(self.width() - 14, round(top) + 0.5))
             self._text(painter, kind_name(row), 20, top + 7 * scale, 14, REGULAR, "text", room_px)
-
-    def _has_target(self) -> bool:
-        return math.isfinite(self._target_deg) and self._angle.kind != "tam" and not self._speeds
 
     def _text(
         self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str,
@@ -289,5 +287,5 @@ class _Face:
 def angle_suffix(angle: FingerAngle, value_deg: float) -> str:
     """Return what the row's name does not say: palmar abduction of the thumb, or the side of spreading."""
     if angle.is_palmar_abduction:
-        return tr("lift")
+        return tr("palm. abd.")
     return spread_side(value_deg, angle.finger) if angle.kind == "spread" else ""

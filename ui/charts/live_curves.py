@@ -102,14 +102,19 @@ class LiveCurves(Chart):
         scale = self._theme.text_scale
         left, right = LEFT_PX * scale, RIGHT_PX * scale
         width = self.width() - left - right
-        order: list[tuple[int, Scale, float]]
+        order: list[tuple[int, Scale, float]] = []
         if self._speeds:
             order = [
                 (1, axes.positive_scale(SPEED_TOP_DEG_S, 100.0, "°/s", self.tr("Turning")), 1.0),
                 (0, axes.positive_scale(SPEED_TOP_MM_S, 100.0, " mm/s", self.tr("Moving")), 1.0),
             ][: 1 if self._single else 2]
         else:
-            order = [(k, self._angle_scale(k), 2.0 if k == self._main_column() else 1.0) for k in self._column_order()]
+            main = FLEXION if self._exercise.angle is None else self._exercise.angle
+            columns = [main, *(k for k in (FLEXION, 0, PRONOSUPINATION) if k != main)]
+            for k in columns[: 1 if self._single else 3]:
+                limits, names = axis_limits_deg(k, self._exercise), terms.direction_names(k, self._exercise)
+                scale_k = axes.angle_scale(*limits, *names, is_sparse=k != main)
+                order.append((k, scale_k, 2.0 if k == main else 1.0))
         between = BETWEEN_PX * scale
         height = self.height() - (TOP_PX + BOTTOM_PX) * scale - between * (len(order) - 1)
         unit = height / sum(share for _, _, share in order)
@@ -124,17 +129,6 @@ class LiveCurves(Chart):
             )
             top += unit * share + between
         return out
-
-    def _main_column(self) -> int:
-        return FLEXION if self._exercise.angle is None else self._exercise.angle
-
-    def _column_order(self) -> list[int]:
-        first = self._main_column()
-        return [first] if self._single else [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
-
-    def _angle_scale(self, k: int) -> Scale:
-        names = terms.direction_names(k, self._exercise)
-        return axes.angle_scale(*axis_limits_deg(k, self._exercise), *names, is_sparse=k != self._main_column())
 
     # --- what is in it ------------------------------------------------------------------------------------
     def build(self) -> None:

@@ -137,16 +137,16 @@ class ManualValueChart(Chart):
             plot.add_line([one.timestamp() for one in when], [value for _, value in ours], "curve_a")
             at = [plot.panel.point(one.timestamp(), value) for one, value in ours]
             self.add_symbols("o", 8.0, pg.mkPen(look.color("curve_a"), width=look.line_width), "curve_a", at)
-            said = self.tr("Carpus {value}").format(value=value_words(measure, ours[-1][1]))
-            beside.append((ours[-1][1], said, "curve_a"))
+            sentence = self.tr("Carpus {value}").format(value=value_words(measure, ours[-1][1]))
+            beside.append((ours[-1][1], sentence, "curve_a"))
         for some in (passive, active):
             add_manual_values(plot, some, sessions=when, is_joined=not ours)
             if some:
                 pattern = {"passive": self.tr("passive {value}"), "active": self.tr("active {value}")}.get(
                     some[-1].mode, "{value}"
                 )
-                said = pattern.format(value=value_words(measure, some[-1].value))
-                beside.append((some[-1].value, said, "text"))
+                sentence = pattern.format(value=value_words(measure, some[-1].value))
+                beside.append((some[-1].value, sentence, "text"))
         self.add_end_labels(plot, beside)
         days = sorted({one.day for one in values} | {one.date() for one in when})
         self.add_axis(

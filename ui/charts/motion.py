@@ -68,8 +68,8 @@ class MotionPlot(SessionPlot):
         if self.kind == "zyz":
             return _zyz_scale(key)
         known = np.abs(self.quantity(key))
-        most = float(np.nanmax(known)) if np.isfinite(known).any() else 0.0
-        top = next((step for step in AXIS_LIMITS if step >= most), AXIS_LIMITS[-1])
+        maximum = float(np.nanmax(known)) if np.isfinite(known).any() else 0.0
+        top = next((step for step in AXIS_LIMITS if step >= maximum), AXIS_LIMITS[-1])
         unit = _UNITS[key]
         labels = (
             (top, f"+{_plain(top)}{_unit_suffix(unit)}"),

@@ -96,8 +96,8 @@ class PathPlot:
 
     def bar_mm(self, box: QRectF) -> float:
         """Return the length of the scale bar: the longest round one within a third of the panel."""
-        most = MAX_BAR_FRACTION * box.width() / self.per_mm(box)
-        return max((length for length in BAR_LENGTHS_MM if length <= most), default=BAR_LENGTHS_MM[0])
+        maximum = MAX_BAR_FRACTION * box.width() / self.per_mm(box)
+        return max((length for length in BAR_LENGTHS_MM if length <= maximum), default=BAR_LENGTHS_MM[0])
 
 
 def wrist_path(curves: MotionCurves) -> PathPlot:
@@ -170,7 +170,7 @@ class PlaneItem(PixelItem):
             return
         if self.plot_data.axes is not None and self.plot_data.is_whole:
             self._paint_axes_along(painter, style, panel, self.plot_data.axes)
-        taken = [*self.occupied]
+        occupied = [*self.occupied]
         row = self._current_row()
         for way in self.plot_data.paths:
             x, y = self._project_positions(panel, way.position_mm)
@@ -178,7 +178,7 @@ class PlaneItem(PixelItem):
             if row >= 0 and math.isfinite(float(x[row] + y[row])):
                 paint_dot(painter, style, QPointF(float(x[row]), float(y[row])), way.token, 4.5)
         for way in self.plot_data.paths:
-            self._paint_name(painter, style, panel, way, self._project_positions(panel, way.position_mm), taken)
+            self._paint_name(painter, style, panel, way, self._project_positions(panel, way.position_mm), occupied)
         if row >= 0 and self.plot_data.axes is not None:
             place = self._project_positions(panel, self.plot_data.paths[0].position_mm[row : row + 1])
             at = QPointF(float(place[0][0]), float(place[1][0]))
@@ -369,7 +369,7 @@ class PathsChart(PlanesChart):
         self._title = ""
         self._time_s = math.nan
         self._planes: list[PlaneItem] = []
-        self.setAccessibleName(self.tr("Ways in three planes"))
+        self.setAccessibleName(self.tr("Paths in three planes"))
 
     def show_plot(self, plot: PathPlot, title: str = "") -> None:
         self._plot, self._title = plot, title
@@ -513,7 +513,7 @@ class LivePathChart(PlanesChart):
         if not self._pure or not math.isfinite(distance):
             return
         moved = distance > STILL_RADIUS_MM
-        pattern = self.tr("arm moved ({distance})") if moved else self.tr("forearm still ({distance})")
+        pattern = self.tr("forearm moved ({distance})") if moved else self.tr("forearm still ({distance})")
         words = pattern.format(distance=numbers.format_millimetres(distance))
         scale = self._theme.text_scale
         face = font(12 * scale, MEDIUM)

@@ -62,10 +62,12 @@ def panel_keys(progress: Progress) -> list[MeasureKey]:
 
 def axis_top_deg(key: MeasureKey) -> float:
     """Return the fixed top of an axis, the same for both directions."""
-    of, movement = key
-    angle = wrist_angle_index(of)
+    subject, movement = key
+    angle = wrist_angle_index(subject)
     if angle < 0:
-        return 180.0 if of == "TAM1" else 300.0 if is_total_active_motion(of) else 60.0 if _is_spread(of) else 120.0
+        if is_total_active_motion(subject):
+            return 180.0 if subject == "TAM1" else 300.0
+        return 60.0 if find_finger_angle(subject).kind == "spread" else 120.0
     if movement == "arc":
         return {0: 90.0, 1: 180.0, 2: 180.0}[angle]
     return 60.0 if angle == 0 else 90.0
@@ -98,8 +100,8 @@ def extent_s(progress: Progress) -> tuple[float, float]:
         day_timestamp(one.day, when) for key in panel_keys(progress) for one in select_manual_values(progress, key)
     ]
     if len(times) > 1 and by_hand:
-        most = 0.5 * (times[-1] - times[0])
-        first, last = max(min(by_hand), times[0] - most), min(max(by_hand), times[-1] + most)
+        maximum = 0.5 * (times[-1] - times[0])
+        first, last = max(min(by_hand), times[0] - maximum), min(max(by_hand), times[-1] + maximum)
         times = sorted([*times, first, last])
     else:
         times = sorted([*times, *by_hand])
@@ -134,7 +136,7 @@ def place_panels(
     lines = math.ceil(len(keys) / columns)
     height, width = (box.height() - foot) / lines, box.width() / columns
     # Room for the longest label beside a line; every panel has the same.
-    longest = tr("Usual, adults {span}").format(span="120–150°")
+    longest = tr("Reference, adults {span}").format(span="120–150°")
     words = max(QFontMetricsF(style.end_label_font).horizontalAdvance(longest), 1.0)
     out = []
     for place, key in enumerate(keys):
@@ -159,28 +161,30 @@ def panel_title(progress: Progress, key: MeasureKey) -> str:
         return find_finger_angle(key[0]).long_name
     if movement == "arc" and progress.points[-1].results.exercise.angle is None:
         return terms.arc_name(angle)
-    return tr("Whole arc") if movement == "arc" else terms.movement_long_name(movement)
+    return tr("Total arc") if movement == "arc" else terms.movement_long_name(movement)
 
 
 def add_background(plot: Plot, progress: Progress, key: MeasureKey) -> None:
     """Add reference range, error band, grid, other hand and goals behind the points."""
-    of, movement = key
-    angle = wrist_angle_index(of)
+    subject, movement = key
+    angle = wrist_angle_index(subject)
     labels: list[tuple[float, str, str]] = []
     exercise = progress.points[-1].results.exercise if progress.points else EXERCISES[-1]
-    norm = total_norm(int(of[-1]), exercise) if is_total_active_motion(of) else None
+    norm = total_norm(int(subject[-1]), exercise) if is_total_active_motion(subject) else None
     if angle >= 0:
         norm = wrist_norm(movement, angle, exercise)
     if norm is not None:
         low, high = norm.low_deg, norm.high_deg
-        span = f"{format_rounded(low)}°" if low == high else f"{format_rounded(low)}–{format_rounded(high)}°"
+        span = numbers.format_degree_range(low, high)
         plot.add_band(low, high, "norm")
-        labels.append((0.5 * (low + high), tr("Usual, adults {span}").format(span=span), "text2"))
+        labels.append((0.5 * (low + high), tr("Reference, adults {span}").format(span=span), "text2"))
     first = progress.reference.find(*key) if progress.reference else None
     limit = next((c.limit_deg for c in progress.comparisons if c.key == key), math.nan)
     if first is not None and first.count and math.isfinite(limit):
         plot.add_band(first.mean - limit, first.mean + limit, "soft", "accent")
-        words = tr("Error band ±{gap}{limit}").format(gap=numbers.NARROW_GAP, limit=numbers.format_degrees(limit))
+        words = tr("Measurement error ±{gap}{limit}").format(
+            gap=numbers.NARROW_GAP, limit=numbers.format_degrees(limit)
+        )
         labels.append((first.mean, words, "accent"))
     plot.add_grid()
     other = progress.other_hand.find(*key) if progress.other_hand else None
@@ -206,9 +210,9 @@ def goals_deg(progress: Progress, key: MeasureKey) -> list[float]:
     """Return the goal of each session, NaN for none; empty if the newest session has none."""
     out = []
     for point in progress.points:
-        figures, goal = point.results, math.nan
-        for target, direction in zip(figures.targets_deg, (1, -1), strict=True):
-            row = goal_measure(figures, figures.exercise, direction)
+        results, goal = point.results, math.nan
+        for target, direction in zip(results.targets_deg, (1, -1), strict=True):
+            row = goal_measure(results, results.exercise, direction)
             if row is not None and row.key == key:
                 goal = direction * target
                 break
@@ -218,10 +222,10 @@ def goals_deg(progress: Progress, key: MeasureKey) -> list[float]:
 
 def point_token(key: MeasureKey) -> str:
     """Return the colour of a panel's points."""
-    of, movement = key
-    angle = wrist_angle_index(of)
-    if angle < 0 and not is_total_active_motion(of):
-        return find_finger_angle(of).token
+    subject, movement = key
+    angle = wrist_angle_index(subject)
+    if angle < 0 and not is_total_active_motion(subject):
+        return find_finger_angle(subject).token
     return "text" if movement == "arc" else CURVE_TOKENS[angle]
 
 
@@ -236,14 +240,10 @@ def error_bar_top(row: Measure) -> float:
     return row.mean + (sd if math.isfinite(sd) else 0.0)
 
 
-def _is_spread(joint: str) -> bool:
-    return find_finger_angle(joint).kind == "spread"
-
-
 def legend_entries(progress: Progress) -> list[tuple[str, str, str]]:
     """Return symbol, text and colour of each legend entry."""
     out = [("O", tr("mean, ± sd between repetitions"), "text"), ("o", tr("not compared"), "text2")]
-    out += [("t1", tr("at least: hidden in part"), "text2")] if progress.keys else []
+    out += [("t1", tr("≥: partly occluded"), "text2")] if progress.keys else []
     if any(select_manual_values(progress, key) for key in panel_keys(progress)):
         out.append(("s", tr("by hand, active"), "text"))
     return out
@@ -273,7 +273,7 @@ class ProgressChart(ZoomChart):
         self._hover_label: HoverLabel | None = None
         # Session number and panel of the point under the mouse or chosen by key.
         self._current: tuple[int, MeasureKey] | None = None
-        self.setAccessibleName(self.tr("Range over the sessions"))
+        self.setAccessibleName(self.tr("Range of motion over the sessions"))
 
     def show_progress(self, progress: Progress) -> None:
         self._progress = progress
@@ -381,7 +381,7 @@ class ProgressChart(ZoomChart):
         when = [point.results.when for point in progress.points]
         one_day = len({day.date() for day in when}) == 1
         words = [numbers.format_distinct_day(day, *when) if one_day else numbers.format_day_month(day) for day in when]
-        days = date_labels([(day.timestamp(), said) for day, said in zip(when, words, strict=True)])
+        days = date_labels([(day.timestamp(), text) for day, text in zip(when, words, strict=True)])
         for plot in {plot.panel.box.left(): plot for plot in self.plots}.values():  # the lowest of each column
             self.add_axis(plot, "bottom", days, 14)
         area = self.area if self.is_printing else QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
@@ -445,7 +445,7 @@ class ProgressChart(ZoomChart):
     # --- a point ------------------------------------------------------------------------------------------
     def describe_point(self, number: int, key: MeasureKey) -> list[str]:
         point = self._progress.points[number]
-        figures, row = point.results, find_session_measure(self._progress, number, key)
+        results, row = point.results, find_session_measure(self._progress, number, key)
         assert row is not None
         least = f"≥{numbers.NARROW_GAP}" if row.wrist_angle < 0 and row.is_lower_bound else ""
         value = f"{least}{numbers.format_with_sd(row.mean, row.sd)}"
@@ -453,19 +453,19 @@ class ProgressChart(ZoomChart):
             value = terms.end_words(row.mean, row.quantity, row.sd)
         named = self.tr("{name} {value}, {count} repetitions")
         lines = [
-            numbers.format_date_time(figures.when),
+            numbers.format_date_time(results.when),
             named.format(name=panel_title(self._progress, key), value=value, count=row.count),
         ]
-        quality = figures.quality
+        quality = results.quality
         if math.isfinite(quality.distance_m):
             lines.append(self.tr("Camera {distance} cm away").format(distance=format_rounded(100 * quality.distance_m)))
         if not point.is_comparable:
             lines.append(exclusion_words(point, self._progress))
-        elif said := uncertainty_words(point, self._progress):
-            lines.append(said)
-        if said := correction_words(figures):
-            lines.append(said)
-        lines += [f"“{text}”" for _, text in figures.notes[:1]]
+        elif sentence := uncertainty_words(point, self._progress):
+            lines.append(sentence)
+        if sentence := correction_words(results):
+            lines.append(sentence)
+        lines += [f"“{text}”" for _, text in results.notes[:1]]
         lines.append(self.tr("Click opens the session"))
         return [line if len(line) <= MAX_LINE_LENGTH else f"{line[: MAX_LINE_LENGTH - 1].rstrip()}…" for line in lines]
 

@@ -44,7 +44,7 @@ def range_bars(
 ) -> list[RangeBar]:
     """Return a bar for each angle; of a single angle also last time's and the other hand's."""
     if results.exercise.angle is None:
-        names = {1: tr("Today bending"), 0: tr("Today side"), 2: tr("Today turning")}
+        names = {1: tr("Flexion–extension"), 0: tr("Deviation"), 2: tr("Pronation–supination")}
         bars = [RangeBar(name, results, angle, 10.7, CURVE_TOKENS[angle]) for angle, name in names.items()]
     else:
         angle = results.exercise.angle
@@ -63,7 +63,9 @@ def paint_range_bars(
     """Paint the bars over the reference values into a box."""
     px = style.unit
     area = box.adjusted(104 * px, 0.0, -16 * px, -FOOT_PX * px)  # half of “120°” is right of the last line
-    end_deg = _end_deg(exercise, bars)
+    end_deg = 80.0 if exercise.angle is None else AXIS_TICK_DEG[exercise.angle]
+    if is_counted_from_thumb_up(exercise) and any(bar.angle == PRONOSUPINATION for bar in bars):
+        end_deg = 120.0
 
     def x(value_deg: float) -> float:
         return area.center().x() + max(-1.0, min(1.0, value_deg / end_deg)) * 0.5 * area.width()
@@ -95,15 +97,8 @@ def paint_range_bars(
     draw_text(painter, foot, terms.movement_name(lower), style.label_font, style.color("text2"), _LEFT)
     draw_text(painter, foot, terms.movement_name(upper), style.label_font, style.color("text2"), _RIGHT)
     if norms[upper] is not None:
-        words = tr("grey: usual in adults (AMA, AAOS)")
+        words = tr("grey: reference values of adults (AMA, AAOS)")
         draw_text(painter, foot, words, style.label_font, style.color("text2"), _CENTER)
-
-
-def _end_deg(exercise: Exercise, bars: Sequence[RangeBar]) -> float:
-    angles = {bar.angle for bar in bars}
-    if PRONOSUPINATION in angles and is_counted_from_thumb_up(exercise):
-        return 120.0
-    return 80.0 if exercise.angle is None else AXIS_TICK_DEG[exercise.angle]
 
 
 def _paint_bar(painter: QPainter, style: PlotStyle, bar: RangeBar, middle: float, x) -> None:  # type: ignore[no-untyped-def]

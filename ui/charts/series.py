@@ -110,18 +110,18 @@ class CurveDrawing:
     def __init__(self, style: PlotStyle, placed: Sequence[tuple[Panel, Sequence[Curve]]]) -> None:
         self._panels = [panel for panel, _ in placed]
         self._curves = [[curve for curve in curves if len(curve.series.value)] for _, curves in placed]
-        many = [curve.series for own in self._curves for curve in own]
-        if not many:
+        series_list = [curve.series for own in self._curves for curve in own]
+        if not series_list:
             return
-        sizes = [len(one.value) for one in many]
+        sizes = [len(one.value) for one in series_list]
         past = np.cumsum(sizes)
         self._segments = [slice(end - size, end - 1) for end, size in zip(past.tolist(), sizes, strict=True)]
-        time_s = np.concatenate([one.time_s for one in many])
-        value = np.concatenate([one.value for one in many])
-        width = np.concatenate([np.zeros(len(one.value)) if one.sd is None else one.sd for one in many])
+        time_s = np.concatenate([one.time_s for one in series_list])
+        value = np.concatenate([one.value for one in series_list])
+        width = np.concatenate([np.zeros(len(one.value)) if one.sd is None else one.sd for one in series_list])
         width[~np.isfinite(width)] = 0.0
         known = np.isfinite(value)
-        longest_s = np.repeat([one.max_step_s for one in many], sizes)
+        longest_s = np.repeat([one.max_step_s for one in series_list], sizes)
         self._joined = known[:-1] & known[1:] & (np.diff(time_s) <= longest_s[1:])
         self._joined[past[:-1] - 1] = False  # no curve goes on as the next
         panels = [panel for panel, own in zip(self._panels, self._curves, strict=True) for _ in own]
@@ -132,11 +132,11 @@ class CurveDrawing:
         self._x, y = x_px(time_s, *across), y_px(value, *down)
         self._upper, self._lower = y_px(value + width, *down), y_px(value - width, *down)
         self._ends = np.array((self._x[:-1], y[:-1], self._x[1:], y[1:])).T
-        predicted = np.concatenate([one.predicted for one in many])[1:]
+        predicted = np.concatenate([one.predicted for one in series_list])[1:]
         self._solid, dashed = self._joined & ~predicted, np.flatnonzero(self._joined & predicted)
-        from_px = x_px(np.repeat([-one.start_s for one in many], sizes), *across)[dashed]
-        self._dashes, of = _compute_dashes(self._ends[dashed], from_px, DASH_PX * style.unit)
-        self._dash_of = dashed[of]
+        from_px = x_px(np.repeat([-one.start_s for one in series_list], sizes), *across)[dashed]
+        self._dashes, segment = _compute_dashes(self._ends[dashed], from_px, DASH_PX * style.unit)
+        self._dash_of = dashed[segment]
 
     def paint(self, painter: QPainter, style: PlotStyle, number: int) -> list[QRectF]:
         """Paint gaps, bands and lines of one panel.
@@ -232,15 +232,17 @@ def _compute_dashes(ends: FloatArray, from_px: FloatArray, dash: float) -> tuple
     steep = (y1 - y0) / np.maximum(x1 - x0, 1e-9)
     width = dash / 2.0 ** np.clip(np.round(0.5 * np.log2(1.0 + steep**2)), 0, MAX_HALVINGS)
     first = np.floor((x0 - from_px) / width)
-    many = np.maximum(np.ceil((x1 - from_px) / width) - first, 0.0).astype(np.int64)
-    of = np.repeat(np.arange(len(ends)), many)
-    cell = first[of] + np.arange(len(of)) - np.repeat(np.cumsum(many) - many, many)
-    left = np.maximum(from_px[of] + cell * width[of], x0[of])
-    right = np.minimum(from_px[of] + (cell + 1) * width[of], x1[of])
+    count = np.maximum(np.ceil((x1 - from_px) / width) - first, 0.0).astype(np.int64)
+    segment = np.repeat(np.arange(len(ends)), count)
+    cell = first[segment] + np.arange(len(segment)) - np.repeat(np.cumsum(count) - count, count)
+    left = np.maximum(from_px[segment] + cell * width[segment], x0[segment])
+    right = np.minimum(from_px[segment] + (cell + 1) * width[segment], x1[segment])
     shown = (cell % 2 == 0) & (right - left > MIN_DASH_PX)
-    of, left, right = of[shown], left[shown], right[shown]
-    down = steep[of]
-    return np.array((left, y0[of] + down * (left - x0[of]), right, y0[of] + down * (right - x0[of]))).T, of
+    segment, left, right = segment[shown], left[shown], right[shown]
+    down = steep[segment]
+    return np.array(
+        (left, y0[segment] + down * (left - x0[segment]), right, y0[segment] + down * (right - x0[segment]))
+    ).T, segment
 
 
 def _paint_gaps(
@@ -324,12 +326,12 @@ def decimate(series: Series, columns: int) -> Series:
     lowest = first + np.where(known, value, np.inf).argmin(axis=1)
     highest = first + np.where(known, value, -np.inf).argmax(axis=1)
     unknown = first + (~known & inside).argmax(axis=1)
-    kept = np.zeros(count, dtype=bool)
+    is_kept = np.zeros(count, dtype=bool)
     for index in (
         lowest[some], highest[some], unknown[gap & some], first[~some], np.minimum(first + size, count)[~some] - 1,
     ):  # fmt: skip
-        kept[index] = True
-    index = np.flatnonzero(kept)
+        is_kept[index] = True
+    index = np.flatnonzero(is_kept)
     sd = None
     if series.sd is not None:
         spread = np.full(rows * size, -np.inf)

@@ -51,7 +51,6 @@ MARGIN_S = 1.0
 MIN_REPETITION_S = 0.2
 MIN_POINTS = 200
 FLEXION_KINDS: tuple[AngleKind, ...] = ("knuckle", "middle", "end")
-_BEND_LOW_DEG, _BEND_HIGH_DEG, _SPREAD_DEG = -15.0, 115.0, 32.0
 
 
 def add_targets(plot: Plot, positive_deg: float, negative_deg: float) -> None:
@@ -59,10 +58,10 @@ def add_targets(plot: Plot, positive_deg: float, negative_deg: float) -> None:
 
     Their labels lie beyond the line, where no curve comes from.
     """
-    words = tr("Target {angle}")
+    words = tr("Goal {angle}")
     for value, way in ((positive_deg, 1), (negative_deg, -1)):
-        said = words.format(angle=numbers.format_signed_degrees(way * value)) if math.isfinite(value) else ""
-        plot.add_horizontal_line(value, "accent", (6.0, 4.0), said, below=way < 0)
+        text = words.format(angle=numbers.format_signed_degrees(way * value)) if math.isfinite(value) else ""
+        plot.add_horizontal_line(value, "accent", (6.0, 4.0), text, below=way < 0)
 
 
 def add_panel_name(plot: Plot, words: str, *, above: bool = False) -> None:
@@ -94,7 +93,7 @@ def missing_value_words() -> str:
 
 def angle_group_names() -> tuple[str, str]:
     """Return the names of the two groups of finger angles."""
-    return tr("Bending"), tr("Spreading")
+    return tr("Flexion"), tr("Spreading")
 
 
 def tolerance_words(limit_deg: float, key: int) -> str:
@@ -236,8 +235,8 @@ class HandPlot(SessionPlot):
         """Return a joint's series, dashed where occluded; None if it is neither measured nor coupled."""
         joints = self.joints
         assert joints is not None
-        of, found = self._series_cache.get(angle, (None, None))
-        if of is not joints:
+        cached_joints, found = self._series_cache.get(angle, (None, None))
+        if cached_joints is not joints:
             found = _joint_series(joints, angle)
             self._series_cache[angle] = joints, found
         return found
@@ -253,7 +252,11 @@ class HandPlot(SessionPlot):
         for place, weight in enumerate(weights):
             spread = bool(self.finger) and place == 1
             area = QRectF(box.left(), top, box.width(), unit * weight)
-            scale = _spread_scale(self.finger) if spread else _bend_scale(self.finger > 0)
+            ticks = (90.0, 45.0, 0.0) if self.finger else (90.0, 0.0)
+            labels = tuple((value, f"{format_rounded(value)}°") for value in ticks)
+            scale = Scale(-15.0, 115.0, ticks, labels, bold_ends=False)
+            if spread:
+                scale = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), spread_labels(20.0, self.finger), bold_ends=False)
             out.append((Panel(area, scale, *self.visible_s), place))
             top += unit * weight + between
         return out
@@ -275,13 +278,13 @@ class HandPlot(SessionPlot):
         return out
 
     def curve_series(self, key: int) -> list[tuple[str, Series]]:
-        many = [(figure.joint, self.joint_series(figure)) for figure in self.panel_angles(key)]
-        return [(name, series) for name, series in many if series is not None]
+        series_list = [(figure.joint, self.joint_series(figure)) for figure in self.panel_angles(key)]
+        return [(name, series) for name, series in series_list if series is not None]
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
         """Return the joints that have a value beside the panel."""
-        figures = [figure for figure in self.panel_angles(key) if self.joint_series(figure) is not None]
-        shown = figures if self.finger else [figure for figure in figures if not self.is_coupled(figure)]
+        angles = [figure for figure in self.panel_angles(key) if self.joint_series(figure) is not None]
+        shown = angles if self.finger else [figure for figure in angles if not self.is_coupled(figure)]
         return [Value(figure.kind_name, figure.token, *read_joint_angle(self, figure, time_s)) for figure in shown]
 
 
@@ -297,22 +300,11 @@ def _joint_series(joints: JointCurves, angle: FingerAngle) -> Series | None:
     return Series(joints.time_s, value, sd, hidden, find_max_step_s(joints.time_s))
 
 
-def _bend_scale(roomy: bool) -> Scale:
-    inner = (45.0,) if roomy else ()
-    ticks = (90.0, *inner, 0.0)
-    labels = tuple((value, f"{format_rounded(value)}°") for value in ticks)
-    return Scale(_BEND_LOW_DEG, _BEND_HIGH_DEG, ticks, labels, bold_ends=False)
-
-
-def _spread_scale(finger: int) -> Scale:
-    return Scale(-_SPREAD_DEG, _SPREAD_DEG, (20.0, 0.0, -20.0), spread_labels(20.0, finger), bold_ends=False)
-
-
 def repetition_label(number: int, repetition: RepetitionResult) -> str:
     """Return a repetition's number, and why it is not analysed."""
     if repetition.is_passive:
-        return tr("{number} passive").format(number=number)
-    return str(number) if repetition.is_counted else tr("{number} out").format(number=number)
+        return tr("{number} (passive)").format(number=number)
+    return str(number) if repetition.is_counted else tr("{number} (excluded)").format(number=number)
 
 
 def read_wrist_angle(curves: WristCurves, column: int, time_s: float) -> tuple[float, float]:
@@ -549,20 +541,20 @@ class SessionChart(ZoomChart):
         start_s, end_s = plot.visible_s
         is_shown = start_s <= time_s <= end_s
         placed = self.panels()
-        many = [plot.read_values(key, time_s) if is_shown else [] for _, key in placed]
+        series_list = [plot.read_values(key, time_s) if is_shown else [] for _, key in placed]
         dots = [
             (panel.point(time_s, value.value_deg), pg.mkBrush(self.plot_style.color(value.token)))
-            for (panel, _), values in zip(placed, many, strict=True)
+            for (panel, _), values in zip(placed, series_list, strict=True)
             for value in values
             if not value.is_occluded and value.width_factor == 1.0 and math.isfinite(value.value_deg)
         ]
         self._dots.setData(
             x=[at.x() for at, _ in dots], y=[at.y() for at, _ in dots], brush=[brush for _, brush in dots]
         )
-        for line, item, (_, key), values in zip(self._cursors, self._readings, placed, many, strict=True):
+        for line, item, (_, key), values in zip(self._cursors, self._readings, placed, series_list, strict=True):
             line.setVisible(is_shown)
             line.setValue(time_s)
-            item.show_rich(self._reading_html(plot, key, values, len(placed), max(map(len, many))))
+            item.show_rich(self._reading_html(plot, key, values, len(placed), max(map(len, series_list))))
 
     def _reading_html(self, plot: SessionPlot, key: int, values: Sequence[Value], panels: int, most: int) -> str:
         """Return the values beside a panel: one with its name, several as a list or in one line."""
@@ -585,13 +577,13 @@ class SessionChart(ZoomChart):
                 "- -" if value.is_occluded else "\N{EM DASH}", self.plot_style, value.token, 14 * scale, SEMIBOLD
             )
             if in_a_line:
-                said, stroke = numbers.format_degrees(value.value_deg), ""
-                out.append(span_html(said, self.plot_style, value.token, 12 * scale, weight))
+                text, stroke = numbers.format_degrees(value.value_deg), ""
+                out.append(span_html(text, self.plot_style, value.token, 12 * scale, weight))
             elif finger and key == 1:
-                said = format_spread(value.value_deg, finger)
+                text = format_spread(value.value_deg, finger)
                 below = f"<br>{span_html(numbers.format_sd(value.sd_deg), self.plot_style, token, 12 * scale, MEDIUM)}"
                 below = below if math.isfinite(value.value_deg) else ""
-                out.append(f"{stroke} {span_html(said, self.plot_style, token, 14 * scale, weight)}{below}")
+                out.append(f"{stroke} {span_html(text, self.plot_style, token, 14 * scale, weight)}{below}")
             else:
                 out.append(f"{stroke} {span_html(value.display_text, self.plot_style, token, 14 * scale, weight)}")
         return ("&nbsp; " if in_a_line else "<br>").join(out)

@@ -155,7 +155,7 @@ class Dialog(QWidget):
             return
         self._initial_texts = typed
         self._clear_warning()
-        words = self.tr("What you typed is not kept yet. Esc once more closes without it.")
+        words = self.tr("Your entries are not saved yet. Press Esc again to close without saving.")
         self._warning = Text(self._theme, words, 14, SEMIBOLD, "bad", wrap=True)
         self.card.body.insertWidget(max(self.card.body.count() - 1, 0), self._warning)  # above the answers
 

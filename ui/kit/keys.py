@@ -77,7 +77,7 @@ def action_words(name: str) -> str:
     """Return what a shortcut does, for the help."""
     words = {
         "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
-        "new_patient": tr("New patient"), "report": tr("Report"), "home_sheet": tr("Sheet for home"),
+        "new_patient": tr("New patient"), "report": tr("Report"), "home_sheet": tr("Home exercise sheet"),
             "export": tr("Export"),
         "back": tr("Back"), "quit": tr("Close Carpus"), "note": tr("Note"),
         "record": tr("Start recording, or stop and review"),

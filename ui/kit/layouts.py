@@ -64,7 +64,7 @@ def row_layout(
     parent: QWidget | None = None,
 ) -> QHBoxLayout:
     """Return a layout of parts side by side, installed on ``parent``."""
-    return _laid(QHBoxLayout() if parent is None else QHBoxLayout(parent), parts, gap, margins)
+    return _fill_layout(QHBoxLayout() if parent is None else QHBoxLayout(parent), parts, gap, margins)
 
 
 def column_layout(
@@ -74,7 +74,7 @@ def column_layout(
     parent: QWidget | None = None,
 ) -> QVBoxLayout:
     """Return a layout of parts one below the other, installed on ``parent``."""
-    return _laid(QVBoxLayout() if parent is None else QVBoxLayout(parent), parts, gap, margins)
+    return _fill_layout(QVBoxLayout() if parent is None else QVBoxLayout(parent), parts, gap, margins)
 
 
 def grid_layout(
@@ -96,7 +96,7 @@ def grid_layout(
     return grid
 
 
-def _laid(layout: LayoutT, parts: tuple[Part, ...], gap: int | None, margins: Margins | None) -> LayoutT:
+def _fill_layout(layout: LayoutT, parts: tuple[Part, ...], gap: int | None, margins: Margins | None) -> LayoutT:
     if gap is not None:
         layout.setSpacing(gap)
     if margins is not None:

@@ -37,6 +37,12 @@ def format_signed_degrees(value_deg: float) -> str:
     return f"{minus}{shown}"
 
 
+def format_degree_range(low_deg: float, high_deg: float) -> str:
+    """Return ``60–80°``, or ``60°`` if both are equal."""
+    low, high = format_rounded(low_deg), format_rounded(high_deg)
+    return f"{low}°" if low_deg == high_deg else f"{low}–{high}°"
+
+
 def format_with_sd(value_deg: float, sd_deg: float) -> str:
     """Return ``57° ± 2°`` with no-break spaces; the angle alone if the SD is unknown."""
     if not math.isfinite(value_deg) or not math.isfinite(sd_deg):

@@ -46,35 +46,35 @@ def build_session_report(
     ``history`` are the results of the patient's other sessions, in any order. ``manual_values`` are all of the
     patient; those of the session's day and hand are used. ``language`` is empty for the window's.
     """
-    figures = compute_session_results(session, choices, error_limits(history))
-    known = next((other for other in history if other.session_id == figures.session_id), figures)
-    older = all(one is not figures for one in select_latest_versions((*history, figures)))
-    figures = replace(figures, earlier_results=known.earlier_results, is_superseded=older)
-    earlier = [other for other in history if other.when < figures.when]
-    alike = [other for other in earlier if (other.exercise.id, other.side) == (figures.exercise.id, figures.side)]
+    results = compute_session_results(session, choices, error_limits(history))
+    known = next((other for other in history if other.session_id == results.session_id), results)
+    older = all(one is not results for one in select_latest_versions((*history, results)))
+    results = replace(results, earlier_results=known.earlier_results, is_superseded=older)
+    earlier = [other for other in history if other.when < results.when]
+    alike = [other for other in earlier if (other.exercise.id, other.side) == (results.exercise.id, results.side)]
     fair = [point.results for point in compute_progress(alike).points if point.is_comparable]
     made_by, source = (
         parameter_section(session.header.parameters, "provenance"),
         parameter_section(session.header.parameters, "source"),
     )
     return SessionReport(
-        results=figures,
+        results=results,
         curves=wrist_curves(session),
         joints=joint_curves(session),
         motion=compute_motion_curves(session),
         markers=len(session.header.protocol.markers),
         pseudonym=pseudonym or session.header.subject_id or "–",
-        session_number=sum(one.side == figures.side for one in select_latest_versions(earlier)) + 1 if history else 0,
+        session_number=sum(one.side == results.side for one in select_latest_versions(earlier)) + 1 if history else 0,
         dominance=dominance,
         therapist=therapist,
-        previous=find_previous(history, figures),
+        previous=find_previous(history, results),
         first=fair[0] if fair else None,
-        other_hand=find_other_hand(history, figures),
+        other_hand=find_other_hand(history, results),
         digest=compute_data_digest(session),
         settings_digest=hashlib.sha256(session.header.parameters.encode()).hexdigest(),
         revision=str(made_by.get("revision") or ""),
         recording_digest=str(source.get("sha256") or ""),
-        manual_values=session_values(manual_values, figures.side, figures.when.date()),
+        manual_values=session_values(manual_values, results.side, results.when.date()),
         comment=comment,
         form=form or ReportForm(),
         language=language,
@@ -119,7 +119,7 @@ def build_progress_report(
     ``choice`` is what is followed of a whole hand, as in :func:`progress_choices`, the first one by default.
     ``manual_values`` are those of this hand and person. ``other_hand`` is used if the ``sessions`` have none of it.
     """
-    newest = max(sessions, key=lambda figures: figures.when)
+    newest = max(sessions, key=lambda results: results.when)
     alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
     kinds = progress_choices(newest)
     followed = progress_keys(choice if choice is not None else kinds[0][0]) if kinds else ()

@@ -57,8 +57,8 @@ def wrist_section(results: SessionResults) -> list[Part]:
         for row in results.wrist_ranges
         if row.quantity == "arc"
     ]
-    shown = line(*arcs) if arcs else paragraph(tr("not seen"), 8.5, REGULAR, "text2")
-    return [column(section_title(tr("Wrist"), tr("whole arcs over the same time")), shown, rule(), gap=2.0)]
+    shown = line(*arcs) if arcs else paragraph(tr("not visible"), 8.5, REGULAR, "text2")
+    return [column(section_title(tr("Wrist"), tr("total arcs over the same period")), shown, rule(), gap=2.0)]
 
 
 def finger_curve_section(curves: WristCurves, joints: JointCurves, results: SessionResults) -> list[Part]:
@@ -67,8 +67,8 @@ def finger_curve_section(curves: WristCurves, joints: JointCurves, results: Sess
     for row in FLEXION_KINDS:
         swatch = ColorFill(PAPER, KIND_TOKENS[row])
         swatch.setFixedSize(*to_layout_units(10.0, 1.6))
-        name = tr("Middle joint, of the thumb lift") if row == "middle" else kind_name(row)
+        name = tr("PIP (thumb: palmar abduction)") if row == "middle" else kind_name(row)
         key += [swatch, 4.0, label(name, 8.5, REGULAR, "text2"), 8.0]
-    key.append(label(tr("dashed: hidden; hatched: lost"), 8.5, REGULAR, "text2"))
+    key.append(label(tr("dashed: occluded; hatched: lost"), 8.5, REGULAR, "text2"))
     plot = HandPlot(curves, results.exercise, results.repetitions, -1, joints=joints)
-    return [section_title(tr("Bending over time"), *key), session_chart_part(plot, 140.0, 220.0)]
+    return [section_title(tr("Finger flexion over time"), *key), session_chart_part(plot, 140.0, 220.0)]

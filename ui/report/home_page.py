@@ -142,18 +142,18 @@ def home_progress_words(progress: HomeProgress) -> str:
     """Return the sentence above the progress."""
     first, last, goal = progress.values_deg[0], progress.values_deg[-1], progress.goal_deg
     if not progress.has_improved:
-        return tr("You are holding what you reached.")
+        return tr("You have kept the progress you made.")
     if math.isfinite(goal) and last >= goal:
         return tr("You have reached our goal.")
     if math.isfinite(goal) and last - first > 0.5 * (goal - first):
-        return tr("More than half of the way is done.")
-    return tr("You come further than at the start.")
+        return tr("You are more than halfway to our goal.")
+    return tr("You can move further than when you started.")
 
 
 def _body(home: HomeReport, number: str) -> QLayout:
-    who = f"{home.pseudonym}, {to_mid_sentence(terms.hand_name(home.side))}"
+    patient = f"{home.pseudonym}, {to_mid_sentence(terms.hand_name(home.side))}"
     tick = label(tr("Tick a box when all rounds of the day are done."), 8.5, REGULAR, "text2")
-    parts: list[Part] = [page_head(numbers.format_long_date(home.day), number, tr("Your hand at home"), who)]
+    parts: list[Part] = [page_head(numbers.format_long_date(home.day), number, tr("Your hand at home"), patient)]
     parts += [_task(home, task, place) for place, task in enumerate(home.tasks, 1)]
     parts.append((tick, 0, Qt.AlignmentFlag.AlignRight))
     if home.progress is not None:
@@ -179,7 +179,16 @@ def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
     often = column(paragraph(times, 13.0, SEMIBOLD, "accent"), paragraph(rounds, 10.0, SEMIBOLD))
     days = [
         column(
-            (label(_day_name(day), 7.5, REGULAR, "text2"), 0, Qt.AlignmentFlag.AlignHCenter),
+            (
+                label(
+                    language.locale().dayName(day.isoweekday(), language.locale().FormatType.ShortFormat),
+                    7.5,
+                    REGULAR,
+                    "text2",
+                ),
+                0,
+                Qt.AlignmentFlag.AlignHCenter,
+            ),
             PaintedPart(_paint_tick_box, 19.0, width=19.0),
             gap=3.0,
         )
@@ -192,9 +201,9 @@ def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
 
 def _progress_box(home: HomeReport, progress: HomeProgress) -> RoundedBox:
     """Return the hand at the start, today and at the goal, with the curve of the sessions."""
-    key = tr("dashed: at the start; full line: today")
+    key = tr("dashed: at the start; solid: today")
     if math.isfinite(progress.goal_deg):
-        key = tr("dashed: at the start; full line: today; green: our goal")
+        key = tr("dashed: at the start; solid: today; green: our goal")
     hands = PaintedPart(partial(_paint_progress_hands, home.report.results.exercise, home.side, progress), 80.0, 110.0)
     pictures = line((hands, 1), (PaintedPart(partial(_paint_progress_curve, progress), 80.0, 110.0), 1))
     return RoundedBox(
@@ -207,7 +216,7 @@ def _progress_box(home: HomeReport, progress: HomeProgress) -> RoundedBox:
 
 
 def _appointment_box(home: HomeReport) -> QLayout:
-    again: list[Part | float] = [paragraph(tr("See you again"), 9.5, MEDIUM), 4.0]
+    again: list[Part | float] = [paragraph(tr("Next appointment"), 9.5, MEDIUM), 4.0]
     if home.next_appointment is None:
         again += [18.0, rule()]
     else:
@@ -229,10 +238,6 @@ def _days(home: HomeReport) -> list[date]:
     """Return the days from today to the day before the next appointment, a week at most."""
     count = DEFAULT_DAYS if home.next_appointment is None else (home.next_appointment - home.day).days
     return [home.day + timedelta(days=day) for day in range(min(max(count, 1), MAX_DAYS))]
-
-
-def _day_name(day: date) -> str:
-    return language.locale().dayName(day.isoweekday(), language.locale().FormatType.ShortFormat)
 
 
 def _paint_number(number: int, painter: QPainter, box: QRectF) -> None:

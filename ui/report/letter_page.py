@@ -74,31 +74,31 @@ def _body(letter: LetterReport, number: str) -> QLayout:
 
 
 def _parts(letter: LetterReport, omitted: int) -> QLayout:
-    report, figures = letter.report, letter.report.results
-    who = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
-    measured = tr("On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.").format(
-        day=numbers.format_date(figures.when),
-        exercise=terms.exercise_name(figures.exercise.id),
-        hand=to_mid_sentence(terms.hand_name(figures.side)),
-        count=figures.repetition_count,
+    report, results = letter.report, letter.report.results
+    patient = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
+    measured = tr("On {day} we measured: {exercise}, {hand}. Repetitions analysed: {count}.").format(
+        day=numbers.format_date(results.when),
+        exercise=terms.exercise_name(results.exercise.id),
+        hand=to_mid_sentence(terms.hand_name(results.side)),
+        count=results.repetition_count,
     )
     parts: list[Part | float] = [
         line(column(*(paragraph(one, SIZE_PT) for one in address_lines(letter.recipient)), gap=3.0), STRETCH,
              (label(numbers.format_date(letter.day), SIZE_PT), 0, Qt.AlignmentFlag.AlignTop)),
         14.0,
-        paragraph(tr("Movement measured by camera: {who}").format(who=who), 12.0, SEMIBOLD),
+        paragraph(tr("Movement measured by camera: {who}").format(who=patient), 12.0, SEMIBOLD),
         3.0,
         paragraph(tr("Dear colleague,"), SIZE_PT),
         paragraph(measured, SIZE_PT),
     ]  # fmt: skip
-    warned = [*warning_lines(figures), *filter(None, [correction_words(figures)])]
+    warned = [*warning_lines(results), *filter(None, [correction_words(results)])]
     parts += [paragraph(words, SIZE_PT, SEMIBOLD, "warn") for words in warned]
     parts.append(_result_table(report, has_comparison=omitted < 1))
     if any(cell.startswith(LOWER_BOUND) for row in letter_rows(report) for cell in row):
-        words = tr("{sign}: the camera did not see the end of that movement.").format(sign=LOWER_BOUND)
+        words = tr("{sign}: the end of this movement was occluded.").format(sign=LOWER_BOUND)
         parts.append(paragraph(words, 8.5, REGULAR, "text2"))
     first = report.first if omitted < 2 else None
-    parts += [paragraph(words, SIZE_PT) for words in change_sentences(figures, report.previous, first)]
+    parts += [paragraph(words, SIZE_PT) for words in change_sentences(results, report.previous, first)]
     if report.comment.strip():
         has_room = omitted < MAX_OMISSIONS
         said_of_it = tr("The comment is too long for this letter; it is in the report.")
@@ -127,29 +127,29 @@ def _result_table(report: SessionReport, *, has_comparison: bool) -> Item:
 
 def letter_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
     """Return name, mean ± SD, the other hand's and last time's value of each main measure."""
-    figures = report.results
+    results = report.results
     if report.joints is None:
-        shown = range_table(figures, report.previous, report.other_hand, on_paper=True)
+        shown = range_table(results, report.previous, report.other_hand, on_paper=True)
         lines = [[cell_text(cell) for cell in row] for row in shown.rows]
         return [(name, today, beside, last) for name, today, _, beside, _, last, _ in lines]
     found = []
-    for figure in main_angles(figures):
+    for figure in main_angles(results):
         cells = []
-        for one in (figures, report.other_hand, report.previous):
+        for one in (results, report.other_hand, report.previous):
             row = None if one is None else one.find(figure.joint, "arc")
             cells.append(range_words(row) if row is not None and row.count else tr("not measured"))
         name = (
-            figure.kind_name if is_thumb_exercise(figures) else f"{finger_name(str(figure.finger))}, {figure.kind_name}"
+            figure.kind_name if is_thumb_exercise(results) else f"{finger_name(str(figure.finger))}, {figure.kind_name}"
         )
         found.append((name, cells[0], cells[1], cells[2]))
     return found
 
 
 def _foot(report: SessionReport) -> QLayout:
-    figures = report.results
+    results = report.results
     made_by = f" ({report.revision[:7]})" if report.revision else ""
-    origin = f"Carpus {figures.software_version}{made_by} · " + tr("Session {id}").format(id=figures.session_id[:8])
-    how = paragraph(method_words(figures, report.markers, compared=True), 7.5, REGULAR, "text2")
+    origin = f"Carpus {results.software_version}{made_by} · " + tr("Session {id}").format(id=results.session_id[:8])
+    how = paragraph(method_words(results, report.markers, compared=True), 7.5, REGULAR, "text2")
     return column(rule(), how, legal_line(), paragraph(origin, 7.5, REGULAR, "text2"), gap=2.0)
 
 

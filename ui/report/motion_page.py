@@ -34,8 +34,8 @@ def motion_page(
     height = 118.0 if is_hand else 165.0
     parts += _path_section(tr("Path of the wrist"), wrist_path(motion), height, tr("with the hand’s axes along it"))
     if is_hand:
-        words = tr("joint centres; dashed: disc hidden")
-        parts += _path_section(tr("Ways of the finger tips"), finger_paths(motion, 0), height, words)
+        words = tr("joint centres; dashed: marker occluded")
+        parts += _path_section(tr("Fingertip paths"), finger_paths(motion, 0), height, words)
     axes = tr("X (black) to the fingers, Y (blue) to the thumb, Z (orange) up")
     if motion.side == "left":
         axes = tr("X (black) to the fingers, Y (blue) from the thumb, Z (orange) up")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF, QSizeF, Qt
@@ -40,14 +41,10 @@ def write_sheets(output_path: Path, sheets: Sequence[PrintedSheet], title: str) 
     Raises the faults of :func:`write_report`.
     """
     application = ensure_application()
-    pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _sheet_painter(sheet)) for sheet in sheets]
+    pages = [(QSizeF(sheet.width_mm, sheet.height_mm), partial(paint_sheet, sheet=sheet)) for sheet in sheets]
     content = pdf_bytes(pages, title)
     del application
     return save_pdf(output_path, content)
-
-
-def _sheet_painter(sheet: PrintedSheet) -> PaintPage:
-    return lambda painter, point: paint_sheet(painter, point, sheet)
 
 
 def write_report(report: Report, output_path: Path) -> Path:

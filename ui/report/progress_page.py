@@ -111,15 +111,15 @@ def _body(report: ProgressReport, number: str) -> QLayout:
 
 def provenance_words(made_by: str, sessions: Sequence[SessionResults]) -> str:
     """Return which program made the report, of which sessions, and which program measured them."""
-    ids = ", ".join(figures.session_id[:8] for figures in sessions[-MAX_IDS:])
+    ids = ", ".join(results.session_id[:8] for results in sessions[-MAX_IDS:])
     if len(sessions) > MAX_IDS:
         ids = f"…, {ids}"
-    versions = ", ".join(sorted({figures.software_version for figures in sessions}))
-    of = tr("1 session: {ids}") if len(sessions) == 1 else tr("{count} sessions: {ids}")
+    versions = ", ".join(sorted({results.software_version for results in sessions}))
+    pattern = tr("1 session: {ids}") if len(sessions) == 1 else tr("{count} sessions: {ids}")
     return " · ".join(
         (
             tr("Made by Carpus {version}").format(version=made_by),
-            of.format(count=len(sessions), ids=ids),
+            pattern.format(count=len(sessions), ids=ids),
             tr("measured by Carpus {versions}").format(versions=versions),
         )
     )
@@ -160,7 +160,7 @@ def _manual_changes(progress: Progress) -> list[Part]:
     )
     below = [paragraph(words, 8.5)] if words else []
     return [
-        column(section_title(tr("Entered by hand"), tr("never joined with the figures above")), shown, *below, gap=2.0)
+        column(section_title(tr("Entered by hand"), tr("not combined with the values above")), shown, *below, gap=2.0)
     ]
 
 
@@ -170,8 +170,8 @@ def _comparability(progress: Progress) -> QLayout:
     lines = [paragraph(words) for words in unfair[:MAX_EXCLUDED]]
     lines += [paragraph(words, token="warn") for words in doubts[:MAX_EXCLUDED]]
     if not unfair:
-        lines.append(paragraph(tr("All sessions were set up alike.")))
+        lines.append(paragraph(tr("All sessions used the same set-up.")))
     if once := duplicate_result_words(progress.earlier_results):
         lines.append(paragraph(once))
-    words = f"{tr('± is the spread between repetitions.')} {error_limit_words(progress.study)}"
-    return column(section_title(tr("Fair comparison")), *lines, paragraph(words, 8.0, REGULAR, "text2"), gap=2.0)
+    words = f"{tr('± is the SD between repetitions.')} {error_limit_words(progress.study)}"
+    return column(section_title(tr("Comparability")), *lines, paragraph(words, 8.0, REGULAR, "text2"), gap=2.0)

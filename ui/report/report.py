@@ -38,7 +38,7 @@ class Report(Protocol):
 def layout_pages(report: Report) -> list[Page]:
     """Lay the pages out in the report's language; call it in the window's thread only."""
     with use_language(report.language):
-        bodies, simulated = report.bodies(), any(figures.is_simulated for figures in report.sessions)
+        bodies, simulated = report.bodies(), any(results.is_simulated for results in report.sessions)
         pages = []
         for number, body in enumerate(bodies, 1):
             words = tr("page {number} of {count}").format(number=number, count=len(bodies)) if len(bodies) > 1 else ""

@@ -151,18 +151,18 @@ def _head(report: SessionReport, number: str) -> QLayout:
 
 
 def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> QLayout:
-    figures, form = report.results, report.form
+    results, form = report.results, report.form
     summed_up = wrist_summary if report.joints is None else hand_summary
     parts: list[Part] = [_head(report, number), *_facts(report)]
-    parts.append(paragraph(summed_up(figures, report.previous, report.first), 10.0, SEMIBOLD))
+    parts.append(paragraph(summed_up(results, report.previous, report.first), 10.0, SEMIBOLD))
     if form.includes("table"):
-        is_hand, sessions = report.joints is not None, (figures, report.previous, report.other_hand)
+        is_hand, sessions = report.joints is not None, (results, report.previous, report.other_hand)
         parts += finger_section(*sessions) if is_hand else _range_table(report)
         parts += _active_passive(report)
-        parts += wrist_section(figures) if is_hand else []
+        parts += wrist_section(results) if is_hand else []
     if form.includes("curves"):
         parts += (
-            _curves(report) if report.joints is None else finger_curve_section(report.curves, report.joints, figures)
+            _curves(report) if report.joints is None else finger_curve_section(report.curves, report.joints, results)
         )
     if form.includes("bars") and report.joints is None:
         parts += _bars(report)
@@ -178,8 +178,8 @@ def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> Q
 
 
 def _motion_page(report: SessionReport, motion: MotionCurves, number: str) -> QLayout:
-    figures, head = report.results, _head(report, number)
-    return motion_page(head, figures, report.previous, report.curves, motion)
+    results, head = report.results, _head(report, number)
+    return motion_page(head, results, report.previous, report.curves, motion)
 
 
 def _comment_page(report: SessionReport, lines: Sequence[str], number: str) -> QLayout:
@@ -198,29 +198,29 @@ def comment_text(lines: Sequence[str]) -> PlainText:
 
 
 def _facts(report: SessionReport) -> list[Part]:
-    figures = report.results
+    results = report.results
     session = tr("active")
-    if figures.has_passive:
-        session = tr("active and passive") if figures.repetition_count else tr("passive")
+    if results.has_passive:
+        session = tr("active and passive") if results.repetition_count else tr("passive")
     if report.session_number:
         session = f"{numbers.format_ordinal(report.session_number)}, {session}"
     handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(
         report.dominance, ""
     )
     pairs = [
-        (tr("Date"), numbers.format_date_time(figures.when)),
+        (tr("Date"), numbers.format_date_time(results.when)),
         (tr("Session"), session),
-        (tr("Hand"), ", ".join(part for part in (to_mid_sentence(terms.side_name(figures.side)), handed) if part)),
-        (tr("Length"), numbers.format_clock(figures.duration_s + 0.5)),
+        (tr("Hand"), ", ".join(part for part in (to_mid_sentence(terms.side_name(results.side)), handed) if part)),
+        (tr("Length"), numbers.format_clock(results.duration_s + 0.5)),
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
     lines = [
         (_diagnosis_words(report), MEDIUM, "text"),
-        *((words, SEMIBOLD, "warn") for words in warning_lines(figures)),
+        *((words, SEMIBOLD, "warn") for words in warning_lines(results)),
     ]
-    if corrected := correction_words(figures):
-        kept = tr("Markers were put right by hand; the result as measured is kept.")
-        lines.append((f"{corrected} {kept}", MEDIUM, "text"))
+    if corrected := correction_words(results):
+        is_kept = tr("Markers were corrected by hand. The original result is kept.")
+        lines.append((f"{corrected} {is_kept}", MEDIUM, "text"))
     shown = [paragraph(words, 8.5, weight, token) for words, weight, token in lines if words]
     return [column(fact_row(pairs), *shown, gap=3.0), rule()]
 
@@ -237,14 +237,14 @@ def _diagnosis_words(report: SessionReport) -> str:
 
 
 def _range_table(report: SessionReport) -> list[Part]:
-    figures = report.results
-    found = range_table(figures, report.previous, report.other_hand, on_paper=True)
-    if not found.rows and figures.has_passive:
+    results = report.results
+    found = range_table(results, report.previous, report.other_hand, on_paper=True)
+    if not found.rows and results.has_passive:
         return []  # the table of what was passive says all there is
     shown = table(*found)
-    source = reference_words(figures)
+    source = reference_words(results)
     below = [paragraph(source, 7.5, REGULAR, "text2")] if source else []
-    return [column(section_title(tr("Range of motion"), repetition_words(figures)), shown, *below, gap=2.0)]
+    return [column(section_title(tr("Range of motion"), repetition_words(results)), shown, *below, gap=2.0)]
 
 
 def _active_passive(report: SessionReport) -> list[Part]:
@@ -259,59 +259,59 @@ def _active_passive(report: SessionReport) -> list[Part]:
 
 
 def _curves(report: SessionReport) -> list[Part]:
-    figures = report.results
+    results = report.results
     aside = tr("grey: repetitions; band: ± 1 sd of the angle")
-    if any(math.isfinite(target) for target in figures.targets_deg):
-        aside += "; " + tr("dashed: target")
-    plot = SessionPlot(report.curves, figures.exercise, figures.repetitions, -1, *figures.targets_deg)
+    if any(math.isfinite(target) for target in results.targets_deg):
+        aside += "; " + tr("dashed: goal")
+    plot = SessionPlot(report.curves, results.exercise, results.repetitions, -1, *results.targets_deg)
     return [section_title(tr("Angles over time"), aside), session_chart_part(plot, 190.0, 250.0)]
 
 
 def _bars(report: SessionReport) -> list[Part]:
-    figures = report.results
-    bars = range_bars(figures, report.previous, report.other_hand)
+    results = report.results
+    bars = range_bars(results, report.previous, report.other_hand)
     if not bars:
         return []
-    compared = any(bar.results is not figures for bar in bars)
-    words = tr("Range today, last time and other hand") if compared else tr("Range today")
+    compared = any(bar.results is not results for bar in bars)
+    words = tr("Range of motion: today, last time and other hand") if compared else tr("Range of motion today")
     height = CHART.unit * (BAR_PX * len(bars) + 8.0 + FOOT_PX) / UNIT
     return [
         section_title(words),
-        PaintedPart(lambda painter, box: paint_range_bars(painter, CHART, box, figures.exercise, bars), height),
+        PaintedPart(lambda painter, box: paint_range_bars(painter, CHART, box, results.exercise, bars), height),
     ]
 
 
 def _boxes(report: SessionReport) -> list[Part]:
-    figures, boxes = report.results, []
-    lines = quality_lines(figures)
+    results, boxes = report.results, []
+    lines = quality_lines(results)
     is_sure = all(fine for _, _, fine in lines)
     if report.form.includes("quality") or not is_sure:  # doubts are never left out
         sign = Icon(PAPER, "good" if is_sure else "warn", 12, (12, 12))
-        heading = line(label(tr("How sure are these figures?"), 10.0, SEMIBOLD), STRETCH, sign)
+        heading = line(label(tr("How reliable are these values?"), 10.0, SEMIBOLD), STRETCH, sign)
         values = value_rows([(name, value, "text" if fine else "warn") for name, value, fine in lines])
         boxes.append(RoundedBox(heading, 3.0, values, STRETCH))
     if report.form.includes("speed"):
-        words = "  ".join(f"“{text}”" for _, text in figures.notes[:3])
+        words = "  ".join(f"“{text}”" for _, text in results.notes[:3])
         notes: list[Part | float] = [3.0, paragraph(words, 8.5)] if words else []
-        values = value_rows([(name, value, "text") for name, value in speed_pain_lines(figures)])
+        values = value_rows([(name, value, "text") for name, value in speed_pain_lines(results)])
         boxes.append(RoundedBox(paragraph(tr("Speed, pain, note"), 10.0, SEMIBOLD), 3.0, values, *notes, STRETCH))
     return [line(*((box, 1) for box in boxes), gap=12.0)] if boxes else []
 
 
 def _has_verdict(report: SessionReport) -> bool:
     """Return whether any change on the page is compared with the measurement error."""
-    figures, rows = report.results, find_main_ranges(report.results)
+    results, rows = report.results, find_main_ranges(report.results)
     before = [item for item in (report.previous, report.first) if item is not None]
-    return any(item.verdict != "not_judged" for earlier in before for item in compare_ranges(earlier, figures, rows))
+    return any(item.verdict != "not_judged" for earlier in before for item in compare_ranges(earlier, results, rows))
 
 
 def _foot(report: SessionReport) -> list[Part]:
-    figures = report.results
+    results = report.results
     by_hand = report.manual_values if report.form.includes("by_hand") else ()
-    how = method_words(figures, report.markers, compared=_has_verdict(report), manual_values=by_hand)
-    residual = figures.quality.residual_mm
+    how = method_words(results, report.markers, compared=_has_verdict(report), manual_values=by_hand)
+    residual = results.quality.residual_mm
     made_by = f" ({report.revision[:7]})" if report.revision else ""
-    parts = [tr("Session {id}").format(id=figures.session_id[:8]), f"Carpus {figures.software_version}{made_by}"]
+    parts = [tr("Session {id}").format(id=results.session_id[:8]), f"Carpus {results.software_version}{made_by}"]
     if report.settings_digest:
         parts.append(tr("settings {digest}").format(digest=report.settings_digest[:4]))
     if report.digest:
@@ -321,6 +321,6 @@ def _foot(report: SessionReport) -> list[Part]:
         parts.append(tr("recording {digest}").format(digest=digest))
     if math.isfinite(residual):
         parts.append(tr("calibrated to {size} mm").format(size=numbers.format_fixed(residual, 1)))
-    parts.append(tr("smoothed") if figures.is_smoothed else tr("as measured live"))
+    parts.append(tr("smoothed") if results.is_smoothed else tr("as measured live"))
     origin = paragraph(" · ".join(parts), 8.0, REGULAR, "text2")
     return [rule(), column(paragraph(how, 8.0, REGULAR, "text2"), legal_line(), origin, gap=3.0)]

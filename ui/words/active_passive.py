@@ -38,23 +38,23 @@ class ActivePassiveTable:
 
 def build_active_passive(results: SessionResults, manual_values: Sequence[ManualValue]) -> ActivePassiveTable | None:
     """Return the table of a session, None without passive repetitions and manual values of that day."""
-    helped = results.passive_results()
-    if helped is None and not _has_manual_values(results, manual_values):
+    passive = results.passive_results()
+    if passive is None and not _has_manual_values(results, manual_values):
         return None
-    of_fingers = results.joint_ranges or (helped is not None and helped.joint_ranges)
-    heads, rows = (_finger_rows if of_fingers else _wrist_rows)(results, helped, manual_values)
+    of_fingers = results.joint_ranges or (passive is not None and passive.joint_ranges)
+    heads, rows = (_finger_rows if of_fingers else _wrist_rows)(results, passive, manual_values)
     known = [column == 0 or any(row[column] for row in rows) for column in range(len(heads))]
     note = []
     if results.joint_ranges:
-        note.append(tr("Each joint where it was bent most; ± is the spread between repetitions."))
+        note.append(tr("Each joint at its largest flexion; ± is the SD between repetitions."))
     if any(LOWER_BOUND in cell for row in rows for cell in row):
-        note.append(tr("{sign}: at least, the camera did not see the end of that movement.").format(sign=LOWER_BOUND))
+        note.append(tr("{sign} = minimum: the end of this movement was occluded.").format(sign=LOWER_BOUND))
     if _has_manual_values(results, manual_values):
-        said = tr("{sign}: measured by hand that day, active / passive; never averaged with the rest.")
-        note.append(said.format(sign=MANUAL_SIGN))
+        text = tr("{sign}: measured by hand that day, active / passive; not combined with the other values.")
+        note.append(text.format(sign=MANUAL_SIGN))
     shown = tuple(tuple(compress(row, known)) for row in rows if any(row[1:]))
     table = TableContent((TableColumn(),) * sum(known), tuple(compress(heads, known)), shown)
-    return ActivePassiveTable("" if helped is None else _sentence(results, helped), table, " ".join(note))
+    return ActivePassiveTable("" if passive is None else _sentence(results, passive), table, " ".join(note))
 
 
 def _has_manual_values(results: SessionResults, manual_values: Sequence[ManualValue]) -> bool:
@@ -74,7 +74,7 @@ def _manual_cell(key: MeasureKey, manual_values: Sequence[ManualValue]) -> str:
 def _wrist_rows(
     results: SessionResults, passive: SessionResults | None, manual_values: Sequence[ManualValue]
 ) -> tuple[list[str], list[list[str]]]:
-    heads = [tr("Movement"), tr("Active"), tr("Passive"), tr("Passive goes further"), tr("By hand")]
+    heads = [tr("Movement"), tr("Active"), tr("Passive"), tr("Passive minus active"), tr("By hand")]
     gaps = (
         {} if passive is None else {item.key: item for item in compare_ranges(results, passive, passive.wrist_ranges)}
     )
@@ -92,17 +92,17 @@ def _finger_rows(
     results: SessionResults, passive: SessionResults | None, manual_values: Sequence[ManualValue]
 ) -> tuple[list[str], list[list[str]]]:
     heads = [tr("Finger")]
-    for name in (tr("Knuckle"), tr("Middle joint"), tr("End joint")):
+    for name in (tr("MCP"), tr("PIP"), tr("DIP (thumb: IP)")):
         heads += [f"{name}\n{words}" for words in (tr("active"), tr("passive"), MANUAL_SIGN)]
     heads += [f"TAM\n{tr('active')}", f"TPM\n{tr('passive')}"] if has_totals(results) else []
     rows = []
     for finger in FINGERS:
         cells = [finger_name(str(finger))]
         for joint in _JOINTS:
-            of = "" if finger == 1 and joint == "middle" else FingerAngle(finger, joint).joint  # a thumb has none
-            key: MeasureKey = (of, "flexion")
-            cells += [_joint_cell(one, key) if of else "" for one in (results, passive)]
-            cells.append(_manual_cell(key, manual_values) if of else "")
+            subject = "" if finger == 1 and joint == "middle" else FingerAngle(finger, joint).joint  # a thumb has none
+            key: MeasureKey = (subject, "flexion")
+            cells += [_joint_cell(one, key) if subject else "" for one in (results, passive)]
+            cells.append(_manual_cell(key, manual_values) if subject else "")
         if has_totals(results):
             cells += [_joint_cell(one, (f"TAM{finger}", "arc")) for one in (results, passive)]
         rows.append(cells)
@@ -128,13 +128,11 @@ def _gap_cell(item: Comparison | None) -> str:
     if item is None:
         return ""
     if item.verdict == "not_judged":
-        return tr("not judged: {why}").format(why=reason_words(item.reasons))
+        return tr("not assessed: {why}").format(why=reason_words(item.reasons))
     if item.verdict == "no_change":
-        return tr("within the error")
+        return tr("within MDC")
     limit = numbers.format_degrees(item.limit_deg)
-    return tr("{gap} (error {limit})").format(
-        gap=numbers.format_signed_degrees(item.display_difference_deg), limit=limit
-    )
+    return tr("{gap} (MDC {limit})").format(gap=numbers.format_signed_degrees(item.display_difference_deg), limit=limit)
 
 
 def _sentence(results: SessionResults, passive: SessionResults) -> str:
@@ -144,16 +142,22 @@ def _sentence(results: SessionResults, passive: SessionResults) -> str:
     gaps = compare_ranges(results, passive, rows)
     beyond = [item for item in gaps if item.verdict == "improved"]
     if beyond:
-        most = max(beyond, key=lambda item: item.difference_deg)
-        name = range_name(most.after, names_arc=False)
-        words = tr("{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.")
+        maximum = max(beyond, key=lambda item: item.difference_deg)
+        name = range_name(maximum.after, names_arc=False)
+        words = tr(
+            "{name}: active {active}, passive {passive}. The difference of {gap} is beyond the measurement error."
+        )
         return words.format(
             name=name,
-            active=numbers.format_signed_degrees(most.before.mean),
-            passive=numbers.format_signed_degrees(most.after.mean),
-            gap=numbers.format_degrees(most.display_difference_deg),
+            active=numbers.format_signed_degrees(maximum.before.mean),
+            passive=numbers.format_signed_degrees(maximum.after.mean),
+            gap=numbers.format_degrees(maximum.display_difference_deg),
         )
     if any(item.verdict != "not_judged" for item in gaps):
         return tr("Passive range does not exceed active range by more than the measurement error.")
     why = reason_words([reason for item in gaps for reason in item.reasons])
-    return tr("Active and passive are shown, not judged: {why}.").format(why=to_mid_sentence(why)) if why else ""
+    return (
+        tr("Active and passive range are shown without an assessment: {why}.").format(why=to_mid_sentence(why))
+        if why
+        else ""
+    )

@@ -19,14 +19,14 @@ TOKENS = {"deviation": "curve_b", "flexion": "curve_a", "pronosupination": "curv
 def angle_name(name: str) -> str:
     """Return the display name of an angle, such as ``Flexion–extension``."""
     wrist = {
-        "flexion": tr("Flexion–extension"), "deviation": tr("Side movement"),
+        "flexion": tr("Flexion–extension"), "deviation": tr("Radial–ulnar deviation"),
         "pronosupination": tr("Pronation–supination"),
     }  # fmt: skip
     if name in wrist:
         return wrist[name]
     if any(figure.joint == name for figure in FINGER_ANGLES):
         return find_finger_angle(name).long_name
-    return tr("Thumb, knuckle sideways") if name == "MCP1_abduction" else name
+    return tr("Thumb MCP, abduction–adduction") if name == "MCP1_abduction" else name
 
 
 def angle_token(name: str) -> str:
@@ -76,10 +76,8 @@ def format_coefficient(value: float) -> str:
 
 def remark_words(compared: Comparison, name: str = "") -> list[str]:
     """Return the caveats of a comparison, of one angle or of all."""
-    said = [_remark_text(remark) for remark in (compared.angle_remarks(name) if name else compared.remarks)]
-    return [f"{words[:1].upper()}{words[1:]}." for words in said]
-
-
-def _remark_text(reason: str) -> str:
-    name, found, rest = translate_phrase(reason).partition(": ")
-    return f"{angle_name(name)}: {rest}" if found else translate_phrase(reason)
+    text = []
+    for remark in compared.angle_remarks(name) if name else compared.remarks:
+        angle, found, rest = translate_phrase(remark).partition(": ")
+        text.append(f"{angle_name(angle)}: {rest}" if found else angle)
+    return [f"{words[:1].upper()}{words[1:]}." for words in text]

@@ -34,7 +34,7 @@ def view_fault_words(lack: RejectReason) -> str:
     """Say what an image of the board lacks; empty if nothing."""
     return {
         "": "",
-        "dark": tr("More light: the picture is too dark."),
+        "dark": tr("More light: the image is too dark."),
         "no_board": tr("No board seen: show all of it, flat, in even light."),
         "too_tilted": tr("Turn it less: it is nearly edge-on."),
         "moving": tr("Hold still."),
@@ -69,12 +69,12 @@ def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
 def button_words(progress: BoardProgress | None) -> str:
     """Return the text of the primary button: what it does, or what it waits for."""
     if progress is None:
-        return tr("Work out · show the board")
+        return tr("Calculate · show the board")
     left = progress.required_views - progress.judgement.view_count
     if left > 0:
-        one = tr("Work out · 1 picture to go") if left == 1 else tr("Work out · {count} pictures to go")
+        one = tr("Calculate · 1 more image") if left == 1 else tr("Calculate · {count} more images")
         return one.format(count=left)
-    return tr("Work out · more places and tilts") if progress.judgement.missing_text else tr("Work out")
+    return tr("Calculate · more places and tilts") if progress.judgement.missing_text else tr("Calculate")
 
 
 def headline(calibration: CameraCalibration) -> tuple[str, str]:
@@ -82,18 +82,18 @@ def headline(calibration: CameraCalibration) -> tuple[str, str]:
     error_px = calibration.intrinsics.reprojection_error_px
     if error_px > FAIR_ERROR_PX:
         return (
-            tr("Not good enough: lines land {error} px off.").format(error=numbers.format_fixed(error_px, 1)),
+            tr("Not good enough: reprojection error {error} px.").format(error=numbers.format_fixed(error_px, 1)),
             tr("Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures "
                "again."),
         )  # fmt: skip
     if calibration.depth is not None and not calibration.depth.is_registered:
         return (
-            tr("Depth lies {apart} px beside the colours.").format(apart=_offset_px(calibration.depth)),
+            tr("Depth and colour are misaligned by {apart} px.").format(apart=_offset_px(calibration.depth)),
             tr("Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how."),
         )
     return (
         tr("The camera is calibrated. {depth}").format(depth=depth_words(calibration.depth)),
-        tr("Lines land within {error} pixels of where they are.").format(error=numbers.format_fixed(error_px, 2)),
+        tr("The reprojection error is {error} pixels.").format(error=numbers.format_fixed(error_px, 2)),
     )
 
 
@@ -103,7 +103,7 @@ def depth_words(depth: DepthCheck | None) -> str:
         return tr("Its depth was not checked.")
     share, shift = 100.0 * (depth.scale - 1.0), 1e3 * depth.offset_m
     if abs(share) < 0.05 and abs(shift) < 0.5:
-        return tr("Depth reads right.")
+        return tr("Depth is correct.")
     pattern = tr("Depth read {share} % too long.") if share > 0 else tr("Depth read {share} % too short.")
     return pattern.format(share=numbers.format_fixed(abs(share), 1))
 
@@ -124,7 +124,7 @@ def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, s
     rows: list[tuple[State, str, str, str]] = [
         (
             "good" if error_px <= FAIR_ERROR_PX else "bad",
-            tr("Lines land within"),
+            tr("Reprojection error"),
             f"{numbers.format_fixed(error_px, 2)} px",
             lands,
         ),
@@ -141,7 +141,7 @@ def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, s
     registered = tr("good: below {most} px").format(most=format_rounded(MAX_REGISTRATION_ERROR_PX))
     return [
         *rows,
-        ("good", tr("Depth scale"), scale, tr("put right") if calibration.is_usable else ""),
+        ("good", tr("Depth scale"), scale, tr("corrected") if calibration.is_usable else ""),
         (
             "good" if depth.is_registered else "bad",
             tr("Colour on depth"),
@@ -157,10 +157,10 @@ def storage_words(result: BoardResult) -> str:
         return ""
     if not result.serial:
         return tr(
-            "This camera does not say its number, so nothing can be kept for it. “carpus calibrate-camera --output” "
-            "writes a camera file that the settings can name."
+            "This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera "
+            "--output” writes a camera file that the settings can name."
         )
-    words = tr("Kept for this camera, number {serial}. Sessions measured before keep their values and say so.")
+    words = tr("Saved for this camera, number {serial}. Earlier sessions keep their values.")
     return words.format(serial=result.serial)
 
 

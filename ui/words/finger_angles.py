@@ -29,8 +29,8 @@ _THUMB_JOINTS: dict[AngleKind, str] = {
 
 
 _KIND_NAMES: Mapping[str, Phrase] = {
-    "lift": phrase("Lift"), "knuckle": phrase("Knuckle"), "middle": phrase("Middle joint"), "end": phrase("End joint"),
-    "spread": phrase("Spread"), "tam": phrase("TAM"),
+    "lift": phrase("Palmar abduction"), "knuckle": phrase("MCP"), "middle": phrase("PIP"), "end": phrase("DIP"),
+    "ip": phrase("IP"), "spread": phrase("Spread"), "tam": phrase("TAM"),
 }  # fmt: skip
 
 
@@ -74,6 +74,8 @@ class FingerAngle:
     @property
     def kind_name(self) -> str:
         """Name of its row."""
+        if self.finger == 1 and self.kind == "end":
+            return kind_name("ip")
         return kind_name("lift" if self.is_palmar_abduction else self.kind)
 
     @property
@@ -97,7 +99,7 @@ FINGER_ANGLES: tuple[FingerAngle, ...] = tuple(
 )
 
 
-def kind_name(kind: AngleKind | Literal["lift"]) -> str:
+def kind_name(kind: AngleKind | Literal["lift", "ip"]) -> str:
     """Return the name of a kind of angle."""
     return translate_phrase(_KIND_NAMES[kind])
 
@@ -113,12 +115,12 @@ def _long_name(angle: FingerAngle) -> str:
 def _end_names(angle: FingerAngle) -> tuple[str, str]:
     low, high = (f"{format_rounded(abs(value))}°" for value in angle.range_deg)
     if angle.is_palmar_abduction:
-        return tr("In the palm’s plane"), tr("Lifted {angle}").format(angle=high)
+        return tr("In the plane of the palm (0°)"), tr("Palmar abduction {angle}").format(angle=high)
     if angle.kind != "spread":
         return tr("Straight"), tr("Bent {angle}").format(angle=high)
     if angle.finger == 3:
         return tr("Ulnar {angle}").format(angle=low), tr("Radial {angle}").format(angle=high)
-    return tr("Inwards {angle}").format(angle=low), tr("Away {angle}").format(angle=high)
+    return tr("Adducted {angle}").format(angle=low), tr("Abducted {angle}").format(angle=high)
 
 
 def spread_side(value_deg: float, finger: int = 0) -> str:
@@ -148,7 +150,11 @@ def spread_labels(tick_deg: float, finger: int = 0) -> tuple[tuple[float, str], 
 def progress_measure_name(joint: str) -> str:
     """Return the name of the measure that is followed for every finger."""
     figure = find_finger_angle(joint)
-    return tr("Total active motion (TAM)") if figure.kind == "tam" else tr("{row}, range").format(row=figure.kind_name)
+    return (
+        tr("Total active motion (TAM)")
+        if figure.kind == "tam"
+        else tr("{row}, range of motion").format(row=figure.kind_name)
+    )
 
 
 def find_finger_angle(joint: str) -> FingerAngle:

@@ -41,13 +41,17 @@ _GRADES = {
 # What an exercise trains, in the head of a column and before a list of fingers.
 _MAIN_NAMES = {
     "tam": (phrase("TAM"), phrase("TAM")), "spread": (phrase("spread"), phrase("Spreading")),
-    "middle": (phrase("PIP"), phrase("Middle joints")),
+    "middle": (phrase("PIP"), phrase("PIP joints")),
 }  # fmt: skip
 _FINGER_GROUPS = {
-    "knuckle": phrase("knuckles of {fingers}"), "middle": phrase("middle joints of {fingers}"),
-    "end": phrase("end joints of {fingers}"), "spread": phrase("spreading of {fingers}"),
+    "knuckle": phrase("MCP of {fingers}"), "middle": phrase("PIP of {fingers}"),
+    "end": phrase("DIP of {fingers}"), "spread": phrase("spreading of {fingers}"),
 }  # fmt: skip
-_THUMB_NAMES: dict[AngleKind, Phrase] = {"knuckle": phrase("MCP"), "middle": phrase("Lift"), "end": phrase("IP")}
+_THUMB_NAMES: dict[AngleKind, Phrase] = {
+    "knuckle": phrase("MCP"),
+    "middle": phrase("Palm. abd."),
+    "end": phrase("IP"),
+}
 
 
 _COLUMN = TableColumn(is_wrapped=False)
@@ -79,14 +83,14 @@ def _find_shares(results: SessionResults, other_hand: SessionResults | None) -> 
 
 def _head_line(results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None) -> TableRow:
     day = numbers.format_time_or_day(previous.when, results.when) if previous and is_joint_exercise(results) else ""
-    compared = tr("lift") if is_thumb_exercise(results) else translate_phrase(_MAIN_NAMES[main_kind(results)][0])
+    compared = tr("palm. abd.") if is_thumb_exercise(results) else translate_phrase(_MAIN_NAMES[main_kind(results)][0])
     total = share = ""
     if has_totals(results):
         shares = _find_shares(results, other_hand)
         of_other = bool(shares) and all(share.quantity == SHARE_OF_OTHER for share in shares)
-        total, share = tr("Total (TAM)"), tr("Of other hand") if of_other else tr("Of usual")
+        total, share = tr("Total (TAM)"), tr("% of other hand") if of_other else tr("% of reference")
     joints: tuple[tuple[AngleKind, str], ...] = (
-        ("knuckle", tr("Knuckle (MCP)")), ("middle", tr("Middle (PIP)")), ("end", tr("End (DIP)")), ("tam", total),
+        ("knuckle", tr("MCP")), ("middle", tr("PIP")), ("end", tr("DIP")), ("tam", total),
     )  # fmt: skip
     *bent, all_joints = (Cell(words, MEDIUM, "text2", mark_token=KIND_TOKENS[row]) for row, words in joints)
     last = tr("{what}, {day}").format(what=compared, day=day) if day else ""
@@ -148,21 +152,21 @@ def limitation_words(results: SessionResults) -> str:
             if not found.count:
                 unseen.append(FingerAngle(finger, row).long_name)
             elif found.is_lower_bound and finger == 1 and row == "middle":
-                lifted.append(tr("lift of the thumb"))
+                lifted.append(tr("palmar abduction of the thumb"))
             elif found.is_lower_bound:
                 limited[row].append(to_mid_sentence(finger_name(str(finger))))
     parts = []
     for row, names in limited.items():
         if names:
-            who = tr("all fingers") if len(names) == len(FINGERS) else ", ".join(names)
-            parts.append(translate_phrase(_FINGER_GROUPS[row]).format(fingers=who))
+            patient = tr("all fingers") if len(names) == len(FINGERS) else ", ".join(names)
+            parts.append(translate_phrase(_FINGER_GROUPS[row]).format(fingers=patient))
     parts += lifted
     words = []
     if parts:
-        pattern = tr("Limited by the camera’s view ({sign}: at least): {parts}. Hidden stretches do not count.")
+        pattern = tr("Partly occluded ({sign} = minimum): {parts}. Occluded frames are not analysed.")
         words.append(pattern.format(sign=LOWER_BOUND, parts="; ".join(parts)))
     if unseen:
-        words.append(tr("Not seen: {joints}.").format(joints="; ".join(unseen)))
+        words.append(tr("Not visible: {joints}.").format(joints="; ".join(unseen)))
     return " ".join([*words, *total_words(results)])
 
 
@@ -171,19 +175,19 @@ def total_words(results: SessionResults) -> list[str]:
     totals = [row for row in results.joint_ranges if is_total_active_motion(row.subject)]
     if not totals:
         return []
-    words = [tr("Total active motion (TAM): the largest sum of a finger’s bending in one moment, all its joints seen.")]
+    words = [tr("Total active motion (TAM): largest sum of a finger’s flexion at one moment with all joints visible.")]
     if not any(row.count for row in totals):
-        words = [tr("No total active motion (TAM): no finger’s joints were all seen at once.")]
+        words = [tr("No total active motion (TAM): no finger had all joints visible at once.")]
     elif any(not row.count for row in totals):
-        words.append(tr("It is missing where a finger’s joints were never all seen at once."))
+        words.append(tr("It is missing for fingers whose joints were never all visible at once."))
     if any(row.is_inferred for row in totals):
-        words.append(tr("DIP not measured: TAM takes it as two thirds of PIP."))
+        words.append(tr("DIP not measured: TAM assumes two thirds of PIP."))
     norm = total_norm(2, results.exercise)
     if any(row.count for row in totals) and norm is not None:
         words.append(
             tr(
-                "Share of the other hand’s TAM, else of the usual 260° (thumb 140°): excellent from 100 %, good above "
-                "75 %, fair above 50 %, else poor (ASSH)."
+                "Share of the other hand’s TAM, else of the reference value of 260° (thumb 140°). ASSH: excellent "
+                "from 100 %, good above 75 %, fair above 50 %, else poor."
             )
         )
         words.append(translate_phrase(norm.sentence()))
@@ -198,7 +202,7 @@ def range_cell(results: SessionResults, angle: FingerAngle) -> str | Cell:
     row = results.find(angle.joint, "arc")
     if row is None and angle.kind == "tam":
         return ""
-    words, ends = tr("not seen"), ""
+    words, ends = tr("not visible"), ""
     if row is None:
         words = tr("not measured") if angle.kind == "end" else numbers.UNKNOWN
     elif row.count:
@@ -231,7 +235,7 @@ def _line_of_finger(
         if found[0].is_lower_bound:
             change = tr("at least {change}").format(change=change)
         if verdict == "not_judged":
-            change = tr("not judged: {why}").format(why=reason_words(found[0].reasons))
+            change = tr("not assessed: {why}").format(why=reason_words(found[0].reasons))
     return (
         finger_name(str(finger)),
         *(range_cell(results, FingerAngle(finger, row)) for row in COLUMNS),
@@ -255,7 +259,7 @@ def _range_ends(results: SessionResults, angle: FingerAngle) -> str:
     if low is None or high is None:
         return ""
     if angle.kind == "tam":
-        return tr("bends {full}, lacks {missing}").format(
+        return tr("flexion {full}, deficit {missing}").format(
             full=numbers.format_degrees(high.mean), missing=numbers.format_degrees(low.mean)
         )
     ends = sorted((angle.sign * low.mean, angle.sign * high.mean))
@@ -275,9 +279,10 @@ def progress_choices(results: SessionResults) -> list[tuple[str, str]]:
         return []
     kinds = [("tam", tr("TAM of all fingers"))] if main_kind(results) == "tam" else []
     kinds.append(("spread", tr("Spreading of all fingers")))
-    kinds += [(str(finger), _finger_label(finger)) for finger in FINGERS]
+    kinds.append(("1", finger_name("1")))
+    kinds += [(str(k), tr("{finger} finger").format(finger=finger_name(str(k)))) for k in FINGERS[1:]]
     if is_thumb_exercise(results):
-        return [("lift", tr("Lift and spread of the thumb")), *kinds[1:], kinds[0], ("", tr("Wrist"))]
+        return [("lift", tr("Palmar and radial abduction of the thumb")), *kinds[1:], kinds[0], ("", tr("Wrist"))]
     if main_kind(results) == "middle":
         kinds = [*kinds[1:], kinds[0]]
     return [*kinds, ("", tr("Wrist"))]
@@ -290,11 +295,6 @@ def progress_keys(choice: str) -> tuple[MeasureKey, ...]:
     if choice == "lift":
         return thumb_measure_keys()
     return finger_measure_keys(0 if choice == "tam" else int(choice)) if choice else ()
-
-
-def _finger_label(finger: int) -> str:
-    name = finger_name(str(finger))
-    return name if finger == 1 else tr("{finger} finger").format(finger=name)
 
 
 def main_result_words(results: SessionResults) -> str:

@@ -35,10 +35,10 @@ def measure_name(measure: ManualMeasure) -> str:
             else tr("Wrist, {movement}").format(movement=to_mid_sentence(name))
         )
     finger = int(joint[-1])
-    row = {"MCP": tr("knuckle"), "PIP": tr("middle joint"), "DIP": tr("end joint"), "IP": tr("end joint")}[joint[:-1]]
+    row = {"MCP": tr("MCP"), "PIP": tr("PIP"), "DIP": tr("DIP"), "IP": tr("IP")}[joint[:-1]]
     name = long_finger_name(str(finger))
     return tr("{finger}, {joint}, {movement}").format(
-        finger=name, joint=row, movement=tr("straight") if movement == "EXTENSION" else tr("bent")
+        finger=name, joint=row, movement=tr("extension") if movement == "EXTENSION" else tr("flexion")
     )
 
 
@@ -68,13 +68,13 @@ def value_words(measure: ManualMeasure, value: float) -> str:
 def group_names() -> dict[str, str]:
     """Return the headings of the form by kind, in order."""
     return {
-        "angle": tr("Goniometer"), "force": tr("Force"), "size": tr("Size"), "score": tr("Scores"),
+        "angle": tr("Goniometer"), "force": tr("Force"), "size": tr("Circumference and volume"), "score": tr("Scores"),
     }  # fmt: skip
 
 
 def direction_words(measure: ManualMeasure) -> str:
     """Say which direction of a score is better."""
-    return {"less": tr("less is better"), "more": tr("more is better"), "": ""}[measure.better_direction]
+    return {"less": tr("lower is better"), "more": tr("higher is better"), "": ""}[measure.better_direction]
 
 
 def full_name(key: MeasureKey) -> str:
@@ -85,7 +85,7 @@ def full_name(key: MeasureKey) -> str:
 def verdict_words(change: ManualChange) -> tuple[str, str]:
     """Return state and text of a change."""
     if change.verdict == "not_judged":
-        return "none", tr("not judged")
+        return "none", tr("not assessed")
     if change.verdict == "within_error":
         return "none", verdict_word("no_change")
     return ("good", tr("improved")) if change.verdict == "improved" else ("bad", tr("worse"))
@@ -93,13 +93,13 @@ def verdict_words(change: ManualChange) -> tuple[str, str]:
 
 def change_words(change: ManualChange) -> str:
     """Return ``45° → 58° since 2 Oct (error 10°)``."""
-    of = find_manual_measure(change.first.measure)
+    manual_measure = find_manual_measure(change.first.measure)
     words = tr("{before} → {after} since {day}").format(
-        before=value_words(of, change.first.value), after=value_words(of, change.last.value),
+        before=value_words(manual_measure, change.first.value), after=value_words(manual_measure, change.last.value),
         day=numbers.format_day_month(change.first.day),
     )  # fmt: skip
     if math.isfinite(change.min_real_change):
-        words += " " + tr("(error {size})").format(size=value_words(of, change.min_real_change))
+        words += " " + tr("(MDC {size})").format(size=value_words(manual_measure, change.min_real_change))
     return words
 
 
@@ -116,12 +116,12 @@ def day_words(values: Sequence[ManualValue]) -> str:
         by_measure.setdefault(key[0], []).append(value_history(values, key)[-1])
     words = []
     for name, found in by_measure.items():
-        of = find_manual_measure(name)
-        said = ", ".join(
-            " ".join(filter(None, (value_words(of, v.value), mode_name(v.mode), v.location))) for v in found
+        manual_measure = find_manual_measure(name)
+        text = ", ".join(
+            " ".join(filter(None, (value_words(manual_measure, v.value), mode_name(v.mode), v.location))) for v in found
         )
-        unit = f" {unit_name(of)}" if of.unit == "points" else ""
-        words.append(f"{measure_name(of)} {said}{unit}")
+        unit = f" {unit_name(manual_measure)}" if manual_measure.unit == "points" else ""
+        words.append(f"{measure_name(manual_measure)} {text}{unit}")
     return "; ".join(words)
 
 

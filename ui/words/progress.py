@@ -27,11 +27,13 @@ def headline(progress: Progress) -> tuple[str, str]:
     compared = [point for point in progress.points if not point.reasons]
     if len(compared) < 2 and len(progress.points) > 1:
         out = len(progress.points) - len(compared)
-        kept = tr("1 session is left out.") if out == 1 else tr("{count} sessions are left out.").format(count=out)
-        why = tr("What is left out, or was measured otherwise, is not compared.")
-        return tr("Nothing to compare: {left_out}").format(left_out=kept), why
+        is_kept = tr("1 session is excluded.") if out == 1 else tr("{count} sessions are excluded.").format(count=out)
+        reason = tr("Excluded sessions and sessions with another set-up are not compared.")
+        return tr("Nothing to compare: {left_out}").format(left_out=is_kept), reason
     if first is None or last is None or main is None or first is last:
-        return tr("One session does not make a course."), tr("Compare after the next session of the same kind.")
+        return tr("At least two sessions are needed to show progress."), tr(
+            "Compare after the next session of the same kind."
+        )
     day = numbers.format_distinct_day(first.when, last.when)
     name = _subject(main)
     size = numbers.format_degrees(main.display_difference_deg)
@@ -49,14 +51,14 @@ def headline(progress: Progress) -> tuple[str, str]:
     if main.verdict == "improved":
         answer = tr("{name} has improved by {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "worse":
-        answer = tr("{name} has lost {size} since {day}.").format(name=name, size=size, day=day)
+        answer = tr("{name} has decreased by {size} since {day}.").format(name=name, size=size, day=day)
     elif main.verdict == "no_change":
-        answer = tr("No change proven since {day}.").format(day=day)
+        answer = tr("No change beyond measurement error since {day}.").format(day=day)
     elif main.is_joint and min(first.repetition_count, last.repetition_count) >= MIN_REPETITIONS_FOR_SD:
-        return tr("Not judged: the joints were hidden in part."), tr("What is hidden does not count.")
+        return tr("Not assessed: the joints were partly occluded."), tr("Occluded frames are not analysed.")
     else:
-        why = reason_words(main.reasons)
-        return tr("Not judged: {why}.").format(why=why or tr("too few repetitions to compare")), ""
+        reason = reason_words(main.reasons)
+        return tr("Not assessed: {why}.").format(why=reason or tr("too few repetitions to compare")), ""
     others = [item for item in progress.comparisons if item is not main and item.verdict != "not_judged"]
     if main.is_joint:  # of many joints only those that changed
         others = [item for item in others if item.is_beyond_error]
@@ -83,7 +85,7 @@ def _subject(item: Comparison) -> str:
         finger = to_mid_sentence(long_finger_name(str(figure.finger)))
         return tr("{joint} of the {finger}").format(joint=figure.kind_name, finger=finger)
     what = item.after.quantity
-    return tr("The whole arc") if what == "arc" else terms.movement_long_name(what)
+    return tr("The total arc") if what == "arc" else terms.movement_long_name(what)
 
 
 def _basis(item: Comparison) -> str:
@@ -103,7 +105,7 @@ def _change_sentence(item: Comparison) -> str:
         if item.is_lower_bound:
             change = tr("at least {change}").format(change=change)
         return tr("{name}: {change}.").format(name=name, change=change)
-    return tr("{name}: no change proven.").format(name=name)
+    return tr("{name}: no change beyond measurement error.").format(name=name)
 
 
 def value_pair(item: Comparison) -> str:
@@ -123,12 +125,12 @@ def _end_values(item: Comparison) -> tuple[str, str]:
 def change_line(item: Comparison) -> str:
     """Return ``23° more, error 10°``; of an occluded joint at most a lower bound."""
     if item.is_joint and item.verdict == "not_judged":
-        return tr("hidden in part, or too few")
+        return tr("partly occluded, or too few")
     if item.is_lower_bound:
-        return tr("at least {change}, error {limit}").format(
+        return tr("at least {change}, MDC {limit}").format(
             change=difference_words(item.display_difference_deg), limit=numbers.format_degrees(item.limit_deg)
         )
-    return tr("{change}, error {limit}").format(
+    return tr("{change}, MDC {limit}").format(
         change=difference_words(item.display_difference_deg), limit=numbers.format_degrees(item.limit_deg)
     )
 
@@ -139,11 +141,11 @@ def _day_text(point: ProgressPoint, progress: Progress) -> str:
 
 def uncertainty_words(point: ProgressPoint, progress: Progress) -> str:
     """Say what was uncertain about a session that is compared; empty if nothing."""
-    said = " ".join(finding_words(finding).summary for finding in point.results.findings)
-    if not said or not point.is_comparable:
+    text = " ".join(finding_words(finding).summary for finding in point.results.findings)
+    if not text or not point.is_comparable:
         return ""
-    words = tr("{day}: measured although doubtful. {findings}")
-    return words.format(day=_day_text(point, progress), findings=said)
+    words = tr("{day}: measured although uncertain. {findings}")
+    return words.format(day=_day_text(point, progress), findings=text)
 
 
 def exclusion_words(point: ProgressPoint, progress: Progress) -> str:
@@ -162,16 +164,18 @@ def exclusion_words(point: ProgressPoint, progress: Progress) -> str:
         reasons.append(words.get(reason) or reason_words((reason,)))
     day = _day_text(point, progress)
     has_ring = point.results.measures_in_group("range")
-    pattern = tr("{day}: {reasons}. Shown as a ring and left out.") if has_ring else tr("{day}: {reasons}. Left out.")
+    pattern = (
+        tr("{day}: {reasons}. Excluded (shown as an open circle).") if has_ring else tr("{day}: {reasons}. Excluded.")
+    )
     return pattern.format(day=day, reasons=", ".join(reasons))
 
 
 def correction_words(results: SessionResults) -> str:
     """Say when and by whom markers were corrected after the recording; empty if never."""
-    said = results.correction
-    if said is None:
+    text = results.correction
+    if text is None:
         return ""
-    day, at = numbers.format_date(said.corrected_at), numbers.format_clock_tenths(said.first_corrected_s)
-    if said.initials:
-        return tr("Corrected on {day}, from {time}, by {who}.").format(day=day, time=at, who=said.initials)
+    day, at = numbers.format_date(text.corrected_at), numbers.format_clock_tenths(text.first_corrected_s)
+    if text.initials:
+        return tr("Corrected on {day}, from {time}, by {who}.").format(day=day, time=at, who=text.initials)
     return tr("Corrected on {day}, from {time}.").format(day=day, time=at)

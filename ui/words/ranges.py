@@ -23,17 +23,17 @@ from carpus.ui.words import terms
 from carpus.ui.words.verdicts import long_change_words, reason_words, short_change_words
 
 _UNMEASURED: Mapping[str, Phrase] = {
-    "hidden": phrase("not seen well enough"),
-    "cut_by_start": phrase("the recording began in it"),
-    "cut_by_gap": phrase("the hand went out of sight in it"),
-    "cut_by_end": phrase("the recording ended in it"),
+    "hidden": phrase("not visible enough"),
+    "cut_by_start": phrase("cut off at the start of the recording"),
+    "cut_by_gap": phrase("the hand left the camera’s view"),
+    "cut_by_end": phrase("cut off at the end of the recording"),
 }
 _UNCOUNTED: Mapping[NoRepetitionReason, Phrase] = {
     "too_short": phrase("it is too short"),
-    "nothing_seen": phrase("what is trained was not seen"),
+    "nothing_seen": phrase("the exercised joint was not visible"),
     "small_range": phrase("less than 10° of movement"),
-    "cut_by_gap": phrase("the hand went out of sight during the movement"),
-    "no_return": phrase("it never went there and back"),
+    "cut_by_gap": phrase("the hand left the camera’s view during the movement"),
+    "no_return": phrase("no complete movement cycle"),
     "too_quick": phrase("each was quicker than 0.4 s"),
 }
 
@@ -60,7 +60,7 @@ def range_table(
     day = numbers.format_time_or_day(previous.when, results.when) if previous else ""
     heads = (
         tr("Movement"), tr("Today, mean ± sd"), tr("Best"), terms.hand_name(other_hand.side) if other_hand else "",
-        tr("Usual (adults)"), day, tr("Change since {day}").format(day=day) if day else "",
+        tr("Reference (adults)"), day, tr("Change since {day}").format(day=day) if day else "",
     )  # fmt: skip
     changes = {item.key: item for item in compare_ranges(previous, results)} if previous else {}
     rows = [
@@ -83,46 +83,31 @@ def reference_words(results: SessionResults) -> str:
 
 def repetition_words(results: SessionResults) -> str:
     """Return the number of repetitions and which are excluded, and why."""
-    if not any(repetition.is_whole for repetition in results.repetitions):
-        ways = [len(item.values) for item in results.measures_in_group("task") if item.quantity == "movement time"]
-        if ways:
-            words = tr("{count} ways out and back; ranges over the whole recording").format(count=sum(ways))
-            return "; ".join([words, *_without_passive(results)])
-        words = "; ".join([_missing_repetition_words(results), *_without_passive(results)])
+    excluded_passive = [tr("passive repetitions excluded")] if results.excludes_passive else []
+    strokes = [len(item.values) for item in results.measures_in_group("task") if item.quantity == "movement time"]
+    parts = []
+    if any(repetition.is_whole for repetition in results.repetitions):
+        count = results.repetition_count
+        words = tr("mean of {count} repetitions").format(count=count) if count else tr("no active repetition")
+        parts.append(tr("1 repetition") if count == 1 else words)
+    elif strokes:
+        words = tr("{count} strokes out and back; ranges over the whole recording").format(count=sum(strokes))
+        return "; ".join([words, *excluded_passive])
     else:
-        counted = results.repetition_count
-        words = tr("mean of {count} repetitions").format(count=counted) if counted else tr("no active repetition")
-        if counted == 1:
-            words = tr("1 repetition")
-    parts = [words]
-    if helped := sum(repetition.is_passive for repetition in results.repetitions):
-        parts.append(tr("1 passive beside it") if helped == 1 else tr("{count} passive beside it").format(count=helped))
+        words = tr("range over the whole recording; no repetitions")
+        if results.no_repetitions_reason:
+            words = f"{words}: {translate_phrase(_UNCOUNTED[results.no_repetitions_reason])}"
+        parts += [words, *excluded_passive]
+    if passive := sum(repetition.is_passive for repetition in results.repetitions):
+        parts.append(tr("plus 1 passive") if passive == 1 else tr("plus {count} passive").format(count=passive))
     for number, repetition in enumerate(results.repetitions, 1):
         if not (repetition.is_counted or repetition.is_passive):
-            said = "" if repetition.exclusion_reason == PASSIVE else repetition.exclusion_reason
-            reason = said or translate_phrase(_UNMEASURED[repetition.unmeasured_reason])
-            parts.append(tr("number {number} left out: {reason}").format(number=number, reason=reason))
-    return _add_occlusion(parts, results)
-
-
-def _without_passive(results: SessionResults) -> list[str]:
-    return [tr("without what was passive")] if results.excludes_passive else []
-
-
-def _missing_repetition_words(results: SessionResults) -> str:
-    whole = tr("one range over the whole recording; no repetitions")
-    return (
-        f"{whole}: {translate_phrase(_UNCOUNTED[results.no_repetitions_reason])}"
-        if results.no_repetitions_reason
-        else whole
-    )
-
-
-def _add_occlusion(parts: list[str], results: SessionResults) -> str:
-    """Add the time without a visible hand, whose movements are not counted."""
+            text = "" if repetition.exclusion_reason == PASSIVE else repetition.exclusion_reason
+            reason = text or translate_phrase(_UNMEASURED[repetition.unmeasured_reason])
+            parts.append(tr("number {number} excluded: {reason}").format(number=number, reason=reason))
     if results.exercise.has_repetitions and results.occluded_s >= 1.0:
-        seconds = format_rounded(results.occluded_s)
-        parts = [*parts, tr("{seconds} s not seen and not counted").format(seconds=seconds)]
+        # Movements without a visible hand are not in the number of repetitions.
+        parts.append(tr("{seconds} s occluded and not analysed").format(seconds=format_rounded(results.occluded_s)))
     return "; ".join(parts)
 
 
@@ -160,21 +145,21 @@ def _line_of_range(
     if results.exercise.angle is None and row.quantity == "arc":
         name = terms.arc_name(row.wrist_angle)
     before, beside = (item.find(*row.key) if item else None for item in (previous, other_hand))
-    said = ""
+    text = ""
     if change is not None and is_short:
-        said = short_change_words(change.verdict, change.display_difference_deg, change.limit_deg)
+        text = short_change_words(change.verdict, change.display_difference_deg, change.limit_deg)
     elif change is not None:
-        said = long_change_words(change.verdict, change.display_difference_deg, change.limit_deg)
-        said = said or tr("not judged: {why}").format(why=reason_words(change.reasons))
-    limited = (tr("limited by view") if is_short else tr("limited by the camera's view")) if row.is_lower_bound else ""
-    words, verdict = "; ".join(filter(None, (said, limited))), change.verdict if change else ""
+        text = long_change_words(change.verdict, change.display_difference_deg, change.limit_deg)
+        text = text or tr("not assessed: {why}").format(why=reason_words(change.reasons))
+    limited = tr("partly occluded") if row.is_lower_bound else ""
+    words, verdict = "; ".join(filter(None, (text, limited))), change.verdict if change else ""
     norm = wrist_norm(row.quantity, row.wrist_angle, results.exercise)
     return (
         name if row.quantity == "arc" else Cell(name, MEDIUM, mark_token=CURVE_TOKENS[row.wrist_angle]),
         mean_words(row),
         terms.end_words(row.best, row.quantity),
         terms.end_words(beside.mean, row.quantity) if beside else "",
-        numbers.UNKNOWN if norm is None else _span(norm.low_deg, norm.high_deg),
+        numbers.UNKNOWN if norm is None else numbers.format_degree_range(norm.low_deg, norm.high_deg),
         terms.end_words(before.mean, row.quantity) if before else "",
         Cell(words, MEDIUM, VERDICT_TOKENS[verdict]) if verdict in VERDICT_TOKENS else words,
     )
@@ -183,9 +168,9 @@ def _line_of_range(
 def _line_of_still_angle(row: Measure, results: SessionResults, previous: SessionResults | None) -> TableRow:
     limit = results.exercise.trick_limit_deg
     before = previous.find(*row.key) if previous else None
-    change: str | Cell = tr("as asked: the hand stays in line")
+    change: str | Cell = tr("as intended: the hand stays in line")
     if row.mean > limit:
-        change = Cell(tr("more than asked: watch the exercise"), MEDIUM, VERDICT_TOKENS["warn"])
+        change = Cell(tr("more than intended: check the exercise technique"), MEDIUM, VERDICT_TOKENS["warn"])
     return (
         Cell(translate_phrase(STILL_NAMES[row.wrist_angle]), MEDIUM, mark_token=CURVE_TOKENS[row.wrist_angle]),
         tr("{angle} at most").format(angle=numbers.format_degrees(row.mean)),
@@ -212,7 +197,7 @@ def mean_speed_words(results: SessionResults) -> str:
 def _line_of_speed(
     speed: Measure, previous: SessionResults | None, other_hand: SessionResults | None, is_short: bool
 ) -> TableRow:
-    change = tr("not judged") if is_short else tr("not judged: no error limit is known")
+    change = tr("not assessed") if is_short else tr("not assessed: no MDC is known")
     return (
         tr("Peak speed"),
         speed_words(speed),
@@ -222,7 +207,3 @@ def _line_of_speed(
         mean_speed_words(previous) if previous else "",
         change if previous else "",
     )
-
-
-def _span(low: float, high: float) -> str:
-    return f"{format_rounded(low)}°" if low == high else f"{format_rounded(low)}–{format_rounded(high)}°"

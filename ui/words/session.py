@@ -59,14 +59,14 @@ def hand_summary(results: SessionResults, previous: SessionResults | None, first
     today, bounds = [], 0
     for figure in shown:
         row = results.find(figure.joint, "arc")
-        words = range_words(row, has_sd=False) if row is not None and row.count else tr("not seen")
+        words = range_words(row, has_sd=False) if row is not None and row.count else tr("not visible")
         name = figure.kind_name if is_thumb_exercise(results) else finger_name(str(figure.finger))
         today.append(f"{to_mid_sentence(name)} {words}")
         bounds += bool(row is not None and row.count and row.is_lower_bound)
     parts = [f"{main}."] if main else []
     parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
     if bounds:
-        parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=LOWER_BOUND))
+        parts.append(tr("{sign}: the end of this movement was occluded.").format(sign=LOWER_BOUND))
     return " ".join([*parts, *change_sentences(results, previous, first)])
 
 
@@ -89,36 +89,36 @@ def change_sentence(results: SessionResults, earlier: SessionResults, since: str
     judged = [item for item in changes if item.verdict != "not_judged"]
     if not judged:
         why = reason_words([reason for item in changes for reason in item.reasons])
-        return tr("Change since {when} is not judged: {why}.").format(when=since, why=why) if changes else ""
+        return tr("Change since {when} is not assessed: {why}.").format(when=since, why=why) if changes else ""
     beyond = [item for item in judged if item.is_beyond_error]
-    said = tr("No change proven since {when}.").format(when=since)
+    text = tr("No change beyond measurement error since {when}.").format(when=since)
     if beyond:
         limits = [numbers.format_degrees(item.limit_deg) for item in beyond]
         once = len(set(limits)) == 1
         words = ", ".join(
             _describe_change(item, "" if once else limit) for item, limit in zip(beyond, limits, strict=True)
         )
-        pattern = tr("Since {when}: {changes} (error {limit}).") if once else tr("Since {when}: {changes}.")
-        said = pattern.format(when=since, changes=words, limit=limits[0])
+        pattern = tr("Since {when}: {changes} (MDC {limit}).") if once else tr("Since {when}: {changes}.")
+        text = pattern.format(when=since, changes=words, limit=limits[0])
     hidden = bool(results.joint_ranges) and len(judged) < len(changes)
-    return f"{said} {tr('What was hidden in part is not judged.')}" if hidden else said
+    return f"{text} {tr('Partly occluded joints are not assessed.')}" if hidden else text
 
 
 def _describe_change(item: Comparison, limit: str) -> str:
     """Return ``whole arc 34° better (error 14°)``, ``index at least 20° better``."""
-    of, what = item.key
-    name = to_mid_sentence(finger_name(of[3:4]) if item.is_joint else terms.movement_long_name(what))
+    subject, what = item.key
+    name = to_mid_sentence(finger_name(subject[3:4]) if item.is_joint else terms.movement_long_name(what))
     size = numbers.format_degrees(item.display_difference_deg)
     size = tr("at least {size}").format(size=size) if item.is_lower_bound else size
-    pattern = tr("{name} {size} better") if item.verdict == "improved" else tr("{name} {size} less")
-    words = pattern.format(name=tr("whole arc") if what == "arc" and not item.is_joint else name, size=size)
-    return f"{words} {tr('(error {limit})').format(limit=limit)}" if limit else words
+    pattern = tr("{name} improved by {size}") if item.verdict == "improved" else tr("{name} decreased by {size}")
+    words = pattern.format(name=tr("total arc") if what == "arc" and not item.is_joint else name, size=size)
+    return f"{words} {tr('(MDC {limit})').format(limit=limit)}" if limit else words
 
 
 def _range_name(row: Measure, results: SessionResults) -> str:
     if row.quantity == "arc":
         return (
-            tr("whole arc") if results.exercise.angle is not None else to_mid_sentence(terms.arc_name(row.wrist_angle))
+            tr("total arc") if results.exercise.angle is not None else to_mid_sentence(terms.arc_name(row.wrist_angle))
         )
     return to_mid_sentence(terms.movement_long_name(row.quantity))
 
@@ -139,14 +139,14 @@ def method_words(
     if results.angle_order == "isb":
         order = tr("Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.")
     if results.joint_ranges:
-        order = tr("Fingers: zero is straight, below it bent back. Wrist: {zero}.")
+        order = tr("Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.")
     if any(is_total_active_motion(row.subject) for row in results.joint_ranges):
         order = tr(
-            "Fingers: zero is straight, below it bent back; TAM is bending less what is missing to straight. "
-            "Wrist: {zero}."
+            "Fingers: 0° = straight; negative = hyperextension. TAM = total flexion minus extension deficit. Wrist: "
+            "{zero}."
         )
     if given:
-        zero = tr("zero is straight by the therapist’s goniometer: the hand started at {angles}").format(angles=given)
+        zero = tr("0° set by goniometer, start position {angles}").format(angles=given)
     sentences = [
         tr("Method: {markers} markers, colour and depth camera, {distance} away.").format(
             markers=markers, distance=distance
@@ -162,7 +162,7 @@ def method_words(
         else "",
         error_limit_words(results.study) if compared else "",
         duplicate_result_words(results.earlier_results),
-        tr("Carpus measures the hand in the room: it is the wrist only while the forearm rests."),
+        tr("Angles are relative to the room. They equal wrist angles only while the forearm is still."),
     ]
     return " ".join(filter(None, sentences))
 
@@ -190,25 +190,25 @@ def _sd_words(results: SessionResults) -> str:
     """Say what the ± is: SD between repetitions, or the tracker's."""
     spreads = {has_sd(row) for row in results.measures_in_group("range") if row.count and not row.is_lower_bound}
     if spreads == {True}:
-        return tr("± is the spread between repetitions; each angle itself is known to about {sd} where seen.")
+        return tr("± = SD between repetitions. A visible angle is known to about {sd}.")
     if spreads == {True, False}:
         return tr(
-            "± is the spread between repetitions, of fewer than 3 the tracker’s own sd of one value; each angle itself "
-            "is known to about {sd} where seen."
+            "± = SD between repetitions (with fewer than 3: SD of the estimate). "
+            "A visible angle is known to about {sd}."
         )
-    return tr("± is the tracker’s own sd of one value: there was no spread to give; each angle is known to about {sd}.")
+    return tr("± = SD of the estimate, as there are too few repetitions. Each angle is known to about {sd}.")
 
 
 def warning_lines(results: SessionResults) -> list[str]:
     """Return what must be read before any value."""
     lines = []
     if results.is_simulated:
-        lines.append(tr("Simulated hand: nobody’s movement was measured."))
+        lines.append(tr("Simulated data: no patient was measured."))
     if results.findings:
-        said = " ".join(finding_words(finding).summary for finding in results.findings)
-        lines.append(tr("Measured although doubtful: {findings}").format(findings=said))
+        text = " ".join(finding_words(finding).summary for finding in results.findings)
+        lines.append(tr("Measured although uncertain: {findings}").format(findings=text))
     if results.is_excluded:
-        lines.append(tr("This session is marked as not counting."))
+        lines.append(tr("This session is excluded from analysis."))
     if results.is_superseded:
         lines.append(tr("An older result: there is a newer one of the same recording."))
     if results.is_recovered:
@@ -241,14 +241,14 @@ def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
         pattern = tr("{share} % of the repetitions")
     hidden = pattern.format(share=numbers.format_fixed(100 * quality.hidden_share, 1))
     lines = [
-        (tr("Pictures measured"), missed, quality.measured_share > 0.9),
-        (tr("Markers hidden"), hidden, quality.hidden_share < 0.1),
+        (tr("Frames measured"), missed, quality.measured_share > 0.9),
+        (tr("Markers occluded"), hidden, quality.hidden_share < 0.1),
     ]
     arcs = [row for row in results.joint_ranges if row.quantity == "arc"]
     if arcs:
         bounds = sum(row.is_lower_bound or not row.count for row in arcs)
-        words = tr("{count} of {all} figures").format(count=bounds, all=len(arcs)) if bounds else tr("none")
-        lines.append((tr("At least (≥) or not seen"), words, not bounds))
+        words = tr("{count} of {all} values").format(count=bounds, all=len(arcs)) if bounds else tr("none")
+        lines.append((tr("Minimum (≥) or not visible"), words, not bounds))
     if results.exercise.is_forearm_fixed and math.isfinite(quality.forearm_movement_mm):
         words = tr("{distance} (limit {limit})").format(
             distance=numbers.format_millimetres(quality.forearm_movement_mm),
@@ -256,11 +256,11 @@ def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
         )
         lines.append((tr("Forearm moved"), words, not quality.has_forearm_moved))
         if math.isfinite(quality.centre_residual_mm):
-            words = tr("{depth} under its disc (scatter {residual})").format(
+            words = tr("{depth} below its marker (scatter {residual})").format(
                 depth=numbers.format_millimetres(-quality.centre_mm[2]),
                 residual=f"{numbers.format_fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
             )
-            lines.append((tr("Point the wrist turns about"), words, True))
+            lines.append((tr("Wrist rotation centre"), words, True))
     limit = results.exercise.trick_limit_deg
     for row in results.measures_in_group("still"):
         words = tr("{angle} at most (limit {limit})")
@@ -291,9 +291,9 @@ def speed_pain_lines(results: SessionResults) -> list[tuple[str, str]]:
     if pauses is not None and pause_time is not None and pauses.count:
         words = tr("{count} per stroke, {seconds} s in all") if pauses.mean else tr("none")
         count, seconds = numbers.format_fixed(pauses.mean, 1), numbers.format_fixed(pause_time.mean, 1)
-        lines.append((tr("Stops on the way, mean"), words.format(count=count, seconds=seconds)))
+        lines.append((tr("Pauses during the movement, mean"), words.format(count=count, seconds=seconds)))
     if targets := target_words(results):
-        lines.append((tr("Target"), targets))
+        lines.append((tr("Goal"), targets))
     if len(results.pain_scores) > 1:
         lines.append((tr("Pain first / last (0–10)"), f"{results.pain_scores[0]} / {results.pain_scores[-1]}"))
     else:
@@ -305,7 +305,7 @@ def _single_pain(results: SessionResults) -> str:
     """Return ``3 at 01:14``."""
     if not results.pain_scores:
         return tr("not asked")
-    said, when = results.pain_scores[0], (*results.pain_times_s, math.nan)[0]
+    text, when = results.pain_scores[0], (*results.pain_times_s, math.nan)[0]
     return (
-        tr("{pain} at {time}").format(pain=said, time=numbers.format_clock(when)) if math.isfinite(when) else str(said)
+        tr("{pain} at {time}").format(pain=text, time=numbers.format_clock(when)) if math.isfinite(when) else str(text)
     )

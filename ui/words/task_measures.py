@@ -27,9 +27,9 @@ _DIGITS = {
 }  # fmt: skip
 _UNKNOWN = {
     "too_slow": phrase("too slow to judge"),
-    "hidden": phrase("hidden from the camera"),
+    "hidden": phrase("occluded"),
     "few_frames": phrase("not available: fewer than {count} frames a second", count=round(MIN_TREMOR_FPS)),
-    "failed": phrase("not available: it could not be computed"),
+    "failed": phrase("not available: the calculation failed"),
 }
 
 
@@ -117,7 +117,7 @@ def task_summary(results: SessionResults) -> str:
         return numbers.UNKNOWN if item is None else _value(item)
 
     if results.exercise.is_task and _find_value(results, "reach", "movement time") is not None:
-        words = tr("Out in {time}, fastest {speed}, way {straight} of straight, opened {opening}, wrist {wrist}")
+        words = tr("Reach {time}, peak speed {speed}, path ratio {straight}, grip aperture {opening}, wrist {wrist}")
         return words.format(
             time=describe("reach", "movement time"), speed=describe("reach", "peak speed"),
             straight=describe("reach", "straightness"), opening=describe("TIP1-TIP2", "largest aperture"),
@@ -128,18 +128,18 @@ def task_summary(results: SessionResults) -> str:
     if not touches:
         return ""
     if hidden == len(touches):
-        return tr("Whether the thumb touched the finger tips was hidden from the camera")
-    words = tr("The thumb touched {met} of {all} finger tips").format(met=_count_touches(touches), all=len(touches))
-    return tr("{words}; of {hidden} the camera did not see it").format(words=words, hidden=hidden) if hidden else words
+        return tr("Thumb contact was occluded")
+    words = tr("The thumb touched {met} of {all} fingertips").format(met=_count_touches(touches), all=len(touches))
+    return tr("{words}; {hidden} occluded").format(words=words, hidden=hidden) if hidden else words
 
 
 def short_task_summary(results: SessionResults) -> str:
     """Return the same for a narrow column, such as ``Touched 3 of 4``."""
     reach, touches = _find_value(results, "reach", "movement time"), _touches(results)
     if results.exercise.is_task and reach is not None:
-        return tr("Out in {time}").format(time=_value(reach))
+        return tr("Reach {time}").format(time=_value(reach))
     if any(item.unknown_reason for item in touches):
-        return tr("Touches hidden")
+        return tr("Contact occluded")
     return tr("Touched {met} of {all}").format(met=_count_touches(touches), all=len(touches)) if touches else ""
 
 

@@ -75,7 +75,7 @@ def deficit_name(movement: str) -> str:
 
 def deficit_words(size: str) -> str:
     """Return ``lacks 20°``: what is missing to neutral."""
-    return tr("lacks {angle}").format(angle=size)
+    return tr("{angle} deficit").format(angle=size)
 
 
 def end_words(mean_deg: float, movement: str = "", sd_deg: float = math.nan) -> str:

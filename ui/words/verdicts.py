@@ -17,8 +17,8 @@ def verdict_token(verdict: str) -> str:
 
 
 _VERDICTS: Mapping[str, Phrase] = {
-    "improved": phrase("improved"), "worse": phrase("worse"), "no_change": phrase("no change proven"),
-    "not_judged": phrase("not judged"),
+    "improved": phrase("improved"), "worse": phrase("worse"), "no_change": phrase("no change beyond MDC"),
+    "not_judged": phrase("not assessed"),
 }  # fmt: skip
 _REASONS: Mapping[str, Phrase] = {
     "side": phrase("the other hand"),
@@ -28,12 +28,12 @@ _REASONS: Mapping[str, Phrase] = {
     "few_repetitions_after": phrase("fewer than 3 repetitions"),
     "unknown": phrase("not measured"),
     "simulated": phrase("a simulated hand"),
-    "not_counted": phrase("marked as not counting"),
-    "doubtful": phrase("measured although the markers were doubtful"),
+    "not_counted": phrase("excluded from analysis"),
+    "doubtful": phrase("measured although the markers were uncertain"),
     "distance": phrase("the camera was at another distance"),
     "start_angle": phrase("another start angle was given"),
     "forearm_moved": phrase("the forearm moved"),
-    "hidden": phrase("hidden in part"),
+    "hidden": phrase("partly occluded"),
     "angle_order": phrase("angles in another order"),
     "only_passive": phrase("no active repetition"),
 }
@@ -53,9 +53,9 @@ def duplicate_result_words(earlier_results: int) -> str:
     """Say that only the newest result of a recording is analysed; empty without others."""
     if not earlier_results:
         return ""
-    words = tr("A recording counts once, by its newest result: 1 earlier result is left out.")
+    words = tr("Only the newest result of a recording is analysed: 1 earlier result is excluded.")
     if earlier_results > 1:
-        words = tr("A recording counts once, by its newest result: {count} earlier results are left out.")
+        words = tr("Only the newest result of a recording is analysed: {count} earlier results are excluded.")
     return words.format(count=earlier_results)
 
 
@@ -63,13 +63,13 @@ def error_limit_words(study: RetestStudy | None = None) -> str:
     """Explain the measurement error; ``study`` is the clinic's own."""
     if study is not None:
         return tr(
-            "“Error” is the smallest real change (MDC95), measured by this clinic on {date} with {count} people; where "
-            "it has none of its own, experts’ choice for Carpus. For the same protocol, side and set-up."
+            "MDC95 (measurement error) was measured by this clinic on {date} with {count} people, otherwise it is "
+            "the expert default of Carpus. It holds for the same protocol, side and set-up."
         ).format(date=numbers.format_date(datetime.fromisoformat(study.made)), count=study.people)
     return tr(
-        "“Error” is the smallest difference called a change: experts’ choice for Carpus, not published figures; of an "
-        "arc, which has two ends, √2 as much. For the same protocol, side and set-up, until the clinic has measured "
-        "its own."
+        "MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has "
+        "measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same "
+        "protocol, side and set-up."
     )
 
 
@@ -93,11 +93,9 @@ def change_since_first(verdict: str, change_deg: float) -> str:
 def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
     """Return ``2° more, within error (10°)``, for paper."""
     if verdict == "not_judged" or change_deg != change_deg:
-        return tr("not judged") if verdict == "not_judged" else ""
+        return tr("not assessed") if verdict == "not_judged" else ""
     pattern = (
-        tr("{difference}, within error ({limit})")
-        if verdict == "no_change"
-        else tr("{difference}, beyond error ({limit})")
+        tr("{difference}, within MDC ({limit})") if verdict == "no_change" else tr("{difference}, beyond MDC ({limit})")
     )
     return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))
 
@@ -107,8 +105,6 @@ def long_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
     if verdict == "not_judged" or change_deg != change_deg:
         return ""
     pattern = (
-        tr("{difference}: within measurement error ({limit})")
-        if verdict == "no_change"
-        else tr("{difference}: beyond measurement error ({limit})")
+        tr("{difference}: within MDC ({limit})") if verdict == "no_change" else tr("{difference}: beyond MDC ({limit})")
     )
     return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))

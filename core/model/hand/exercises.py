@@ -30,7 +30,7 @@ class MovementWords:
     deficit: Phrase
 
 
-_FLEXION, _EXTENSION, _ARC = phrase("Flexion"), phrase("Extension"), phrase("Whole arc")
+_FLEXION, _EXTENSION, _ARC = phrase("Flexion"), phrase("Extension"), phrase("Total arc")
 MOVEMENTS: Mapping[str, MovementWords] = {
     "radial": MovementWords(phrase("Radial"), phrase("Radial deviation"), phrase("Radial deviation deficit")),
     "ulnar": MovementWords(phrase("Ulnar"), phrase("Ulnar deviation"), phrase("Ulnar deviation deficit")),
@@ -41,14 +41,14 @@ MOVEMENTS: Mapping[str, MovementWords] = {
     "arc": MovementWords(_ARC, _ARC, _ARC),
 }
 # The whole arc of each angle, where more than one is shown.
-ARC_NAMES = (phrase("Side arc"), phrase("Bending arc"), phrase("Forearm rotation"))
+ARC_NAMES = (phrase("Radial–ulnar deviation"), phrase("Flexion–extension"), phrase("Forearm rotation"))
 # Each angle where it should stay still.
-STILL_NAMES = (phrase("Side movement"), phrase("Up and down"), phrase("Rotation from the start"))
+STILL_NAMES = (phrase("Radial–ulnar deviation"), phrase("Up and down"), phrase("Rotation from the start"))
 
 AXIS_TICK_DEG = (40.0, 80.0, 80.0)
 AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)  # Outermost tick and end of the fixed axis of each angle on every screen and page.
 
-_RETURN_CUE, _TASK_TITLE = phrase("Come back to the middle"), phrase("Further figures")
+_RETURN_CUE, _TASK_TITLE = phrase("Come back to the middle"), phrase("Additional measures")
 
 # Measures besides ranges: paths of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the
 # thumb moves with the fingers while it is hidden.
@@ -120,7 +120,7 @@ EXERCISES = (
     ),
     Exercise(
         "WRIST_RU", DEVIATION, 10, 10.0, True,
-        name=phrase("Wrist side to side"),
+        name=phrase("Radial–ulnar deviation"),
         instruction=phrase("Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still."),
         position=phrase("Palm flat on a smooth sheet, forearm strapped."),
         adult_cues=(phrase("Tilt your hand towards your thumb"), phrase("Tilt your hand towards your little finger")),
@@ -152,7 +152,7 @@ EXERCISES = (
         ),
         adult_cues=(phrase("Close your hand to a fist"),) * 2, child_cues=(phrase("Close"),) * 2,
         return_cue=phrase("Open your hand"), simulated_motion="fist",
-        task_measures=("together",), task_title=phrase("Fingers together"),
+        task_measures=("together",), task_title=phrase("Finger coordination"),
     ),
     Exercise(
         "FIST_HOOK", None, 10, math.nan, False, _FINGERS, "PIP3_flexion",
@@ -168,7 +168,7 @@ EXERCISES = (
         return_cue=phrase("Straighten your fingers"), simulated_motion="hook",
         has_free_dip=True,
         has_total_motion=False,
-        task_measures=("together",), task_title=phrase("Fingers together"),
+        task_measures=("together",), task_title=phrase("Finger coordination"),
     ),
     Exercise(
         "FINGER_ABAD", None, 10, math.nan, False, _FINGERS, "MCP2_abduction",
@@ -182,7 +182,7 @@ EXERCISES = (
     ),
     Exercise(
         "THUMB_OPP", None, 10, math.nan, False, DIGITS, "CMC1_abduction",
-        name=phrase("Thumb across the palm"),
+        name=phrase("Thumb opposition"),
         instruction=phrase("Touch each fingertip with the thumb in turn, opening it wide in between."),
         position=phrase("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
         visibility_note=phrase(

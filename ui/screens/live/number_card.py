@@ -262,7 +262,7 @@ class NumberCard(QWidget):
             draw_hatching(painter, screen_style(theme), swatch)
             painter.setFont(font(28 * scale, SEMIBOLD))
             painter.setPen(theme.color("text2"))
-            words = self.tr("predicted") if reading.figure is None else self.tr("follows the middle joint")
+            words = self.tr("predicted") if reading.figure is None else self.tr("coupled to the PIP")
             painter.drawText(QPointF(swatch.right() + 10, baseline), words)
         else:
             painter.setFont(font(SPREAD_PX, MEDIUM))
@@ -369,7 +369,7 @@ class NumberCard(QWidget):
         for target, way in ((reading.target_positive_deg, 1), (reading.target_negative_deg, -1)):
             if math.isfinite(target):
                 painter.fillRect(QRectF(x(target) - 1.5, middle - 14, 3, 28), theme.color("accent"))
-                words = self.tr("Target {angle}").format(angle=numbers.format_signed_degrees(way * target))
+                words = self.tr("Goal {angle}").format(angle=numbers.format_signed_degrees(way * target))
                 painter.setFont(font(16 * scale, SEMIBOLD))
                 width = QFontMetricsF(painter.font()).horizontalAdvance(words)
                 left = max(box.left(), min(box.right() - width, x(target) - width + 8 if target > 0 else x(target) - 8))

@@ -51,7 +51,7 @@ def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_move
             "warn", tr("{marker} hidden").format(marker=marker_title(hidden[0])), occlusion_remedy(hidden[0])
         )
     if hidden:
-        words = tr("{count} markers hidden").format(count=len(hidden))
+        words = tr("{count} markers occluded").format(count=len(hidden))
         return StatusLight("warn", words, tr("Turn the back of the hand to the camera"))
     if frame.status == TrackStatus.DOUBTFUL:
         return StatusLight("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
@@ -124,11 +124,11 @@ def occlusion_words(hidden: Sequence[str]) -> str:
     if len(fingers) == 1 and all(name not in PALM_MARKERS for name in hidden):
         (finger,) = fingers
         if finger == "1":
-            return tr("Thumb hidden")
+            return tr("Thumb occluded")
         return tr("{finger} finger hidden").format(finger=finger_name(finger))
     if all(name.rstrip("12345") in _DISTAL_JOINTS for name in hidden):
         return tr("Finger ends hidden")
-    return tr("{count} markers hidden").format(count=len(hidden))
+    return tr("{count} markers occluded").format(count=len(hidden))
 
 
 def remedy_words(hidden: Sequence[str]) -> str:

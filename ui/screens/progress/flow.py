@@ -95,12 +95,12 @@ def write_table(path: Path, progress: Progress) -> None:
 
 def _rows(progress: Progress) -> Iterator[Sequence[object]]:
     for point in progress.points:
-        figures = point.results
-        who = (figures.session_id, figures.when.isoformat(), figures.side, figures.exercise.id)
-        for row in figures.measures_in_group("range"):
+        results = point.results
+        patient = (results.session_id, results.when.isoformat(), results.side, results.exercise.id)
+        for row in results.measures_in_group("range"):
             values = [
                 format_rounded(value, 1) if math.isfinite(value) else "" for value in (row.mean, row.sd, row.best)
             ]
             reasons, limited = " ".join(point.reasons), "yes" if row.is_lower_bound else ""
             joint = row.subject if row.wrist_angle < 0 else ""
-            yield *who, row.quantity, *values, row.count, reasons, joint, limited
+            yield *patient, row.quantity, *values, row.count, reasons, joint, limited

@@ -185,11 +185,11 @@ class ProgressScreen(FittedWidget):
 
     def _show(self, found: Sequence[SessionResults], manual_values: Sequence[ManualValue], session_id: str) -> None:
         self._manual_values = current_values(manual_values)
-        self._sessions = tuple(sorted(found, key=lambda figures: figures.when))
+        self._sessions = tuple(sorted(found, key=lambda results: results.when))
         asked = next(
             (f for f in self._sessions if f.session_id == session_id), self._sessions[-1] if self._sessions else None
         )
-        self._kinds = list(dict.fromkeys((figures.exercise.id, figures.side) for figures in reversed(self._sessions)))
+        self._kinds = list(dict.fromkeys((results.exercise.id, results.side) for results in reversed(self._sessions)))
         self.exercise_choice.set_choices(
             [(one, f"{terms.exercise_name(one[0])} · {terms.hand_name(one[1])}") for one in self._kinds],
             None if asked is None else (asked.exercise.id, asked.side),
@@ -199,7 +199,7 @@ class ProgressScreen(FittedWidget):
 
     def _current_sessions(self) -> list[SessionResults]:
         kind = self._kinds[self.exercise_choice.currentIndex()] if self._kinds else ("", "")
-        return [figures for figures in self._sessions if (figures.exercise.id, figures.side) == kind]
+        return [results for results in self._sessions if (results.exercise.id, results.side) == kind]
 
     def _choose_exercise(self) -> None:
         """Offer what can be followed of a whole hand, the trained measure first."""
@@ -224,8 +224,8 @@ class ProgressScreen(FittedWidget):
         self.chart.show_progress(course)
         answer, basis = headline(self.progress)
         self.answer_text.setText(answer)
-        if any(figures.is_simulated for figures in alike):
-            practice = self.tr("Simulated sessions are drawn and compared for practice only: they count nowhere.")
+        if any(results.is_simulated for results in alike):
+            practice = self.tr("Simulated sessions are shown for practice only and excluded from analysis.")
             basis = f"{practice} {basis}"
         self.basis_text.show_text(basis.rstrip())
         words = ""
@@ -268,7 +268,7 @@ class ProgressScreen(FittedWidget):
     def _speed_row(self, first: SessionResults, last: SessionResults) -> QWidget:
         before, after = mean_speed_words(first), mean_speed_words(last)
         return _ChangeRow(
-            self._theme, self.tr("Peak speed"), f"{before} → {after}", "not_judged", self.tr("error not yet known")
+            self._theme, self.tr("Peak speed"), f"{before} → {after}", "not_judged", self.tr("MDC not yet known")
         )
 
     def _fill_manual_values(self) -> None:
@@ -293,14 +293,14 @@ class ProgressScreen(FittedWidget):
         doubts = [words for point in self.progress.points if (words := uncertainty_words(point, self.progress))]
         self._comparability_card.setVisible(len(self.progress.points) > 1 or bool(unfair or doubts))
         title = StateText(theme, 16, SEMIBOLD, 20)
-        title.show_state("warn" if unfair or doubts else "good", self.tr("Fair comparison"), token="text")
+        title.show_state("warn" if unfair or doubts else "good", self.tr("Comparability"), token="text")
         body.addWidget(title)
         for point in unfair:
             body.addWidget(Text(theme, exclusion_words(point, self.progress), 14, wrap=True))
         for words in doubts:
             body.addWidget(Text(theme, words, 14, REGULAR, "warn", wrap=True))
         if not unfair:
-            body.addWidget(Text(theme, self.tr("All sessions were set up alike."), 14, wrap=True))
+            body.addWidget(Text(theme, self.tr("All sessions used the same set-up."), 14, wrap=True))
         if once := duplicate_result_words(self.progress.earlier_results):
             body.addWidget(Text(theme, once, 14, wrap=True))
         body.addWidget(Text(theme, error_limit_words(self.progress.study), 14, REGULAR, "text2", wrap=True))

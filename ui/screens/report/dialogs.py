@@ -78,8 +78,8 @@ class HomeDialog(Dialog):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 680)
-        words = self.tr("One page for the patient, without figures or diagnosis. Up to {count} exercises.")
-        self.add_heading(self.tr("Sheet for home"), words.format(count=MAX_TASKS), gap=8)
+        words = self.tr("One page for the patient, without values or diagnosis. Up to {count} exercises.")
+        self.add_heading(self.tr("Home exercise sheet"), words.format(count=MAX_TASKS), gap=8)
         grid = QGridLayout()
         self.exercise_checks: dict[str, CheckButton] = {}
         for number, exercise in enumerate(DRAWABLE_EXERCISES):
@@ -105,7 +105,7 @@ class HomeDialog(Dialog):
                     "at",
                     self.tr("T&ime"),
                     QLineEdit(),
-                    limit_length(MAX_TIME_LENGTH, self.tr("Time: {count} letters too many")),
+                    limit_length(MAX_TIME_LENGTH, self.tr("Time: {count} characters too long")),
                     continues_row=True,
                     stretch=1,
                 ),
@@ -113,7 +113,7 @@ class HomeDialog(Dialog):
                     "note",
                     self.tr("A &line for the patient, no names"),
                     QLineEdit(),
-                    limit_length(MAX_NOTE_LENGTH, self.tr("Line: {count} letters too many")),
+                    limit_length(MAX_NOTE_LENGTH, self.tr("Line: {count} characters too long")),
                 ),
                 Field("language", self.tr("Language of the patient"), ChoiceRow(theme, list(LANGUAGES.items()))),
             ],
@@ -174,7 +174,7 @@ class LetterDialog(Dialog):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
-        words = self.tr("One page, with the figures of this session and your comment. Addresses stay in your list.")
+        words = self.tr("One page with the values of this session and your comment. Addresses stay in your list.")
         self.add_heading(self.tr("Letter to the doctor"), words, gap=8)
         self.recipients = Combo()
         self.recipients.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)

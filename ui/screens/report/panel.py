@@ -44,7 +44,7 @@ class ReportPanel(QWidget):
         self._saved_comment = ""
         self._default_omissions: frozenset[str] = frozenset()
         column = column_layout(Text(theme, self.tr("Comment"), 16, SEMIBOLD), gap=6, margins=(0, 0, 0, 0), parent=self)
-        words = self.tr("Printed on the report and kept with the session. No names here, please.")
+        words = self.tr("Printed on the report and saved with the session. No names here, please.")
         column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.comment = _CommentField()
         self.comment.setTabChangesFocus(True)
@@ -55,17 +55,18 @@ class ReportPanel(QWidget):
         column.addWidget(self.sentence_box)
         row = QHBoxLayout()
         self.insert_button = Button(theme, self.tr("Insert"), height_px=38)
-        self.add_button = Button(theme, self.tr("Remember"), "quiet", height_px=38)
-        self.remove_button = Button(theme, self.tr("Forget"), "quiet", height_px=38)
+        self.add_button = Button(theme, self.tr("Save"), "quiet", height_px=38)
+        self.remove_button = Button(theme, self.tr("Delete"), "quiet", height_px=38)
         for button in (self.insert_button, self.add_button, self.remove_button):
             row.addWidget(button)
         row.addStretch(1)
         fill(column, row, 8, Text(theme, self.tr("Parts of the report"), 16, SEMIBOLD))
         names = {
             "diagnosis": self.tr("Diagnosis or operation"),
-            "table": self.tr("Table"), "curves": self.tr("Curves and repetitions"), "bars": self.tr("Range as bars"),
-            "quality": self.tr("How sure the figures are"), "speed": self.tr("Speed, pain, note"),
-            "by_hand": self.tr("Entered by hand"), "motion": self.tr("Page of movement"),
+            "table": self.tr("Table"), "curves": self.tr("Curves and repetitions"),
+            "bars": self.tr("Range of motion as bars"),
+            "quality": self.tr("Reliability of the values"), "speed": self.tr("Speed, pain, note"),
+            "by_hand": self.tr("Entered by hand"), "motion": self.tr("Motion page"),
         }  # fmt: skip
         self.section_checks: dict[str, CheckButton] = {}
         for name in SECTIONS:
@@ -98,7 +99,7 @@ class ReportPanel(QWidget):
         if (line := box.lineEdit()) is not None:
             line.setPlaceholderText(self.tr("Type part of a sentence"))
         box.setToolTip(
-            self.tr("These places take the session’s figures: {places}").replace(
+            self.tr("These placeholders take the session’s values: {places}").replace(
                 "{places}", ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
             )
         )
@@ -201,9 +202,9 @@ def default_sentences() -> tuple[str, ...]:
     """Return the sentences offered until the therapist has stored some."""
     return (
         tr("Flexion {flexion}, extension {extension}."),
-        tr("The whole arc is {arc}. {change}"),
+        tr("The total arc is {arc}. {change}"),
         tr("Splint as before; exercises at home three times a day."),
-        tr("Check again in two weeks."),
+        tr("Reassess in two weeks."),
     )
 
 
@@ -215,14 +216,14 @@ def fill_sentence(sentence: str, report: SessionReport) -> str:
 
 
 def _placeholder_text(place: str, report: SessionReport) -> str:
-    figures = report.results
-    said: dict[str, Callable[[], str]] = {
-        "arc": lambda: _arc_text(figures),
+    results = report.results
+    text: dict[str, Callable[[], str]] = {
+        "arc": lambda: _arc_text(results),
         "change": lambda: _change_text(report),
-        "repetitions": lambda: str(figures.repetition_count) if figures.repetition_count else "",
-        "date": lambda: numbers.format_date_time(figures.when),
+        "repetitions": lambda: str(results.repetition_count) if results.repetition_count else "",
+        "date": lambda: numbers.format_date_time(results.when),
     }
-    words = said[place]() if place in said else _measure_text(figures, place, PLACEHOLDER_COLUMNS[place])
+    words = text[place]() if place in text else _measure_text(results, place, PLACEHOLDER_COLUMNS[place])
     return words or tr("not measured")
 
 
@@ -247,8 +248,8 @@ def _change_text(report: SessionReport) -> str:
     if report.previous is None:
         return _to_sentence(tr("not measured"))
     day = numbers.format_distinct_day(report.previous.when, report.results.when)
-    said = change_sentence(report.results, report.previous, day)
-    return said or _to_sentence(tr("not measured"))
+    text = change_sentence(report.results, report.previous, day)
+    return text or _to_sentence(tr("not measured"))
 
 
 def _to_sentence(words: str) -> str:

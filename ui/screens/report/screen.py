@@ -57,7 +57,7 @@ class ReportScreen(QWidget):
         self.open_button = Button(theme, self.tr("Open the PDF"), "plain")
         self.print_button = Button(theme, self.tr("Print…"), "plain")
         self.letter_button = Button(theme, self.tr("Letter to the doctor…"), "plain")
-        self.home_button = Button(theme, self.tr("Sheet for home…"), "plain", hint="Ctrl+H")
+        self.home_button = Button(theme, self.tr("Home exercise sheet…"), "plain", hint="Ctrl+H")
         self.back_button = Button(theme, self.tr("Back to the report"), "quiet")
         self.panel = ReportPanel(theme)
         self.save_state = StateText(theme, 16, SEMIBOLD, 20)
@@ -134,9 +134,9 @@ class ReportScreen(QWidget):
         else:
             pages = self.tr("One page of A4") if count == 1 else self.tr("{count} pages of A4")
         pages = pages.format(count=count)
-        words = self.tr("{pages}, readable in grey. It carries the made-up name, never a real one.")
+        words = self.tr("{pages}, readable in grey. Contains the pseudonym, never the real name.")
         if isinstance(report, LetterReport) and report.real_name:
-            words = self.tr("{pages}, readable in grey. It carries the patient’s real name: mind where you save it.")
+            words = self.tr("{pages}, readable in grey. Contains the patient’s real name: store it securely.")
         self.pages_text.setText(words.format(pages=pages))
 
     @property
@@ -222,7 +222,7 @@ class ReportScreen(QWidget):
 
 def default_file_name(report: Report) -> str:
     """Return ``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: pseudonym, time and content."""
-    name, when = report.pseudonym.replace(" ", "-"), max(figures.when for figures in report.sessions)
+    name, when = report.pseudonym.replace(" ", "-"), max(results.when for results in report.sessions)
     if isinstance(report, ProgressReport):
         return f"{name}_{when:%Y-%m-%d}_{report.kind}.pdf"
     what = report.sessions[0].exercise.id.lower().replace("_", "-")

@@ -55,9 +55,9 @@ class ReviewCard(Card):
             theme, "", 14, REGULAR, "text2"
         )  # one line: what it says comes when all has its place
         self.repeat_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
-        self.include_button = Button(theme, self.tr("Do not count"), "quiet")
+        self.include_button = Button(theme, self.tr("Exclude"), "quiet")
         self.include_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # Space stays with the player after a click
-        self.include_button.setToolTip(self.tr("The session stays, and is compared with none. Can be taken back."))
+        self.include_button.setToolTip(self.tr("The session is kept but not analysed. It can be included again."))
         self.compare_button = Button(theme, self.tr("Side by side…"), "quiet")
         self.compare_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.export_button = Button(theme, self.tr("Export…"), hint="Ctrl+E")
@@ -66,13 +66,13 @@ class ReviewCard(Card):
         )
         self.compare_button.clicked.connect(lambda: self.comparison_requested.emit(self._partner_id))
         self.tables = ResultTables(theme)
-        said = self._heading = QBoxLayout(QBoxLayout.Direction.LeftToRight)
-        said.setSpacing(12)
-        fill(said, self.title, (self.count_text, 1))
+        text = self._heading = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        text.setSpacing(12)
+        fill(text, self.title, (self.count_text, 1))
         buttons = (self.include_button, self.compare_button, self.repeat_button, self.export_button, self.report_button)
         self.body.setContentsMargins(24, 4, 16, 4)
         self.body.setSpacing(4)
-        fill(self.body, said, row_layout(STRETCH, *buttons, gap=12), self.tables)
+        fill(self.body, text, row_layout(STRETCH, *buttons, gap=12), self.tables)
         self._session_widgets = (self.title, self.count_text, self.tables)
         for widget in self._session_widgets:
             policy = widget.sizePolicy()
@@ -89,19 +89,19 @@ class ReviewCard(Card):
 
     def show_session(self, reviewed: ReviewedSession) -> None:
         """Show exercise, hand, time, main result and tables."""
-        figures = reviewed.results
+        results = reviewed.results
         self.show_reading(on=False)
         self.tables.show_session(reviewed)
-        hand = to_mid_sentence(terms.hand_name(figures.side))
-        when = f"{numbers.format_short_date(figures.when)} {figures.when:%H:%M}"
-        what = f"{terms.exercise_name(figures.exercise.id)}, {hand} · {when}"
-        self.title.setText(" · ".join(filter(None, (what, main_result_words(figures)))))
-        older = self.tr("older result, does not count") if reviewed.is_older else ""
-        said = " · ".join(filter(None, (older, repetition_words(figures), correction_words(figures).rstrip("."))))
-        self.count_text.setText(said)
-        self.count_text.setToolTip(plain_tooltip(said))
+        hand = to_mid_sentence(terms.hand_name(results.side))
+        when = f"{numbers.format_short_date(results.when)} {results.when:%H:%M}"
+        what = f"{terms.exercise_name(results.exercise.id)}, {hand} · {when}"
+        self.title.setText(" · ".join(filter(None, (what, main_result_words(results)))))
+        older = self.tr("older result, excluded") if reviewed.is_older else ""
+        text = " · ".join(filter(None, (older, repetition_words(results), correction_words(results).rstrip("."))))
+        self.count_text.setText(text)
+        self.count_text.setToolTip(plain_tooltip(text))
         self._show_partner(reviewed)
-        counts = self.tr("Let it count again") if figures.is_excluded else self.tr("Do not count")
+        counts = self.tr("Include again") if results.is_excluded else self.tr("Exclude")
         self.include_button.set_label(counts)
 
     def _show_partner(self, reviewed: ReviewedSession) -> None:
@@ -132,11 +132,11 @@ class ReviewCard(Card):
             return
         if whole_hand:
             self.tables.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
-        most = height_px * (0.42 if whole_hand else 0.48)
+        maximum = height_px * (0.42 if whole_hand else 0.48)
         # Of the whole hand always more than there is room for: its place is known before it is read.
-        needed = most if whole_hand else self.tables.content_height_px() + 2
+        needed = maximum if whole_hand else self.tables.content_height_px() + 2
         fewest = MIN_TABLE_PX * self._theme.text_scale
-        self.tables.setFixedHeight(round(max(min(needed, most, self._room_px(page, height_px)), fewest)))
+        self.tables.setFixedHeight(round(max(min(needed, maximum, self._room_px(page, height_px)), fewest)))
 
     def _room_px(self, page: QLayout, height_px: int) -> int:
         """Return the height left for the tables when all else has its minimum."""
@@ -195,17 +195,17 @@ class ResultTables(ScrollArea):
         return needed + self.notes.fontMetrics().height() + self._column.spacing()
 
     def show_session(self, reviewed: ReviewedSession) -> None:
-        figures = reviewed.results
-        previous, other = find_previous(reviewed.history, figures), find_other_hand(reviewed.history, figures)
+        results = reviewed.results
+        previous, other = find_previous(reviewed.history, results), find_other_hand(reviewed.history, results)
         if reviewed.is_hand:
-            self.hand_table.show_rows(*finger_table(figures, previous, other))
-            self.limitations.setText(limitation_words(figures))
+            self.hand_table.show_rows(*finger_table(results, previous, other))
+            self.limitations.setText(limitation_words(results))
         else:
-            self.range_table.show_rows(*range_table(figures, previous, other))
+            self.range_table.show_rows(*range_table(results, previous, other))
         self.range_table.setVisible(not reviewed.is_hand and bool(self.range_table.rows))
         self._show_active_passive(reviewed)
-        self._show_task_measures(figures, previous, is_hand=reviewed.is_hand)
-        self._show_notes(figures)
+        self._show_task_measures(results, previous, is_hand=reviewed.is_hand)
+        self._show_notes(results)
 
     def _show_active_passive(self, reviewed: ReviewedSession) -> None:
         found = build_active_passive(reviewed.results, reviewed.manual_values)
@@ -231,8 +231,8 @@ class ResultTables(ScrollArea):
             self._column.insertWidget(0 if results.exercise.is_task else last, self._task_section)
 
     def _show_notes(self, results: SessionResults) -> None:
-        said = "  ".join(f"{numbers.format_clock(time_s)} “{text}”" for time_s, text in results.notes)
-        words = [self.tr("Notes: {notes}").format(notes=said)] if said else []
+        sentence = "  ".join(f"{numbers.format_clock(time_s)} “{text}”" for time_s, text in results.notes)
+        words = [self.tr("Notes: {notes}").format(notes=sentence)] if sentence else []
         if results.pain_scores:
             pains = ", ".join(str(pain) for pain in results.pain_scores)
             words.append(self.tr("Pain (0–10): {pains}").format(pains=pains))
@@ -267,7 +267,7 @@ class VersionChoice(QWidget):
                 day = numbers.format_distinct_day(result.created, *made)
                 words = self.tr("{number} · {day}").format(number=number, day=day)
                 if number == len(results):
-                    words = self.tr("{result}, counts").format(result=words)
+                    words = self.tr("{result}, in use").format(result=words)
                 button = Button(self._theme, words, "well", height_px=32)
                 button.setCheckable(True)
                 button.setChecked(result.session_id == current)
@@ -276,7 +276,7 @@ class VersionChoice(QWidget):
                 self._row.addWidget(button)
                 self.buttons.append(button)
             if results[-1].session_id != current:
-                again = Button(self._theme, self.tr("Let this one count"), "quiet", height_px=32)
+                again = Button(self._theme, self.tr("Use this result"), "quiet", height_px=32)
                 again.clicked.connect(lambda: again.setEnabled(False))  # once
                 again.clicked.connect(lambda: self.restore_requested.emit(current))
                 self._row.addWidget(again)

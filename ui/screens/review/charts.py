@@ -86,9 +86,9 @@ class ReviewCharts(QWidget):
         if not reviewed.is_hand or self.finger_number == WRIST:
             self.paths.show_plot(wrist_path(reviewed.motion), self.tr("Path of the wrist, with the hand’s axes"))
             return
-        words = self.tr("Ways of the finger tips")
+        words = self.tr("Fingertip paths")
         if self.finger_number:
-            words = self.tr("Ways of the joints: {finger}").format(
+            words = self.tr("Joint paths: {finger}").format(
                 finger=to_mid_sentence(finger_name(str(self.finger_number)))
             )
         self.paths.show_plot(finger_paths(reviewed.motion, self.finger_number), words)
@@ -120,7 +120,7 @@ class Player(Card):
         self.view_key = KeyCaps(theme, [("V", "")])
         self.hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play"))])
         self.repetition_button = Button(theme, self.tr("Repetition…"), "quiet", hint="X", height_px=40)
-        self.repetition_button.setToolTip(self.tr("Passive, or left out (X); [ and ] go to another"))
+        self.repetition_button.setToolTip(self.tr("Passive or excluded (X); [ and ] select another"))
         self.repetition_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.time = Text(theme, "", 14, MEDIUM)
         self.scrubber = TimeSlider(theme)
@@ -138,7 +138,7 @@ class Player(Card):
             8,
             (self.scrubber, 6),
             8,
-            KeyCaps(theme, [("← →", self.tr("picture"))]),
+            KeyCaps(theme, [("← →", self.tr("frame"))]),
             gap=4,
             margins=(12, 7, 16, 7),
         )

@@ -69,12 +69,12 @@ class ReviewFlow(Flow):
 
         def report_restored(new: str) -> None:
             if show_version(new):
-                said = MessageText(
-                    self.tr("This result counts from now on."),
+                text = MessageText(
+                    self.tr("This result is used from now on."),
                     self.tr("The others stay as they were."),
-                    self.tr("It stands there once more, as the newest."),
+                    self.tr("It was saved again as the newest."),
                 )
-                self.context.messages.show_question(said, (Answer(self.tr("Go on"), lambda: None),), icon="good")
+                self.context.messages.show_question(text, (Answer(self.tr("Go on"), lambda: None),), icon="good")
 
         def report_failure(fault: Exception) -> None:
             self.context.messages.show_fault(fault)
@@ -107,7 +107,7 @@ class ReviewFlow(Flow):
             frame = library.read_frame(head.session_id, hand_image.row)
             image = None if frame is None else draw_hand_image(self.context.theme, hand_image, frame)
             if image is None:
-                raise OutputNotWritable(target, self.tr("there is no picture of it"))
+                raise OutputNotWritable(target, self.tr("no frame of it was stored"))
 
             def save(part: Path) -> None:
                 if not image.save(str(part), "PNG"):  # type: ignore[call-overload]

@@ -36,15 +36,15 @@ class ReviewFrameView(SessionFrameView):
         self._reviewed: ReviewedSession | None = None
         self._time_s, self._current, self._finger = 0.0, -1, 0
         self.overlay = self._paint_overlay
-        self.correct_button = Button(theme, self.tr("Put markers right…"), "plain", height_px=36)
+        self.correct_button = Button(theme, self.tr("Correct markers…"), "plain", height_px=36)
         self.correct_button.setToolTip(self.tr("A marker is wrong or missing here (Shift+F10)"))
         self.correct_button.clicked.connect(self.correction_requested)
         self.angle_button = ChoiceButton(theme, self.tr("Angle"), height_px=36)
-        self.angle_button.setToolTip(self.tr("The angle drawn on the picture (A)"))
+        self.angle_button.setToolTip(self.tr("The angle drawn on the frame (A)"))
         self.angle_button.toggled.connect(lambda _: self.update())
         self.angle_button.toggled.connect(lambda _: self._place_buttons())
         self.save_button = Button(theme, self.tr("Save…"), "plain", height_px=36)
-        self.save_button.setToolTip(self.tr("This picture with the hand alone (F)"))
+        self.save_button.setToolTip(self.tr("Image of the hand alone (F)"))
         for button in (self.correct_button, self.angle_button, self.save_button):
             button.setParent(self)
             button.setProperty("floats", True)
@@ -83,8 +83,8 @@ class ReviewFrameView(SessionFrameView):
         """Place the buttons at the foot, with shorter texts if there is little room."""
         buttons = (self.correct_button, self.angle_button, self.save_button)
         room = self.width() - 24
-        words = self.tr("Put markers right…")
-        shorter = self.tr("Put right…")
+        words = self.tr("Correct markers…")
+        shorter = self.tr("Correct…")
         for face, icon in ((words, ""), (shorter, ""), ("", "notebook-pen")):  # the sign alone where there is no room
             self.correct_button.set_label(face, icon=icon)
             for button in buttons:
@@ -116,8 +116,8 @@ class ReviewFrameView(SessionFrameView):
         if reviewed.modelled_px is not None:
             self._paint_trails(painter, reviewed, reviewed.modelled_px)
         self.paint_markers(painter, reviewed.session, spots, seen, self._finger)
-        said = self._paint_angle(painter, reviewed) if self.angle_button.isChecked() else ""
-        self._paint_labels(painter, reviewed, said)
+        text = self._paint_angle(painter, reviewed) if self.angle_button.isChecked() else ""
+        self._paint_labels(painter, reviewed, text)
 
     def _paint_trails(self, painter: QPainter, reviewed: ReviewedSession, modelled_px: FloatArray) -> None:
         times, session = reviewed.curves.time_s, reviewed.session

@@ -41,12 +41,12 @@ class HandImage:
 
 def build_hand_image(reviewed: ReviewedSession, row: int, time_s: float) -> HandImage:
     """Return the image of a frame; its words say if the movement was passive or simulated."""
-    words, figures = reviewed.angle_words(row), reviewed.results
-    if words and any(figures.repetitions[number].is_passive for number in reviewed.find_repetitions(time_s)):
+    words, results = reviewed.angle_words(row), reviewed.results
+    if words and any(results.repetitions[number].is_passive for number in reviewed.find_repetitions(time_s)):
         words = tr("{angle}, passive").format(angle=words)
     if reviewed.session.header.is_simulated:
         words = " · ".join(filter(None, (words, tr("Simulated hand"))))
-    return HandImage(reviewed.session, row, figures.exercise, words)
+    return HandImage(reviewed.session, row, results.exercise, words)
 
 
 def paint_angle(painter: QPainter, angle: AngleOverlay, to_screen: ToScreen) -> None:
@@ -91,13 +91,13 @@ class HandImageDialog(Dialog):
         super().__init__(host, theme, 560)
         body = self.card.body
         words = self.tr(
-            "The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not "
-            "lie in the picture, the angle is said in words only."
+            "The hand alone, with its angle. Face and room are removed, and there is no name. If the movement is not "
+            "in the image plane, the angle is given in words only."
         )
-        self.add_heading(self.tr("Picture of the hand"), words)
-        words = self.tr("Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.")
+        self.add_heading(self.tr("Image of the hand"), words)
+        words = self.tr("Carpus cannot protect the saved file: anyone who has it can open it. The export is logged.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        words = self.tr("The hand is not visible here, or its marker labels are doubtful. Choose another moment.")
+        words = self.tr("The hand is not visible here, or its marker labels are uncertain. Choose another moment.")
         self._refusal = Text(theme, words, 14, SEMIBOLD, "warn", wrap=True)
         body.addWidget(self._refusal)
         self.consent_check = CheckButton(theme, self.tr("The patient has agreed"))

@@ -145,7 +145,7 @@ class ReviewedSession:
 
 
 def _occlusion_words(count: int) -> str:
-    return tr("1 marker hidden") if count == 1 else tr("{count} markers hidden").format(count=count)
+    return tr("1 marker occluded") if count == 1 else tr("{count} markers occluded").format(count=count)
 
 
 def _wrist_text(exercise: Exercise, column: int, value: float, sd: float) -> str:

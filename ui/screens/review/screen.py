@@ -186,8 +186,8 @@ class ReviewScreen(FittedWidget):
         self.frame_view.show_session(reviewed.session)
         self.card.tables.versions.show_versions(reviewed.versions, self._session_id)
         all_of_them = reviewed.results.repetitions
-        counted = (n for n, repetition in enumerate(all_of_them) if repetition.is_counted)
-        self.current = next(counted, 0 if all_of_them else -1)  # also where all are passive
+        count = (n for n, repetition in enumerate(all_of_them) if repetition.is_counted)
+        self.current = next(count, 0 if all_of_them else -1)  # also where all are passive
         self._refresh()
         self.playing.set_time(all_of_them[self.current].start_s if all_of_them else 0.0)
         self.session_shown.emit()
@@ -291,7 +291,7 @@ class ExclusionDialog(Dialog):
         super().__init__(host, theme, 560)
         self._number = 0
         self.add_heading(
-            words=self.tr("Passive: somebody else moved the hand. It counts apart, beside the active ones.")
+            words=self.tr("Passive (moved by the therapist): analysed separately from active repetitions.")
         )
         body = self.card.body
         self.passive_button = Button(theme, self.tr("Passive"), "plain", height_px=40)
@@ -299,9 +299,7 @@ class ExclusionDialog(Dialog):
         self.passive_onwards_button = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
         self.passive_onwards_button.clicked.connect(lambda: self._accept(PASSIVE, and_after=True))
         body.addLayout(row_layout(self.passive_button, self.passive_onwards_button, STRETCH))
-        words = self.tr(
-            "Left out: it stays in the recording and on the curves, and counts no longer. The report says so."
-        )
+        words = self.tr("Excluded from the results; still shown on the curves and mentioned in the report.")
         body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
         quick = QHBoxLayout()
         self.reason_buttons: list[Button] = []
@@ -315,15 +313,15 @@ class ExclusionDialog(Dialog):
         self.reason_field = QLineEdit(placeholderText=self.tr("Another reason"))
         self.reason_field.setAccessibleName(self.tr("Another reason"))
         self.reason_field.textChanged.connect(self._update_default)
-        self._accept_button = Button(theme, self.tr("Leave it out"), "plain")
+        self._accept_button = Button(theme, self.tr("Exclude"), "plain")
         self._accept_button.clicked.connect(lambda: self._accept(self.reason_field.text().strip()))
-        self._cancel_button = Button(theme, self.tr("Keep it in"), "plain")
+        self._cancel_button = Button(theme, self.tr("Keep included"), "plain")
         self._cancel_button.clicked.connect(self.close_dialog)
         body.addLayout(row_layout((self.reason_field, 1), self._accept_button, self._cancel_button))
 
     def open_form(self, number: int) -> None:
         self._number = number
-        self.title.setText(self.tr("Is repetition {number} passive, or left out?").format(number=number))
+        self.title.setText(self.tr("Is repetition {number} passive or excluded?").format(number=number))
         self.reason_field.clear()
         self._update_default("")
         self.open()
