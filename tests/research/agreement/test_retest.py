@@ -255,7 +255,7 @@ def test_settings_compute_and_store_error_limits(
     qtbot.waitUntil(settings.retest_dialog.isVisible)
     said = collect_texts(settings.retest_dialog)
     for piece in (
-        "People: 10, sessions: 20.", "1 (measured once)", "1 (more than 14 days later)", "cannot be read: 1",
+        "People: 10, sessions: 20.", "1 (measured once)", "1 (more than 14 days later)", "Unreadable sessions: 1",
     ):  # fmt: skip
         assert piece in said
     assert read_limits(tmp_path / "data").studies == ()
