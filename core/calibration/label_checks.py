@@ -191,7 +191,7 @@ def find_shifted_labels(side: Side, palm_plan: FloatArray) -> tuple[str, ...]:
 
 
 def is_plausible_palm(side: Side, palm_plan: FloatArray) -> bool:
-    """True if six proposed labels fit a palm of this hand better than any other, or the other hand."""
+    """Return whether six proposed labels fit a palm of this hand better than any other, or the other hand."""
     misfits, others = (misfit(average_palm(one), palm_plan[_PALM_PERMUTATIONS]) for one in (side, _OTHER_SIDE[side]))
     return bool(misfits[0] < GOOD_PALM_MISFIT and misfits[0] == misfits.min() < others.min())
 
@@ -235,7 +235,7 @@ def plan_view(point_cam_m: FloatArray) -> FloatArray:
 
 
 def is_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray) -> bool:
-    """True if the markers are clearly the other hand's, not this one's with two labels swapped."""
+    """Return whether the markers are clearly the other hand's, not this one's with two labels swapped."""
     average = _average_plan(protocol, side)
     own_misfit, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER_SIDE[side]), plan)
     if own_misfit < GOOD_SIDE_MISFIT or mirrored >= OTHER_SIDE_SHARE * own_misfit:
@@ -308,7 +308,7 @@ def _spots_on_palm(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.
 
 
 def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
-    """True if the corners go all the way round the point."""
+    """Return whether the corners go all the way round the point."""
     angles = np.sort(np.arctan2(corners[:, 1] - spot[1], corners[:, 0] - spot[0]))
     gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
     return bool(gaps.max() < np.pi)

@@ -203,7 +203,7 @@ def _windows(signal: Signal, repetitions: Sequence[Repetition]) -> list[tuple[fl
 
 
 def _is_exceeded(further_rad: FloatArray) -> bool:
-    """True if an occluded joint may have gone further, also if nothing is known of it."""
+    """Return whether an occluded joint may have gone further, also if nothing is known of it."""
     return bool((~np.isfinite(further_rad) | (further_rad > MIN_FURTHER_RAD)).any())
 
 

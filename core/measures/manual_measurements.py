@@ -270,7 +270,7 @@ def compute_change(history: Sequence[ManualValue]) -> ManualChange | None:
 
 
 def is_unusual(measure: ManualMeasure, value: float) -> bool:
-    """True if a person should check the value before it is saved."""
+    """Return whether a person should check the value before it is saved."""
     low, high = measure.usual_range
     return not low <= value <= high
 

@@ -329,7 +329,7 @@ class _RestPosition:
         return "elsewhere"
 
     def is_at_rest(self, point: _TurningPoint) -> bool:
-        """True if no repetition is under way at an end of the visible part."""
+        """Return whether no repetition is under way at an end of the visible part."""
         place = self.classify(point)
         if place in ("middle", "elsewhere"):
             return point.is_still or (self.side is None and place == "middle")
@@ -358,7 +358,7 @@ class _RestPosition:
         return bounds
 
     def _is_first_high(self, segments: Sequence[_Segment]) -> bool:
-        """True if repetitions from the middle go to the high side first."""
+        """Return whether repetitions from the middle go to the high side first."""
         for run in segments:
             if self.classify(run.turning_points[0]) == "middle":
                 return run.turning_points[1].is_high

@@ -52,7 +52,7 @@ class Signal:
         return replace(self, value=self.value[:, k])
 
     def is_near_gap(self, time_s: float, reach_s: float = MAX_FILLED_GAP_S) -> bool:
-        """True if a gap begins or ends within ``reach_s`` of a time."""
+        """Return whether a gap begins or ends within ``reach_s`` of a time."""
         return bool((np.abs(self.gaps_s - time_s) <= reach_s).any())
 
     def crop(self, start_s: float, end_s: float) -> Signal:

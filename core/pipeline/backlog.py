@@ -61,7 +61,7 @@ class Backlog:
         self._processed_at_s: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
 
     def __len__(self) -> int:
-        """Number of waiting frames."""
+        """Return the number of waiting frames."""
         return len(self._queue)
 
     def __iter__(self) -> Iterator[QueuedFrame]:

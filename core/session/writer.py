@@ -94,7 +94,7 @@ class SessionWriter(FileWriter):
         return cls(path, build_empty_session(header, camera, calibration, raw_depth_unit_m))
 
     def __len__(self) -> int:
-        """Number of frames appended so far."""
+        """Return the number of frames appended so far."""
         return self._rows.get(_TIMES, 0) + len(self._pending_frames)
 
     def append(self, tracked: TrackedFrame, raw: EncodedImages | None = None) -> None:

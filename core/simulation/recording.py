@@ -181,7 +181,7 @@ def _cache_folder() -> Path:
 
 
 def is_cached(spec: RecordingSpec, cache: Path | None = None) -> bool:
-    """True if the recording of a spec is in the cache."""
+    """Return whether the recording of a spec is in the cache."""
     return ((_cache_folder() if cache is None else cache) / spec.cache_key / TRUTH_FILE).exists()
 
 

@@ -155,7 +155,7 @@ def to_board_view(
 
 
 def is_new_view(detected: DetectedBoard, views: Sequence[BoardView]) -> bool:
-    """True if the board's pose differs from those of all views."""
+    """Return whether the board's pose differs from those of all views."""
     return all(corner_motion_px(detected, view.detected) >= MIN_NEW_VIEW_PX for view in views)
 
 
@@ -200,7 +200,7 @@ class BoardFrame:
 
 
 def is_dark(color_rgb: ByteImage) -> bool:
-    """True if an image has too little light to find a board."""
+    """Return whether an image has too little light to find a board."""
     return float(np.percentile(color_rgb[::8, ::8].max(axis=2), 90)) < MIN_BRIGHTNESS
 
 
