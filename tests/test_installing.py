@@ -23,13 +23,13 @@ def missing(name: str) -> str:
     raise PackageNotFoundError(name)
 
 
-def test_from_source_the_line_can_be_pasted() -> None:
+def test_install_hint_from_source_is_a_command() -> None:
     line = install_hint("pylsl").removeprefix("Run “").removesuffix("”.")
     assert shlex.split(line) == [sys.executable, "-m", "pip", "install", "pylsl"]
     assert "--no-deps" in install_hint("pyorbbecsdk2"), "its own needs would break what Carpus runs on"
 
 
-def test_the_packed_program_never_says_pip(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_install_hint_packed_never_names_pip(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "frozen", True, raising=False)
     monkeypatch.setattr("importlib.metadata.version", missing)
     monkeypatch.setattr(doctor, "version", missing)
@@ -43,7 +43,7 @@ def test_the_packed_program_never_says_pip(monkeypatch: pytest.MonkeyPatch) -> N
         assert CAMERAS_EXTRA in said[0]
 
 
-def test_only_one_module_speaks_of_pip() -> None:
+def test_pip_is_named_in_one_module_only() -> None:
     speaking = {
         path.relative_to(ROOT).as_posix()
         for part in ("app", "core", "ui")
@@ -53,7 +53,7 @@ def test_only_one_module_speaks_of_pip() -> None:
     assert speaking == {"core/model/installation.py"}
 
 
-def test_the_udev_rules_let_every_kind_be_opened(tmp_path: Path) -> None:
+def test_udev_rules_cover_every_camera(tmp_path: Path) -> None:
     (tmp_path / "60-carpus-cameras.rules").write_text(format_udev_rules(), encoding="utf-8")
     kinds = [load_camera_kind(name) for name in CAMERAS]
     assert [doctor.check_udev_rules(kind, (tmp_path,)).state for kind in kinds] == ["good"] * len(kinds)

@@ -17,7 +17,7 @@ from tests.rendered import FLEXION, Rendered
 ROOT = Path(__file__).parents[1]
 
 
-def test_the_revision_is_the_checkouts() -> None:
+def test_source_revision_matches_git() -> None:
     asked = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
     if asked.returncode:
         assert source_revision() == "", "no checkout, and nothing told"
@@ -25,7 +25,7 @@ def test_the_revision_is_the_checkouts() -> None:
         assert source_revision() == asked.stdout.strip()
 
 
-def test_a_recordings_hash_is_of_its_lists_and_pictures_alone(tmp_path: Path) -> None:
+def test_recording_hash_covers_lists_and_frames_only(tmp_path: Path) -> None:
     (tmp_path / "rgb").mkdir()
     contents = {"rgb/1.png": b"one", "rgb/2.png": b"two"}
     contents["rgb.txt"] = b"# colour\n1.0 rgb/1.png\n2.0 rgb/2.png\n"
@@ -41,7 +41,7 @@ def test_a_recordings_hash_is_of_its_lists_and_pictures_alone(tmp_path: Path) ->
     assert sha256_of_recording(tmp_path / "rgb" / "1.png") == hashlib.sha256(b"one").hexdigest()
 
 
-def test_a_session_says_what_it_is_of(rendered: Rendered, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_session_states_provenance(rendered: Rendered, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder, output = rendered(FLEXION), tmp_path / "s.h5"
     track = ["track", str(folder), "--calibration", str(folder / "calibration.json"), "--output", str(output)]
     assert main(track) == 0

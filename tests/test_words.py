@@ -43,12 +43,12 @@ def texts() -> list[str]:
     return spoken + [text for words in FINDING_TEXTS.values() for text in words]
 
 
-def test_every_fault_says_for_itself_what_happened_and_what_to_do() -> None:
+def test_fault_classes_state_summary_and_remedy() -> None:
     assert set(KINDS) == all_kinds()
     assert [kind.__name__ for kind in KINDS if not {"summary", "remedy"} <= vars(kind).keys()] == []
 
 
-def test_every_fault_states_for_itself_whether_the_data_are_safe() -> None:
+def test_fault_classes_state_data_safety() -> None:
     assert not hasattr(CarpusFault, "data_safety")
     assert [kind.__name__ for kind in KINDS if "data_safety" not in vars(kind)] == []
     nothing_lost = {kind.__name__ for kind in KINDS if "othing is lost" in kind.data_safety}
@@ -84,11 +84,11 @@ def test_fault_brief_words_keep_the_measured_fact_among_the_details() -> None:
     assert format_fault_line(errors.SessionUnreadable("a.h5", "truncated file")).endswith("(C-501)")
 
 
-def test_no_two_faults_say_the_same_of_what_happened() -> None:
+def test_fault_summaries_are_unique() -> None:
     assert len({kind.summary for kind in KINDS}) == len(KINDS)
 
 
-def test_every_finding_has_words_and_no_words_are_left_over() -> None:
+def test_findings_have_texts_without_leftovers() -> None:
     assert set(FINDING_TEXTS) == set(typing.get_args(FindingKind))
 
 
@@ -101,13 +101,13 @@ def keeps_the_rules(text: str) -> bool:
     return not JARGON.search(text) and begins and text.endswith(".") and len(text) < 120 and named <= FACTS
 
 
-def test_the_wording_keeps_the_rules() -> None:
+def test_fault_texts_follow_wording_rules() -> None:
     assert [text for text in texts() if not keeps_the_rules(text)] == []
     assert not any(map(keeps_the_rules, ("A null value.", "small.", "No stop", "x" * 121, "A {thing}.")))
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
-def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -> None:
+def test_format_fault_with_or_without_facts_is_a_sentence(kind: type[CarpusFault]) -> None:
     for fault in (kind("/a/place", "line 7"), kind("/a/place"), kind(), kind("", "line\n7")):
         words, line = format_fault(fault), format_fault_line(fault)
         for text in (words.summary, words.data_safety, words.remedy, line):
@@ -120,7 +120,7 @@ def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -
         assert "/a/place" in format_fault_line(kind("/a/place", "line 7"))
 
 
-def test_a_file_and_its_line_are_named() -> None:
+def test_format_fault_names_file_and_line() -> None:
     fault = errors.RecordingUnreadable("/take/rgb.txt", "line 7 is not a time and a file name: 'x'")
     assert format_fault_line(fault) == (
         "The recording cannot be read: /take/rgb.txt (line 7 is not a time and a file name: 'x'). The recording was "
@@ -128,7 +128,7 @@ def test_a_file_and_its_line_are_named() -> None:
     )
 
 
-def test_markers_are_called_by_their_clinical_names() -> None:
+def test_marker_names_are_clinical() -> None:
     called = {
         "WRIST": "wrist", "MCP1": "thumb knuckle", "IP1": "thumb end joint", "DIP3": "middle finger end joint",
         "TIP4": "ring tip", "elsewhere": "elsewhere", "CMC1": "thumb base", "MCP2": "index knuckle",
@@ -139,14 +139,14 @@ def test_markers_are_called_by_their_clinical_names() -> None:
     assert len({marker_name(name) for name in HAND21.markers}) == 21
 
 
-def test_a_fault_about_a_marker_names_it_for_the_clinic_and_for_the_file() -> None:
+def test_format_fault_names_marker_both_ways() -> None:
     fault = errors.ClickOutsideImage("MCP3", "700, 20 in a picture of 640 x 480 pixels")
     assert format_fault(fault).summary.startswith("A click lies outside the image: middle knuckle (700")
     assert "middle knuckle, MCP3 (700, 20" in format_fault_line(fault)
 
 
 @pytest.mark.parametrize("kind", typing.get_args(FindingKind))
-def test_findings_tell_place_and_number(kind: FindingKind) -> None:
+def test_findings_state_marker_and_number(kind: FindingKind) -> None:
     finding = CalibrationFinding(kind, ("MCP2", "MCP3"), 22.26, 15.0, "mm")
     words = finding_words(finding)
     assert words.summary[0].isupper()
@@ -161,13 +161,13 @@ def test_findings_tell_place_and_number(kind: FindingKind) -> None:
     assert "\n" not in line
 
 
-def test_swapped_knuckles_read_as_in_the_design() -> None:
+def test_finding_swapped_markers_sentence() -> None:
     assert (
         finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).summary
         == "Index and middle knuckle look swapped."
     )
 
 
-def test_shifted_names_say_which_marker_is_which() -> None:
+def test_finding_shifted_names_sentence() -> None:
     words = finding_words(CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
     assert words.summary == "The names look shifted: the marker clicked as wrist is the little knuckle."

@@ -287,7 +287,7 @@ def test_a_wanted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
 
 
 @pytest.mark.parametrize(
-    ("step", "is_listed"), [("core.records.store.Store.do", False), ("core.records.corrections.publish", True)]
+    ("step", "is_listed"), [("core.records.store.Store.apply", False), ("core.records.corrections.publish", True)]
 )
 def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
     kept: Kept, monkeypatch: pytest.MonkeyPatch, step: str, is_listed: bool
@@ -586,7 +586,7 @@ def test_a_copy_that_counts_again_is_the_newest_by_any_clock_and_says_no_other_o
     def busy(*_: object) -> None:
         raise PatientListBusy
 
-    monkeypatch.setattr(Store, "do", busy)
+    monkeypatch.setattr(Store, "apply", busy)
     with pytest.raises(PatientListBusy):
         corrections.restore_version(session_id)
     assert list(ahead.parent.iterdir()) == []

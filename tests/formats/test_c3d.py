@@ -33,7 +33,7 @@ def by_c3d(path: Path) -> tuple[list[str], np.ndarray, float]:
 
 
 @pytest.mark.parametrize("make", [wrist_take, hand_take])
-def test_places_and_residuals_come_back_as_they_are(make: object, tmp_path: Path) -> None:
+def test_c3d_positions_and_residuals_round_trip(make: object, tmp_path: Path) -> None:
     take: ExportItem = make(tmp_path)  # type: ignore[operator]
     session = take.session
     (path,) = c3d_write.write(take, tmp_path / "out")
@@ -56,7 +56,7 @@ def test_places_and_residuals_come_back_as_they_are(make: object, tmp_path: Path
         assert (points[~lost, count:, 3] == 0).all(), "a joint centre is never seen"
 
 
-def test_a_second_reader_finds_the_same(tmp_path: Path) -> None:
+def test_c3d_second_reader_agrees(tmp_path: Path) -> None:
     take = wrist_take(tmp_path)
     (path,) = c3d_write.write(take, tmp_path / "out")
     read = ezc3d.c3d(str(path))
@@ -77,7 +77,7 @@ def test_a_second_reader_finds_the_same(tmp_path: Path) -> None:
     assert event["TIMES"]["value"][1] == pytest.approx([3 / 30, 7 / 30], abs=1e-5)
 
 
-def test_repetitions_are_events(tmp_path: Path) -> None:
+def test_c3d_repetitions_are_events(tmp_path: Path) -> None:
     take = take_of(read_session(stopping(tmp_path)))
     (path,) = c3d_write.write(take, tmp_path / "out")
     event = ezc3d.c3d(str(path))["parameters"]["EVENT"]
@@ -104,7 +104,7 @@ def of_rows(session: Session, rows: np.ndarray, dropped_before: np.ndarray) -> S
     )
 
 
-def test_an_hour_keeps_its_last_frame(tmp_path: Path) -> None:
+def test_c3d_one_hour_keeps_last_frame(tmp_path: Path) -> None:
     session = read_session(stored(tmp_path, frames=10))
     count, times = 70_001, 12
     rows = np.arange(count) % 10
@@ -128,13 +128,13 @@ def test_an_hour_keeps_its_last_frame(tmp_path: Path) -> None:
         assert len(reader.get("EVENT").get("LABELS2").string_array) == 300 - times - 255
 
 
-def test_a_recording_without_a_frame_is_written(tmp_path: Path) -> None:
+def test_c3d_without_frames_is_written(tmp_path: Path) -> None:
     take = take_of(read_session(stored(tmp_path, frames=0)))
     (path,) = c3d_write.write(take, tmp_path / "out")
     assert path.stat().st_size % 512 == 0
 
 
-def test_a_dropped_frame_keeps_the_time_of_the_rest(tmp_path: Path) -> None:
+def test_c3d_dropped_frame_keeps_times(tmp_path: Path) -> None:
     take = wrist_take(tmp_path)
     session = take.session
     kept = np.delete(np.arange(len(session)), [10, 11])
@@ -166,7 +166,7 @@ def c3d_with(parameters: bytes) -> bytes:
         ),
     ],
 )
-def test_a_small_file_does_not_become_a_large_one(parameters: bytes, tmp_path: Path) -> None:
+def test_read_c3d_overlapping_values_are_refused(parameters: bytes, tmp_path: Path) -> None:
     path = tmp_path / "bomb.c3d"
     path.write_bytes(c3d_with(parameters))
     tracemalloc.start()

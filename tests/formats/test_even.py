@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from carpus.core.formats.export_item import uniform_times
 
 
-def test_even_times_are_the_rows_themselves() -> None:
+def test_uniform_times_of_even_stamps_are_rows() -> None:
     times = 1305031102.175304 + np.arange(50) / 30.0
     even = uniform_times(times, 30.0)
     values = np.random.default_rng(1).normal(size=(50, 3))
@@ -20,7 +20,7 @@ def test_even_times_are_the_rows_themselves() -> None:
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(3, 80))
-def test_wavering_time_stamps_give_one_row_a_picture_on_the_movement(seed: int, count: int) -> None:
+def test_uniform_times_of_jitter_one_row_per_frame(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
     times = 100.0 + np.arange(count) / 30.0 + rng.uniform(-0.004, 0.004, count)
     even = uniform_times(times, 30.0)
@@ -29,7 +29,7 @@ def test_wavering_time_stamps_give_one_row_a_picture_on_the_movement(seed: int, 
     assert np.allclose(even.interpolate(7.0 * times), 7.0 * wanted, atol=1e-9), "a straight movement stays straight"
 
 
-def test_a_gap_stays_empty_and_the_time_goes_on() -> None:
+def test_uniform_times_gap_stays_empty() -> None:
     rows = np.array([0, 1, 2, 6, 7, 8])
     even = uniform_times(5.0 + rows / 30.0, 30.0)
     out = even.interpolate(rows.astype(float))
@@ -39,7 +39,7 @@ def test_a_gap_stays_empty_and_the_time_goes_on() -> None:
 
 
 @given(st.integers(0, 2**32 - 1), st.sets(st.integers(1, 58), min_size=1, max_size=8))
-def test_dropped_pictures_empty_their_own_rows_and_no_others(seed: int, dropped: set[int]) -> None:
+def test_uniform_times_dropped_frames_empty_own_rows(seed: int, dropped: set[int]) -> None:
     kept = np.array([row for row in range(60) if row not in dropped])
     times = 100.0 + kept / 30.0 + np.random.default_rng(seed).uniform(-0.004, 0.004, len(kept))
     even = uniform_times(times, 30.0)
@@ -50,21 +50,21 @@ def test_dropped_pictures_empty_their_own_rows_and_no_others(seed: int, dropped:
     assert {even.row_index[row] for row in dropped} == {-1}
 
 
-def test_a_slow_camera_is_resampled_in_its_own_time() -> None:
+def test_uniform_times_slow_camera_keeps_rate() -> None:
     times = np.arange(300) / 29.5
     even = uniform_times(times, 30.0)
     assert even.elapsed_s[-1] == pytest.approx(times[-1], abs=0.5 / 30.0)
     assert np.allclose(even.interpolate(times), even.start_s + even.elapsed_s, atol=1e-9)
 
 
-def test_what_is_not_known_is_not_spread() -> None:
+def test_interpolate_nan_does_not_spread() -> None:
     times = np.arange(10) / 30.0
     values = np.arange(10.0)
     values[4] = np.nan
     assert np.isnan(uniform_times(times, 30.0).interpolate(values)).tolist() == np.isnan(values).tolist()
 
 
-def test_angles_go_the_short_way_round() -> None:
+def test_interpolate_angles_take_shorter_way() -> None:
     times = np.array([0.0, 1.0, 2.0])
     even = uniform_times(times + 0.25 * (np.arange(3) == 1), 1.0)
     values = np.radians([179.0, -179.0, -177.0])
@@ -72,7 +72,7 @@ def test_angles_go_the_short_way_round() -> None:
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])
-def test_next_to_nothing(count: int) -> None:
+def test_uniform_times_of_none_or_one_row(count: int) -> None:
     even = uniform_times(np.arange(count) / 30.0, 30.0)
     assert len(even) == count
     assert even.interpolate(np.ones((count, 2))).shape == (count, 2)

@@ -26,7 +26,7 @@ export_sessions = export.export_sessions
 
 
 @pytest.mark.parametrize("deidentified", [False, True])
-def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bool, tmp_path: Path) -> None:
+def test_export_all_formats_reimport_gives_same_charts(deidentified: bool, tmp_path: Path) -> None:
     path = stored(tmp_path, HAND21)
     done = export_sessions([ExportRequest.from_file(path)], tmp_path / "out", list(FORMATS), deidentified=deidentified)
     assert not done.refused
@@ -46,9 +46,7 @@ def test_everything_in_one_folder_comes_back_to_the_same_charts(deidentified: bo
         assert np.allclose(one.mean, other.mean, atol=1e-4, equal_nan=True)
 
 
-def test_each_session_of_an_export_to_a_disk_that_can_only_be_read_is_told(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_export_to_read_only_disk_reports_each_session(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuses(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, "Read-only file system")
 
@@ -61,7 +59,7 @@ def test_each_session_of_an_export_to_a_disk_that_can_only_be_read_is_told(
         assert [type(one.fault) for one in refused] == [OutputNotWritable] * 2
 
 
-def test_nobody_is_found_in_what_was_deidentified(tmp_path: Path) -> None:
+def test_export_deidentified_contains_no_identity(tmp_path: Path) -> None:
     path = stored(tmp_path)
     export_sessions([ExportRequest.from_file(path)], tmp_path / "out", list(FORMATS), deidentified=True)
     header = read_session(path).header
@@ -75,7 +73,7 @@ def test_nobody_is_found_in_what_was_deidentified(tmp_path: Path) -> None:
             assert text not in str(file.relative_to(tmp_path / "out"))
 
 
-def test_a_deidentified_export_tells_no_camera_from_another_of_its_kind(tmp_path: Path) -> None:
+def test_export_deidentified_cameras_are_alike(tmp_path: Path) -> None:
     cameras = (
         Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.001, 0.002, 0.0)),
         Camera(523.9, 526.1, 325.7, 236.4, distortion=(0.05, -0.2, 0.0, 0.001, 0.1)),
@@ -96,7 +94,7 @@ def test_a_deidentified_export_tells_no_camera_from_another_of_its_kind(tmp_path
     assert f"{session.camera.fx_px}" not in text.read_text(encoding="utf-8")
 
 
-def test_one_patient_stays_one_and_days_count_from_the_first(tmp_path: Path) -> None:
+def test_export_deidentified_patient_consistent_days_counted(tmp_path: Path) -> None:
     paths = []
     for day in (20, 13):
         header = make_header(session_id=uuid.uuid4())
@@ -110,7 +108,7 @@ def test_one_patient_stays_one_and_days_count_from_the_first(tmp_path: Path) -> 
     assert len({header.session_id for header in found}) == 2
 
 
-def test_nothing_is_overwritten_and_the_others_go_on(tmp_path: Path) -> None:
+def test_export_never_overwrites_and_continues(tmp_path: Path) -> None:
     good, missing = stored(tmp_path), tmp_path / "missing.h5"
     heard: list[tuple[int, int]] = []
     done = export_sessions(
@@ -129,7 +127,7 @@ def test_nothing_is_overwritten_and_the_others_go_on(tmp_path: Path) -> None:
     assert not list((tmp_path / "out").rglob("*.half"))
 
 
-def test_two_sessions_of_one_name_lie_beside_each_other(tmp_path: Path) -> None:
+def test_export_equal_names_get_numbers(tmp_path: Path) -> None:
     for folder in ("a", "b"):
         (tmp_path / folder).mkdir()
     paths = [stored(tmp_path / "a"), stored(tmp_path / "b")]
@@ -137,7 +135,7 @@ def test_two_sessions_of_one_name_lie_beside_each_other(tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"one.c3d", "one-2.c3d"}
 
 
-def test_it_stops_when_asked(tmp_path: Path) -> None:
+def test_export_cancelled_stops(tmp_path: Path) -> None:
     asked = iter((False, True))
     done = export_sessions(
         [ExportRequest.from_file(stored(tmp_path))], tmp_path / "out", ["mot", "trc"], cancelled=lambda: next(asked)

@@ -46,9 +46,7 @@ def as_python(cell: str) -> float | str:
     ("exercise", "name", "off_deg"),
     [("FOREARM_PS", "supination_from_thumb_up", -90.0), ("WRIST_FE", "rotation_from_start", 0.0)],
 )
-def test_a_spreadsheet_counts_the_forearm_as_clinics_do_and_calls_it_so(
-    exercise: str, name: str, off_deg: float, tmp_path: Path
-) -> None:
+def test_spreadsheet_forearm_counts_clinically(exercise: str, name: str, off_deg: float, tmp_path: Path) -> None:
     session = read_session(stored(tmp_path, WRIST6))
     session = replace(session, header=replace(session.header, exercise=exercise))
     start_deg = math.degrees(session.calibration.start_angles_rad[2])
@@ -65,7 +63,7 @@ def test_a_spreadsheet_counts_the_forearm_as_clinics_do_and_calls_it_so(
 
 
 @pytest.mark.parametrize("region", OFFERED_REGIONS)
-def test_a_spreadsheet_of_a_region_finds_the_same_numbers(region: str, tmp_path: Path) -> None:
+def test_spreadsheet_of_region_reads_same_numbers(region: str, tmp_path: Path) -> None:
     take, form = take_of(read_session(stored(tmp_path, HAND21)), "s"), regional_table_form(region)
     plain = [path for path in write(take, tmp_path / "plain") if path.suffix == ".csv"]
     assert all(path.name.endswith(".for-programs.csv") for path in plain)
@@ -83,7 +81,7 @@ def test_a_spreadsheet_of_a_region_finds_the_same_numbers(region: str, tmp_path:
     assert numbers > 1000
 
 
-def test_the_rules_of_a_region_see_the_fault_that_they_are_for() -> None:
+def test_region_rules_detect_wrong_dialect() -> None:
     assert (read_as("91.947", "de_DE"), read_as("91,947", "de_DE")) == (91947.0, 91.947)
 
 
@@ -95,17 +93,17 @@ def test_the_rules_of_a_region_see_the_fault_that_they_are_for() -> None:
         ("fr", TableDialect(";", ",", has_bom=True)),
     ],
 )  # fmt: skip
-def test_a_region_has_its_form(region: str, form: TableDialect) -> None:
+def test_region_has_its_dialect(region: str, form: TableDialect) -> None:
     assert regional_table_form(region) == form
 
 
 @pytest.mark.parametrize("region", ["", "xx_YY", "de_XX", "C", "germany", "de_DE; rm"])
-def test_a_region_that_there_is_not_is_refused(region: str) -> None:
+def test_region_unknown_is_refused(region: str) -> None:
     with pytest.raises(ValueError, match="no region"):
         regional_table_form(region)
 
 
-def test_the_command_writes_in_the_form_of_a_region(tmp_path: Path, command: Command) -> None:
+def test_export_command_writes_regional_tables(tmp_path: Path, command: Command) -> None:
     path = stored(tmp_path)
     done = command("export", path, "--region", "de_DE", "--output", tmp_path / "out")
     assert done.code == 0
@@ -115,7 +113,7 @@ def test_the_command_writes_in_the_form_of_a_region(tmp_path: Path, command: Com
     assert (refused.code, "no region is called “nowhere”" in refused.err) == (2, True)
 
 
-def test_a_table_saved_in_the_window_is_in_the_persons_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_table_saved_in_window_has_regional_dialect(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("carpus.ui.kit.table_file.user_region", lambda: "it_IT")
     save_table(tmp_path / "t.csv", ("angle", "mean_deg"), [("flexion", -1.5), ("=1+1", 91.947)])
     assert (tmp_path / "t.csv").read_text(encoding="utf-8-sig").split() == [
@@ -124,5 +122,5 @@ def test_a_table_saved_in_the_window_is_in_the_persons_form(tmp_path: Path, monk
     assert read_table(tmp_path / "t.csv", ()).column("mean_deg") == ["-1,5", "91,947"]
 
 
-def test_the_persons_region_is_one_that_there_is() -> None:
+def test_system_region_exists() -> None:
     regional_table_form(user_region())

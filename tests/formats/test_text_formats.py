@@ -30,7 +30,7 @@ def numbers(rows: list[dict[str, str]], column: str) -> np.ndarray:
     return np.array([float(row[column]) if row[column] else np.nan for row in rows])
 
 
-def test_the_wrist_is_one_row_a_picture(tmp_path: Path) -> None:
+def test_csv_wrist_one_row_per_frame(tmp_path: Path) -> None:
     take = wrist_take(tmp_path)
     written = csv_tables.write(take, tmp_path / "out")
     assert {path.name for path in written} == {
@@ -53,7 +53,7 @@ def test_the_wrist_is_one_row_a_picture(tmp_path: Path) -> None:
     assert float(events[0]["since_start_s"]) == pytest.approx(0.1, abs=1e-5)
 
 
-def test_joints_and_markers_are_one_row_each(tmp_path: Path) -> None:
+def test_csv_joints_and_markers_one_row_each(tmp_path: Path) -> None:
     take = hand_take(tmp_path)
     csv_tables.write(take, tmp_path / "out")
     session = take.session
@@ -87,7 +87,7 @@ def opensim_cells(line: str) -> list[str]:
     return [*cells, rest] if rest else cells
 
 
-def test_trc_is_as_opensim_writes_it(tmp_path: Path) -> None:
+def test_trc_matches_opensim(tmp_path: Path) -> None:
     take = wrist_take(tmp_path)
     trc.write(take, tmp_path / "out")
     lines = (tmp_path / "out" / "one.trc").read_text(encoding="utf-8").split("\n")
@@ -113,7 +113,7 @@ def test_trc_is_as_opensim_writes_it(tmp_path: Path) -> None:
     assert np.linalg.det(rotation) == pytest.approx(1.0)
 
 
-def test_mot_holds_the_angles_in_degrees(tmp_path: Path) -> None:
+def test_mot_has_angles_in_degrees(tmp_path: Path) -> None:
     take = hand_take(tmp_path)
     mot.write(take, tmp_path / "out")
     lines = (tmp_path / "out" / "one.mot").read_text(encoding="utf-8").split("\n")
@@ -130,7 +130,7 @@ def test_mot_holds_the_angles_in_degrees(tmp_path: Path) -> None:
     assert np.isnan(table[4, 1:]).all(), "a lost frame stays lost"
 
 
-def test_the_measures_are_json_that_every_reader_takes(tmp_path: Path) -> None:
+def test_json_measures_are_standard_json(tmp_path: Path) -> None:
     take = take_of(flexing())
     (path,) = json_measures.write(take, tmp_path / "out")
 
@@ -146,7 +146,7 @@ def test_the_measures_are_json_that_every_reader_takes(tmp_path: Path) -> None:
     assert content["provenance"]["camera"]["fx_px"] == take.session.camera.fx_px
 
 
-def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -> None:
+def test_bids_passes_validator_rules(tmp_path: Path) -> None:
     one, two = stored(tmp_path), stored(tmp_path, HAND21, name="two")
     export_sessions([ExportRequest.from_file(one), ExportRequest.from_file(two)], tmp_path / "set", ["bids"])
     command = [sys.executable, "-c", "import sys, bids_validator_deno as b; sys.exit(b.cli())"]
@@ -162,14 +162,14 @@ def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -
     assert not list((tmp_path / "set").rglob("*_run-2_*"))
 
 
-def test_what_is_no_data_set_of_carpus_stays_beside_one(tmp_path: Path) -> None:
+def test_bids_other_files_stay(tmp_path: Path) -> None:
     (tmp_path / "sub-notes.txt").touch()
     (tmp_path / "sub-other" / "ses-1" / "anat").mkdir(parents=True)
     done = export_sessions([ExportRequest.from_file(stored(tmp_path))], tmp_path, ["bids"])
     assert (bool(done.files), done.refused) == (True, ())
 
 
-def test_bids_columns_are_what_channels_say(tmp_path: Path) -> None:
+def test_bids_columns_match_channels(tmp_path: Path) -> None:
     take = hand_take(tmp_path)
     written = bids_motion.write(take, tmp_path / "set")
     (motion,) = [path for path in written if path.name.endswith("_motion.tsv")]
@@ -192,7 +192,7 @@ def test_bids_columns_are_what_channels_say(tmp_path: Path) -> None:
     assert [float(row[0]) for row in table] == pytest.approx(np.arange(len(table)) / 30.0, abs=2e-6)
 
 
-def test_every_column_says_whose_estimate_it_is_and_every_row_has_one_sign(tmp_path: Path) -> None:
+def test_csv_columns_state_estimate_and_sign(tmp_path: Path) -> None:
     for take, name in ((take_of(flexing()), "wrist"), (hand_take(tmp_path), "hand")):
         out = tmp_path / name
         csv_tables.write(take, out)
@@ -215,7 +215,7 @@ def test_every_column_says_whose_estimate_it_is_and_every_row_has_one_sign(tmp_p
     assert "index finger" in rows["smallest", "CMC1_extension"]["positive"]
 
 
-def test_repetitions_are_in_every_format_that_can_say_them(tmp_path: Path) -> None:
+def test_repetitions_are_in_every_capable_format(tmp_path: Path) -> None:
     take = take_of(read_session(stopping(tmp_path)), "stops")
     figures = take.results
     for module in (csv_tables, json_measures, bids_motion):

@@ -104,7 +104,7 @@ def restored(place: Path, made: Backup, target: Path, settings: Path | None = No
 @pytest.mark.parametrize(
     "trouble", ["", "a journal", "a journal while it is read", "another computer writes", "damaged"]
 )
-def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_writes_in_it(
+def test_backup_of_read_only_folder_fails_only_while_it_is_written(
     trouble: str, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     connect, read_bytes, store, numbers = sqlite3.connect, Path.read_bytes, data / STORE_FILE, itertools.count()
@@ -154,7 +154,7 @@ def kept_on(data: Path, place: Path, *days: int) -> list[Backup]:
     return made
 
 
-def test_everything_is_restored_on_another_computer(data: Path, place: Path, tmp_path: Path) -> None:
+def test_restore_on_another_computer_brings_everything_back(data: Path, place: Path, tmp_path: Path) -> None:
     settings = tmp_path / "settings"
     settings.mkdir()
     for name in ("preferences", "lab"):
@@ -180,7 +180,7 @@ def test_everything_is_restored_on_another_computer(data: Path, place: Path, tmp
         restored(place, made, new)
 
 
-def test_a_restore_that_fails_leaves_no_settings(data: Path, place: Path, tmp_path: Path) -> None:
+def test_restore_failing_leaves_no_settings(data: Path, place: Path, tmp_path: Path) -> None:
     settings = tmp_path / "settings"
     settings.mkdir()
     for name in ("a", "b"):
@@ -193,7 +193,7 @@ def test_a_restore_that_fails_leaves_no_settings(data: Path, place: Path, tmp_pa
     assert list((tmp_path / "new settings").iterdir()) == []
 
 
-def test_the_same_content_is_stored_once(data: Path, place: Path) -> None:
+def test_backup_stores_equal_content_once(data: Path, place: Path) -> None:
     first = backed_up(data, place)
     objects = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
     second = backed_up(data, place, NOW + timedelta(days=1))
@@ -207,7 +207,7 @@ def test_the_same_content_is_stored_once(data: Path, place: Path) -> None:
 
 
 @pytest.mark.parametrize("at", [0, -1])
-def test_a_flipped_bit_is_noticed(
+def test_verify_backup_flipped_bit_raises(
     data: Path, place: Path, tmp_path: Path, at: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made = backed_up(data, place)
@@ -231,7 +231,7 @@ def test_a_flipped_bit_is_noticed(
     assert len(list_backups(place)) == 2, "what could not be compared is no back-up"
 
 
-def test_a_back_up_that_was_cut_short_is_none(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_create_backup_interrupted_is_not_listed(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def cut(*_: object) -> None:
         raise KeyboardInterrupt
 
@@ -244,12 +244,12 @@ def test_a_back_up_that_was_cut_short_is_none(data: Path, place: Path, monkeypat
 
 
 @pytest.mark.parametrize("where", [".", "sessions/backup", ".."])
-def test_a_place_in_or_around_the_data_is_refused(data: Path, where: str) -> None:
+def test_create_backup_in_or_around_data_folder_is_refused(data: Path, where: str) -> None:
     with pytest.raises(BackupFolderUnsuited):
         backed_up(data, data / where)
 
 
-def test_a_folder_that_holds_nothing_of_the_program_is_no_data_folder(place: Path, tmp_path: Path) -> None:
+def test_create_backup_of_foreign_folder_is_refused(place: Path, tmp_path: Path) -> None:
     (tmp_path / "pictures").mkdir()
     (tmp_path / "pictures" / "holiday.txt").write_text("x")
     with pytest.raises(DataFolderMissing):
@@ -257,7 +257,7 @@ def test_a_folder_that_holds_nothing_of_the_program_is_no_data_folder(place: Pat
     assert not place.exists()
 
 
-def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data: Path, place: Path) -> None:
+def test_plan_restore_lists_changes_and_restore_keeps_old_folder(data: Path, place: Path) -> None:
     made = backed_up(data, place)
     gone, changed = sorted((data / "sessions").rglob("*.h5"))
     gone.unlink()
@@ -275,7 +275,7 @@ def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data:
     assert plan_restore(made, place, data, LogHistory()).replaced == ()
 
 
-def test_the_newest_and_one_of_each_month_are_kept(data: Path, place: Path) -> None:
+def test_prune_backups_keeps_newest_and_one_per_month(data: Path, place: Path) -> None:
     kept_on(data, place, 0, 1, 2, 40, 41, 70, 900)
     assert prune_backups(place, 2, 24, NOW) == 3
     left = [(NOW - one.made).days for one in list_backups(place)]
@@ -286,7 +286,7 @@ def test_the_newest_and_one_of_each_month_are_kept(data: Path, place: Path) -> N
     assert {path.name for path in (place / OBJECTS).glob("*/*")} == needed
 
 
-def test_a_clock_that_ran_ahead_costs_no_back_up(data: Path, place: Path) -> None:
+def test_prune_backups_future_date_costs_no_backup(data: Path, place: Path) -> None:
     kept_on(data, place, 0, 1, 2, 3, -3, -2)
     assert prune_backups(place, 2, 0, NOW) == 2
     assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0, 1]
@@ -294,7 +294,7 @@ def test_a_clock_that_ran_ahead_costs_no_back_up(data: Path, place: Path) -> Non
     assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0]
 
 
-def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, place: Path) -> None:
+def test_prune_backups_keeps_contents_of_newer_format(data: Path, place: Path) -> None:
     _, newer, _ = kept_on(data, place, 900, 800, 0)
     path = place / BACKUPS / f"{newer.name}.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"format_version": 99}))
@@ -303,7 +303,7 @@ def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, 
 
 
 @pytest.mark.parametrize("at_reading", [1, 2, 3, 4])
-def test_a_back_up_that_cannot_be_read_for_a_moment_loses_nothing(
+def test_prune_backups_unreadable_backup_loses_nothing(
     data: Path, place: Path, monkeypatch: pytest.MonkeyPatch, at_reading: int
 ) -> None:
     real, read = Path.read_text, list[Path]()
@@ -321,9 +321,7 @@ def test_a_back_up_that_cannot_be_read_for_a_moment_loses_nothing(
     verify_backup(place, made)
 
 
-def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
-    data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_prune_backups_without_list_deletes_nothing(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = backed_up(data, place)
     (place / BACKUPS).rename(place / "away")
     (place / BACKUPS).mkdir()
@@ -339,7 +337,7 @@ def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
     verify_backup(place, made)
 
 
-def test_a_newer_or_foreign_list_is_refused(data: Path, place: Path) -> None:
+def test_backup_from_json_newer_or_foreign_is_refused(data: Path, place: Path) -> None:
     path = place / BACKUPS / f"{create_backup(data, place, now=NOW).name}.json"
     told = json.loads(path.read_text())
     for change in (
@@ -363,14 +361,14 @@ def test_a_newer_or_foreign_list_is_refused(data: Path, place: Path) -> None:
     assert prune_backups(place, 0, 0, NOW) == 0, "nothing is taken away that an unread list may need"
 
 
-def test_when_a_person_is_reminded() -> None:
+def test_is_backup_due_after_days() -> None:
     assert is_backup_due(None, 3, NOW)
     assert not is_backup_due(NOW, 3, NOW + timedelta(days=3))
     assert is_backup_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
 
 
 @pytest.mark.parametrize("text", ['{"lacking": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
-def test_one_damaged_entry_harms_no_other(data: Path, place: Path, tmp_path: Path, text: str) -> None:
+def test_list_backups_skips_damaged_entry(data: Path, place: Path, tmp_path: Path, text: str) -> None:
     first = backed_up(data, place)
     path = place / BACKUPS / f"{first.name}.json"
     said = json.dumps(json.loads(path.read_text()) | {"lacking": 0}).replace('"lacking": 0', '"lacking": 1e999')
@@ -382,7 +380,7 @@ def test_one_damaged_entry_harms_no_other(data: Path, place: Path, tmp_path: Pat
     assert contents(tmp_path / "new") == contents(data)
 
 
-def test_linked_folders_and_files_are_followed(data: Path, place: Path, tmp_path: Path) -> None:
+def test_create_backup_follows_links(data: Path, place: Path, tmp_path: Path) -> None:
     elsewhere = tmp_path / "large disk" / "sessions"
     elsewhere.parent.mkdir()
     (data / "sessions").rename(elsewhere)
@@ -398,7 +396,7 @@ def test_linked_folders_and_files_are_followed(data: Path, place: Path, tmp_path
         backed_up(data, elsewhere / "backup")
 
 
-def test_the_sessions_of_a_share_are_in_it(data: Path, place: Path, tmp_path: Path) -> None:
+def test_create_backup_contains_sessions_of_share(data: Path, place: Path, tmp_path: Path) -> None:
     share = tmp_path / "share"
     (data / "sessions").rename(share)
     made = backed_up(data, place, sessions_folder=share)
@@ -412,7 +410,7 @@ def test_the_sessions_of_a_share_are_in_it(data: Path, place: Path, tmp_path: Pa
         backed_up(data, place, sessions_folder=share)
 
 
-def test_two_into_one_place_take_nothing_from_each_other(data: Path, place: Path) -> None:
+def test_create_backup_twice_at_once_one_waits(data: Path, place: Path) -> None:
     """What only an old back-up had goes with that one, unless a back-up that runs has just found it there."""
     met = []
     backed_up(data, place, NOW - timedelta(days=40))
@@ -431,7 +429,7 @@ def test_two_into_one_place_take_nothing_from_each_other(data: Path, place: Path
 
 
 @pytest.mark.parametrize("lost", ["file", "folder", "link"])
-def test_fewer_files_than_the_store_knows_is_no_success(data: Path, place: Path, tmp_path: Path, lost: str) -> None:
+def test_create_backup_missing_session_file_is_incomplete(data: Path, place: Path, tmp_path: Path, lost: str) -> None:
     sessions = data / "sessions"
     if lost == "file":
         next(iter(sessions.rglob("*.h5"))).unlink()
@@ -447,7 +445,7 @@ def test_fewer_files_than_the_store_knows_is_no_success(data: Path, place: Path,
     assert "set_ups.json" in {one.path for one in made.files}, "all else is in it"
 
 
-def test_what_a_killed_back_up_left_goes_with_the_next(data: Path, tmp_path: Path) -> None:
+def test_prune_backups_deletes_leftovers_of_killed_backup(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "place"
     made = backed_up(data, place)
     left = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made.name}-2.json.part"]
@@ -460,7 +458,7 @@ def test_what_a_killed_back_up_left_goes_with_the_next(data: Path, tmp_path: Pat
         verify_backup(place, one)
 
 
-def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, place: Path, tmp_path: Path) -> None:
+def test_prune_backups_leaves_link_targets(data: Path, place: Path, tmp_path: Path) -> None:
     mine = tmp_path / "mine"
     kept_on(data, place, 0, 40)
     mine.mkdir()
@@ -474,7 +472,7 @@ def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, place: Pa
     assert (place / OBJECTS / "00" / "note.txt").exists()
 
 
-def test_a_file_that_cannot_be_read_is_told_and_the_rest_is_in_it(
+def test_create_backup_unreadable_file_is_reported_rest_included(
     data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real = Path.open
@@ -515,7 +513,7 @@ class Trouble:
 
 
 @pytest.mark.parametrize("kind", ["killed", "full"])
-def test_a_back_up_that_fails_at_any_step_costs_no_other(
+def test_create_backup_failing_at_any_step_keeps_others(
     kind: str, data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     backed_up(data, place)
@@ -540,7 +538,7 @@ def test_a_back_up_that_fails_at_any_step_costs_no_other(
 
 
 @pytest.mark.parametrize("kind", ["killed", "full"])
-def test_a_restore_that_fails_at_any_step_loses_nothing_and_leaves_nothing(
+def test_restore_failing_at_any_step_loses_and_leaves_nothing(
     kind: str, data: Path, place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made, before = backed_up(data, place), contents(data)
@@ -572,9 +570,7 @@ def test_a_restore_that_fails_at_any_step_loses_nothing_and_leaves_nothing(
 
 
 @pytest.mark.parametrize("what", ["patient", "session"])
-def test_what_was_erased_since_a_back_up_is_not_brought_back_by_it(
-    what: str, data: Path, place: Path, tmp_path: Path
-) -> None:
+def test_restore_does_not_bring_back_erased_since(what: str, data: Path, place: Path, tmp_path: Path) -> None:
     with opened(data) as house:
         heron = house.patients.add(HERON)
         stays = measure(house, heron, T0)
@@ -601,9 +597,7 @@ def test_what_was_erased_since_a_back_up_is_not_brought_back_by_it(
         assert house.files.scan().session_count == 0
 
 
-def test_the_newest_back_up_knows_what_was_erased_where_the_data_folder_is_lost(
-    data: Path, place: Path, tmp_path: Path
-) -> None:
+def test_restore_without_data_folder_uses_log_of_newest_backup(data: Path, place: Path, tmp_path: Path) -> None:
     old = backed_up(data, place)
     with opened(data) as house:
         linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
@@ -615,7 +609,7 @@ def test_the_newest_back_up_knows_what_was_erased_where_the_data_folder_is_lost(
     assert traces(data, linden, *NAMES) == []
 
 
-def test_a_newest_back_up_that_is_damaged_hides_nothing_that_the_data_folder_knows(data: Path, place: Path) -> None:
+def test_restore_damaged_newest_backup_uses_log_of_data_folder(data: Path, place: Path) -> None:
     with opened(data) as house:
         linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
         erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
@@ -626,7 +620,7 @@ def test_a_newest_back_up_that_is_damaged_hides_nothing_that_the_data_folder_kno
     assert fingerprint(linden) not in read_history(place, None).erased
 
 
-def test_a_patient_whose_erasing_was_refused_comes_back(data: Path, place: Path, tmp_path: Path) -> None:
+def test_restore_brings_back_patient_whose_erasure_was_refused(data: Path, place: Path, tmp_path: Path) -> None:
     made = backed_up(data, place)
     with opened(data) as house:
         linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)

@@ -66,7 +66,7 @@ def erase_patient(house: House, patient_id: str) -> int:
     return erasure.erase(house.store, erasure.plan_patient(house.store, patient_id), house.log)
 
 
-def test_what_another_program_has_erased_meanwhile_is_erased(house: House) -> None:
+def test_erase_already_erased_elsewhere_succeeds(house: House) -> None:
     linden = house.patients.add(LINDEN)
     session = measure(house, linden, T0)
     plans = [erasure.plan_patient(house.store, linden), erasure.plan_session(house.store, session)]
@@ -81,9 +81,7 @@ def test_what_another_program_has_erased_meanwhile_is_erased(house: House) -> No
         erasure.erase(house.store, plan, house.log)
 
 
-def test_a_folder_that_another_program_takes_away_while_it_is_looked_at_is_passed_over(
-    house: House, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_scan_skips_folder_that_vanishes(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     measure(house, linden, T0)
     kept = measure(house, heron, T0)
@@ -102,7 +100,7 @@ def test_a_folder_that_another_program_takes_away_while_it_is_looked_at_is_passe
     assert house.index.get(kept).path.exists()
 
 
-def test_a_session_goes_with_its_files_and_rows_and_the_others_stay(folder: Path, house: House) -> None:
+def test_erase_session_deletes_files_and_rows_of_it_alone(folder: Path, house: House) -> None:
     linden = house.patients.add(LINDEN)
     first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=7))
     path = house.index.get(second).path
@@ -119,7 +117,7 @@ def test_a_session_goes_with_its_files_and_rows_and_the_others_stay(folder: Path
     assert house.files.scan().session_count == 0
 
 
-def test_earlier_results_and_copies_of_a_recording_go_too(folder: Path, house: House) -> None:
+def test_erase_session_deletes_all_results_and_copies(folder: Path, house: House) -> None:
     linden = house.patients.add(LINDEN)
     first = measure(house, linden, T0)
     recording = house.index.patient_sessions(linden)[0].recording_id
@@ -135,7 +133,7 @@ def test_earlier_results_and_copies_of_a_recording_go_too(folder: Path, house: H
     assert house.index.patient_sessions(linden) == []
 
 
-def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) -> None:
+def test_erase_patient_leaves_no_trace_in_folder(folder: Path) -> None:
     with opened(folder) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         sessions = fill(house, linden)
@@ -159,7 +157,7 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
     assert traces(folder, *NAMES, linden, *sessions) == []
 
 
-def test_a_move_that_fails_leaves_all_as_it_was(folder: Path, house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_move_to_patient_failing_changes_nothing(folder: Path, house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     session_id = measure(house, linden, T0)
     files = {path for path in folder.rglob("*") if path.is_file()}
@@ -179,7 +177,7 @@ def test_a_move_that_fails_leaves_all_as_it_was(folder: Path, house: House, monk
     assert house.index.owner_id(session_id) == heron, "a session whose file is away is moved all the same"
 
 
-def test_a_session_moved_to_another_patient_stays_with_that_one(folder: Path, house: House) -> None:
+def test_erase_patient_keeps_sessions_moved_to_another(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     moved, own = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
     former = house.index.get(moved)
@@ -202,7 +200,7 @@ def test_a_session_moved_to_another_patient_stays_with_that_one(folder: Path, ho
         house.index.get(own)
 
 
-def test_files_made_elsewhere_are_named_and_never_touched(tmp_path: Path, folder: Path, house: House) -> None:
+def test_plan_names_output_files_and_erase_keeps_them(tmp_path: Path, folder: Path, house: House) -> None:
     mine = measure(house, house.patients.add(LINDEN), T0)
     out = tmp_path / "papers"
     out.mkdir()
@@ -219,7 +217,7 @@ def test_files_made_elsewhere_are_named_and_never_touched(tmp_path: Path, folder
     assert traces(folder, "edited.csv", "gone.csv") == []
 
 
-def test_no_row_and_no_link_leads_out_of_the_folder(tmp_path: Path, folder: Path, house: House) -> None:
+def test_erase_follows_no_path_out_of_the_folder(tmp_path: Path, folder: Path, house: House) -> None:
     mine = tmp_path / "mine"
     record(mine / "a.h5", "Linden 42", T0)
     (mine / "b.h5").write_text("a letter")
@@ -247,7 +245,7 @@ def test_no_row_and_no_link_leads_out_of_the_folder(tmp_path: Path, folder: Path
     assert house.store.rows(select(SESSION)) == []
 
 
-def test_while_the_share_is_away_nothing_is_erased(
+def test_erase_while_share_is_away_deletes_nothing(
     tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     share = tmp_path / "share"
@@ -285,7 +283,7 @@ def test_while_the_share_is_away_nothing_is_erased(
     assert traces(tmp_path, *NAMES, linden) == []
 
 
-def test_what_was_copied_in_and_not_looked_at_brings_nobody_back(folder: Path, house: House) -> None:
+def test_erase_patient_includes_files_not_scanned_yet(folder: Path, house: House) -> None:
     linden = house.patients.add(LINDEN)
     first = measure(house, linden, T0)
     copy = record(folder / "sessions" / "copied in" / "a.h5", "linden 42", T0 + timedelta(days=1))
@@ -302,7 +300,7 @@ def test_what_was_copied_in_and_not_looked_at_brings_nobody_back(folder: Path, h
     assert traces(folder, *NAMES, linden) == []
 
 
-def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(folder: Path, house: House) -> None:
+def test_erase_keeps_damaged_pending_result_of_ambiguous_name(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     for patient, when in ((linden, T0), (heron, T0 + timedelta(days=1))):
         path = folder / "sessions" / patient / "wrist.h5"
@@ -317,7 +315,7 @@ def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(fol
     assert not damaged.exists()
 
 
-def test_what_lies_outside_of_patients_folders_stays_and_is_listed(folder: Path, house: House) -> None:
+def test_plan_patient_lists_unassigned_files_and_erase_keeps_them(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     others = house.index.get(measure(house, heron, T0)).path
     shutil.copy(others, folder / "sessions" / "a copy.h5")
@@ -338,9 +336,7 @@ def test_what_lies_outside_of_patients_folders_stays_and_is_listed(folder: Path,
 
 
 @pytest.mark.parametrize("after", ["mark", "files"])
-def test_an_erasure_that_is_cut_short_ends_at_the_next_start(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, after: str
-) -> None:
+def test_erase_interrupted_is_finished_at_next_start(folder: Path, monkeypatch: pytest.MonkeyPatch, after: str) -> None:
     with opened(folder) as house:
         linden = house.patients.add(LINDEN)
         sessions = fill(house, linden)
@@ -361,7 +357,7 @@ def test_an_erasure_that_is_cut_short_ends_at_the_next_start(
     assert traces(folder, *NAMES, linden, *sessions) == []
 
 
-def test_what_cannot_be_deleted_is_told_and_tried_again(
+def test_erase_locked_file_is_reported_and_tried_again(
     folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     linden = house.patients.add(LINDEN)
@@ -386,7 +382,7 @@ def test_what_cannot_be_deleted_is_told_and_tried_again(
     assert deeds(house)[-1] == "erased"
 
 
-def test_what_cannot_be_logged_is_not_begun(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_erase_without_log_is_not_started(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
     linden = house.patients.add(LINDEN)
     plan = erasure.plan_session(house.store, measure(house, linden, T0))
 
@@ -400,7 +396,7 @@ def test_what_cannot_be_logged_is_not_begun(house: House, monkeypatch: pytest.Mo
     assert len(house.index.patient_sessions(linden)) == 1
 
 
-def test_the_archive_takes_out_of_lists_and_counts_and_gives_back(house: House) -> None:
+def test_archive_removes_from_lists_and_unarchive_restores(house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
     house.index.archive(second, T0)
@@ -423,7 +419,7 @@ def test_the_archive_takes_out_of_lists_and_counts_and_gives_back(house: House) 
     assert house.patients.get(linden).result_count == 3
 
 
-def test_what_is_due_is_decided_by_the_last_session(house: House) -> None:
+def test_find_due_patients_uses_last_session(house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     for years in (12, 11):
         measure(house, linden, T0 - timedelta(days=366 * years))
@@ -440,7 +436,7 @@ def test_what_is_due_is_decided_by_the_last_session(house: House) -> None:
     assert len(find_due_patients(house.store, 10, last_day + timedelta(days=1))) == 1
 
 
-def test_an_identity_that_leads_out_erases_nothing_there(tmp_path: Path, folder: Path, house: House) -> None:
+def test_erase_patient_with_foreign_id_deletes_nothing_elsewhere(tmp_path: Path, folder: Path, house: House) -> None:
     mine = tmp_path / "mine"
     mine.mkdir()
     (mine / "letter.txt").write_text("a letter")
@@ -461,7 +457,7 @@ def test_an_identity_that_leads_out_erases_nothing_there(tmp_path: Path, folder:
     assert house.names() == ["Linden 42"]
 
 
-def test_what_another_program_still_reads_is_told_as_left(
+def test_erase_with_open_reader_reports_log_as_left(
     folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(database, "LOCK_WAIT_MS", 0)
@@ -476,7 +472,7 @@ def test_what_another_program_still_reads_is_told_as_left(
     assert traces(folder, *NAMES) == []
 
 
-def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(folder: Path) -> None:
+def test_erase_keeps_diagnoses_containing_short_name_in_words(folder: Path) -> None:
     with opened(folder) as house:
         gone = house.patients.add(Patient("Fir 11", "right", name="Li"))
         for words in ("Ligament repair", "Zweizeitige Naht", "Li, second operation", "as of Fir 11"):
@@ -485,7 +481,7 @@ def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(fol
         assert house.patients.diagnoses() == ["Ligament repair", "Zweizeitige Naht"]
 
 
-def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_chance(house: House) -> None:
+def test_erase_keeps_addresses_containing_numeric_name(house: House) -> None:
     kept = ("Dr. Linde\nLindenstraße 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
     house.patients.set_diagnosis_listed("Flexor tendon, zone 2", is_listed=True)
     for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
@@ -496,9 +492,7 @@ def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_
         assert house.patients.diagnoses() == ["Flexor tendon, zone 2"]
 
 
-def test_on_a_full_disk_the_list_opens_and_a_patient_is_erased_by_the_room_that_is_kept(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_erase_on_full_disk_frees_reserve(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full_while_kept(real: Callable[..., Any]) -> Callable[..., Any]:
         def tried(*given: Any, **named: Any) -> Any:
             if (folder / reserve.RESERVE_FILE).exists():
@@ -535,7 +529,7 @@ for words in json.loads(sys.argv[1]):
 """
 
 
-def test_each_command_calls_a_full_disk_full(tmp_path: Path, folder: Path) -> None:
+def test_commands_on_full_disk_report_it(tmp_path: Path, folder: Path) -> None:
     """A limit of the system that no file may hold a byte: each write is refused as on a full disk."""
     with opened(folder) as house:
         linden = house.patients.add(LINDEN)

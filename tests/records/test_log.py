@@ -23,7 +23,7 @@ from tests.commands import Command
 from tests.records.samples import LINDEN, T0, measure, opened, traces
 
 
-def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
+def test_log_entry_cannot_be_changed_or_deleted(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         house.log.get_initials = lambda: "AB"
         house.log.write_entry("opened", "session", "0" * 32)
@@ -41,7 +41,7 @@ def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
         assert before[0].subject == fingerprint("0" * 32)
 
 
-def test_a_trigger_that_was_taken_away_is_told_and_there_again(tmp_path: Path) -> None:
+def test_store_restores_and_reports_missing_log_trigger(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         house.log.write_entry("locked", "program")
         assert house.store.startup_faults == []
@@ -58,14 +58,14 @@ def test_a_trigger_that_was_taken_away_is_told_and_there_again(tmp_path: Path) -
 
 
 @pytest.mark.parametrize("facts", [{"path": "/data/sessions/Linden-42/s.h5"}, {"name": "Ada"}, {"name": "x" * 65}])
-def test_a_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
+def test_write_entry_fact_with_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
     with opened(tmp_path) as house:
         with pytest.raises(ValueError):
             house.log.write_entry("opened", "patient", "", **facts)
         assert read_log(house.store) == ()
 
 
-def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: Path) -> None:
+def test_log_of_damaged_file_contains_no_id(tmp_path: Path) -> None:
     said = (" ", "Linden 42", "wr\udc80st", "x" * 65)
     with opened(tmp_path) as house:
         for identity in said:
@@ -74,7 +74,7 @@ def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: P
         assert traces(tmp_path, "Linden") == []
 
 
-def test_the_command_says_it_and_writes_a_table(tmp_path: Path, command: Command) -> None:
+def test_log_command_prints_and_writes_table(tmp_path: Path, command: Command) -> None:
     with Store(tmp_path) as store:
         AuditLogWriter(store, "window", lambda: "AB").write_entry("backed_up", "everything", sessions=7)
     said = command("log", "--data-folder", tmp_path)
@@ -94,7 +94,7 @@ NOTHING_THERE = (
 )
 
 
-def test_what_only_reads_does_so_where_nothing_can_be_written(
+def test_reading_commands_work_in_read_only_folder(
     tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with opened(tmp_path) as house:
@@ -117,7 +117,7 @@ def test_what_only_reads_does_so_where_nothing_can_be_written(
     }
 
 
-def test_the_command_makes_no_store_where_none_is(tmp_path: Path, command: Command) -> None:
+def test_log_command_creates_no_store(tmp_path: Path, command: Command) -> None:
     tmp_path.chmod(0o755)
     for words in (("log",), ("erase", "Linden 42"), ("backup", tmp_path.with_name("disk"))):
         done = command(*words, "--data-folder", tmp_path)
@@ -125,7 +125,7 @@ def test_the_command_makes_no_store_where_none_is(tmp_path: Path, command: Comma
     assert (list(tmp_path.iterdir()), tmp_path.stat().st_mode & 0o777) == ([], 0o755)
 
 
-def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, command: Command) -> None:
+def test_read_log_skips_and_reports_damaged_entry(tmp_path: Path, command: Command) -> None:
     with opened(tmp_path) as house:
         house.store.execute_local(insert(AUDIT_LOG).values(id="x", at_ns=0, facts="{"))
         house.log.write_entry("locked", "program")
@@ -133,7 +133,7 @@ def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, command: Command) -
     assert (said.code, "     2  " in said.out, "left out" in said.err) == (0, True, True)
 
 
-def test_what_the_store_tells_before_anybody_listens_is_told_at_the_start(tmp_path: Path) -> None:
+def test_store_faults_before_start_are_reported_at_start(tmp_path: Path) -> None:
     library = Library(tmp_path)
     library.on_fault(ServerUnavailable("records.clinic.example", "gone"))
     assert [type(one) for one in recover_sessions(library)[1]] == [ServerUnavailable]

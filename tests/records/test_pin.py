@@ -24,7 +24,7 @@ def pin(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pin:
     return pin
 
 
-def test_only_its_hash_is_kept(tmp_path: Path) -> None:
+def test_pin_set_stores_hash_only(tmp_path: Path) -> None:
     pin = Pin(tmp_path)
     pin.set("4821")
     content = (tmp_path / PIN_FILE).read_text()
@@ -34,7 +34,7 @@ def test_only_its_hash_is_kept(tmp_path: Path) -> None:
     assert pin.check("4821", NOW).is_correct
 
 
-def test_wrong_ones_are_counted_and_then_there_is_a_pause(pin: Pin, tmp_path: Path) -> None:
+def test_pin_check_wrong_tries_lead_to_pause(pin: Pin, tmp_path: Path) -> None:
     said = [Pin(tmp_path).check("0000", NOW) for _ in range(5)]  # each as after a start
     assert [one.tries_left for one in said] == [4, 3, 2, 1, 0]
     assert not any(one.is_correct for one in said)
@@ -46,21 +46,21 @@ def test_wrong_ones_are_counted_and_then_there_is_a_pause(pin: Pin, tmp_path: Pa
     assert pin.check("0000", NOW + timedelta(seconds=61)).tries_left == 4, "the right one forgives"
 
 
-def test_a_clock_set_back_does_not_lock_for_ever(pin: Pin) -> None:
+def test_pin_check_clock_set_back_does_not_lock_forever(pin: Pin) -> None:
     for _ in range(5):
         pin.check("0000", NOW)
     assert pin.check("4821", NOW - timedelta(hours=5)).is_correct
 
 
 @pytest.mark.parametrize("content", ["", "{}", '{"pin": "", "refused": 0, "since": ""}', '{"pin": 3}', "[" * 5000])
-def test_a_damaged_file_opens_nothing(pin: Pin, tmp_path: Path, content: str) -> None:
+def test_pin_check_damaged_file_stays_locked(pin: Pin, tmp_path: Path, content: str) -> None:
     (tmp_path / PIN_FILE).write_text(content)
     assert pin.is_set
     assert not pin.check("4821", NOW).is_correct
     assert not pin.check("", NOW).is_correct
 
 
-def test_it_is_changed_and_taken_away(pin: Pin) -> None:
+def test_pin_can_be_changed_and_removed(pin: Pin) -> None:
     for short in ("", "123", "1" * 65):
         with pytest.raises(ValueError):
             pin.set(short)

@@ -83,7 +83,7 @@ def count(url: str, table: str) -> int:
         return int(connection.execute(text(f"SELECT count(*) FROM {table} WHERE id != 'practice'")).scalar() or 0)
 
 
-def test_what_one_computer_enters_the_other_has_at_once(tmp_path: Path, cluster: Cluster) -> None:
+def test_server_shows_entries_on_other_computer_at_once(tmp_path: Path, cluster: Cluster) -> None:
     there, sessions = cluster.new_database("empty"), tmp_path / "share"
     sessions.mkdir()
     with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
@@ -134,7 +134,7 @@ print(told, taken, *kept, flush=True)
 """
 
 
-def test_two_programs_race_and_each_change_is_there_once_or_told(tmp_path: Path, there: str) -> None:
+def test_server_concurrent_changes_apply_once_or_are_refused(tmp_path: Path, there: str) -> None:
     (tmp_path / "share").mkdir()
     with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
         linden = house.patients.add(Patient("Linden 42", "right"))
@@ -159,9 +159,7 @@ def test_two_programs_race_and_each_change_is_there_once_or_told(tmp_path: Path,
         assert house.patients.get(linden).session_count == len(house.index.patient_sessions(linden)) == 10
 
 
-def test_a_server_that_is_away_is_told_and_what_was_measured_is_listed_when_it_is_back(
-    tmp_path: Path, cluster: Cluster, there: str
-) -> None:
+def test_server_away_is_reported_and_sessions_listed_when_back(tmp_path: Path, cluster: Cluster, there: str) -> None:
     with closing(Library(tmp_path, url=there)) as library:
         recover_sessions(library)
         linden = library.patients.add(LINDEN)
@@ -190,9 +188,7 @@ def test_a_server_that_is_away_is_told_and_what_was_measured_is_listed_when_it_i
         assert written(library.patients.get(linden)) == LINDEN
 
 
-def test_who_was_typed_while_it_was_away_and_ends_a_recording_later_is_the_listed_patient(
-    tmp_path: Path, there: str
-) -> None:
+def test_server_away_typed_pseudonym_becomes_listed_patient(tmp_path: Path, there: str) -> None:
     with closing(Library(tmp_path, url=there)) as library:
         linden = library.patients.add(LINDEN)
         typed = set_up(uuid.uuid4().hex, "linden 42")
@@ -204,7 +200,7 @@ def test_who_was_typed_while_it_was_away_and_ends_a_recording_later_is_the_liste
         assert library.owner_id(session_id) == linden
 
 
-def test_a_server_that_falls_silent_is_left_after_seconds(
+def test_server_silent_is_left_after_seconds(
     tmp_path: Path, wired: tuple[Wire, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(server, "STALL_TIMEOUT_S", 0.5)
@@ -224,7 +220,7 @@ def test_a_server_that_falls_silent_is_left_after_seconds(
         assert house.names() == ["Linden 42"], "a line that was cut since then is made anew, and nobody hears of it"
 
 
-def test_a_computer_that_stops_in_the_middle_holds_up_others_for_seconds(
+def test_server_stalled_computer_delays_others_for_seconds(
     tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
@@ -248,7 +244,7 @@ def test_a_computer_that_stops_in_the_middle_holds_up_others_for_seconds(
         a.store._database.close()
 
 
-def test_a_server_to_which_another_computer_brings_what_it_has_is_away_so_long(tmp_path: Path, there: str) -> None:
+def test_server_during_import_of_another_computer_is_away(tmp_path: Path, there: str) -> None:
     with opened(tmp_path, there) as house:
         with engine_of(there).begin() as connection:
             connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
@@ -258,7 +254,7 @@ def test_a_server_to_which_another_computer_brings_what_it_has_is_away_so_long(t
         assert house.names() == []
 
 
-def test_what_the_server_may_not_write_is_told(tmp_path: Path, there: str) -> None:
+def test_server_read_only_reports_not_writable(tmp_path: Path, there: str) -> None:
     name = there.rsplit("/", 1)[1]
     with opened(tmp_path, there) as house:
         house.patients.add(LINDEN)
@@ -270,7 +266,7 @@ def test_what_the_server_may_not_write_is_told(tmp_path: Path, there: str) -> No
             house.patients.add(HERON)
 
 
-def test_the_log_of_the_server_is_only_added_to(tmp_path: Path, there: str) -> None:
+def test_server_log_cannot_be_changed(tmp_path: Path, there: str) -> None:
     with opened(tmp_path / "a", there) as a:
         a.log.write_entry("locked", "program")
     for statement in ("UPDATE deed SET who = 'XY'", "DELETE FROM deed", "TRUNCATE deed"):
@@ -279,7 +275,7 @@ def test_the_log_of_the_server_is_only_added_to(tmp_path: Path, there: str) -> N
     assert count(there, "deed") == 1
 
 
-def test_a_server_of_a_newer_carpus_and_a_url_that_is_none_are_told(tmp_path: Path, there: str) -> None:
+def test_server_newer_version_and_wrong_url_are_reported(tmp_path: Path, there: str) -> None:
     with engine_of(there).begin() as connection:
         connection.execute(text("UPDATE alembic_version SET version_num = '99'"))
     with opened(tmp_path, there) as house, pytest.raises(PatientListVersionUnknown):
@@ -289,7 +285,7 @@ def test_a_server_of_a_newer_carpus_and_a_url_that_is_none_are_told(tmp_path: Pa
             house.names()
 
 
-def test_who_was_erased_on_another_computer_leaves_no_file_here(tmp_path: Path, there: str) -> None:
+def test_server_erasure_elsewhere_deletes_files_here(tmp_path: Path, there: str) -> None:
     with closing(Library(tmp_path / "b", url=there)) as b:
         with opened(tmp_path / "a", there) as a:
             linden = b.patients.add(LINDEN)
@@ -302,7 +298,7 @@ def test_who_was_erased_on_another_computer_leaves_no_file_here(tmp_path: Path, 
     assert traces(tmp_path, "Linden", "Erika", linden) == []
 
 
-def test_a_back_up_holds_what_the_server_has(tmp_path: Path, there: str) -> None:
+def test_create_backup_contains_rows_of_server(tmp_path: Path, there: str) -> None:
     with opened(tmp_path / "data", there) as house:
         linden = house.patients.add(LINDEN)
         fill(house, linden)
@@ -319,7 +315,7 @@ def test_a_back_up_holds_what_the_server_has(tmp_path: Path, there: str) -> None
 
 
 # --- what a computer has of its own -------------------------------------------------------------------------
-def test_a_server_of_the_first_version_is_raised(tmp_path: Path, cluster: Cluster) -> None:
+def test_server_first_version_is_migrated(tmp_path: Path, cluster: Cluster) -> None:
     url = first_version(cluster)
     with engine_of(url).begin() as connection:
         connection.execute(text("INSERT INTO patient (id, folded, pseudonym) VALUES ('a', 'linden 42', 'Linden 42')"))
@@ -354,7 +350,7 @@ def copy_of(folder: Path, url: str, *waiting: list[list[object]]) -> None:
             copy.execute("INSERT INTO outbox (id, change) VALUES (?, ?)", [f"c{number}", json.dumps(change)])
 
 
-def test_what_waited_in_a_copy_of_the_first_version_arrives_once(tmp_path: Path, cluster: Cluster) -> None:
+def test_import_of_first_version_applies_queued_changes_once(tmp_path: Path, cluster: Cluster) -> None:
     told: list[CarpusFault] = []
     url = first_version(cluster)
     linden, heron, gone, other = (uuid.uuid4().hex for _ in range(4))
@@ -389,9 +385,7 @@ def test_what_waited_in_a_copy_of_the_first_version_arrives_once(tmp_path: Path,
     assert (count(url, "diagnosis"), count(url, "patient")) == (1, 3)
 
 
-def test_a_store_that_a_computer_had_alone_goes_to_the_server_but_for_who_was_erased(
-    tmp_path: Path, there: str
-) -> None:
+def test_import_of_own_store_leaves_out_erased(tmp_path: Path, there: str) -> None:
     with opened(tmp_path / "a") as a:
         linden, heron = a.patients.add(LINDEN), a.patients.add(HERON)
         fill(a, linden)
@@ -409,7 +403,7 @@ def test_a_store_that_a_computer_had_alone_goes_to_the_server_but_for_who_was_er
     assert "before-server" in aside.name
 
 
-def test_a_damaged_copy_is_rescued_before_it_goes_to_the_server(tmp_path: Path, there: str) -> None:
+def test_import_of_damaged_copy_rescues_rows(tmp_path: Path, there: str) -> None:
     told: list[CarpusFault] = []
     with opened(tmp_path) as house:
         for number in range(300):

@@ -52,7 +52,7 @@ BESIDE = (".jpg", ".carpusraw")
 VERSIONS = Path(schema.__file__).parent / "migrations" / "versions"
 
 
-def test_what_is_entered_is_found_again(tmp_path: Path) -> None:
+def test_patient_saved_is_read_back(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         patient_id = house.patients.add(LINDEN)
         session_id = measure(house, patient_id, T0)
@@ -78,7 +78,7 @@ def test_what_is_entered_is_found_again(tmp_path: Path) -> None:
         assert len(house.index.patient_sessions(patient_id)) == 2
 
 
-def test_the_last_session_comes_first(tmp_path: Path) -> None:
+def test_patient_search_orders_by_last_session(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         never = house.patients.add(Patient("Fir 12", "left"), T0 + timedelta(days=9))
         linden, heron = house.patients.add(LINDEN, T0), house.patients.add(HERON, T0)
@@ -95,7 +95,7 @@ def test_the_last_session_comes_first(tmp_path: Path) -> None:
         assert house.index.patient_sessions(never) == []
 
 
-def test_search(tmp_path: Path) -> None:
+def test_patient_search_finds_every_word(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         house.patients.add(LINDEN)
         house.patients.add(HERON)
@@ -107,7 +107,7 @@ def test_search(tmp_path: Path) -> None:
             assert set(house.names(search)) == found, search
 
 
-def test_a_pseudonym_belongs_to_one_patient(tmp_path: Path) -> None:
+def test_pseudonym_of_another_patient_is_refused(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         for taken in ("LINDEN 42", " linden 42", "Ｌinden 42"):
@@ -127,7 +127,7 @@ def test_a_pseudonym_belongs_to_one_patient(tmp_path: Path) -> None:
             house.index.get("nothing")
 
 
-def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) -> None:
+def test_scan_rebuilds_lost_list(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         before = {measure(house, linden, T0 + timedelta(days=day)) for day in range(3)} | {measure(house, heron, T0)}
@@ -142,7 +142,7 @@ def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) ->
         assert (entry.side, entry.name, entry.note) == ("right", "", "")  # names were only in the store
 
 
-def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tmp_path: Path) -> None:
+def test_scan_finds_new_files_and_keeps_missing_ones(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden, folder = house.patients.add(LINDEN), house.store.sessions_folder
         away = house.index.get(measure(house, linden, T0))
@@ -170,7 +170,7 @@ def test_a_look_finds_what_was_copied_in_and_loses_nothing_whose_file_is_away(tm
 
 
 @pytest.mark.parametrize("how", ["exchanged", "moved over", "copied over", "another's"])
-def test_a_file_in_another_s_place_is_listed_as_what_it_is(tmp_path: Path, how: str) -> None:
+def test_scan_lists_exchanged_files_by_content(tmp_path: Path, how: str) -> None:
     with opened(tmp_path) as house:
         ids = [measure(house, house.patients.add(entry), T0) for entry in (LINDEN, HERON)]
         session_records.add_comment(house.store, ids[0], "mine", "AB")
@@ -199,7 +199,7 @@ def test_a_file_in_another_s_place_is_listed_as_what_it_is(tmp_path: Path, how: 
         assert house.names("Wren") == (["Wren 12"] if how == "another's" else [])
 
 
-def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
+def test_parse_time_invalid_uses_stamp(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden = house.patients.add(LINDEN, T0)
         session_id = measure(house, linden, T0)
@@ -223,7 +223,7 @@ def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
         assert len(read_log(house.store)) == 1
 
 
-def test_the_data_folder_is_its_owners_only_names_are_in_the_store_only_and_it_can_be_moved(tmp_path: Path) -> None:
+def test_data_folder_is_private_and_movable(tmp_path: Path) -> None:
     old, new = tmp_path / "old", tmp_path / "new"
     old.mkdir(mode=0o755)
     with opened(old) as house:
@@ -243,7 +243,7 @@ def test_the_data_folder_is_its_owners_only_names_are_in_the_store_only_and_it_c
         assert session.path.is_relative_to(new)
 
 
-def test_paths_of_new_sessions_are_free_and_speak_and_no_two_patients_share_a_folder(tmp_path: Path) -> None:
+def test_new_path_is_free_and_in_patient_folder(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         patient_id = house.patients.add(LINDEN)
         first = house.index.new_path(patient_id, "Linden 42", "wrist: up/down", "left", T0)
@@ -259,7 +259,7 @@ def test_paths_of_new_sessions_are_free_and_speak_and_no_two_patients_share_a_fo
         assert len(folders) == 4
 
 
-def test_several_threads_and_two_programs_at_once(tmp_path: Path) -> None:
+def test_store_used_by_threads_and_programs_at_once(tmp_path: Path) -> None:
     faults: list[BaseException] = []
 
     def work(house: House, start: int) -> None:
@@ -283,13 +283,13 @@ def test_several_threads_and_two_programs_at_once(tmp_path: Path) -> None:
         assert len(one.names()) == len(other.names()) == 80
 
 
-def test_a_data_folder_that_cannot_be_made(tmp_path: Path) -> None:
+def test_store_in_impossible_folder_raises(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputNotWritable):
         Store(tmp_path / "file" / "data")
 
 
-def test_pseudonyms_are_speakable_free_and_without_end(tmp_path: Path) -> None:
+def test_suggest_pseudonym_is_free_without_end(tmp_path: Path) -> None:
     assert len(set(WORDS)) == len(WORDS)
     assert all(word.isalpha() and len(word) <= 8 for word in WORDS)
     taken = {f"{word} {number}" for word in WORDS for number in range(10, 100)}
@@ -304,14 +304,14 @@ def test_pseudonyms_are_speakable_free_and_without_end(tmp_path: Path) -> None:
         assert house.patients.suggest_pseudonym(random.Random(3)) != first
 
 
-def test_an_entry_needs_a_pseudonym_and_a_known_age_band() -> None:
+def test_patient_without_pseudonym_or_with_unknown_age_is_refused() -> None:
     with pytest.raises(ValueError, match="pseudonym"):
         Patient("  ", "left")
     with pytest.raises(ValueError, match="age band"):
         Patient("Oak 11", "left", age_band="43")
 
 
-def test_what_a_damaged_file_says_of_itself_keeps_no_start_from_going_on(tmp_path: Path) -> None:
+def test_scan_damaged_header_does_not_stop(tmp_path: Path) -> None:
     """Bytes in a file that are no text come out of HDF5 as lone surrogates, which no database and no log takes."""
     with opened(tmp_path) as house:
         path = house.store.sessions_folder / "1.h5.part"
@@ -323,7 +323,7 @@ def test_what_a_damaged_file_says_of_itself_keeps_no_start_from_going_on(tmp_pat
         str(fault).encode("utf-8")
 
 
-def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, url: str) -> None:
+def test_concurrent_change_second_is_refused(tmp_path: Path, url: str) -> None:
     with opened(tmp_path, url) as one, opened(tmp_path, url) as other:
         linden = one.patients.add(LINDEN)
         session_id = measure(one, linden, T0)
@@ -340,7 +340,7 @@ def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, url:
             assert session_records.read_choices(other.store, session_id)[0].excluded == mine
 
 
-def test_programs_comment_on_one_session_and_log_it_at_once_and_nothing_is_lost(tmp_path: Path) -> None:
+def test_two_programs_comment_and_log_without_loss(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         session_id = measure(house, house.patients.add(LINDEN), T0)
         code = (
@@ -364,7 +364,7 @@ def test_programs_comment_on_one_session_and_log_it_at_once_and_nothing_is_lost(
 UNSEEN = ("\u00ad", "\u200b", "\u202e", "\n", "\ud800", "\0", "\u3164", "\ufe0f")
 
 
-def test_names_are_composed_of_any_language_and_without_signs_that_nobody_sees(tmp_path: Path) -> None:
+def test_normalize_name_composes_and_refuses_invisible(tmp_path: Path) -> None:
     assert normalize_name("Zoe\u0308 3") == "Zo\u00eb 3"
     assert normalize_name("Fir  11") == "Fir 11"
     for name in ("Müller-Lüdenscheidt", "李 小龍", "Ольга 7", "O’Neill 12"):
@@ -378,7 +378,7 @@ def test_names_are_composed_of_any_language_and_without_signs_that_nobody_sees(t
 
 
 @pytest.mark.parametrize("content", [b"this is no store at all" * 100, b"SQLite format 3\0" + b"x" * 5000])
-def test_a_damaged_store_is_set_aside_told_and_made_again(tmp_path: Path, content: bytes) -> None:
+def test_store_damaged_is_set_aside_and_rebuilt(tmp_path: Path, content: bytes) -> None:
     (tmp_path / STORE_FILE).write_bytes(content)
     with Store(tmp_path) as store:
         (fault,) = store.startup_faults
@@ -386,7 +386,7 @@ def test_a_damaged_store_is_set_aside_told_and_made_again(tmp_path: Path, conten
         assert Path(fault.subject).read_bytes() == content
 
 
-def test_a_store_that_lacks_a_column_is_damaged(tmp_path: Path) -> None:
+def test_store_without_a_column_is_damaged(tmp_path: Path) -> None:
     Store(tmp_path).close()
     with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
         database.execute("ALTER TABLE goal DROP COLUMN side")
@@ -395,7 +395,7 @@ def test_a_store_that_lacks_a_column_is_damaged(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("how", ["deleted", "emptied"])
-def test_a_store_that_is_gone_while_sessions_are_there_is_told(tmp_path: Path, how: str) -> None:
+def test_store_missing_beside_sessions_is_reported(tmp_path: Path, how: str) -> None:
     with opened(tmp_path) as house:
         measure(house, PRACTICE, T0)
     for with_session in (False, True):
@@ -408,7 +408,7 @@ def test_a_store_that_is_gone_while_sessions_are_there_is_told(tmp_path: Path, h
         assert house.store.startup_faults == []
 
 
-def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
+def test_rescue_rows_keeps_readable_rows(tmp_path: Path) -> None:
     """One page of two hundred patients is lost; all others stay, with what was written of them."""
     with opened(tmp_path) as house:
         people = [
@@ -438,7 +438,7 @@ def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("version", ["99", "", "0", "../x%"])
-def test_a_store_of_a_version_that_is_not_known_is_told_and_left_as_it_is(tmp_path: Path, version: str) -> None:
+def test_store_unknown_version_is_reported_and_unchanged(tmp_path: Path, version: str) -> None:
     Store(tmp_path).close()
     with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
         database.execute("UPDATE alembic_version SET version_num = ?", (version,))
@@ -450,7 +450,7 @@ def test_a_store_of_a_version_that_is_not_known_is_told_and_left_as_it_is(tmp_pa
     assert not list(tmp_path.glob("*damaged*"))
 
 
-def test_the_first_version_is_read(tmp_path: Path) -> None:
+def test_store_first_version_is_migrated(tmp_path: Path) -> None:
     """The golden file was made by the first version."""
     golden = Path(__file__).with_name("golden") / "version-1.sqlite3"
     (tmp_path / STORE_FILE).write_bytes(golden.read_bytes())
@@ -463,7 +463,7 @@ def test_the_first_version_is_read(tmp_path: Path) -> None:
         ]
 
 
-def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_path: Path) -> None:
+def test_diagnoses_are_searchable_and_most_frequent_first(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden = house.patients.add(LINDEN)
         house.patients.add(replace(HERON, diagnosis="wrist  sprain", onset="injury"))
@@ -482,7 +482,7 @@ def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_
         assert (one.onset, one.onset_day) == ("", None), "what another program wrote is left out"
 
 
-def test_a_patient_met_by_file_is_who_the_folder_says(tmp_path: Path, url: str) -> None:
+def test_scan_assigns_file_by_patient_folder(tmp_path: Path, url: str) -> None:
     with opened(tmp_path, url) as house:
         given = new_id()
         record(house.store.sessions_folder / given / "s.h5", HERON.pseudonym, T0)
@@ -496,7 +496,7 @@ def test_a_patient_met_by_file_is_who_the_folder_says(tmp_path: Path, url: str) 
         assert [(one.patient_id, one.session_count) for one in house.patients.search()] == [(given, 2)]
 
 
-def test_what_is_done_at_home_is_kept_with_the_patient(tmp_path: Path) -> None:
+def test_home_plan_is_saved_with_patient(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         first = HomePlan(("WRIST_FE", "FIST_HOOK"), 10, 3, T0.date(), None, "", "", "it")
@@ -506,7 +506,7 @@ def test_what_is_done_at_home_is_kept_with_the_patient(tmp_path: Path) -> None:
         assert patients.read_home_plan(house.store, heron) is None
 
 
-def test_tracking_a_file_loads_no_database(tmp_path: Path) -> None:
+def test_track_command_loads_no_database(tmp_path: Path) -> None:
     code = (
         "import sys; import carpus.app.commands.track, carpus.core.pipeline.track, carpus; carpus.track\n"
         "print([one for one in sys.modules if one.split('.')[0] in ('sqlalchemy', 'alembic', 'psycopg', 'sqlite3')])"
@@ -515,7 +515,7 @@ def test_tracking_a_file_loads_no_database(tmp_path: Path) -> None:
     assert done.stdout.strip() == "[]"
 
 
-def test_two_programs_that_meet_a_damaged_store_lose_nothing_of_it(tmp_path: Path) -> None:
+def test_store_damaged_opened_twice_loses_nothing(tmp_path: Path) -> None:
     content, now = b"this is no store at all" * 100, datetime(2026, 10, 9)
     path = tmp_path / STORE_FILE
     path.write_bytes(content)
@@ -531,7 +531,7 @@ def test_two_programs_that_meet_a_damaged_store_lose_nothing_of_it(tmp_path: Pat
         one.close()
 
 
-def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
+def test_valid_rows_skips_and_reports_damaged_row_once(tmp_path: Path) -> None:
     told: list[CarpusFault] = []
     with opened(tmp_path, tell=told.append) as house:
         linden = house.patients.add(LINDEN)
@@ -556,7 +556,7 @@ def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
     assert [type(one) for one in told] == [PatientListDamaged] * 4
 
 
-def test_close_while_another_reads_closes_the_connection_when_it_is_returned(tmp_path: Path) -> None:
+def test_close_while_reading_closes_connection_later(tmp_path: Path) -> None:
     store = Database(tmp_path / STORE_FILE)
     with store.reading() as connection:
         raw = connection.connection.dbapi_connection

@@ -16,7 +16,7 @@ from carpus.ui.words.session import method_words
 from tests.ui.fakes import NOW, figures_once, session
 
 
-def test_the_same_turns_are_read_in_the_order_of_the_isb() -> None:
+def test_with_angle_order_isb_reads_same_rotations() -> None:
     made = session(exercise="FREE", motion="mixed")
     turned = with_angle_order(made, "isb")
     table = {column.name: column.values for column in motion_columns(made, made.motion)}
@@ -33,7 +33,7 @@ def test_the_same_turns_are_read_in_the_order_of_the_isb() -> None:
 
 
 @pytest.mark.parametrize("pose_deg", [(0.0, 0.0, 0.0), (20.0, 60.0, 0.0), (-15.0, -40.0, 25.0)])
-def test_the_deviations_are_those_of_many_draws(pose_deg: tuple[float, float, float]) -> None:
+def test_isb_sd_matches_many_draws(pose_deg: tuple[float, float, float]) -> None:
     sd = np.radians([0.4, 0.9, 1.2])
     pose = np.radians(pose_deg)
     drawn = pose + np.random.default_rng(3).normal(0.0, sd, (20_000, 3))
@@ -42,14 +42,14 @@ def test_the_deviations_are_those_of_many_draws(pose_deg: tuple[float, float, fl
     assert found == pytest.approx(angles.std(axis=0), rel=0.03)
 
 
-def test_what_is_not_known_stays_so() -> None:
+def test_with_angle_order_unknown_stays_nan() -> None:
     turned = with_angle_order(session(lost=[(20.0, 22.0)]), "isb").motion
     gone = np.isnan(session(lost=[(20.0, 22.0)]).motion.angles_rad)
     assert np.array_equal(np.isnan(turned.angles_rad), gone)
     assert np.array_equal(np.isnan(turned.angles_sd_rad), gone)
 
 
-def test_the_report_says_the_order_and_orders_are_never_compared() -> None:
+def test_report_states_angle_order_and_orders_never_compare() -> None:
     plain = figures_once(session(session_id="before"))
     other = figures_once(with_angle_order(session(when=NOW), "isb"))
     assert "ISB" in method_words(other, 6, compared=False)

@@ -34,7 +34,7 @@ def figures() -> SessionResults:
     return figures_once(session())
 
 
-def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionResults) -> None:
+def test_range_means_are_of_extremes_of_each_repetition(figures: SessionResults) -> None:
     stored = session()
     angle = np.degrees(stored.motion.angles_rad[:, 1])
     time = stored.timestamp_s - stored.timestamp_s[0]
@@ -49,7 +49,7 @@ def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionResu
     assert flexion.count == figures.repetition_count == 9
 
 
-def test_a_repetition_left_out_leaves_the_mean(figures: SessionResults) -> None:
+def test_range_excluded_repetition_leaves_mean(figures: SessionResults) -> None:
     arc = figures.find("flexion", "arc")
     without = figures_once(session(), RepetitionChoices({6: "pain"}))
     assert without.repetition_count == 8
@@ -60,7 +60,7 @@ def test_a_repetition_left_out_leaves_the_mean(figures: SessionResults) -> None:
     assert nothing.speed_measure("peak speed") is None
 
 
-def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: SessionResults) -> None:
+def test_range_moved_edge_changes_that_repetition_only(figures: SessionResults) -> None:
     rep = figures.repetitions[3]
     middle = 0.5 * (rep.start_s + rep.end_s)
     moved = figures_once(session(), RepetitionChoices({}, {3: (rep.start_s, middle - 1.5)}))
@@ -69,7 +69,7 @@ def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: Session
     assert after.values[:3] == pytest.approx(before.values[:3])
 
 
-def test_hidden_stretches_do_not_count(figures: SessionResults) -> None:
+def test_range_hidden_repetition_does_not_count(figures: SessionResults) -> None:
     names = ("CMC1", "MCP2", "MCP3", "MCP4")
     rep = figures.repetitions[2]
     covered = session(hidden=[(rep.start_s, rep.end_s, name) for name in names])
@@ -81,7 +81,7 @@ def test_hidden_stretches_do_not_count(figures: SessionResults) -> None:
     assert seen.quality.hidden_share == pytest.approx(4 / 6 * (1 - seen.quality.measured_share), abs=0.01)
 
 
-def test_free_movement_reports_every_angle_and_is_never_judged() -> None:
+def test_free_movement_has_every_angle_and_is_never_compared() -> None:
     free = figures_once(session(exercise="FREE", motion="mixed"))
     assert [row.wrist_angle for row in free.wrist_ranges if row.quantity == "arc"] == [1, 0, 2]
     assert {item.verdict for item in compare_ranges(free, replace(free, when=NOW + timedelta(days=1)))} == {
@@ -90,7 +90,7 @@ def test_free_movement_reports_every_angle_and_is_never_judged() -> None:
 
 
 @pytest.mark.parametrize("difference_deg", [0.0, 9.9, 10.1, -9.9, -10.1, 40.0])
-def test_a_change_is_one_only_beyond_its_limit(figures: SessionResults, difference_deg: float) -> None:
+def test_compare_ranges_change_only_beyond_limit(figures: SessionResults, difference_deg: float) -> None:
     before = replace(figures, when=NOW - timedelta(days=7))
     after = with_ranges(figures, lambda row: {"mean": row.mean + difference_deg})
     verdicts = {item.after.quantity: item.verdict for item in compare_ranges(before, after)}
@@ -109,7 +109,7 @@ def test_a_change_is_one_only_beyond_its_limit(figures: SessionResults, differen
         ({"measures": "unknown"}, "unknown"),
     ],
 )
-def test_ranges_of_unlike_sessions_are_not_judged(
+def test_compare_ranges_unlike_sessions_are_not_judged(
     figures: SessionResults, changes: dict[str, Any], reason: str
 ) -> None:
     other = days_ago(with_ranges(figures, lambda row: {"mean": row.mean + 30}), -1)
@@ -120,7 +120,7 @@ def test_ranges_of_unlike_sessions_are_not_judged(
     assert all(reason in item.reasons and item.verdict == "not_judged" for item in found)
 
 
-def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionResults) -> None:
+def test_progress_other_camera_height_is_not_compared(figures: SessionResults) -> None:
     sessions = [days_ago(figures, day) for day in (21, 14, 7, 0)]
     sessions[2] = replace(sessions[2], quality=replace(sessions[2].quality, distance_m=0.9))
     course = compute_progress(sessions[::-1])
@@ -134,7 +134,7 @@ def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures:
     ("farther_m", "turned_deg", "reasons"),
     [(0.099, 4.9, ()), (-0.101, 0.0, ("distance",)), (0.0, 5.1, ("start_angle",)), (0.0, -5.1, ("start_angle",))],
 )
-def test_ten_centimetres_or_five_degrees_are_another_set_up(
+def test_incomparable_reasons_beyond_distance_or_start_angle(
     figures: SessionResults, farther_m: float, turned_deg: float, reasons: tuple[str, ...]
 ) -> None:
     quality = replace(figures.quality, distance_m=figures.quality.distance_m + farther_m)
@@ -144,7 +144,7 @@ def test_ten_centimetres_or_five_degrees_are_another_set_up(
 
 @pytest.mark.parametrize("reason", ["forearm_moved", "doubtful", "not_counted", "simulated", "distance"])
 @pytest.mark.parametrize("which", ["before", "after"])
-def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionResults, reason: str, which: str) -> None:
+def test_compare_ranges_excluded_session_is_not_judged(figures: SessionResults, reason: str, which: str) -> None:
     quality = figures.quality
     unfair = {
         "forearm_moved": {"quality": replace(quality, forearm_movement_mm=25.0)},
@@ -164,12 +164,12 @@ def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionResults,
     assert not compute_progress(spoilt).comparisons
 
 
-def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figures: SessionResults) -> None:
+def test_incomparable_reasons_harmless_finding_is_none(figures: SessionResults) -> None:
     near = replace(figures, findings=(CalibrationFinding("distance", (), 0.5, 0.6, "m"),))
     assert incomparable_reasons(figures, near) == ()
 
 
-def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionResults) -> None:
+def test_progress_simulated_compare_with_simulated_only(figures: SessionResults) -> None:
     sessions = [days_ago(figures, day, is_simulated=True) for day in (9, 6, 3, 0)]
     assert all(point.is_comparable for point in compute_progress(sessions).points)
     sessions[2] = replace(sessions[2], is_simulated=False)
@@ -179,7 +179,7 @@ def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionRe
     assert find_previous(sessions, sessions[3]) is sessions[1]
 
 
-def test_source_targets_and_the_calibrations_findings_stay_with_the_figures() -> None:
+def test_session_results_keep_source_targets_and_findings() -> None:
     stored = session()
 
     def with_parameters(content: dict[str, object]) -> SessionResults:
@@ -198,14 +198,14 @@ def test_source_targets_and_the_calibrations_findings_stay_with_the_figures() ->
     assert figures_once(stored).findings == (doubted,)
 
 
-def test_previous_and_other_hand_are_the_last_of_their_kind_that_count(figures: SessionResults) -> None:
+def test_find_previous_and_other_hand_return_last_included(figures: SessionResults) -> None:
     history = [days_ago(figures, days) for days in (9, 5, -1)]
     history += [days_ago(figures, days, side="left") for days in (3, 2)] + [figures]
     assert (find_previous(history, figures).session_id, find_other_hand(history, figures).session_id) == ("5", "2")
     assert find_previous([history[0], replace(history[1], is_excluded=True)], figures) is history[0]
 
 
-def test_pain_and_notes_come_from_the_events() -> None:
+def test_session_results_pain_and_notes_from_events() -> None:
     start = float(session().timestamp_s[0])
     stored = session(
         events=(Event(start + 1, "pain", "2"), Event(start + 5, "note", "rest"), Event(start + 9, "pain", "4"))
@@ -216,7 +216,7 @@ def test_pain_and_notes_come_from_the_events() -> None:
     assert figures.notes == ((pytest.approx(5.0), "rest"),)
 
 
-def test_usual_values_stand_beside_what_their_source_covers_and_name_it() -> None:
+def test_norms_cover_and_name_their_source() -> None:
     def ends(movement: Movement, angle: int, exercise: str) -> tuple[float, float] | None:
         norm = wrist_norm(movement, angle, get_exercise(exercise))
         return None if norm is None else (norm.low_deg, norm.high_deg)
@@ -233,19 +233,19 @@ def test_usual_values_stand_beside_what_their_source_covers_and_name_it() -> Non
         assert "women and men" in norm.sentence()
 
 
-def test_the_digest_tells_two_measurements_apart() -> None:
+def test_data_digest_differs_between_measurements() -> None:
     assert compute_data_digest(session()) == compute_data_digest(session())
     assert compute_data_digest(session()) != compute_data_digest(session(scale=0.999))
 
 
-def test_shown_differences_agree_with_the_shown_means(figures: SessionResults) -> None:
+def test_display_difference_agrees_with_rounded_means(figures: SessionResults) -> None:
     for step in np.linspace(-20, 20, 81):
         after = with_ranges(figures, lambda row, step=float(step): {"mean": row.mean + step})  # type: ignore[misc]
         for item in compare_ranges(figures, after):
             assert item.display_difference_deg == math.floor(item.after.mean + 0.5) - math.floor(item.before.mean + 0.5)
 
 
-def test_the_best_is_the_quickest_and_the_smoothest() -> None:
+def test_speed_measures_best_is_quickest_and_smoothest() -> None:
     figures = figures_once(session())
     speed = {row.quantity: row for row in figures.measures_in_group("speed")}
     assert speed["movement time"].count >= 3
@@ -256,7 +256,7 @@ def test_the_best_is_the_quickest_and_the_smoothest() -> None:
     assert math.isnan(speed["time to peak"].best), "neither way is better"
 
 
-def test_of_the_other_hand_too_a_recording_counts_by_its_newest_result() -> None:
+def test_find_other_hand_uses_newest_result() -> None:
     mine = figures_once(session())
     first = figures_once(session(NOW - timedelta(days=7), side="left", session_id="one"))
     again = replace(first, session_id="two", created=NOW)
@@ -266,7 +266,7 @@ def test_of_the_other_hand_too_a_recording_counts_by_its_newest_result() -> None
 
 
 @pytest.mark.parametrize("fps", [5.0, 1.5])
-def test_a_session_of_few_frames_a_second_has_its_figures(fps: float) -> None:
+def test_session_results_low_frame_rate_are_complete(fps: float) -> None:
     stored = session()
     few = replace(stored, timestamp_s=stored.timestamp_s[0] + np.arange(len(stored)) / fps, repetitions=())
     found = compute_session_results(few)
@@ -278,7 +278,7 @@ def test_a_session_of_few_frames_a_second_has_its_figures(fps: float) -> None:
 @pytest.mark.parametrize(
     "broken", ["task_measures.measure_tremor", "session_results.measure_still_angles", "session_results.assess_quality"]
 )
-def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
+def test_session_results_failing_measure_leaves_others(
     broken: str, figures: SessionResults, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:

@@ -27,7 +27,7 @@ def turned(side: str) -> Session:
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
-def test_ranges_of_a_forearm_count_from_thumb_up_on_both_hands(side: str) -> None:
+def test_forearm_ranges_count_from_thumb_up(side: str) -> None:
     stored = turned(side)
     lowest, highest = np.degrees([stored.motion.angles_rad[:, 2].min(), stored.motion.angles_rad[:, 2].max()])
     rows = {row.quantity: row for row in figures_once(stored).wrist_ranges}
@@ -40,7 +40,7 @@ def test_ranges_of_a_forearm_count_from_thumb_up_on_both_hands(side: str) -> Non
     assert np.nanmax(visible_angle_deg(stored, "pronosupination")) == pytest.approx(highest - 90.0, abs=4.0)
 
 
-def test_what_is_measured_by_hand_stands_beside_the_same_angle() -> None:
+def test_manual_measurements_match_forearm_angle() -> None:
     """A therapist who reads 94 degrees of pronation and Carpus mean the same pose."""
     figures = figures_once(turned("right"))
     row = figures.find(*(find_manual_measure("PRONATION").session_measure or ("", "")))
@@ -50,7 +50,7 @@ def test_what_is_measured_by_hand_stands_beside_the_same_angle() -> None:
     assert norm.low_deg <= row.mean <= find_manual_measure("PRONATION").max_value
 
 
-def test_the_table_of_repetitions_keeps_the_angle_of_the_file() -> None:
+def test_repetition_table_keeps_angle_of_file() -> None:
     stored = turned("right")
     found = compute_repetitions(stored)
     assert found.angle == "pronosupination"
@@ -62,7 +62,7 @@ def test_the_table_of_repetitions_keeps_the_angle_of_the_file() -> None:
     assert said["supination"] == "supinated, 0 is thumb up"
 
 
-def test_beside_another_movement_a_rotation_is_none_of_the_forearm() -> None:
+def test_rotation_beside_another_movement_is_arc_only() -> None:
     """A wrist whose forearm began 20 degrees short of palm down has turned by nothing, and has no pronation."""
     stored = session(seconds=30.0)
     start = np.radians([0.0, 0.0, 20.0])
@@ -79,7 +79,7 @@ def test_beside_another_movement_a_rotation_is_none_of_the_forearm() -> None:
     assert {row.quantity for row in compute_session_results(free).wrist_ranges if row.wrist_angle == 2} == {"arc"}
 
 
-def test_targets_of_an_older_session_are_those_of_palm_down_converted() -> None:
+def test_targets_of_older_session_are_converted() -> None:
     stored = turned("right")
     parameters = json.dumps({"set_up": {"targets_deg": [60.0, None]}})
     aimed = compute_session_results(replace(stored, header=replace(stored.header, parameters=parameters)))

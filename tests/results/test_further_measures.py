@@ -30,7 +30,7 @@ def without_words(figures: SessionResults) -> set[str]:
     return {item.quantity for item in figures.measures_in_group("task") if item.quantity in measure_name(item)}
 
 
-def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_fist() -> None:
+def test_task_measures_reach_and_grasp_complete() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     figures = figures_once(made)
     assert without_words(figures) == set()
@@ -51,7 +51,7 @@ def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_f
     assert "trained angle" not in {row.of for row in build_measure_rows(figures, "s")}, "by its name, as in every table"
 
 
-def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> None:
+def test_opposition_counts_touches_and_thumb_path() -> None:
     made = hand_session(exercise="THUMB_OPP", motion="opposition")
     figures = figures_once(made)
     assert without_words(figures) == set()
@@ -71,7 +71,7 @@ def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> N
 
 
 @pytest.mark.parametrize(("least_mm", "touches"), [(14.0, 2.0), (16.0, 0.0)])
-def test_tips_touch_that_come_nearer_than_fifteen_millimetres(least_mm: float, touches: float) -> None:
+def test_opposition_touch_below_15_mm(least_mm: float, touches: float) -> None:
     made = hand_session(exercise="THUMB_OPP", motion="opposition")
     tips = made.motion.joint_position_m.copy()
     away = tips[:, 4] - tips[:, 8]
@@ -82,12 +82,12 @@ def test_tips_touch_that_come_nearer_than_fifteen_millimetres(least_mm: float, t
     assert named(figures, "touches", "TIP1-TIP2").mean == touches
 
 
-def test_a_thumb_that_is_never_touched_to_a_finger_touches_none() -> None:
+def test_opposition_without_touch_counts_none() -> None:
     figures = figures_once(hand_session(exercise="THUMB_OPP", motion="abduction"))
     assert [named(figures, "touches", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)] == [0.0] * 4
 
 
-def test_a_hidden_thumb_is_coherent_until_its_pose_falls_apart() -> None:
+def test_thumb_coherence_lost_when_pose_breaks() -> None:
     hidden = [(8.0, 9.5, name) for name in ("IP1", "TIP1")]
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", hidden=hidden)
     figures = figures_once(made)
@@ -101,7 +101,7 @@ def test_a_hidden_thumb_is_coherent_until_its_pose_falls_apart() -> None:
     assert named(broken, "coherent though hidden", "thumb").mean == 0.0
 
 
-def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
+def test_fist_has_graded_totals_and_coordination() -> None:
     figures = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist"))
     assert without_words(figures) == set()
     shares = figures.measures_in_group("share")
@@ -117,7 +117,7 @@ def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
     assert named(figures, "co-flexion", "PIP2_flexion, PIP3_flexion").mean > 0.5
 
 
-def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -> None:
+def test_range_deficit_has_its_own_row() -> None:
     made = session()
     motion = made.motion
     # From 20 to 60 degrees of flexion and back, as long as the exercise takes.
@@ -134,7 +134,7 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
     assert "\N{MINUS SIGN}" not in shown["Extension deficit"]
 
 
-def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -> None:
+def test_speed_hidden_by_noise_is_too_slow() -> None:
     lost = summarise_values("task", "reach", "smoothness", "SPARC", (math.nan, math.nan), unknown_reason="too_slow")
     gone = summarise_values("task", "return", "smoothness", "SPARC", (math.nan,))
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
@@ -147,7 +147,7 @@ def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -
     assert math.isnan(row.mean)
 
 
-def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
+def test_opposition_hidden_touches_are_unknown() -> None:
     plain = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     hidden = [(0.5, 60.0, name) for name in ("IP1", "TIP1")]
     figures = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition", hidden=hidden))
@@ -170,7 +170,7 @@ def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
 
 
 @pytest.mark.parametrize(("sds", "touches"), [(2.2, 0.0), (1.8, math.nan)])
-def test_hidden_tips_may_have_touched_within_two_standard_deviations(sds: float, touches: float) -> None:
+def test_opposition_hidden_tips_within_two_sds_are_unknown(sds: float, touches: float) -> None:
     made = hand_session(exercise="THUMB_OPP", motion="abduction", hidden=[(0.5, 60.0, "TIP1")])
     tips = made.motion.joint_position_m.copy()
     away = tips[:, 4] - tips[:, 8]
@@ -182,7 +182,7 @@ def test_hidden_tips_may_have_touched_within_two_standard_deviations(sds: float,
     assert found.mean == pytest.approx(touches, nan_ok=True)
 
 
-def test_a_reach_that_goes_out_of_sight_half_way_has_no_time() -> None:
+def test_reach_hidden_half_way_has_no_time() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     plain = figures_once(made)
     times = find_session_reaches(made, np.ones(len(made), dtype=bool))
@@ -196,7 +196,7 @@ def test_a_reach_that_goes_out_of_sight_half_way_has_no_time() -> None:
     assert math.isnan(named(figures, "largest aperture", "TIP1-TIP2").values[0])
 
 
-def test_an_aperture_of_hidden_tips_is_told_only_where_it_is_known_well() -> None:
+def test_aperture_hidden_tips_needs_small_sd() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", hidden=[(5.0, 60.0, "TIP1")])
     first, *_, last = named(figures_once(made), "largest aperture", "TIP1-TIP2").values
     assert first > 50.0
@@ -206,7 +206,7 @@ def test_an_aperture_of_hidden_tips_is_told_only_where_it_is_known_well() -> Non
     assert min(named(known, "largest aperture", "TIP1-TIP2").values) > 50.0
 
 
-def test_spans_are_those_of_tips_that_were_seen() -> None:
+def test_span_uses_seen_tips_only() -> None:
     made = hand_session(exercise="FINGER_ABAD", motion="abduction")
     tips = made.motion.joint_position_m.copy()
     rows = slice(300, 330)

@@ -35,7 +35,7 @@ def flexion(history: Sequence[SessionResults]) -> tuple[float, float, int, float
     return found.goal_deg, found.detectable_from_deg, found.sessions, found.basis_deg
 
 
-def test_the_goal_is_a_small_step_above_the_mean_of_the_last_three_sessions_that_compare() -> None:
+def test_propose_goals_step_above_mean_of_last_three() -> None:
     history = [of_day(0, 20.0), of_day(7, 40.0), of_day(9, 44.4), of_day(14, 42.0)]
     assert flexion(history) == (47.0, 53.0, 3, pytest.approx(42.13, abs=0.01))
     assert flexion([*history, of_day(20, 80.0, is_excluded=True)]) == flexion(history)
@@ -45,14 +45,14 @@ def test_the_goal_is_a_small_step_above_the_mean_of_the_last_three_sessions_that
     assert propose_goals([], FLEXION, "right", "wrist6") == ()
 
 
-def test_it_is_never_above_what_the_clinic_own_measurement_error_can_tell() -> None:
+def test_propose_goals_never_above_own_error_limit() -> None:
     limit = MeasuredLimit("flexion", "flexion", 12, 0.7, (0.5, 1.0), 2.0, (1.5, 3.0))
     study = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-01", 12, 24, 2, (limit,))
     goal, told_from, _, basis = flexion([of_day(0, 40.0, error_limits=ErrorLimits((study,)))])
     assert (goal, told_from, basis) == (42.0, 42.0, 40.0)
 
 
-def test_what_the_camera_did_not_see_to_its_end_proposes_nothing() -> None:
+def test_propose_goals_lower_bound_proposes_nothing() -> None:
     one = of_day(0, 40.0)
     hidden = with_ranges(one, lambda _: {"is_lower_bound": True})
     assert propose_goals([hidden], FLEXION, "right", "wrist6") == ()

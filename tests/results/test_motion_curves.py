@@ -12,7 +12,7 @@ from tests.ui.fakes import session
 from tests.ui.hand_fakes import hand_session
 
 
-def test_curves_and_table_are_those_of_the_session() -> None:
+def test_motion_curves_match_session() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(5.0, 6.0)])
     curves, motion = compute_motion_curves(made), made.motion
     table = {column.name: column.values for column in motion_columns(made, made.motion)}
@@ -35,7 +35,7 @@ def test_curves_and_table_are_those_of_the_session() -> None:
     assert np.isnan(curves.joint_mm[gone]).all()
 
 
-def test_the_axes_are_those_of_the_hand_in_the_frame_of_the_places() -> None:
+def test_motion_curves_axes_are_of_hand_in_w0() -> None:
     made = session()
     turn = np.tile([0.0, 0.0, 0.2], (len(made), 1))
     curves = compute_motion_curves(replace(made, motion=replace(made.motion, w0_turn_rad=turn)))
@@ -45,7 +45,7 @@ def test_the_axes_are_those_of_the_hand_in_the_frame_of_the_places() -> None:
     assert curves.joint_names == ()
 
 
-def test_zyz_turns_back_into_the_rotation_wherever_it_is_given() -> None:
+def test_motion_curves_zyz_gives_back_rotation() -> None:
     made = session()
     table = {column.name: column.values for column in motion_columns(made, made.motion)}
     zyz = np.column_stack([table[f"zyz_{name}_deg"] for name in ("alpha", "beta", "gamma")])

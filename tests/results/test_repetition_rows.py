@@ -42,7 +42,7 @@ def session(path: Path) -> Session:
     return read_session(path)
 
 
-def test_a_stop_is_in_the_table_of_the_file(path: Path, session: Session) -> None:
+def test_repetitions_pause_is_in_file(path: Path, session: Session) -> None:
     with h5py.File(path) as file:
         table = file["/repetitions"]
         assert table.fletcher32
@@ -71,7 +71,7 @@ def test_a_stop_is_in_the_table_of_the_file(path: Path, session: Session) -> Non
 
 
 @pytest.mark.parametrize("which", ["stopping", "both sides"])
-def test_file_figures_and_recount_are_the_same(which: str, session: Session) -> None:
+def test_repetitions_of_file_results_and_recount_agree(which: str, session: Session) -> None:
     chosen = session if which == "stopping" else simulated()
     found = compute_repetitions(chosen)
     shown = compute_session_results(chosen).repetitions
@@ -88,7 +88,7 @@ def test_file_figures_and_recount_are_the_same(which: str, session: Session) -> 
         ]
 
 
-def test_choices_of_a_person_change_what_is_shown_and_not_the_file(session: Session) -> None:
+def test_choices_change_results_not_file(session: Session) -> None:
     figures = compute_session_results(session, RepetitionChoices({1: "pain"}, {2: (11.0, 15.0)}))
     rows = [one.row for one in figures.repetitions]
     assert [row.reason for row in rows if row] == ["", "pain", ""]
@@ -97,7 +97,7 @@ def test_choices_of_a_person_change_what_is_shown_and_not_the_file(session: Sess
     assert all(row.counted for row in session.repetitions.rows)
 
 
-def test_a_repetition_that_was_hardly_seen_says_so(session: Session) -> None:
+def test_repetition_hardly_seen_is_hidden(session: Session) -> None:
     time_s = session.timestamp_s - session.timestamp_s[0]
     status = np.asarray(session.status).copy()
     status[(time_s > 6.5) & (time_s < 7.4) | (time_s > 7.6) & (time_s < 8.5)] = 1
@@ -106,7 +106,7 @@ def test_a_repetition_that_was_hardly_seen_says_so(session: Session) -> None:
     assert [row.counted for row in rows] == [True, False, True]
 
 
-def test_the_summary_has_a_line_for_each(session: Session) -> None:
+def test_session_summary_has_line_per_repetition(session: Session) -> None:
     lines = repetition_lines(compute_session_results(session, RepetitionChoices({1: "pain"})))
     assert len(lines) == 3
     assert "arc 50.0 deg" in lines[0]
@@ -126,7 +126,7 @@ def trained_in(knots_s: list[float], knots_deg: list[float], found: RepetitionAn
     )
 
 
-def test_motion_to_both_sides_lies_within_its_repetitions() -> None:
+def test_repetitions_of_motion_to_both_sides() -> None:
     # Up and down about the middle, with holds of 0.6 s in which noise says where the turn is.
     knots_s = np.cumsum([0.0, 1.0, *[0.8, 0.6] * 6, 0.8, 2.0])
     knots_deg = [0.0, 0.0, *[side for side in (40.0, -40.0) * 3 for _ in range(2)], 0.0, 0.0]
@@ -143,7 +143,7 @@ def test_motion_to_both_sides_lies_within_its_repetitions() -> None:
     assert [row.movement_time_s for row in rows] == pytest.approx([2.0, 1.6, 2.0], abs=0.45)
 
 
-def test_an_arc_that_may_have_been_larger_is_a_lower_bound() -> None:
+def test_repetition_arc_limited_by_view_is_lower_bound() -> None:
     knots_deg = [0.0, 0.0, 50.0, 50.0, 0.0, 0.0, 50.0, 50.0, 0.0, 0.0]
     trained = trained_in([0.0, 1.0, 2.0, 2.5, 3.5, 4.0, 5.0, 5.5, 6.5, 8.0], knots_deg)
     hidden = (trained.measured.time_s > 2.05) & (trained.measured.time_s < 2.45)
@@ -154,7 +154,7 @@ def test_an_arc_that_may_have_been_larger_is_a_lower_bound() -> None:
     assert all(row.counted for row in rows)
 
 
-def test_a_table_from_before_there_were_lower_bounds_is_read(path: Path, session: Session, tmp_path: Path) -> None:
+def test_repetitions_without_lower_bounds_are_read(path: Path, session: Session, tmp_path: Path) -> None:
     old = tmp_path / "old.h5"
     shutil.copy(path, old)
     with h5py.File(old, "r+") as file:
@@ -175,7 +175,7 @@ def test_a_table_from_before_there_were_lower_bounds_is_read(path: Path, session
         *product(("gap", "end"), ("a hold",)),
     ],
 )
-def test_half_a_repetition_is_listed_and_never_counted(by: str, ends: str) -> None:
+def test_repetition_cut_in_half_is_listed_not_counted(by: str, ends: str) -> None:
     one = np.radians(60.0) * (0.5 - 0.5 * np.cos(2 * np.pi * np.arange(0.0, 1.0, 1 / 120)))  # there and back in 4 s
     still = np.zeros(30)
     piece = one[: {"way out": 40, "way back": 80, "at the middle": 90, "nearly back": 96, "a hold": 60}[ends]]
@@ -210,7 +210,7 @@ def test_half_a_repetition_is_listed_and_never_counted(by: str, ends: str) -> No
     assert all(math.isnan(each.peak_speed_rad_s) or each.arc_rad > math.radians(59.0) for each in short)
 
 
-def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() -> None:
+def test_repetition_moved_edges_exclude_cut() -> None:
     trained = trained_in([0.0, 1.0, 3.0, 5.0, 7.0, 9.0, 10.0], [0.0, 0.0, 50.0, 0.0, 50.0, 0.0, 0.0])
     tracked = replace(trained.tracked, value=np.where(np.abs(trained.tracked.time_s - 8.0) < 0.45, np.nan, 0.3))
     whole = Repetition(5.0, 9.0, 0.55)
@@ -226,7 +226,7 @@ def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() 
     assert reasons({0: (1.2, 5.0)}) == ["cut_by_gap", HIDDEN]
 
 
-def test_who_comes_back_too_far_has_the_peak_at_the_turn() -> None:
+def test_peak_is_at_turn_when_return_goes_further() -> None:
     whole = RepetitionAnalysis((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 2.4, True), Stroke(2.4, 5.0, False)))
     trained = trained_in([0.0, 1.0, 2.0, 2.8, 4.4, 5.5], [0.0, 0.0, 50.0, 50.0, -60.0, -60.0], whole)
     (one,) = measure_repetitions(trained, RepetitionChoices())
@@ -249,7 +249,7 @@ def rows_of(way_deg: dict[float, float], hidden: tuple[float, float] = (0.0, 0.0
     return [one.row for one in measure_repetitions(trained, RepetitionChoices())]
 
 
-def test_a_gap_on_the_way_does_not_make_the_rest_part_of_a_repetition() -> None:
+def test_gap_on_the_way_adds_no_rest() -> None:
     back = {0.0: 0.0, 1.0: 0.0, 2.0: 60.0, 3.0: 0.0, 14.0: 0.0, 15.0: 60.0, 16.0: 0.0, 17.0: 0.0}
     row = rows_of(back, (2.3, 2.7))[0]
     assert row.counted
@@ -260,12 +260,12 @@ def test_a_gap_on_the_way_does_not_make_the_rest_part_of_a_repetition() -> None:
 
 
 @pytest.mark.parametrize(("hidden", "known"), [((1.55, 2.45), False), ((1.87, 2.13), False), ((1.2, 1.5), True)])
-def test_a_peak_that_a_gap_hides_has_no_time(hidden: tuple[float, float], known: bool) -> None:
+def test_peak_hidden_by_gap_has_no_time(hidden: tuple[float, float], known: bool) -> None:
     row = rows_of({0.0: 0.0, 1.0: 0.0, 2.0: 60.0, 3.0: 0.0, 4.0: 0.0, 5.0: 60.0, 6.0: 0.0, 7.0: 0.0}, hidden)[0]
     assert math.isfinite(row.peak_s) == known
 
 
-def test_who_stops_half_way_and_stays_has_a_repetition_that_does_not_count() -> None:
+def test_repetition_stopping_half_way_does_not_count() -> None:
     way = {0.0: 0.0, 1.0: 0.0, 2.0: 60.0, 3.0: 60.0, 4.0: 0.0, 5.0: 0.0}
     for stop_deg in (22.0, 30.0, 40.0):
         rows = rows_of(way | {6.0: stop_deg, 9.0: stop_deg})

@@ -40,9 +40,7 @@ def repetitions(parts: list[tuple[float, float]], rest_s: float = 1.5) -> tuple[
 
 # --- in step --------------------------------------------------------------------------------------------------
 @given(lengths, lengths)
-def test_neither_recording_ever_goes_back_and_both_are_played_whole(
-    mine: list[tuple[float, float]], other: list[tuple[float, float]]
-) -> None:
+def test_align_playback_never_goes_back(mine: list[tuple[float, float]], other: list[tuple[float, float]]) -> None:
     (first, first_s), (second, second_s) = repetitions(mine), repetitions(other, 2.5)
     together = align_playback(first, second, (first_s, second_s))
     assert (np.diff(together.player_s) > 0.0).all()
@@ -54,7 +52,7 @@ def test_neither_recording_ever_goes_back_and_both_are_played_whole(
 
 
 @given(lengths, lengths, st.floats(0.0, 1.0))
-def test_by_part_both_are_at_the_same_part_of_every_repetition(
+def test_align_playback_same_part_of_repetitions(
     mine: list[tuple[float, float]], other: list[tuple[float, float]], share: float
 ) -> None:
     (first, first_s), (second, second_s) = repetitions(mine), repetitions(other)
@@ -67,7 +65,7 @@ def test_by_part_both_are_at_the_same_part_of_every_repetition(
 
 
 @given(lengths, lengths, st.floats(0.0, 1.0))
-def test_a_place_in_a_recording_is_found_again(
+def test_playback_timeline_inverts_times(
     mine: list[tuple[float, float]], other: list[tuple[float, float]], share: float
 ) -> None:
     (first, first_s), (second, second_s) = repetitions(mine), repetitions(other)
@@ -80,7 +78,7 @@ def test_a_place_in_a_recording_is_found_again(
     )
 
 
-def test_edges_that_a_person_moved_over_each_other_and_an_empty_recording_can_be_played() -> None:
+def test_align_playback_crossed_edges_and_empty_recording() -> None:
     crossed = [RepetitionResult(1.0, 4.0, ""), RepetitionResult(3.0, 5.0, "")]
     plain, plain_s = repetitions([(1.0, 2.0), (0.0, 2.0)])
     together = align_playback(crossed, plain, (6.0, plain_s))
@@ -101,7 +99,7 @@ def left() -> SessionResults:
     return figures_once(session(NOW, 1.25, session_id="left", side="left"))
 
 
-def test_a_session_beside_itself_shows_no_difference(figures: SessionResults) -> None:
+def test_compare_pair_same_session_no_difference(figures: SessionResults) -> None:
     both = compare_pair(figures, figures)
     assert both.is_comparable
     assert both.ranges
@@ -111,7 +109,7 @@ def test_a_session_beside_itself_shows_no_difference(figures: SessionResults) ->
         assert not one.is_beyond_error
 
 
-def test_a_mirrored_hand_equals_the_other() -> None:
+def test_compare_pair_mirrored_hand_is_equal() -> None:
     right, left = session(), session(session_id="left", side="left")
     both = compare_pair(figures_once(right), figures_once(left))
     assert both.relation == "hands"
@@ -120,9 +118,7 @@ def test_a_mirrored_hand_equals_the_other() -> None:
         assert one.difference_deg == pytest.approx(0.0, abs=1.0)
 
 
-def test_two_hands_differ_only_beyond_error_and_neither_way_round_matters(
-    figures: SessionResults, left: SessionResults
-) -> None:
+def test_compare_pair_hands_differ_beyond_error_either_way(figures: SessionResults, left: SessionResults) -> None:
     both, turned = compare_pair(figures, left), compare_pair(left, figures)
     arc = next(one for one in both.ranges if one.after.quantity == "arc")
     assert both.main_comparison is arc
@@ -134,7 +130,7 @@ def test_two_hands_differ_only_beyond_error_and_neither_way_round_matters(
         assert one.limit_deg == other.limit_deg
 
 
-def test_an_unfair_pair_is_not_judged_and_says_why(figures: SessionResults, left: SessionResults) -> None:
+def test_compare_pair_incomparable_states_reason(figures: SessionResults, left: SessionResults) -> None:
     far = replace(left, quality=replace(left.quality, distance_m=0.95))
     both = compare_pair(figures, far)
     assert both.reasons == ("distance",)
@@ -153,7 +149,7 @@ def test_an_unfair_pair_is_not_judged_and_says_why(figures: SessionResults, left
     assert "angle_order" in pair_incomparable_reasons(figures, replace(left, angle_order="isb"))
 
 
-def test_the_affected_hand_and_the_newer_date_stand_first(figures: SessionResults, left: SessionResults) -> None:
+def test_order_pair_affected_hand_or_newer_first(figures: SessionResults, left: SessionResults) -> None:
     for pair in ((figures, left), (left, figures)):
         assert [one.side for one in order_pair(*pair)] == ["right", "left"]
         assert [one.side for one in order_pair(*pair, "left")] == ["left", "right"]
@@ -161,9 +157,7 @@ def test_the_affected_hand_and_the_newer_date_stand_first(figures: SessionResult
     assert order_pair(older, figures) == order_pair(figures, older) == (figures, older)
 
 
-def test_a_partner_is_the_other_hand_of_the_day_then_the_last_fair_session(
-    figures: SessionResults, left: SessionResults
-) -> None:
+def test_find_partner_prefers_other_hand_of_day(figures: SessionResults, left: SessionResults) -> None:
     older, oldest, before = days_ago(figures, 7), days_ago(figures, 30), days_ago(left, 20)
     far = replace(older, quality=replace(older.quality, distance_m=0.95))
     assert find_partner([figures, left, older], figures) == left
@@ -175,7 +169,7 @@ def test_a_partner_is_the_other_hand_of_the_day_then_the_last_fair_session(
     assert find_partner([figures, replace(older, is_excluded=True)], figures) is None
 
 
-def test_of_the_whole_hand_the_fingers_compare() -> None:
+def test_compare_pair_fingers() -> None:
     stored, other = (
         hand_session(hides_beyond_deg=200.0),
         hand_session(share=0.6, session_id="left", side="left", hides_beyond_deg=200.0),
@@ -190,7 +184,7 @@ def test_of_the_whole_hand_the_fingers_compare() -> None:
     assert np.isnan(visible_angle_deg(session(), "TAM3")).all()
 
 
-def test_a_hidden_end_of_either_hand_is_judged_only_where_it_is_sure() -> None:
+def test_compare_pair_hidden_end_judged_only_if_certain() -> None:
     """A lower bound beyond error above a figure fully seen is a difference, whichever hand has it."""
     hidden = figures_once(hand_session(hides_beyond_deg=62.0))
     small = figures_once(hand_session(share=0.3, session_id="left", side="left", hides_beyond_deg=200.0))
