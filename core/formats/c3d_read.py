@@ -53,8 +53,8 @@ def _parse_points(content: bytes, path: Path) -> PointTrack:
     if processor not in (INTEL, DEC, SGI):
         raise ReferenceUnreadable(path, phrase("made by an unknown processor {processor}", processor=processor))
     order = ">" if processor == SGI else "<"
-    said = _read_parameters(content, at, order, processor == DEC)
-    point = said["POINT"]
+    parameters = _read_parameters(content, at, order, processor == DEC)
+    point = parameters["POINT"]
     used = int(point["USED"][0])
     scale = float(point["SCALE"][0])
     rate_hz = float(point["RATE"][0])
@@ -66,8 +66,8 @@ def _parse_points(content: bytes, path: Path) -> PointTrack:
     row_bytes = (4 * used + analog) * word
     if not used or rate_hz <= 0.0 or not np.isfinite(rate_hz):
         raise ReferenceUnreadable(path, phrase("it holds no points, or says no rate"))
-    there = (len(content) - begin * BLOCK) // row_bytes
-    frames = min(_frame_count(said, last - first + 1), there)
+    stored_rows = (len(content) - begin * BLOCK) // row_bytes
+    frames = min(_frame_count(parameters, last - first + 1), stored_rows)
     if frames < 1:
         raise ReferenceUnreadable(path, phrase("it holds no frame"))
     raw = np.frombuffer(content, np.uint8, frames * row_bytes, begin * BLOCK).reshape(frames, row_bytes)
@@ -88,15 +88,15 @@ def zeros_to_nan(position_m: FloatArray) -> FloatArray:
     return np.where((position_m == 0.0).all(axis=-1, keepdims=True), np.nan, position_m)
 
 
-def _frame_count(said: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:
+def _frame_count(parameters: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:
     """Return the number of frames, also where the header's 16 bits do not hold it."""
-    trial = said.get("TRIAL", {})
+    trial = parameters.get("TRIAL", {})
     ends = [trial.get(f"ACTUAL_{which}_FIELD", []) for which in ("START", "END")]
     if all(len(end) >= 2 for end in ends):
         start, end = (int(end[0]) % 65536 + 65536 * (int(end[1]) % 65536) for end in ends)
         return end - start + 1
-    if "LONG_FRAMES" in said["POINT"]:
-        return int(said["POINT"]["LONG_FRAMES"][0])
+    if "LONG_FRAMES" in parameters["POINT"]:
+        return int(parameters["POINT"]["LONG_FRAMES"][0])
     return by_header
 
 

@@ -166,7 +166,7 @@ def _parameter_groups(take: ExportItem, times: UniformTimes, points: C3dPoints, 
     yield _text(6, "VERSION_LABEL", made_by["version"])
     yield from _events((*session.events, *repetition_events(take)), header.hand, times.start_s)
     yield _group(8, "CARPUS", "of what, by what")
-    said = {
+    texts = {
         "FRAME": CAMERA_AXES,
         "RESIDUALS": "above 0 seen, 0 predicted or computed, -1 not known",
         "ESTIMATE": "filter",
@@ -185,7 +185,7 @@ def _parameter_groups(take: ExportItem, times: UniformTimes, points: C3dPoints, 
         "INTRINSICS": f"{session.camera.origin}: fx {session.camera.fx_px:.3f} fy {session.camera.fy_px:.3f} "
         f"cx {session.camera.cx_px:.3f} cy {session.camera.cy_px:.3f}",
     }
-    for name, text in said.items():
+    for name, text in texts.items():
         if text:
             yield _text(8, name, text)
     yield b"\0\0"
@@ -207,8 +207,13 @@ def _events(happened: Sequence[Event], hand: str, start_s: float) -> Iterator[by
 
 
 def _group(number: int, name: str, words: str) -> bytes:
-    text, said = name.encode(), words.encode()
-    return struct.pack("<bb", len(text), -number) + text + struct.pack("<HB", 3 + len(said), len(said)) + said
+    text, description = name.encode(), words.encode()
+    return (
+        struct.pack("<bb", len(text), -number)
+        + text
+        + struct.pack("<HB", 3 + len(description), len(description))
+        + description
+    )
 
 
 def _parameter(number: int, name: str, kind: int, shape: tuple[int, ...], data: bytes) -> bytes:

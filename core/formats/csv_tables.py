@@ -131,27 +131,27 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
     """Write the tables; return their paths."""
     out = []
     end = ".for-programs.csv" if take.dialect == MACHINE_DIALECT else ".csv"
-    said = {
+    explanations = {
         "wrist": WRIST_COLUMNS, "joints": JOINT_COLUMNS, "markers": MARKER_COLUMNS, "events": EVENT_COLUMNS,
         "repetitions": REPETITION_COLUMNS, "measures": MEASURE_COLUMNS,
     }  # fmt: skip
-    made = build_tables(take.session) | {"repetitions": build_repetition_table(take.session, take.results)}
+    all_tables = build_tables(take.session) | {"repetitions": build_repetition_table(take.session, take.results)}
     if take.dialect != MACHINE_DIALECT:
-        made = _with_clinical_rotation(made, take)
-    for name, table in made.items():
+        all_tables = _with_clinical_rotation(all_tables, take)
+    for name, table in all_tables.items():
         out.append(write_new_table(folder / f"{take.name}.{name}{end}", list(table), _text_rows(table), take.dialect))
     measures = to_csv_rows(build_measure_rows(take.results, take.name))
     out.append(write_new_table(folder / f"{take.name}.measures{end}", MEASURES_HEADER, measures, take.dialect))
     if take.manual_measurements:
         rows = ([format_cell(text) for text in row] for row in to_rows(take.manual_measurements))
         out.append(write_new_table(folder / f"{take.name}.by-hand{end}", list(COLUMNS), rows, take.dialect))
-        said["by-hand"] = COLUMNS
+        explanations["by-hand"] = COLUMNS
     content = {
         "provenance": take.provenance,
         "missing": "empty",
         "separator": take.dialect.separator,
         "decimal": take.dialect.decimal,
-        "tables": {path.name: said[path.name.removesuffix(end).split(".")[-1]] for path in out},
+        "tables": {path.name: explanations[path.name.removesuffix(end).split(".")[-1]] for path in out},
     }
     return [*out, write_new_json(folder / f"{take.name}.csv.json", content)]
 
@@ -160,20 +160,20 @@ CLINICAL_ROTATION_NAMES = {True: "supination_from_thumb_up", False: "rotation_fr
 """Name of ``pronosupination`` counted as clinicians do, by whether it is from thumb up."""
 
 
-def _with_clinical_rotation(made: dict[str, Table], take: ExportItem) -> dict[str, Table]:
+def _with_clinical_rotation(all_tables: dict[str, Table], take: ExportItem) -> dict[str, Table]:
     """Return the tables with the forearm's rotation as clinicians count it, under another name."""
     exercise, start_rad = take.results.exercise, take.session.calibration.start_angles_rad
     thumb_up = is_counted_from_thumb_up(exercise)
-    out = dict(made)
+    out = dict(all_tables)
     out["wrist"] = {}
-    for name, values in made["wrist"].items():
+    for name, values in all_tables["wrist"].items():
         named = name.replace("pronosupination", CLINICAL_ROTATION_NAMES[thumb_up])
         if named != name and not name.endswith("_sd_deg"):
             angles = np.radians(np.column_stack((values, values, values)))
             values = np.degrees(to_clinical_wrist_angles(angles, exercise, start_rad)[:, PRONOSUPINATION])
         out["wrist"][named] = values
     if trained_angle_name(take.session) == WRIST_ANGLES[PRONOSUPINATION]:
-        rows = made["repetitions"]
+        rows = all_tables["repetitions"]
         count = len(rows["angle_deg"])
         out["repetitions"] = rows | {
             "angle": np.array([CLINICAL_ROTATION_NAMES[True]] * count, dtype=np.str_),

@@ -200,12 +200,12 @@ def _build_item(request: ExportRequest, deidentifier: Deidentifier | None, names
         number += 1
         name = f"{base}-{number}"
     names.add(name)
-    said = build_provenance(session, deidentified=deidentifier is not None)
+    item_provenance = build_provenance(session, deidentified=deidentifier is not None)
     figures = compute_session_results(session, choices)
     by_hand = session_values(request.manual_measurements, figures.side, day)
     if deidentifier is not None:  # day, place and initials are a person's own
         by_hand = tuple(replace(value, day=date.min, location="", rater="", entered_at=None) for value in by_hand)
-    return ExportItem(session, figures, name, said, by_hand, camera)
+    return ExportItem(session, figures, name, item_provenance, by_hand, camera)
 
 
 def _readme(formats: Sequence[str], deidentified: bool) -> str:

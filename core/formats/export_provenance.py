@@ -183,10 +183,10 @@ def _day(moment: str) -> datetime:
 
 
 def _deidentify_parameters(text: str, start_s: float) -> str:
-    kept = {part: told for part in ("settings", "learnt") if (told := made_by.parameter_section(text, part))}
-    if isinstance(kept.get("learnt", {}).get(_LEARNT_TIME_FIELD), (int, float)):
-        kept["learnt"][_LEARNT_TIME_FIELD] -= start_s
+    sections = {part: section for part in ("settings", "learnt") if (section := made_by.parameter_section(text, part))}
+    if isinstance(sections.get("learnt", {}).get(_LEARNT_TIME_FIELD), (int, float)):
+        sections["learnt"][_LEARNT_TIME_FIELD] -= start_s
     for part, names in (("source", ANONYMOUS_SOURCE_FIELDS), (SET_UP, _SETUP_FIELDS), ("provenance", ("revision",))):
-        if told := made_by.parameter_section(text, part):
-            kept[part] = {name: told[name] for name in names if name in told}
-    return json.dumps(kept, sort_keys=True)
+        if section := made_by.parameter_section(text, part):
+            sections[part] = {name: section[name] for name in names if name in section}
+    return json.dumps(sections, sort_keys=True)

@@ -54,7 +54,7 @@ def read_mot(path: Path) -> TimeTable:
     ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
     if not ends or ends[0] + 1 >= len(lines):
         raise ReferenceUnreadable(path, phrase("no MOT: it has no end of its header"))
-    said = dict(line.lower().replace(" ", "").rstrip(",").split("=", 1) for line in lines[: ends[0]] if "=" in line)
+    header = dict(line.lower().replace(" ", "").rstrip(",").split("=", 1) for line in lines[: ends[0]] if "=" in line)
     tab = "," if "," in lines[ends[0] + 1] else None  # None: any white space
     names = lines[ends[0] + 1].split(tab)
     rows = [line.split(tab) for line in lines[ends[0] + 2 :] if line.strip(", ")]
@@ -65,8 +65,10 @@ def read_mot(path: Path) -> TimeTable:
     if table.ndim != 2 or table.shape[1] != len(names) or names[0].lower() != "time":
         raise ReferenceUnreadable(path, phrase("its columns are not what its names say"))
     columns = {name: table[:, k] for k, name in enumerate(names) if k}
-    told = said.get("indegrees")
-    return TimeTable(_check_times(table[:, 0], path), columns, None if told is None else told.startswith("y"))
+    in_degrees = header.get("indegrees")
+    return TimeTable(
+        _check_times(table[:, 0], path), columns, None if in_degrees is None else in_degrees.startswith("y")
+    )
 
 
 def _parse_cell(cell: str) -> float:

@@ -69,9 +69,9 @@ def read_table(path: Path, known_names: Collection[str]) -> TextTable:
     """
     text = read_text(path)
     separators = _SEPARATORS
-    said = re.match(r"\s*\"?sep=(.)\"?[^\n]*\n", text, re.IGNORECASE)
-    if said:
-        separators, text = said[1], "\n" + text[said.end() :]
+    separator_line = re.match(r"\s*\"?sep=(.)\"?[^\n]*\n", text, re.IGNORECASE)
+    if separator_line:
+        separators, text = separator_line[1], "\n" + text[separator_line.end() :]
     found = [_find_table(text, separator, known_names) for separator in separators]
     best = max((one for one in found if one is not None), key=lambda one: one[0], default=None)
     if best is None:

@@ -77,11 +77,11 @@ def _normalize_name(name: str) -> str:
 
 
 def _licence_name(found: Distribution) -> str:
-    says = found.metadata.get_all
-    said = next(iter((*(says("License-Expression") or ()), *(says("License") or ()))), "")
-    if said and len(said) <= _MAX_EXPRESSION and "\n" not in said:
-        return said
-    kinds = [line for line in says("Classifier") or () if line.startswith("License ::")]
+    get_all = found.metadata.get_all
+    licence = next(iter((*(get_all("License-Expression") or ()), *(get_all("License") or ()))), "")
+    if licence and len(licence) <= _MAX_EXPRESSION and "\n" not in licence:
+        return licence
+    kinds = [line for line in get_all("Classifier") or () if line.startswith("License ::")]
     if kinds:
         return ", ".join(kind.rpartition(":: ")[2] for kind in kinds)
     title = next(_licence_texts(found), "").strip().partition("\n")[0]  # as its text calls itself

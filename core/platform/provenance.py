@@ -41,10 +41,10 @@ def version_with_revision() -> str:
 def parameter_section(parameters: str, section: str) -> dict[str, Any]:
     """Return a section of a session's parameters, such as ``provenance``; empty if there is none."""
     try:
-        said = json.loads(parameters)[section]
+        parsed = json.loads(parameters)[section]
     except (KeyError, TypeError, ValueError):
         return {}
-    return said if isinstance(said, dict) else {}
+    return parsed if isinstance(parsed, dict) else {}
 
 
 def sha256_of_file(path: Path) -> str:

@@ -240,27 +240,29 @@ def backup_from_json(name: str, text: str) -> Backup:
     Raises :class:`BackupUnreadable` for a newer format or paths that lead out of the folder, and whatever a wrong JSON
     makes Python raise.
     """
-    said = json.loads(text)
-    if said["format"] != FORMAT:
+    content = json.loads(text)
+    if content["format"] != FORMAT:
         raise BackupUnreadable(name, phrase("not a back-up"))
-    if _parse_count(said["format_version"]) > FORMAT_VERSION:
+    if _parse_count(content["format_version"]) > FORMAT_VERSION:
         newer = "version {version}, this Carpus reads up to {format_version}"
-        raise BackupUnreadable(name, phrase(newer, version=said["format_version"], format_version=FORMAT_VERSION))
-    files = tuple(BackupFile(str(p), str(h), _parse_count(size), _parse_count(ns)) for p, h, size, ns in said["files"])
+        raise BackupUnreadable(name, phrase(newer, version=content["format_version"], format_version=FORMAT_VERSION))
+    files = tuple(
+        BackupFile(str(p), str(h), _parse_count(size), _parse_count(ns)) for p, h, size, ns in content["files"]
+    )
     if not all(_is_safe_path(one.path) and _SHA256.fullmatch(one.sha256) for one in files):
         raise BackupUnreadable(name, phrase("paths that lead out of the folder"))
-    made = datetime.fromisoformat(said["made"])
+    made = datetime.fromisoformat(content["made"])
     if made.tzinfo is None or not 2000 <= made.year < 9000 or len({one.path for one in files}) != len(files):
         raise ValueError("no such back-up was made")
     return Backup(
         name,
         made,
         files,
-        _parse_count(said["sessions"]),
-        _parse_count(said["size_bytes"]),
-        _parse_count(said["lacking"]),
-        str(said["software_version"]),
-        str(said.get("data_folder", "")),
+        _parse_count(content["sessions"]),
+        _parse_count(content["size_bytes"]),
+        _parse_count(content["lacking"]),
+        str(content["software_version"]),
+        str(content.get("data_folder", "")),
     )
 
 

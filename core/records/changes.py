@@ -143,7 +143,7 @@ def update_session_counts(connection: Connection, patient_id: str) -> None:
         .order_by(SESSION.c.recorded_s.desc(), SESSION.c.created_s.desc())
         .limit(1)
     ).one_or_none() or ("", 0.0, "")
-    said = dict(zip(("last", "last_s", "last_exercise"), last, strict=True))
+    last_columns = dict(zip(("last", "last_s", "last_exercise"), last, strict=True))
     connection.execute(
-        update(PATIENT).where(PATIENT.c.id == patient_id).values(sessions=recordings, results=results, **said)
+        update(PATIENT).where(PATIENT.c.id == patient_id).values(sessions=recordings, results=results, **last_columns)
     )

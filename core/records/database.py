@@ -135,18 +135,18 @@ class Database:
         try:
             yield
         except (DBAPIError, sqlite3.Error) as cause:  # what SQLite says at a connection comes as it is
-            said = getattr(cause, "orig", cause)
-            code = getattr(said, "sqlite_errorcode", 0) & 0xFF
+            error = getattr(cause, "orig", cause)
+            code = getattr(error, "sqlite_errorcode", 0) & 0xFF
             if code == sqlite3.SQLITE_FULL or (code in MAYBE_FULL_CODES and is_disk_full(self._path.parent)):
                 raise DiskFull(self._path) from cause
             if code in CANNOT_WRITE_CODES:
-                raise OutputNotWritable(self._path, str(said)) from cause
+                raise OutputNotWritable(self._path, str(error)) from cause
             if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
-                raise PatientListDamaged(self._path, str(said)) from cause
+                raise PatientListDamaged(self._path, str(error)) from cause
             if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-                raise PatientListBusy(self._path, str(said)) from cause
+                raise PatientListBusy(self._path, str(error)) from cause
             if code == sqlite3.SQLITE_IOERR:
-                raise PatientListUnreadable(self._path, str(said)) from cause
+                raise PatientListUnreadable(self._path, str(error)) from cause
             raise
 
 
@@ -214,8 +214,8 @@ def migrate(connection: Connection, name: Path | str) -> bool:
     if found is None and tables:
         raise PatientListDamaged(name, phrase("damaged"))
     if found is not None and found not in map(str, range(1, int(VERSION))):
-        said = phrase("version {version}, this Carpus reads up to {count}", version=str(found) or "?", count=VERSION)
-        raise PatientListVersionUnknown(name, said)
+        error = phrase("version {version}, this Carpus reads up to {count}", version=str(found) or "?", count=VERSION)
+        raise PatientListVersionUnknown(name, error)
     from alembic.command import upgrade
     from alembic.config import Config
 

@@ -136,10 +136,10 @@ def _erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
     except ConcurrentChange:
         if store.row(select(of.c.id).where(of.c.id == plan.subject_id)):
             raise  # else another program has erased it meanwhile, which is what was asked for
-    left = finish_pending(store)
-    if left:
-        log.write_entry("erase_begun", plan.kind, plan.subject_id, left=len(left))
-        raise ErasureUnfinished(left[0].name, f"{len(left)}")
+    remaining = finish_pending(store)
+    if remaining:
+        log.write_entry("erase_begun", plan.kind, plan.subject_id, left=len(remaining))
+        raise ErasureUnfinished(remaining[0].name, f"{len(remaining)}")
     log.write_entry("erased", plan.kind, plan.subject_id, files=len(plan.files))
     return len(plan.files)
 
@@ -147,12 +147,12 @@ def _erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
 def resume_erasures(store: Store, log: AuditLogWriter) -> frozenset[str]:
     """Finish interrupted erasures; return the folded pseudonyms of patients erased by it."""
     people = frozenset(str(row[0]) for row in store.rows(select(PATIENT.c.folded).where(PATIENT.c.erasing == 1)))
-    left: list[Path] = []
+    remaining: list[Path] = []
     if people or store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)):
-        left = finish_pending(store)
-        log.write_entry("erase_begun" if left else "erased", "everything", late=1, left=len(left))
+        remaining = finish_pending(store)
+        log.write_entry("erase_begun" if remaining else "erased", "everything", late=1, left=len(remaining))
     store.purge_deleted()  # of a program that was killed before it did so
-    return frozenset() if left else people
+    return frozenset() if remaining else people
 
 
 def delete_orphan_folders(store: Store) -> int:
@@ -166,39 +166,39 @@ def delete_orphan_folders(store: Store) -> int:
     there = [one for one in there if is_patient_id(one.name) and fingerprint(one.name) in gone]
     known = {str(row[0]) for row in store.rows(select(PATIENT.c.id))} if there else set()
     used = {Path(row.path).parts[0] for row in store.rows(select(SESSION.c.path))} if there else set()
-    left = [one for one in there if one.name not in known | used]
-    for folder in left:
+    remaining = [one for one in there if one.name not in known | used]
+    for folder in remaining:
         shutil.rmtree(folder, ignore_errors=True)  # what is held open goes at the next start
-    return len(left)
+    return len(remaining)
 
 
 def finish_pending(store: Store) -> list[Path]:
     """Delete the files of marked rows, then the rows; return files that could not be deleted."""
     people = store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
     patients = [str(row.id) for row in people]
-    mine = (SESSION.c.erasing == 1) | SESSION.c.patient_id.in_(patients)
-    rows = store.rows(select(SESSION.c.id, SESSION.c.path).where(mine))
+    is_erased = (SESSION.c.erasing == 1) | SESSION.c.patient_id.in_(patients)
+    rows = store.rows(select(SESSION.c.id, SESSION.c.path).where(is_erased))
     if not people and not rows:
         return []
     sessions = [str(row.id) for row in rows]
     if rows and _is_share_away(store):
         return [store.sessions_folder]
     files = _files_to_delete(store, patients, sessions)
-    left = _symlinks_on_path(store, patients, sessions)
+    remaining = _symlinks_on_path(store, patients, sessions)
     for path in sorted(files):
         try:
             path.unlink(missing_ok=True)
         except OSError:
-            left.append(path)
+            remaining.append(path)
     if rows and _is_share_away(store):  # since then: nobody knows what was found and is gone
         return [store.sessions_folder]
-    emptied = {folder for path in files for folder in path.parents} | set(_patient_folders(store, patients))
-    for folder in sorted(emptied, reverse=True):
+    folders = {folder for path in files for folder in path.parents} | set(_patient_folders(store, patients))
+    for folder in sorted(folders, reverse=True):
         if folder.is_relative_to(store.sessions_folder) and folder != store.sessions_folder:
             with contextlib.suppress(OSError):  # another patient's session is in it
                 folder.rmdir()
-    if left:
-        return left
+    if remaining:
+        return remaining
     stored_names = (one for row in people for one in (row.folded, row.name, *row.former.split("\n")))
     names = [fold_name(one) for one in stored_names if one]
     # What leads here goes first: as long as the rows are marked, a kill in between is made good.

@@ -75,31 +75,31 @@ def recover_sessions(library: Library) -> tuple[Sequence[RecoveredSession], Sequ
         check_share(library.store)
     except FolderMissing as fault:
         return [], [*faults, fault]
-    recovered, told = list[Path](), list[CarpusFault]()
+    recovered, spool_faults = list[Path](), list[CarpusFault]()
     if _MOVE_LOCK.acquire(blocking=False):  # else another thread is at it
         try:
-            recovered, told = import_spooled(library.folder, partial(_session_folder, library))
+            recovered, spool_faults = import_spooled(library.folder, partial(_session_folder, library))
         finally:
             _MOVE_LOCK.release()
-    faults += [*told, *([SpooledSessionErased()] * delete_orphan_folders(library.store))]
+    faults += [*spool_faults, *([SpooledSessionErased()] * delete_orphan_folders(library.store))]
     files = SessionFileScanner(library.store)
-    of_before = recover_recordings(library.store.sessions_folder, ignored=files.unrecoverable_parts())
-    apart = [*files.filter_new_faults(of_before.faults), *files.scan().faults]
+    part_files = recover_recordings(library.store.sessions_folder, ignored=files.unrecoverable_parts())
+    file_faults = [*files.filter_new_faults(part_files.faults), *files.scan().faults]
     library.unlisted = {
         key: one for key, one in library.unlisted.items() if one.path.exists() and not library.is_listed(key)
     }
     found: list[RecoveredSession] = []
-    for path in (*recovered, *of_before.recovered):
+    for path in (*recovered, *part_files.recovered):
         outline = read_outline(path)
         header = outline.header
         library.audit_log.log_session("recovered", header.session_id)
         owner = library.owner_id(header.session_id)
         pseudonym = library.patients.get(owner).pseudonym if owner else header.subject_id
         found.append(RecoveredSession(owner, header.session_id, pseudonym, header.recording_time, outline.duration_s))
-    if len(apart) > MAX_LISTED_FILES:
-        names = ", ".join(Path(fault.subject).name for fault in apart[:MAX_LISTED_FILES])
-        apart = [SessionFilesIgnored(f"{names}, …", phrase("{count} files", count=len(apart)))]
-    return found, [*faults, *apart]
+    if len(file_faults) > MAX_LISTED_FILES:
+        names = ", ".join(Path(fault.subject).name for fault in file_faults[:MAX_LISTED_FILES])
+        file_faults = [SessionFilesIgnored(f"{names}, …", phrase("{count} files", count=len(file_faults)))]
+    return found, [*faults, *file_faults]
 
 
 def _session_folder(library: Library, patient_id: str, subject_id: str) -> Path | None:

@@ -74,30 +74,30 @@ class Pin:
                 return PinAttempt(False, 0, float(math.ceil((PAUSE - waited).total_seconds())))
             refused = 0
         try:
-            opened = bool(argon2.PasswordHasher().verify(kept["pin"], pin))
+            is_correct = bool(argon2.PasswordHasher().verify(kept["pin"], pin))
         except (argon2.exceptions.VerificationError, argon2.exceptions.InvalidHashError):
-            opened = False
-        told = {"pin": kept["pin"], "refused": 0 if opened else refused + 1, "since": when.isoformat()}
-        if not opened or kept["refused"]:
-            self._write(told)
-        if opened:
+            is_correct = False
+        content = {"pin": kept["pin"], "refused": 0 if is_correct else refused + 1, "since": when.isoformat()}
+        if not is_correct or kept["refused"]:
+            self._write(content)
+        if is_correct:
             return PinAttempt(True)
         left = MAX_TRIES - refused - 1
         return PinAttempt(False, left, 0.0 if left else PAUSE.total_seconds())
 
     def _read(self) -> dict[str, Any]:
         try:
-            told = json.loads(self._path.read_text(encoding="utf-8"))
-            since = datetime.fromisoformat(told["since"]) if told["since"] else None
-            refused = told["refused"]
+            content = json.loads(self._path.read_text(encoding="utf-8"))
+            since = datetime.fromisoformat(content["since"]) if content["since"] else None
+            refused = content["refused"]
             if isinstance(refused, bool) or not isinstance(refused, int) or (since and since.tzinfo is None):
                 raise ValueError("no count")
-            return {"pin": str(told["pin"]), "refused": max(0, refused), "since": since}
+            return {"pin": str(content["pin"]), "refused": max(0, refused), "since": since}
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return {"pin": "", "refused": 0, "since": None}
 
-    def _write(self, told: dict[str, Any]) -> None:
-        replace_text(self._path, json.dumps(told))
+    def _write(self, content: dict[str, Any]) -> None:
+        replace_text(self._path, json.dumps(content))
 
 
 def _argon2() -> ModuleType:

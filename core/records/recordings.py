@@ -280,32 +280,32 @@ def import_spooled(
         return [], []
     found = recover_recordings(place)
     recovered: list[Path] = []
-    told: list[CarpusFault] = [RecordingTooShort(path.name) for path in found.empty]
+    faults: list[CarpusFault] = [RecordingTooShort(path.name) for path in found.empty]
     erased = [one for one in sorted(place.iterdir()) if one.is_dir() and find_folder(one.name, "") is None]
     for folder in erased if not found.in_progress else ():
         try:
             shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
-            told.append(SpooledSessionErased())
+            faults.append(SpooledSessionErased())
         except OSError as cause:
-            told.append(OutputNotWritable(place, cause.strerror or ""))
-    told += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
+            faults.append(OutputNotWritable(place, cause.strerror or ""))
+    faults += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
     for path in sorted(one for one in place.rglob("*.h5") if not one.name.startswith(".")):
         try:
             home = find_folder(path.parent.name, read_outline(path).header.subject_id)
             if home is None:
-                told.append(SpooledSessionErased())
+                faults.append(SpooledSessionErased())
                 remove_published(path)
             else:
                 arrived = publish_session(path, home)
                 if path in found.recovered:
                     recovered.append(arrived)
                 else:
-                    told.append(SpooledSessionMoved(arrived))
+                    faults.append(SpooledSessionMoved(arrived))
             if path.parent != place:
                 with suppress(OSError):  # another recording waits in it
                     path.parent.rmdir()
         except CarpusFault as fault:
-            told.append(fault)
+            faults.append(fault)
         except OSError as cause:
-            told.append(OutputNotWritable(data_folder, cause.strerror or ""))
-    return recovered, told
+            faults.append(OutputNotWritable(data_folder, cause.strerror or ""))
+    return recovered, faults

@@ -152,17 +152,17 @@ class Server:
         try:
             yield
         except DBAPIError as cause:
-            said = " ".join(str(cause.orig).split())[:200]
+            message = " ".join(str(cause.orig).split())[:200]
             state = getattr(cause.orig, "sqlstate", None)
             if state in _BUSY:
-                raise PatientListBusy(self.name, said) from cause
+                raise PatientListBusy(self.name, message) from cause
             if state in _DISK_FULL:
-                raise DiskFull(self.name, said) from cause
+                raise DiskFull(self.name, message) from cause
             if state in _READ_ONLY:
-                raise OutputNotWritable(self.name, said) from cause
+                raise OutputNotWritable(self.name, message) from cause
             if cause.connection_invalidated or state is None or state[:2] in ("08", "28", "3D", "53", "57"):
                 self._retry_at_s = time.monotonic() + RETRY_AFTER_S
-                raise ServerUnavailable(self.name, said) from cause
+                raise ServerUnavailable(self.name, message) from cause
             raise
 
 

@@ -170,7 +170,7 @@ def with_time_offset(row: RepetitionRow, start_s: float) -> RepetitionRow:
 
 def find_trained_angle(seen: MeasurableSession) -> TrainedAngle | None:
     """Return the trained angle, None if there is none or it was never seen."""
-    exercise, looked_back, passive_s = seen.exercise, seen.session.smoothed is not None, passive_stretches(seen.session)
+    exercise, is_smoothed, passive_s = seen.exercise, seen.session.smoothed is not None, passive_stretches(seen.session)
     track = seen.tracks.get(exercise.joint)
     if track is not None and track.is_known:
         return TrainedAngle(
@@ -179,7 +179,7 @@ def find_trained_angle(seen: MeasurableSession) -> TrainedAngle | None:
             track.visible,
             track.visible_sd,
             track.tracked,
-            looked_back,
+            is_smoothed,
             lambda some: joint_range(track, some),
             passive_s=passive_s,
         )
@@ -188,8 +188,8 @@ def find_trained_angle(seen: MeasurableSession) -> TrainedAngle | None:
     signal = seen.signals[exercise.angle]
     angle, smooth = signal.column(0), low_pass(signal, MAX_CUTOFF_HZ).column(0)
     return TrainedAngle(
-        WRIST_ANGLES[exercise.angle], find_repetitions(angle), angle, signal.column(1), angle, looked_back,
-        lambda some: motion_range(smooth, signal.column(1), tuple(some), smoothed=looked_back),
+        WRIST_ANGLES[exercise.angle], find_repetitions(angle), angle, signal.column(1), angle, is_smoothed,
+        lambda some: motion_range(smooth, signal.column(1), tuple(some), smoothed=is_smoothed),
         exercise.angle == PRONOSUPINATION, passive_s,
     )  # fmt: skip
 
@@ -197,27 +197,29 @@ def find_trained_angle(seen: MeasurableSession) -> TrainedAngle | None:
 def passive_stretches(session: Session) -> tuple[tuple[float, float], ...]:
     """Return start and end of stretches in which somebody else moved the hand, after the first frame."""
     start_s = float(session.timestamp_s[0]) if len(session) else 0.0
-    said = [(one.time_s - start_s, one.kind) for one in session.events if one.kind in (PASSIVE, ACTIVE)]
-    ends = [*(time_s for time_s, _ in said[1:]), math.inf]
-    return tuple((time_s, end_s) for (time_s, kind), end_s in zip(said, ends, strict=False) if kind == PASSIVE)
+    changes = [(one.time_s - start_s, one.kind) for one in session.events if one.kind in (PASSIVE, ACTIVE)]
+    ends = [*(time_s for time_s, _ in changes[1:]), math.inf]
+    return tuple((time_s, end_s) for (time_s, kind), end_s in zip(changes, ends, strict=False) if kind == PASSIVE)
 
 
 def mask_passive(session: Session, measured: Sequence[MeasuredRepetition]) -> Session:
     """Return the session with the passive stretches marked as lost."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
-    helped = np.zeros(len(time_s), dtype=bool)
+    is_passive = np.zeros(len(time_s), dtype=bool)
     for start_s, end_s in passive_stretches(session):
-        helped |= (start_s <= time_s) & (time_s < end_s)
+        is_passive |= (start_s <= time_s) & (time_s < end_s)
     for one in sorted(measured, key=lambda one: one.row.counted):  # what counts has the last word
         if one.row.counted or one.exclusion_reason == PASSIVE:
-            helped[(one.window.start_s <= time_s) & (time_s <= one.window.end_s)] = not one.row.counted
-    if not helped.any():
+            is_passive[(one.window.start_s <= time_s) & (time_s <= one.window.end_s)] = not one.row.counted
+    if not is_passive.any():
         return session
     motion, smoothed = (
-        one if one is None else replace(one, joint_angles_rad=np.where(helped[:, None], math.nan, one.joint_angles_rad))
+        one
+        if one is None
+        else replace(one, joint_angles_rad=np.where(is_passive[:, None], math.nan, one.joint_angles_rad))
         for one in (session.motion, session.smoothed)
     )
-    status = np.where(helped, TrackStatus.LOST, session.status)
+    status = np.where(is_passive, TrackStatus.LOST, session.status)
     return replace(session, status=status, motion=motion or session.motion, smoothed=smoothed)
 
 

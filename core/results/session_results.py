@@ -311,7 +311,7 @@ def compute_session_results(
         occluded_s=sum(end - start for start, end in trained.detected.occluded_s) if trained is not None else 0.0,
         pain_scores=tuple(score for _, score in pains),
         pain_times_s=tuple(time_s for time_s, _ in pains),
-        notes=tuple(said for said in _events_of_kind(session, "note") if said[1] and len(session)),
+        notes=tuple(note for note in _events_of_kind(session, "note") if note[1] and len(session)),
         findings=session.calibration.verdict.findings,
         is_simulated=header.is_simulated,
         is_excluded=choices.is_session_excluded,

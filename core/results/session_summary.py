@@ -291,14 +291,14 @@ def _calibration_lines(session: Session) -> list[str]:
 
 def _provenance_lines(session: Session) -> list[str]:
     """Return revision, recording and settings, as far as the session states them."""
-    said, source = (parameter_section(session.header.parameters, part) for part in ("provenance", "source"))
+    provenance, source = (parameter_section(session.header.parameters, part) for part in ("provenance", "source"))
     camera = parse_camera(session.header.parameters)
     calibrated = camera.calibrated_at and f"{camera.calibrated_at}, {format_rounded(camera.age_days)} days before"
     facts = (
         ("Calibrated", calibrated or (camera.serial and "not with a board")),
-        ("Revision", said.get("revision")),
+        ("Revision", provenance.get("revision")),
         ("Of", source.get("sha256") and f"a recording with SHA-256 {source['sha256']}"),
-        ("Set", said.get("settings_sha256") and f"by settings with SHA-256 {said['settings_sha256']}"),
+        ("Set", provenance.get("settings_sha256") and f"by settings with SHA-256 {provenance['settings_sha256']}"),
     )
     return [_line(title, str(text)) for title, text in facts if text]
 
