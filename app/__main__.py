@@ -114,7 +114,7 @@ def _run(asked: Sequence[str]) -> int:
     top = build_parser(asked)
     arguments, extra = top.parse_known_args(asked)
     if extra:
-        getattr(arguments, "build_parser", top).reject_unknown(extra)
+        getattr(arguments, "parser", top).reject_unknown(extra)
     if arguments.command is None:
         from carpus.app.commands import desktop
 

@@ -77,8 +77,9 @@ class SourceFactory:
         for fault in faults:
             session.handle_notice(fault)
         session.start()
+        frames = _live_frames(session)
         # From the calibration on, the markers must keep their colours.
-        return self._build_open_source(session, source, set_up, _live_frames(session), on_begin=live.lock_exposure)
+        return self._build_open_source(session, source, set_up, frames, on_tracking_started=live.lock_exposure)
 
     def _open_practice(self, set_up: SessionSetup, progress: Progress) -> OpenSource:
         """Open the still hand at once; the movements are rendered meanwhile."""
@@ -101,8 +102,8 @@ class SourceFactory:
             take,
             set_up,
             _live_frames(session),
-            on_recording=patient.start_movement,
-            on_chosen=lambda chosen: drawing.choose(chosen.exercise.id),
+            on_recording_started=patient.start_movement,
+            on_exercise_changed=lambda chosen: drawing.choose(chosen.exercise.id),
         )
         return replace(opened, is_hand_resting=lambda: not patient.can_move)
 

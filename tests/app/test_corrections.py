@@ -531,7 +531,7 @@ def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
             return found
 
         with monkeypatch.context() as patched:
-            patched.setattr(flow._corrections, "waiting", slow)
+            patched.setattr(flow._corrections, "list_pending", slow)
             flow.refresh_pending()
         ends.set()
         qtbot.waitUntil(lambda: len(flow.pending) == 1)
@@ -550,7 +550,7 @@ def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
         def away(_: str) -> None:
             raise ServerUnavailable("records", "no answer")
 
-        patched.setattr(kept.library.session_list, "one", away)
+        patched.setattr(kept.library.session_list, "get", away)
         assert corrections.list_pending() == []
     assert trial.exists()
     assert corrections.list_pending() == []

@@ -234,7 +234,7 @@ def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
     def full(*_: object, **__: object) -> None:
         raise OutputNotWritable(library.folder)
 
-    monkeypatch.setattr(library.log_writer, "note", full)
+    monkeypatch.setattr(library.log_writer, "write_entry", full)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     assert library.patients.get(linden).pseudonym == "Linden 42"
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]

@@ -46,5 +46,5 @@ def test_camera_that_waits_behind_the_review_keeps_no_language(
     with monkeypatch.context() as waiting:
         waiting.setattr(desktop.controller.current, "source", object())
         for place, refused in (("review", False), ("sessions", False), ("markers", True), ("live", True)):
-            waiting.setattr(type(desktop.controller.navigator), "behind", place)
+            waiting.setattr(type(desktop.controller.navigator), "underlying_screen", place)
             assert bool(desktop.find_language_obstacle()) is refused, place

@@ -107,7 +107,7 @@ from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.platform.durable import replace_file
-from carpus.core.formats.output_files import new_text
+from carpus.core.formats.output_files import write_new_text
 from carpus.core.model.hand.protocols import WRIST6
 import numpy as np
 camera = Camera(500, 500, 320, 240)
@@ -118,7 +118,7 @@ for umask in ("000", "022", "277"):
     write_clicks(folder / "clicks.json", Clicks("right", WRIST6, np.zeros((6, 2))))
     write_camera_info(folder / "camera.yaml", camera)
     replace_file(folder / "replaced", lambda part: part.write_text("x"))
-    new_text(folder / "new.txt", "x")
+    write_new_text(folder / "new.txt", "x")
     if umask != "277":  # which takes the folders that it makes from their owner
         TumWriter(folder / "tum", SourceInfo("x", camera, True, None, 30.0, {})).abandon()
     os.umask(0o022)

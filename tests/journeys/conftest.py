@@ -63,6 +63,6 @@ def open_desktop(open_desktop: Open, take: Path) -> Open:
     usual = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(keep_pictures=False))
 
     def open_one(settings: Settings = usual, **options: Any) -> Desktop:
-        return open_desktop(settings, **{"take": take_of(take), "speed": SPEED} | options)
+        return open_desktop(settings, **{"practice_renderer": take_of(take), "speed": SPEED} | options)
 
     return open_one

@@ -122,7 +122,7 @@ def test_the_whole_journey_by_mouse(
     click(qtbot, journey.patients.screen.card.start_button)
     at(qtbot, desktop.controller, "exercise")
     click(qtbot, journey.exercise.screen.exercises.option("WRIST_FE"))
-    journey.exercise.screen.form["keep_pictures"].choose(True)
+    journey.exercise.screen.form["stores_frames"].choose(True)
     click(qtbot, journey.exercise.screen.primary_button)
     at(qtbot, desktop.controller, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))

@@ -31,7 +31,7 @@ def hand_take(rendered: Rendered) -> Path:
 def test_the_whole_hand_from_set_up_to_session_file(
     qtbot: QtBot, open_desktop: Open, hand_take: Path, tmp_path: Path
 ) -> None:
-    desktop = open_desktop(take=take_of(hand_take, SPEC.fps), speed=1.0)
+    desktop = open_desktop(practice_renderer=take_of(hand_take, SPEC.fps), speed=1.0)
     journey = desktop.controller
     markers, live = journey.markers.screen, journey.live.screen
     journey.exercise.open(PRACTICE_PATIENT)

@@ -110,7 +110,7 @@ def update_palm(
         value = variance = np.full((1, used.size), np.nan)
     measurement = predicted.linearised, value, variance
     if surface is not None:
-        measurement = surface.append_to(*measurement)
+        measurement = surface.extend_measurement(*measurement)
     update = update_mixture(predicted.mixture, *measurement, partial=predicted.partial, tested=used.size)
     if surface is not None and update.rest_nis[0] > surface.max_nis:
         return update_palm(predicted, replace(blobs, surface=None), assigned, with_depth, noise_factor)

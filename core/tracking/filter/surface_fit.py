@@ -64,7 +64,7 @@ class SurfaceMeasurement:
         """Return the measurement, linear about the estimate's mean."""
         return Linearisation(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
 
-    def append_to(
+    def extend_measurement(
         self, discs: Linearisation, measured: FloatArray, variance: FloatArray
     ) -> tuple[Linearisation, FloatArray, FloatArray]:
         """Append the three components to a measurement (1, m) about the same mean, for one update by both."""

@@ -98,7 +98,7 @@ class ExerciseScreen(QWidget):
                 continues_row=True,
             ),
             Field(
-                "ends_free", self.tr("End joints of the fingers"),
+                "is_dip_free", self.tr("End joints of the fingers"),
                 ChoiceRow(theme, [(False, self.tr("Inferred")), (True, self.tr("Measured"))]),
             ),
             Field(
@@ -106,7 +106,7 @@ class ExerciseScreen(QWidget):
                 ChoiceRow(theme, [(False, self.tr("Adult")), (True, self.tr("Child"))]),
             ),
             Field(
-                "keep_pictures", self.tr("Keep the pictures too"),
+                "stores_frames", self.tr("Keep the pictures too"),
                 ChoiceRow(theme, [(False, self.tr("No")), (True, self.tr("Yes"))]),
             ),
         ]  # fmt: skip
@@ -203,7 +203,7 @@ class ExerciseScreen(QWidget):
             now["target_negative_deg"] = math.nan
         if not exercise.has_repetitions:
             now |= {"repetitions": 0, "target_positive_deg": math.nan}
-        now["ends_free"] = now["ends_free"] and self._find_protocol().has_fingers
+        now["is_dip_free"] = now["is_dip_free"] and self._find_protocol().has_fingers
         now["side"] = now["side"] or "right"
         single = SessionSetup(
             self._patient.patient_id,
@@ -248,9 +248,9 @@ class ExerciseScreen(QWidget):
         if single and exercise.has_repetitions:
             self.form["repetitions"].setValue(exercise.repetitions)
         self._show_goals()
-        parts["ends_free"].setVisible(self._find_protocol().has_fingers)
+        parts["is_dip_free"].setVisible(self._find_protocol().has_fingers)
         exercises = [part.exercise for part in chosen.parts] if chosen is not None else [exercise]
-        self.form["ends_free"].choose(any(one.has_free_dip for one in exercises))
+        self.form["is_dip_free"].choose(any(one.has_free_dip for one in exercises))
         self.visibility_label.show_text(translate_phrase(exercise.visibility_note) if single else "")
         self._validate()
 
