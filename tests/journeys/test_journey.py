@@ -283,7 +283,7 @@ def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_sto
         kept.append(source.measuring._pipeline.on_steps)
         real(looking_back)
 
-    monkeypatch.setattr(SmoothingProcess, "wait", looked_back)
+    monkeypatch.setattr(SmoothingProcess, "join", looked_back)
     journey.live.screen.recording.toggle()
     wait(qtbot, lambda: journey.live.screen.recording.duration_s > 0.5)
     journey.live.screen.recording.stop()
