@@ -44,7 +44,9 @@ def lines_of(both: SessionPair) -> dict[str, list[str]]:
     return {row[0]: row for row in rows}
 
 
-def test_the_sentence_names_the_hand_that_moves_less(right: SessionResults, left: SessionResults) -> None:
+def test_comparison_headline_of_two_hands_names_the_hand_that_moves_less(
+    right: SessionResults, left: SessionResults
+) -> None:
     assert headline(compare_pair(right, left))[0] == "Total arc: 23° less on the right than on the left."
     assert headline(compare_pair(left, right))[0] == "Total arc: 23° more on the left than on the right."
     sentence, basis = headline(compare_pair(right, replace(right, side="left")))
@@ -62,7 +64,7 @@ def test_the_sentence_names_the_hand_that_moves_less(right: SessionResults, left
     )
 
 
-def test_of_fingers_a_lower_bound_is_said_to_be_one() -> None:
+def test_comparison_of_fingers_partly_occluded_shows_a_lower_bound() -> None:
     few = figures_once(hand_session(share=0.55, session_id="hand-right"))
     hidden = figures_once(hand_session(session_id="hand-left", side="left"))
     both = compare_pair(few, hidden, progress_keys("tam"))
@@ -74,7 +76,7 @@ def test_of_fingers_a_lower_bound_is_said_to_be_one() -> None:
     assert rows["Index finger, TAM"][3] == "–"
 
 
-def test_of_a_hook_the_middle_joints_of_all_fingers_come_first() -> None:
+def test_comparison_choices_of_a_hook_fist_offer_pip_joints_first() -> None:
     hands = [
         hand_session(session_id=side, side=side, exercise="FIST_HOOK", motion="hook") for side in ("right", "left")
     ]
@@ -85,7 +87,9 @@ def test_of_a_hook_the_middle_joints_of_all_fingers_come_first() -> None:
     assert [one.after.subject for one in both.ranges] == [f"PIP{finger}_flexion" for finger in (2, 3, 4, 5)]
 
 
-def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionResults, left: SessionResults) -> None:
+def test_comparison_not_comparable_states_the_reason_once_and_no_assessment(
+    right: SessionResults, left: SessionResults
+) -> None:
     both = compare_pair(right, replace(left, quality=replace(left.quality, distance_m=0.95)))
     assert headline(both) == ("Shown side by side, without a comparison.", "")
     assert "the camera was at another distance" in unfair_words(both)
@@ -95,7 +99,7 @@ def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionResul
     assert rows["Total arc"][3] == "23° less", "the values are shown"
 
 
-def test_the_left_hand_is_mirrored_and_says_so_until_m(
+def test_comparison_left_hand_is_mirrored_and_labelled_until_m_is_pressed(
     qtbot: QtBot, theme: Theme, show: Show[ComparisonScreen], background: Background
 ) -> None:
     screen = show(ComparisonScreen(theme, background, FakeSessions(pictures=False)))

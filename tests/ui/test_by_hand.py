@@ -53,7 +53,9 @@ def typed(screen: ManualMeasurementsScreen, name: str, *texts: str) -> None:
         QTest.keyClicks(field, text) if text else QTest.keyClick(field, Qt.Key.Key_Delete)
 
 
-def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ManualMeasurementsScreen, qtbot: QtBot) -> None:
+def test_manual_form_edited_saves_only_changes_and_hides_carpus_value_before(
+    screen: ManualMeasurementsScreen, qtbot: QtBot
+) -> None:
     figures = sorted(FakeSessions().history("linden"), key=lambda one: one.when)
     screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
     assert not screen.save_button.isEnabled()
@@ -103,7 +105,7 @@ def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ManualMeas
     assert screen.form.rows["PRWE"].fields[0][1].value() == 46.5, "a score is of the person"
 
 
-def test_where_carpus_has_only_a_simulated_session_that_is_said(screen: ManualMeasurementsScreen) -> None:
+def test_manual_form_simulated_session_only_is_stated(screen: ManualMeasurementsScreen) -> None:
     figures = max(FakeSessions().history("linden"), key=lambda one: one.when)
     for simulated in (False, True):
         shown = (replace(figures, is_simulated=simulated),)
@@ -115,7 +117,7 @@ def test_where_carpus_has_only_a_simulated_session_that_is_said(screen: ManualMe
     assert "is simulated" not in screen.basis_text.text(), "the other hand has none"
 
 
-def test_enter_goes_on_nonsense_is_refused_and_the_unusual_is_asked_about(
+def test_manual_form_invalid_value_is_refused_and_unusual_one_confirmed(
     screen: ManualMeasurementsScreen, qtbot: QtBot
 ) -> None:
     screen.show_record(ManualRecord("Linden 42", "right", (), (), ""))
@@ -146,7 +148,7 @@ def library(tmp_path: Path) -> Iterator[Library]:
     opened.close()
 
 
-def test_what_is_saved_is_in_the_register_and_in_the_log(
+def test_manual_form_saved_values_are_stored_and_logged(
     theme: Theme, host: QWidget, library: Library, background: Background, qtbot: QtBot
 ) -> None:
     patient = library.patients.add(Patient("Linden 42", "left"))
@@ -194,7 +196,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     assert [entry.action for entry in read_log(library.store) if entry.action != "added"] == ["entered_by_hand"] * 2
 
 
-def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:
+def test_manual_values_in_reports_and_tables_are_marked_as_manual(tmp_path: Path) -> None:
     store = FakeSessions()
     values = hand_values()
     report = build_session_report(store.session("session-7"), history=store.history("linden"), manual_values=values)

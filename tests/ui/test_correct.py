@@ -66,7 +66,7 @@ def asked(screen: CorrectionScreen) -> list[object]:
     return said
 
 
-def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(
+def test_correction_label_dragged_near_a_blob_snaps_to_its_centre(
     qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
 ) -> None:
     assert not screen.primary_button.isEnabled()
@@ -80,7 +80,7 @@ def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(
     assert asked == [corrections(screen)]
 
 
-def test_names_dragged_onto_each_other_swap_are_told_before_and_enter_mends_them(
+def test_correction_swapped_labels_are_reported_and_enter_swaps_them_back(
     qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
 ) -> None:
     before = screen.edits.original_px(ROW).copy()
@@ -97,7 +97,9 @@ def test_names_dragged_onto_each_other_swap_are_told_before_and_enter_mends_them
     assert asked == [corrections(screen)]
 
 
-def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: CorrectionScreen, asked: list[object]) -> None:
+def test_correction_label_far_from_expected_position_is_reported(
+    qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
+) -> None:
     drag(qtbot, screen, screen.edits.original_px(ROW)[5], np.array([600.0, 60.0]))
     assert screen.title.text() == "“Little knuckle” cannot be there"
     qtbot.keyClick(screen, Qt.Key.Key_Return)
@@ -105,7 +107,7 @@ def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: Correcti
     assert asked == []
 
 
-def test_names_on_crossed_fingers_are_told() -> None:
+def test_correction_labels_on_crossed_fingers_are_reported() -> None:
     session = hand_session()
     markers = list(session.header.protocol.markers)
     row = 40
@@ -118,7 +120,7 @@ def test_names_on_crossed_fingers_are_told() -> None:
         assert told.swapped == (one, other)
 
 
-def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectionScreen) -> None:
+def test_correction_label_is_nearest_to_its_marker_or_has_a_line(screen: CorrectionScreen) -> None:
     """Discs so near to each other that there is no room beside each: at the worst a name goes further off."""
     screen.grab()
     now = screen.edits.current_px(ROW)
@@ -136,9 +138,7 @@ def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: Correcti
         assert min(off, key=lambda one: off[one]) == name or off[name] > beside, name
 
 
-def test_a_click_without_a_drag_only_chooses_also_on_a_names_words_which_are_dragged_too(
-    qtbot: QtBot, screen: CorrectionScreen
-) -> None:
+def test_correction_click_without_drag_only_selects(qtbot: QtBot, screen: CorrectionScreen) -> None:
     left, picture = Qt.MouseButton.LeftButton, screen.frame_view
     before = screen.edits.original_px(ROW).copy()
     screen.grab()
@@ -157,7 +157,7 @@ def test_a_click_without_a_drag_only_chooses_also_on_a_names_words_which_are_dra
     np.testing.assert_allclose(screen.edits.current_px(ROW)[screen.edits.markers.index("MCP4")], before[5])
 
 
-def test_keys_do_the_same(qtbot: QtBot, screen: CorrectionScreen) -> None:
+def test_correction_keys_do_the_same_as_the_mouse(qtbot: QtBot, screen: CorrectionScreen) -> None:
     before = screen.edits.original_px(ROW).copy()
     screen.rows["MCP4"].click()
     qtbot.keyClick(screen.rows["MCP4"], Qt.Key.Key_Right)
@@ -170,9 +170,7 @@ def test_keys_do_the_same(qtbot: QtBot, screen: CorrectionScreen) -> None:
     assert corrections(screen) == ()
 
 
-def test_a_marker_that_was_not_measured_is_put_on_the_spot_that_is_clicked_where_it_is_shown(
-    qtbot: QtBot, screen: CorrectionScreen
-) -> None:
+def test_correction_occluded_marker_clicked_on_a_blob_moves_there(qtbot: QtBot, screen: CorrectionScreen) -> None:
     number = screen.edits.markers.index("MCP3")
     whole = screen.edits.session
     measured_px = whole.markers.measured_px.copy()
@@ -185,7 +183,7 @@ def test_a_marker_that_was_not_measured_is_put_on_the_spot_that_is_clicked_where
     np.testing.assert_allclose(one.places["MCP3"], spot, atol=6.0)
 
 
-def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(sessions: FakeSessions) -> None:
+def test_correction_residual_flags_the_wrong_marker_only(sessions: FakeSessions) -> None:
     places = MarkerEdits(sessions.session("session-7"))
     assert all(places.residual_mm(ROW, name) < 3.0 for name in places.markers)
     places.place_marker(ROW, "MCP3", places.current_px(ROW)[3] + [40.0, 10.0], np.empty((0, 2)))
@@ -195,9 +193,7 @@ def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(session
     assert places.undo() == -1
 
 
-def test_the_curve_is_of_the_finger_whose_disc_is_put_right_and_a_key_is_named_that_does_something(
-    qtbot: QtBot, theme: Theme
-) -> None:
+def test_correction_curve_follows_the_selected_finger(qtbot: QtBot, theme: Theme) -> None:
     background, sessions = Background(), FakeHandSessions()
     shown = CorrectionScreen(theme, background, FakeCorrections(sessions, pictures=False))
     qtbot.addWidget(shown)
@@ -218,7 +214,7 @@ def test_the_curve_is_of_the_finger_whose_disc_is_put_right_and_a_key_is_named_t
     qtbot.waitUntil(lambda: not background.is_busy)
 
 
-def test_the_results_are_shown_of_the_finger_that_was_corrected(qtbot: QtBot, theme: Theme) -> None:
+def test_results_dialog_shows_the_corrected_finger(qtbot: QtBot, theme: Theme) -> None:
     session = hand_session()
     curves, joints = wrist_curves(session), joint_curves(session)
     host = QWidget()
@@ -232,7 +228,7 @@ def test_the_results_are_shown_of_the_finger_that_was_corrected(qtbot: QtBot, th
         assert sheet.finger.value() == opens_on
 
 
-def test_old_and_new_curves_differ_in_width_also_where_both_are_predicted() -> None:
+def test_results_dialog_old_and_new_curves_differ_in_width() -> None:
     session = hand_session(hidden=[(4.0, 5.0, "TIP3")])
     curves, joints = wrist_curves(session), joint_curves(session)
     shown = (curves, compute_session_results(session).exercise, ())
@@ -244,7 +240,7 @@ def test_old_and_new_curves_differ_in_width_also_where_both_are_predicted() -> N
     assert any(0 < curve.series.predicted.sum() < len(curve.series.predicted) for curve in old), "as it was predicted"
 
 
-def test_each_picture_is_corrected_by_itself_and_a_shorter_session_is_shown(
+def test_correction_frames_are_corrected_independently_in_a_shorter_session(
     qtbot: QtBot, screen: CorrectionScreen, background: Background
 ) -> None:
     assert "No video was saved" in screen.hint.text()

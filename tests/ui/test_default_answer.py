@@ -1,4 +1,4 @@
-"""One rule for Enter, held over every card and sheet of the program.
+"""One rule for Enter, held over every card and dialog of the program.
 
 Each is opened as the program opens it. The keyboard is in a field or on the default button; "Enter" stands on that
 button alone; Enter presses it and nothing else; and it is the answer that loses nothing.
@@ -60,32 +60,32 @@ from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY
 FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
 DialogT = TypeVar("DialogT", bound=Dialog)
 Opened = tuple[Dialog, str]
-"""A sheet that is open, and the answer that loses nothing."""
+"""A dialog that is open, and the answer that loses nothing."""
 
 
 def _opened(
     kind: Callable[..., DialogT], show: Callable[..., object], answer: str, *given: object, **named: object
 ) -> Callable[..., Opened]:
     def open_it(host: QWidget, theme: Theme) -> Opened:
-        sheet = kind(host, theme)
-        show(sheet, *given, **named)
-        return sheet, answer
+        dialog = kind(host, theme)
+        show(dialog, *given, **named)
+        return dialog, answer
 
     return open_it
 
 
 def _patient(host: QWidget, theme: Theme) -> Opened:
-    sheet = PatientForm(host, theme, FakeStore(), date.today)
-    sheet.edit_patient(None, frozenset())
-    for choices in (sheet.fields["side"], sheet.fields["dominance"]):
+    dialog = PatientForm(host, theme, FakeStore(), date.today)
+    dialog.edit_patient(None, frozenset())
+    for choices in (dialog.fields["side"], dialog.fields["dominance"]):
         choices.buttons()[0].click()
-    return sheet, "Add patient"
+    return dialog, "Add patient"
 
 
 def _home(host: QWidget, theme: Theme) -> Opened:
-    sheet = HomeDialog(host, theme)
-    sheet.open_form(home_report().report, NOW.date())
-    return sheet, "Show the sheet"
+    dialog = HomeDialog(host, theme)
+    dialog.open_form(home_report().report, NOW.date())
+    return dialog, "Show the sheet"
 
 
 def _card(host: QWidget, theme: Theme) -> Opened:
@@ -95,7 +95,7 @@ def _card(host: QWidget, theme: Theme) -> Opened:
     return card, "Back to the form"
 
 
-SHEETS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
+DIALOGS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     MessageDialog: _card,
     PatientForm: _patient,
     CameraNameDialog: _opened(CameraNameDialog, CameraNameDialog.request_name, "Continue", "Window"),
@@ -135,10 +135,10 @@ SHEETS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     ),
     SetDialog: _opened(SetDialog, SetDialog.open_sets, "Keep the set", DEFAULT_SETS, "wrist6"),
 }
-"""Every sheet of the program, opened with something in it."""
+"""Every dialog of the program, opened with something in it."""
 
 
-def _all_sheets() -> set[type[Dialog]]:
+def _all_dialogs() -> set[type[Dialog]]:
     """Every kind that can be opened, of every module of the window."""
     for package in (carpus.ui, carpus.app):
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
@@ -153,78 +153,76 @@ def _all_sheets() -> set[type[Dialog]]:
     return found
 
 
-def test_no_sheet_is_forgotten() -> None:
-    assert _all_sheets() == set(SHEETS)
+def test_dialogs_are_all_in_the_table() -> None:
+    assert _all_dialogs() == set(DIALOGS)
 
 
-def _pressed(sheet: Dialog) -> list[str]:
+def _pressed(dialog: Dialog) -> list[str]:
     """What is pressed from now on."""
     said: list[str] = []
-    for button in sheet.findChildren(QPushButton):
+    for button in dialog.findChildren(QPushButton):
         button.clicked.connect(lambda _=False, button=button: said.append(button.text()))
     return said
 
 
-@pytest.mark.parametrize("kind", SHEETS, ids=lambda kind: kind.__name__)
-def test_enter_is_the_answer_that_says_so_and_loses_nothing(
+@pytest.mark.parametrize("kind", DIALOGS, ids=lambda kind: kind.__name__)
+def test_dialog_enter_presses_the_marked_default_only(
     qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Dialog]
 ) -> None:
-    sheet, answer = SHEETS[kind](host, theme)
+    dialog, answer = DIALOGS[kind](host, theme)
     focused = host.focusWidget()
     if answer:
-        assert sheet.default_button.text() == answer
-    assert focused is sheet.default_button or isinstance(focused, FIELDS) or not is_enter_handler(focused)
-    marked = [one.text() for one in sheet.findChildren(Button) if one.isVisible() and one.visible_key == ENTER_KEY]
-    assert marked == [sheet.default_button.text()]
+        assert dialog.default_button.text() == answer
+    assert focused is dialog.default_button or isinstance(focused, FIELDS) or not is_enter_handler(focused)
+    marked = [one.text() for one in dialog.findChildren(Button) if one.isVisible() and one.visible_key == ENTER_KEY]
+    assert marked == [dialog.default_button.text()]
     several_lines = isinstance(focused, QPlainTextEdit)  # takes Enter alone for a new line
     with_key = Qt.KeyboardModifier.ControlModifier if several_lines else Qt.KeyboardModifier.NoModifier
-    said = _pressed(sheet)
+    said = _pressed(dialog)
     qtbot.keyClick(focused, Qt.Key.Key_Return, with_key)
     assert said == [marked[0]]
 
 
-@pytest.mark.parametrize("kind", SHEETS, ids=lambda kind: kind.__name__)
-def test_esc_loses_nothing_typed_without_saying_so(
-    qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Dialog]
-) -> None:
-    def esc(sheet: Dialog) -> None:
-        qtbot.keyClick(host.focusWidget() or sheet, Qt.Key.Key_Escape)
+@pytest.mark.parametrize("kind", DIALOGS, ids=lambda kind: kind.__name__)
+def test_dialog_esc_after_typing_warns_first(qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Dialog]) -> None:
+    def esc(dialog: Dialog) -> None:
+        qtbot.keyClick(host.focusWidget() or dialog, Qt.Key.Key_Escape)
 
-    sheet, _ = SHEETS[kind](host, theme)
-    esc(sheet)
-    if sheet.isVisible():
+    dialog, _ = DIALOGS[kind](host, theme)
+    esc(dialog)
+    if dialog.isVisible():
         return  # it must be answered
     for field in (QLineEdit, QPlainTextEdit):
-        sheet, _ = SHEETS[kind](host, theme)
-        typed = [one for one in sheet.findChildren(field) if one.isVisible() and not isinstance(one, SearchField)]
+        dialog, _ = DIALOGS[kind](host, theme)
+        typed = [one for one in dialog.findChildren(field) if one.isVisible() and not isinstance(one, SearchField)]
         typed = [one for one in typed if isinstance(one, QPlainTextEdit) or one.echoMode() == QLineEdit.EchoMode.Normal]
         for one in [one for one in typed if not isinstance(one.parent(), QAbstractSpinBox)][:1]:
-            before = sheet.card.findChildren(Text)
+            before = dialog.card.findChildren(Text)
             qtbot.keyClick(one, Qt.Key.Key_7)
-            esc(sheet)
-            assert sheet.isVisible(), "one key throws nothing away"
-            assert len(sheet.card.findChildren(Text)) == len(before) + 1, "and it is said"
+            esc(dialog)
+            assert dialog.isVisible(), "one key throws nothing away"
+            assert len(dialog.card.findChildren(Text)) == len(before) + 1, "and it is said"
             qtbot.keyClick(one, Qt.Key.Key_8)
-            esc(sheet)
-            assert sheet.isVisible(), "what was typed since is new"
-            esc(sheet)
-            assert not sheet.isVisible()
-        sheet.close_dialog()
+            esc(dialog)
+            assert dialog.isVisible(), "what was typed since is new"
+            esc(dialog)
+            assert not dialog.isVisible()
+        dialog.close_dialog()
 
 
-def test_another_button_with_the_keyboard_takes_enter_and_its_sign(qtbot: QtBot, theme: Theme, host: QWidget) -> None:
-    sheet, _ = _card(host, theme)
-    other, default = sheet.findChildren(Button)[-2:]
+def test_dialog_focused_button_takes_enter_and_its_hint(qtbot: QtBot, theme: Theme, host: QWidget) -> None:
+    dialog, _ = _card(host, theme)
+    other, default = dialog.findChildren(Button)[-2:]
     other.setFocus()
     QApplication.processEvents()
     assert default.visible_key == "", "the label would lie"
-    said = _pressed(sheet)
+    said = _pressed(dialog)
     qtbot.keyClick(other, Qt.Key.Key_Return)
     assert said == [other.text()]
 
 
 @pytest.mark.parametrize(("alarm", "pressed"), [(False, ["Go on"]), (True, [])])
-def test_esc_goes_on_where_nothing_went_wrong(
+def test_message_dialog_esc_without_alarm_gives_the_last_answer(
     qtbot: QtBot, theme: Theme, host: QWidget, alarm: bool, pressed: list[str]
 ) -> None:
     card, found = MessageDialog(host, theme), []
@@ -234,7 +232,7 @@ def test_esc_goes_on_where_nothing_went_wrong(
     assert found == pressed
 
 
-def test_a_risky_answer_is_never_the_default(theme: Theme, host: QWidget) -> None:
+def test_message_dialog_risky_default_is_refused(theme: Theme, host: QWidget) -> None:
     with pytest.raises(ValueError, match="Erase it"):
         MessageDialog(host, theme).show_words(
             MessageText("", "", ""), [Answer("Erase it", lambda: None, is_risky=True)]
@@ -263,7 +261,7 @@ HARMLESS = {
 
 
 @SOURCES
-def test_the_last_answer_of_every_card_loses_nothing() -> None:
+def test_message_dialogs_last_answers_lose_nothing() -> None:
     seen = 0
     for place, calls in _cards():
         seen += 1

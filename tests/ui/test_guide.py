@@ -26,7 +26,7 @@ ASKED = ("discs", "camera", "calibration", "exercises", "figures", "limits", "tr
 """What a guide must have: discs, mounting and light, calibration, exercises, figures, what they do not say, trouble."""
 
 
-def test_every_page_is_there_and_none_is_left_over() -> None:
+def test_guide_pages_match_the_list() -> None:
     assert {path.name for path in GUIDE.iterdir() if path.is_dir()} == {*LANGUAGES, "pictures"}
     for code in LANGUAGES:
         assert {path.stem for path in (GUIDE / code).glob("*.md")} == set(guide.PAGES)
@@ -36,7 +36,7 @@ def test_every_page_is_there_and_none_is_left_over() -> None:
         assert set(guide.page_links(page)) <= set(guide.PAGES)
 
 
-def test_the_guide_in_each_language_has_the_same_parts() -> None:
+def test_guide_languages_have_the_same_structure() -> None:
     parts = re.compile(r"^(?:#+|-|\d+\.) |\]\([\w.-]+\)", re.MULTILINE)
     said: dict[str, set[str]] = {}
     for code in LANGUAGES:
@@ -60,7 +60,7 @@ NO_TEXT_OF_THE_WINDOW = {
 
 
 @pytest.mark.parametrize("code", LANGUAGES)
-def test_what_the_guide_quotes_is_what_the_window_says(code: str) -> None:
+def test_guide_quotes_are_texts_of_the_window(code: str) -> None:
     pairs = load_texts(next(one for one in LANGUAGES if one != "en") if code == "en" else code).items()
     texts = {source if code == "en" else said for (_, source), said in pairs}
     names = re.compile(r"\{[^}]*\}")
@@ -84,14 +84,14 @@ def _english(page: str) -> str:
     return (GUIDE / guide.DEFAULT_LANGUAGE / f"{page}.md").read_text("utf-8")
 
 
-def test_every_picture_is_there_and_none_is_left_over() -> None:
+def test_guide_pictures_match_the_files() -> None:
     shown = {name for page in guide.PAGES for name in guide.page_pictures(page)}
     assert {path.name for path in (GUIDE / "pictures").iterdir()} == shown
     for name in shown:
         assert QImage(guide.picture_path(name)).width() >= 1000
 
 
-def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(theme: Theme, show: Show[HelpScreen]) -> None:
+def test_help_screen_opens_page_links_and_pictures(theme: Theme, show: Show[HelpScreen]) -> None:
     screen = show(HelpScreen(theme))
     screen.show_page("camera")
     assert screen.page_buttons["camera"].isChecked()
@@ -104,7 +104,7 @@ def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(theme: Theme, sh
     assert "Shift+F10" in screen.page_view.toPlainText()
 
 
-def test_a_page_is_html_of_its_words_and_nothing_typed_is_markup(theme: Theme) -> None:
+def test_page_html_escapes_text(theme: Theme) -> None:
     for page in guide.PAGES:
         body = guide.page_html(page, theme, 500).split("<body>")[1]
         assert "**" not in body
@@ -115,11 +115,11 @@ def test_a_page_is_html_of_its_words_and_nothing_typed_is_markup(theme: Theme) -
         assert "<" not in plain
 
 
-def test_the_drawing_has_a_place_for_every_disc() -> None:
+def test_hand_drawing_has_a_position_for_every_marker() -> None:
     assert set(MARKER_POSITIONS) >= set(HAND21.markers)
 
 
-def test_the_cards_are_two_pages_with_their_words(qtbot: QtBot, tmp_path: Path) -> None:
+def test_write_cards_makes_two_pages_with_their_texts(qtbot: QtBot, tmp_path: Path) -> None:
     write_cards(tmp_path / "cards.pdf")
     assert pages_of(tmp_path / "cards.pdf") == 2
     assert "Thumb base" in words_of(tmp_path / "cards.pdf", 1)

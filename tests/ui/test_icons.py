@@ -26,7 +26,7 @@ def inked(paint) -> np.ndarray:  # type: ignore[no-untyped-def]
 
 
 @pytest.mark.parametrize("name", [name for name in ICONS if not name.startswith("chevron-down-")])
-def test_an_icon_takes_its_colour(name: str) -> None:
+def test_icon_takes_its_colour(name: str) -> None:
     pixels = inked(lambda painter: paint_icon(painter, name, QRectF(0, 0, 48, 48), QColor("#B1221A")))
     solid = pixels[pixels[..., 3] > 250]
     assert len(solid) > 30
@@ -48,14 +48,14 @@ def test_state_icons_differ_in_shape_not_only_in_colour() -> None:
             assert np.mean(shapes[one] != shapes[other]) > 0.02, (one, other)
 
 
-def test_the_mark_fills_its_box() -> None:
+def test_logo_fills_its_box() -> None:
     pixels = inked(lambda painter: paint_logo(painter, QRectF(0, 0, 48, 48), QColor("#000000")))
     rows, columns = np.nonzero(pixels[..., 3] > 128)
     assert rows.max() - rows.min() > 32
     assert columns.max() - columns.min() > 32
 
 
-def test_no_icon_lies_about_unused() -> None:
+def test_icons_are_all_used() -> None:
     code = "\n".join(path.read_text(encoding="utf-8") for part in ("ui", "app") for path in (ROOT / part).rglob("*.py"))
     unused = [name for name in ICONS if not re.search(rf'"{name}"', code) and not name.startswith("chevron-down-")]
     assert not unused

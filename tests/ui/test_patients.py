@@ -53,9 +53,7 @@ def screen(theme: Theme, show: Show[PatientsScreen], store: FakeStore) -> Patien
     return screen
 
 
-def test_arrow_and_enter_start_a_session_while_the_search_has_the_keyboard(
-    qtbot: QtBot, screen: PatientsScreen
-) -> None:
+def test_patient_list_arrow_and_enter_in_search_start_a_session(qtbot: QtBot, screen: PatientsScreen) -> None:
     for _ in range(2):
         qtbot.keyClick(screen.search, Qt.Key.Key_Down)
     with qtbot.waitSignal(screen.start_requested) as started:
@@ -63,7 +61,7 @@ def test_arrow_and_enter_start_a_session_while_the_search_has_the_keyboard(
     assert started.args == ["maple"]
 
 
-def test_typing_narrows_the_list_by_name_real_name_and_exercise(
+def test_patient_list_search_matches_pseudonym_real_name_and_exercise(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore
 ) -> None:
     store.rows[5] = replace(store.rows[5], name="Rosa Muster")
@@ -81,7 +79,7 @@ def test_typing_narrows_the_list_by_name_real_name_and_exercise(
         assert shown == expected
 
 
-def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
+def test_patient_list_diagnosis_and_onset_are_in_row_and_card(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore
 ) -> None:
     assert row_cells(store.rows[5], TODAY)[2:4] == ("Wrist fracture, plate", "13 weeks")
@@ -102,7 +100,7 @@ def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
         ("fracture mus", True),
     ],
 )
-def test_a_real_name_is_shown_in_list_and_card_where_it_was_searched_for(
+def test_patient_list_real_name_is_shown_only_if_searched_for(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore, typed: str, is_shown: bool
 ) -> None:
     store.rows[5] = replace(store.rows[5], name="Rosa Muster Wu")
@@ -118,7 +116,7 @@ def test_a_real_name_is_shown_in_list_and_card_where_it_was_searched_for(
     assert "Name: Rosa Muster Wu" not in shown_texts(screen.card)
 
 
-def test_a_name_that_is_not_there_can_be_created_with_enter(
+def test_patient_list_unknown_name_is_created_with_enter(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore
 ) -> None:
     qtbot.keyClicks(screen.search, "Fir 12")
@@ -133,7 +131,7 @@ def test_a_name_that_is_not_there_can_be_created_with_enter(
     assert screen.search.text() == ""
 
 
-def test_a_taken_name_is_refused_in_the_form_itself(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+def test_patient_form_name_in_use_is_refused(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
     screen.new_patient("  heron 17 ")
     screen.form.fields["side"].buttons()[0].click()
     screen.form.fields["dominance"].buttons()[0].click()
@@ -146,9 +144,7 @@ def test_a_taken_name_is_refused_in_the_form_itself(qtbot: QtBot, screen: Patien
     assert (store.added[0].pseudonym, store.added[0].name) == ("Heron 18", "R. M.")
 
 
-def test_the_form_opens_at_its_first_field_keeps_the_keyboard_and_gives_it_back(
-    qtbot: QtBot, screen: PatientsScreen
-) -> None:
+def test_patient_form_opened_takes_the_focus_and_returns_it(qtbot: QtBot, screen: PatientsScreen) -> None:
     bar = screen.form._scroll.verticalScrollBar()
     screen.new_patient()
     bar.setRange(0, 100)
@@ -163,7 +159,7 @@ def test_the_form_opens_at_its_first_field_keeps_the_keyboard_and_gives_it_back(
     assert screen.search.hasFocus()
 
 
-def test_what_the_card_leads_to(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+def test_patient_card_buttons_emit_their_signals(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
     card = screen.card
     screen.refresh("linden")
     pairs = (
@@ -187,11 +183,11 @@ def test_what_the_card_leads_to(qtbot: QtBot, screen: PatientsScreen, store: Fak
     assert not card.review_button.isEnabled()
 
 
-def test_the_legal_sentence_stands_on_the_first_screen_word_for_word(screen: PatientsScreen) -> None:
+def test_patient_list_shows_the_legal_notice_word_for_word(screen: PatientsScreen) -> None:
     assert LEGAL_SENTENCE in [label.text() for label in screen.findChildren(Text)]
 
 
-def test_numbers_never_carry_a_sign_and_never_hide_what_is_unknown() -> None:
+def test_numbers_have_no_sign_and_show_unknown_values() -> None:
     assert format_degrees(-41.6) == "42°"
     assert format_degrees(float("nan")) == "–"
     assert format_sd(0.2) == "±\N{NO-BREAK SPACE}1°"
@@ -204,7 +200,7 @@ def test_numbers_never_carry_a_sign_and_never_hide_what_is_unknown() -> None:
     assert format_days_ago(datetime(2026, 11, 19, 23, 0), TODAY) == "yesterday"
 
 
-def test_nothing_moves_while_a_search_finds_nobody(qtbot: QtBot, screen: PatientsScreen) -> None:
+def test_patient_list_search_without_result_moves_nothing(qtbot: QtBot, screen: PatientsScreen) -> None:
     before = screen.search.geometry(), screen.new_button.geometry()
     qtbot.keyClicks(screen.search, "Fir 12")
     qtbot.waitUntil(lambda: not screen.card.isVisible())
@@ -212,7 +208,7 @@ def test_nothing_moves_while_a_search_finds_nobody(qtbot: QtBot, screen: Patient
     assert (screen.search.geometry(), screen.new_button.geometry()) == before
 
 
-def test_a_long_name_moves_no_button_and_widens_nothing(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+def test_patient_card_long_name_moves_no_button(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
     screen.refresh("linden")
     screen.layout().activate()
     edit, card = screen.card.edit_button, screen.card
@@ -228,20 +224,20 @@ def test_a_long_name_moves_no_button_and_widens_nothing(qtbot: QtBot, screen: Pa
     assert "and more of it" in card._name.toolTip()
 
 
-def test_an_empty_register_offers_one_way_to_a_new_patient(screen: PatientsScreen, store: FakeStore) -> None:
+def test_patient_list_empty_offers_one_way_to_a_new_patient(screen: PatientsScreen, store: FakeStore) -> None:
     store.rows.clear()
     screen.refresh()
     offered = [button for button in screen.findChildren(QPushButton) if "New patient" in button.text()]
     assert [button for button in offered if button.isVisible()] == [screen.new_button]
 
 
-def test_room_on_the_disk_is_told_in_fitting_units() -> None:
+def test_disk_space_is_formatted_in_fitting_units() -> None:
     assert [format_recording_time(minutes) for minutes in (0.0, 8.4, 599.0, 1020.0, 60_000.0)] == [
         "0 min", "8 min", "599 min", "17 h", "more than 99 h",
     ]  # fmt: skip
 
 
-def test_a_picture_keeps_its_shape_whole() -> None:
+def test_photo_keeps_its_aspect_ratio_uncut() -> None:
     for size, room in ((QSize(300, 280), QRectF(0, 0, 465, 185)), (QSize(300, 280), QRectF(3, 3, 152, 112))):
         box = fit_box(size, room)
         assert room.contains(box)
@@ -249,7 +245,7 @@ def test_a_picture_keeps_its_shape_whole() -> None:
         assert box.width() == pytest.approx(room.width()) or box.height() == pytest.approx(room.height())
 
 
-def test_after_midnight_it_is_another_day_without_a_new_start(theme: Theme, store: FakeStore) -> None:
+def test_patient_list_after_midnight_updates_the_date(theme: Theme, store: FakeStore) -> None:
     day = [TODAY]
     screen = PatientsScreen(theme, store, lambda: day[0])
     screen.refresh()
@@ -261,7 +257,7 @@ def test_after_midnight_it_is_another_day_without_a_new_start(theme: Theme, stor
     assert row.data() != ago
 
 
-def test_of_very_many_patients_the_first_are_shown_and_searching_finds_the_others(
+def test_patient_list_of_very_many_shows_the_first_and_finds_the_others(
     screen: PatientsScreen, store: FakeStore
 ) -> None:
     store.rows = [
@@ -291,7 +287,7 @@ def given(store: FakeStore) -> Given:
 
 
 @pytest.mark.parametrize("letters", [5, MAX_NAME_CHARACTERS])
-def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given: Given, letters: int) -> None:
+def test_patient_form_long_entry_is_not_cut(form: PatientForm, given: Given, letters: int) -> None:
     form.edit_patient(Patient("n" * letters, "left", "right"), frozenset())
     form.save_button.click()
     assert [entry.pseudonym for entry in given] == ["n" * letters]
@@ -304,7 +300,7 @@ def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given
     form.close_dialog()
 
 
-def test_patient_who_writes_with_both_hands_when_changed_stays_so(form: PatientForm, given: Given) -> None:
+def test_patient_form_both_hands_dominant_stays_when_edited(form: PatientForm, given: Given) -> None:
     form.edit_patient(Patient("Fir 12", "left", "both"), frozenset())
     assert form.save_button.isEnabled()
     form.fields["note"].setPlainText("plate out")
@@ -312,7 +308,7 @@ def test_patient_who_writes_with_both_hands_when_changed_stays_so(form: PatientF
     assert [(one.dominance, one.note) for one in given] == [("both", "plate out")]
 
 
-def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Given) -> None:
+def test_patient_form_new_patient_has_no_hand_preselected(qtbot: QtBot, form: PatientForm, given: Given) -> None:
     form.edit_patient(None, frozenset())
     qtbot.keyClick(form.fields["pseudonym"], Qt.Key.Key_Return)
     assert (given, form.save_button.isEnabled(), form.save_button.text()) == ([], False, "Which hand is affected?")
@@ -324,7 +320,7 @@ def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Giv
     assert [(one.side, one.dominance) for one in given] == [("left", "unknown")]
 
 
-def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
+def test_patient_form_diagnosis_with_date_is_saved_and_listed(
     qtbot: QtBot, form: PatientForm, given: Given, store: FakeStore
 ) -> None:
     form.edit_patient(Patient("Fir 12", "left", "right"), frozenset())
@@ -357,9 +353,7 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
 
 
-def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_of_tab(
-    qtbot: QtBot, form: PatientForm, host: QWidget
-) -> None:
+def test_patient_form_invalid_date_is_reported_once_complete(qtbot: QtBot, form: PatientForm, host: QWidget) -> None:
     form.edit_patient(None, frozenset())  # no hand is chosen yet: the button asks for that first
     form.fields["diagnosis"].setFocus()
     qtbot.keyClicks(form.fields["diagnosis"], "Mallet finger")
@@ -390,7 +384,7 @@ def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_o
     assert not form._error_text.isVisible()
 
 
-def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_lost(
+def test_patient_form_invisible_character_is_reported_and_entries_stay(
     form: PatientForm, given: Given, store: FakeStore
 ) -> None:
     form.edit_patient(Patient("Fir 12", "left", "right"), frozenset())
@@ -412,7 +406,7 @@ def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_los
     assert [one.diagnosis for one in given] == ["Radius fracture"]
 
 
-def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, form: PatientForm, host: QWidget) -> None:
+def test_patient_form_mnemonic_focuses_its_field(qtbot: QtBot, form: PatientForm, host: QWidget) -> None:
     form.edit_patient(None, frozenset())
     for letter, field in (
         (Qt.Key.Key_D, form.fields["diagnosis"]),
@@ -424,7 +418,7 @@ def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, form: PatientForm, host
 
 
 @pytest.mark.parametrize("code", LANGUAGES)
-def test_no_field_is_cut_at_its_right(qtbot: QtBot, host: QWidget, code: str) -> None:
+def test_patient_form_fields_are_not_cut(qtbot: QtBot, host: QWidget, code: str) -> None:
     with use_language(code):
         form = PatientForm(host, Theme("dark", 1.5), FakeStore(), lambda: TODAY)
         form.edit_patient(
@@ -438,9 +432,7 @@ def test_no_field_is_cut_at_its_right(qtbot: QtBot, host: QWidget, code: str) ->
 @pytest.mark.parametrize(
     ("searched", "is_real"), [("Maier", True), ("Anna Maier", True), ("Heron 17", False), (" heron 17 ", False)]
 )
-def test_new_patient_with_a_searched_name_keeps_a_real_name_out_of_the_files(
-    screen: PatientsScreen, searched: str, is_real: bool
-) -> None:
+def test_patient_form_searched_name_becomes_the_real_name(screen: PatientsScreen, searched: str, is_real: bool) -> None:
     screen.new_patient(searched)
     names = screen.form.fields["pseudonym"].text().strip(), screen.form.fields["name"].text().strip()
     if is_real:

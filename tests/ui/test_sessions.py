@@ -37,7 +37,7 @@ def chosen(screen: SessionsScreen) -> str:
     return line.entry.session_id
 
 
-def test_any_session_is_opened_by_enter_or_double_click(qtbot: QtBot, screen: SessionsScreen) -> None:
+def test_session_list_enter_or_double_click_opens_a_session(qtbot: QtBot, screen: SessionsScreen) -> None:
     opened: list[str] = []
     screen.open_requested.connect(opened.append)
     assert chosen(screen) == "s1"
@@ -52,7 +52,7 @@ def test_any_session_is_opened_by_enter_or_double_click(qtbot: QtBot, screen: Se
     assert opened == ["s2"], "a damaged file is not opened"
 
 
-def test_a_session_is_set_aside_with_a_reason_and_taken_back(
+def test_session_list_session_is_excluded_with_a_reason_and_included_again(
     qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
 ) -> None:
     screen.exclude_button.click()
@@ -66,7 +66,7 @@ def test_a_session_is_set_aside_with_a_reason_and_taken_back(
     qtbot.waitUntil(lambda: sessions.done[-1] == ("aside", "s1", ""))
 
 
-def test_a_session_is_renamed_moved_and_deleted(
+def test_session_list_session_is_renamed_moved_and_deleted(
     qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
 ) -> None:
     wanted: list[str] = []
@@ -91,7 +91,7 @@ def test_a_session_is_renamed_moved_and_deleted(
     qtbot.waitUntil(lambda: screen.list.session_model.find_row("s1") < 0)
 
 
-def test_a_patient_without_a_session_is_told_so(
+def test_session_list_without_sessions_says_so(
     theme: Theme, show: Show[SessionsScreen], background: Background
 ) -> None:
     screen = show(SessionsScreen(theme, background, FakeStoredSessions(0)))
@@ -100,14 +100,14 @@ def test_a_patient_without_a_session_is_told_so(
     assert not screen.open_button.isVisible()
 
 
-def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: QtBot) -> None:
+def test_session_list_small_window_shows_date_and_remark_uncut(theme: Theme, qtbot: QtBot) -> None:
     rooms = session_list._cell_boxes(QRectF(0, 0, 846, session_list.ROW_PX), theme, has_remark=True)
     metrics = QFontMetricsF(font(14, MEDIUM))
     for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "excluded: simulated")):
         assert metrics.elidedText(text, Qt.TextElideMode.ElideRight, rooms[number].width()) == text
 
 
-def test_a_figure_without_room_loses_letters_of_its_name_but_no_sign(theme: Theme) -> None:
+def test_session_list_narrow_value_is_elided_in_its_name_only(theme: Theme) -> None:
     metrics = QFontMetricsF(font(16, MEDIUM))
     shown = session_list.elide_value("Supination −50° ± 1°", metrics, metrics.horizontalAdvance("Supination −50°"))
     assert shown.startswith("Sup")

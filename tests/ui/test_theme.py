@@ -87,14 +87,14 @@ def test_ciede2000_gives_the_published_pairs() -> None:
 
 @pytest.mark.parametrize("tokens", [LIGHT, DARK], ids=["light", "dark"])
 @pytest.mark.parametrize(("pairs", "least"), [(TEXT_PAIRS, 4.5), (PART_PAIRS, 3.0)], ids=["text", "parts"])
-def test_text_is_readable_and_parts_are_seen(tokens: Tokens, pairs: list[tuple[str, str]], least: float) -> None:
+def test_theme_contrast_is_sufficient(tokens: Tokens, pairs: list[tuple[str, str]], least: float) -> None:
     for front, back in pairs:
         assert contrast(getattr(tokens, front), getattr(tokens, back)) >= least, (front, back)
 
 
 @pytest.mark.parametrize(("tokens", "least", "least_of_bands"), [(LIGHT, 22.5, 25.0), (DARK, 27.0, 15.5)])
 @pytest.mark.parametrize("eye", list(MACHADO_2009))
-def test_curves_and_bands_of_the_tracking_light_differ_for_every_eye(
+def test_theme_curves_and_bands_differ_with_colour_vision_deficiency(
     tokens: Tokens, least: float, least_of_bands: float, eye: str
 ) -> None:
     curves, bands = (

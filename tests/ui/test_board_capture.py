@@ -9,7 +9,7 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.camera_calibration.capture_view import BoardCaptureView
 
 
-def test_the_keyboard_stays_with_the_board_while_it_is_worked_out(qtbot: QtBot) -> None:
+def test_board_capture_calculating_keeps_the_focus(qtbot: QtBot) -> None:
     window = QWidget()
     qtbot.addWidget(window)
     back, showing = QPushButton("back", window), BoardCaptureView(Theme("light"))

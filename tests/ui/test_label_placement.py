@@ -20,7 +20,7 @@ def off(plate: QRectF, at: QPointF) -> float:
     )
 
 
-def test_a_plate_is_its_own_rings_or_has_a_line() -> None:
+def test_place_label_is_nearest_to_its_ring_or_has_a_line() -> None:
     for seed in range(40):
         rng = np.random.default_rng(seed)
         middle = rng.uniform((150, 100), (490, 270))
@@ -48,7 +48,7 @@ def test_a_plate_is_its_own_rings_or_has_a_line() -> None:
         assert placed >= 3, seed
 
 
-def test_four_knuckles_in_a_row_all_get_their_names() -> None:
+def test_place_label_four_markers_in_a_row_all_get_one() -> None:
     points = [QPointF(298, 155), QPointF(336, 152), QPointF(368, 159), QPointF(394, 172)]
     taken = [QRectF(at.x() - RADIUS, at.y() - RADIUS, 2 * RADIUS, 2 * RADIUS) for at in points]
     for number, at in enumerate(points):
@@ -58,5 +58,5 @@ def test_four_knuckles_in_a_row_all_get_their_names() -> None:
         taken.append(found[0])
 
 
-def test_where_there_is_no_room_there_is_no_name() -> None:
+def test_place_label_without_room_returns_none() -> None:
     assert place_label(QSizeF(130, 26), QPointF(50, 50), RADIUS, [INSIDE], [], INSIDE) is None

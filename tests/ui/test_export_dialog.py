@@ -1,4 +1,4 @@
-"""Formats are ticked, a folder is asked for, the sheet shows how far it is, and Stop ends it."""
+"""Formats are ticked, a folder is asked for, the dialog shows how far it is, and Stop ends it."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def parts(
     return exporting, stored, told
 
 
-def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, parts: Parts) -> None:
+def test_export_dialog_offers_every_format_and_exports_the_ticked(qtbot: QtBot, parts: Parts) -> None:
     exporting, stored, told = parts
     exporting.choose_formats("s1")
     assert set(exporting.dialog.format_ticks) == set(FORMATS)
@@ -73,7 +73,7 @@ def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, par
     assert not told.faults
 
 
-def test_tables_have_the_form_of_the_region_that_is_chosen(qtbot: QtBot, parts: Parts) -> None:
+def test_export_dialog_region_chosen_sets_the_table_format(qtbot: QtBot, parts: Parts) -> None:
     exporting, stored, told = parts
     choice = exporting.dialog.region_choice
     for words, form in (("1,5", TableDialect(";", ",", has_bom=True)), ("programs", MACHINE_DIALECT)):
@@ -85,7 +85,7 @@ def test_tables_have_the_form_of_the_region_that_is_chosen(qtbot: QtBot, parts: 
         assert stored.forms[-1] == form
 
 
-def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None:
+def test_export_dialog_enter_continues_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None:
     exporting, stored, told = parts
     exporting.choose_formats("s1")
     exporting.dialog.format_ticks["trc"].click()
@@ -94,7 +94,7 @@ def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None
     assert stored.calls == [(["csv", "trc"], False)]
 
 
-def test_it_shows_how_far_it_is_and_stops(qtbot: QtBot, parts: Parts, background: Background) -> None:
+def test_export_dialog_running_shows_progress_and_stops(qtbot: QtBot, parts: Parts, background: Background) -> None:
     exporting, stored, told = parts
     stored.waits.clear()
     exporting.choose_formats("s1")
