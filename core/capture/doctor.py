@@ -88,7 +88,7 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
     if on_linux:
         yield from check_permissions(RULES_FOLDERS, wanted_kind=named)
     plugged_in = [(kind, camera) for kind in _camera_kinds() for camera in kind.find_connected()]
-    if on_linux:  # elsewhere only opening it tells
+    if on_linux:  # other systems do not list cameras
         yield from check_cameras(plugged_in, named)
     if plugged_in or camera_uri or not on_linux:
         yield from check_open_camera(camera_uri or "", measure_s)
@@ -100,7 +100,7 @@ def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterato
     ``data_folder`` may not exist yet. The window adds its own check of the screen.
     """
     on_linux = needs_camera and sys.platform.startswith("linux")
-    if on_linux:  # elsewhere only opening it tells
+    if on_linux:  # other systems do not list cameras
         yield from check_cameras([(kind, camera) for kind in _camera_kinds() for camera in kind.find_connected()])
     if needs_camera:
         yield from check_drivers(loads_library=False)

@@ -147,7 +147,7 @@ class StreamLayout:
     def convert_color(self, view: AnyImage) -> AnyImage:
         """Return a read-only copy (H, W, 3) of a colour image in the driver's memory."""
         if self.color_size_px != self.size_px:
-            # half-pixel centres: pixel u of the small picture lies at 2 u + 0.5 of the large one
+            # half-pixel centres: pixel u of the small image is at 2 u + 0.5 of the large one
             turned = view[:, ::-1] if self.color_mirrored else view
             return _make_read_only(
                 cv2.resize(np.ascontiguousarray(turned), self.size_px, interpolation=cv2.INTER_LINEAR)
@@ -274,7 +274,7 @@ def _undistort_pixels(camera: Camera, downscale: int = 1) -> NDArray[np.float32]
     """Return the undistorted position of each pixel centre (H, W, 2), for images downscaled by ``downscale``."""
     width, height = camera.width_px // downscale, camera.height_px // downscale
     across, down = (np.arange(0, side + GRID_STEP_PX, GRID_STEP_PX, dtype=np.float64) for side in (width, height))
-    # half-pixel centres: the middle of a pixel lies at a whole number
+    # half-pixel centres: the centre of a pixel is at a whole number
     nodes = (np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2) + 0.5) * downscale - 0.5
     straight = camera.undistort(nodes).reshape(len(down), len(across), 2).astype(np.float32)
     u, v = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))

@@ -157,11 +157,10 @@ class _Retracker:
             self._smoothed += self._tracker.smooth()
 
     def _frame_detections(self, row: int) -> Detections:
+        """Return the detections of a frame; of a corrected one the labelled blobs, and others that may be markers."""
         blobs, correction = self._table.get_frame(row), self._corrections.get(row)
-        return blobs if correction is None else self._apply_correction(correction, blobs)
-
-    def _apply_correction(self, correction: Correction, blobs: Detections) -> Detections:
-        """Return the detections of a corrected frame: the labelled blobs, and others that may be markers."""
+        if correction is None:
+            return blobs
         session = self._session
         markers = session.header.protocol.markers
         before = session.markers.measured_px[correction.row]
@@ -172,7 +171,9 @@ class _Retracker:
         blobs = with_added_detections(blobs, named)
         palm = [markers[number] for number in session.header.protocol.palm]
         if any(name in palm for name in correction.places):
-            self._reacquire(float(session.timestamp_s[correction.row]))
+            self._collect_smoothed()  # frames from here on are smoothed separately
+            self._tracker.drop_track(float(session.timestamp_s[correction.row]))
+            self._tracker.pop_steps()  # collected already
             if not session.header.protocol.has_fingers:
                 blobs = blobs.subset(_match_places(blobs, named))
         for name, place in correction.places.items():
@@ -183,12 +184,6 @@ class _Retracker:
                 not_px = ((float(old[0]), float(old[1])),) if is_false else ()
                 self._tracker.add_operator_label(MarkerLabel(correction.row, name, shown, not_px), is_asked_again=False)
         return blobs
-
-    def _reacquire(self, time_s: float) -> None:
-        """Reacquire the hand from this time on; frames before it are smoothed separately."""
-        self._collect_smoothed()
-        self._tracker.drop_track(time_s)
-        self._tracker.pop_steps()  # collected already
 
 
 def with_added_detections(blobs: Detections, places: FloatArray) -> Detections:

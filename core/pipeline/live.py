@@ -122,7 +122,7 @@ class LiveSession:
                 self._capture_thread.join(timeout=STOP_TIMEOUT_S)
             if self._capture_thread.is_alive():
                 self._report_event("thread_stuck")
-        with suppress(Exception):  # already told by the recorder
+        with suppress(Exception):  # reported by the recorder
             if self.is_recording:
                 self.stop_recording()
         self.end_tracking()
@@ -243,7 +243,7 @@ class LiveSession:
             if recording is None:
                 raise RuntimeError("no recording runs")
             backlog.is_finishing_recording = True  # from now on no frame is recorded
-            last = backlog.submission_count  # a file hands over more meanwhile, which is waited for by nobody
+            last = backlog.submission_count  # a file submits more meanwhile, for which nothing waits
         try:
             while recording.row_recorder.fault is None and backlog.has_pending(last) and self._pipeline is not None:
                 time.sleep(_POLL_S)
@@ -269,7 +269,7 @@ class LiveSession:
         recording = self._recording
         return recording is not None and recording.is_paused
 
-    # --- what is told -------------------------------------------------------------------------
+    # --- events and counters ------------------------------------------------------------------
     def handle_notice(self, fault: Exception) -> None:
         """Report a notice of the source: camera lost or returned, images skipped."""
         kind: LiveEventKind = "notice"
@@ -347,7 +347,7 @@ class LiveSession:
             recording, pipeline = self._recording, self._pipeline
             if recording is not None and (recording.is_paused or self._backlog.is_finishing_recording):
                 recording = None
-            if pipeline is not None:  # told with the recording: who stops it waits for this frame too
+            if pipeline is not None:  # announced under the lock, so that a stop waits for this frame too
                 self._backlog.announce()
             self._recent_frames.append(frame)
             self._arrivals.append(at_s)
@@ -394,7 +394,7 @@ class LiveSession:
             return
         try:
             callback(listener)
-        except Exception:  # whoever listens must not end the measuring
+        except Exception:  # a listener must not end the measurement
             log.warning("the live stream ended", exc_info=True)
             self._listener = None
 

@@ -152,7 +152,7 @@ class RecordedSession:
             self._draft_rows = len(self._times_s)
             try:
                 self._update_draft()
-            except CarpusFault:  # told at the end, if it still holds then: the rows are in the journal
+            except CarpusFault:  # retried at the end: the rows are in the journal
                 self._draft_rows = np.inf  # all over again it would hold up the journal
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:

@@ -155,7 +155,7 @@ class Recorder(Generic[SinkT, Item]):
         except Exception as cause:  # the one catch at the top of this thread
             self._queue.close()
             if sink is None:
-                self._fault = cause  # told to who waits in start()
+                self._fault = cause  # raised by start()
             else:
                 self._fail(cause)
                 with contextlib.suppress(Exception):  # the first fault is the one to tell

@@ -106,7 +106,7 @@ class LiveRecording:
             return self.row_recorder.finish()
         finally:
             if self.frame_recorder is not None:
-                with suppress(Exception):  # told as pictures_failed
+                with suppress(Exception):  # reported as pictures_failed
                     self.frame_recorder.finish()
 
     def _write_row(self, sink: SessionSink, item: TrackedFrame | QueuedEvent | None) -> None:

@@ -607,7 +607,7 @@ def write_tracked(
         if smooth is not None and done:  # of no frame there is nothing to look back at
             writer.write_motion(stack_states(smooth()))
         if done:
-            from carpus.core.results.repetition_rows import compute_repetitions  # nobody waits for it at the start
+            from carpus.core.results.repetition_rows import compute_repetitions  # keeps the start fast
 
             writer.write_repetitions(compute_repetitions(writer.read_session()))
     return TrackReport(

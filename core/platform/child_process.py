@@ -173,7 +173,7 @@ def _close_copied_files(link: Connection) -> None:
 def _send_result(link: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
     try:
         link.send((function(*arguments), None))
-    except Exception as fault:  # the one catch of this process: told, not printed
+    except Exception as fault:  # sent to the owner, not printed
         link.send((None, fault))
 
 

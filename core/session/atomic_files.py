@@ -39,7 +39,7 @@ def temporary_path(target: Path) -> Path:
 def remove_leftovers(target: Path, min_age_s: float = STALE_AFTER_S) -> None:
     """Remove what killed programs left of a file in progress."""
     for left in target.parent.glob(f".{glob.escape(target.name)}.*{TEMPORARY}"):
-        with contextlib.suppress(OSError):  # another program takes it away, or it is nobody's to take
+        with contextlib.suppress(OSError):  # another program removes it, or it may not be removed
             if time.time() - left.stat().st_mtime >= min_age_s and not is_being_written(left):
                 left.unlink()
 

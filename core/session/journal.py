@@ -134,7 +134,7 @@ class RecordingJournal(FileWriter):
 
     def abandon(self) -> None:
         """Stop after a fault; what was added is kept."""
-        with suppress(CarpusFault, ValueError):  # the exception on its way tells more
+        with suppress(CarpusFault, ValueError):  # the first exception is the cause
             self.close()
 
     def discard(self) -> None:

@@ -262,7 +262,7 @@ FINGER_FIELDS = (
     Field("/surface/finger_depth", "depth_m", "f4", ("N", MAX_FINGER_READINGS), "m",
           "depth read there along the camera's z; NaN for none", optional=True, fingers_only=True),
 )
-"""What tracking again needs of the depth pictures."""
+"""Depth samples that tracking again needs."""
 
 RAW_STREAMS = (
     Field("/raw/color", "color", "u1", ("C",), "1",

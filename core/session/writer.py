@@ -239,20 +239,16 @@ class SessionWriter(FileWriter):
                 dataset[begin:] = data
         for path, data in rows.items():
             self._written[path] = self._written.get(path, 0) + len(data)
-            self._verify_written(path, data)
+            dataset = self._file[path]
+            try:  # read back for the checksum of the file
+                stored = to_bytes(np.asarray(dataset[dataset.shape[0] - len(data) :]))
+            except (OSError, RuntimeError) as cause:
+                raise write_fault(self.path, cause) from cause
+            if stored != to_bytes(data):
+                raise OutputNotWritable(self.path.parent, phrase("what was written is not what is read"))
+            self._digests.setdefault(path, hashlib.sha256()).update(stored)
         if whole_chunks:
             os.fsync(self._descriptor)  # so that the end has little left to do
-
-    def _verify_written(self, path: str, data: Any) -> None:
-        """Read back the rows written last and add them to their digest."""
-        dataset = self._file[path]
-        try:
-            there = to_bytes(np.asarray(dataset[dataset.shape[0] - len(data) :]))
-        except (OSError, RuntimeError) as cause:
-            raise write_fault(self.path, cause) from cause
-        if there != to_bytes(data):
-            raise OutputNotWritable(self.path.parent, phrase("what was written is not what is read"))
-        self._digests.setdefault(path, hashlib.sha256()).update(there)
 
     @contextlib.contextmanager
     def _reserve_and_flush(self, room: int) -> Iterator[None]:

@@ -146,7 +146,7 @@ POLL_MS = 200
 HEARTBEAT_S = 1.0
 MAX_SILENCE_S = 3.0
 WARM_UP_S = 6.0
-"""Time to the first picture after opening."""
+"""Time to the first image after opening."""
 
 
 class CaptureFailed(Exception):

@@ -136,7 +136,7 @@ class CaptureProcess:
                 else:
                     self._deferred_reports.append(report)
         except (EOFError, OSError):
-            return  # the next look for a report tells why
+            return  # the next receive_report raises the cause
 
     def _drain_pipe(self) -> None:
         """Empty the pipe, so that the process does not block on it."""

@@ -183,7 +183,7 @@ def read_lens(ob: Any, streams: OrbbecStreams) -> Lens:
     """Return the intrinsics of the published colour images."""
     _, lens = read_full_size_lens(ob, streams.color)
     scale = 1.0 / streams.downscale
-    # half-pixel centres: the middle of a pixel lies at a whole number
+    # half-pixel centres: the centre of a pixel is at a whole number
     cx_px, cy_px = ((centre + 0.5) * scale - 0.5 for centre in (lens.cx_px, lens.cy_px))
     return replace(lens, fx_px=lens.fx_px * scale, fy_px=lens.fy_px * scale, cx_px=cx_px, cy_px=cy_px)
 
@@ -280,7 +280,7 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
         color, depth = (None, None) if both is None else (both.get_color_frame(), both.get_depth_frame())
         if depth is not None:
             watchdog.reset(Sensor.DEPTH)
-            if not is_reported:  # a depth picture tells its unit, in millimetres
+            if not is_reported:  # the unit comes with a depth image, in millimetres
                 unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
                 mirrored = dict.fromkeys(streams.modes, False)
                 outlet.send(DeviceOpened(streams.modes, mirrored, None, settings, read_lens(ob, streams), unit_m))

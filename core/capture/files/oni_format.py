@@ -135,7 +135,7 @@ def _decode_indices(data: bytes, first: int) -> NDArray[np.int32]:
     behind = coded[escape + 1].astype(np.int32)
     far = escape[behind < 0x80]
 
-    # the second step of an escape is in the byte behind it, or begins anew there; what is behind it is none of its own
+    # the second step of an escape is in the byte after it, or restarts there; the bytes after it have no steps
     step, times = _BYTE_STEPS[coded], _BYTE_COUNTS[coded]
     step[escape, 1] = np.where(behind < 0x80, 0, 192 - behind)
     times[escape + 1] = 0

@@ -118,7 +118,7 @@ class _Node:
     def pixel_format(self) -> int:
         new, old = self.read_int(oni.PIXEL_FORMAT_2), self.read_int(oni.PIXEL_FORMAT_1)
         if new or self.kind == NodeType.DEPTH:
-            return new or PixelFormat.DEPTH_1_MM  # whatever the old number says
+            return new or PixelFormat.DEPTH_1_MM  # the old number is ignored
         return _OLD_FORMATS.get(old, PixelFormat.JPEG) if old else PixelFormat.RGB888
 
 
