@@ -566,7 +566,8 @@ class SessionChart(ZoomChart):
             if not math.isfinite(value.value_deg):
                 return named
             angle = span_html(numbers.format_degrees(value.value_deg), self.plot_style, "text", 20 * scale, SEMIBOLD)
-            return f"{named}<br>{angle} {span_html(numbers.format_sd(value.sd_deg), self.plot_style, 'text2', 14 * scale, MEDIUM)}"  # noqa: E501
+            sd = span_html(numbers.format_sd(value.sd_deg), self.plot_style, "text2", 14 * scale, MEDIUM)
+            return f"{named}<br>{angle} {sd}"
         finger = plot.finger if isinstance(plot, HandPlot) else 0
         pitch = self.plots[1].panel.box.top() - self.plots[0].panel.box.top() if panels > 1 else math.inf
         in_a_line = isinstance(plot, HandPlot) and not finger and 18.0 * scale * most > pitch

@@ -124,7 +124,7 @@ def _range_cell(row: Measure | None) -> str:
 
 
 def _gap_cell(item: Comparison | None) -> str:
-    """Return ``21° (error 10°)``, negative where passive is less; a gap within the error is not given."""
+    """Return ``21° (MDC 10°)``, negative where passive is less; a gap within the error is not given."""
     if item is None:
         return ""
     if item.verdict == "not_judged":

@@ -120,7 +120,8 @@ def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, s
         else tr("fair: below {limit} px").format(limit=FAIR_ERROR_PX) if error_px <= FAIR_ERROR_PX
         else tr("poor: above {limit} px").format(limit=FAIR_ERROR_PX)
     )  # fmt: skip
-    focal = f"{numbers.format_fixed(calibration.intrinsics.camera.fx_px, 1)} ± {numbers.format_fixed(calibration.intrinsics.focal_sd_px, 1)} px"  # noqa: E501
+    focal_px, focal_sd_px = calibration.intrinsics.camera.fx_px, calibration.intrinsics.focal_sd_px
+    focal = f"{numbers.format_fixed(focal_px, 1)} ± {numbers.format_fixed(focal_sd_px, 1)} px"
     rows: list[tuple[State, str, str, str]] = [
         (
             "good" if error_px <= FAIR_ERROR_PX else "bad",

@@ -92,7 +92,7 @@ def verdict_words(change: ManualChange) -> tuple[str, str]:
 
 
 def change_words(change: ManualChange) -> str:
-    """Return ``45° → 58° since 2 Oct (error 10°)``."""
+    """Return ``45° → 58° since 2 Oct (MDC 10°)``."""
     manual_measure = find_manual_measure(change.first.measure)
     words = tr("{before} → {after} since {day}").format(
         before=value_words(manual_measure, change.first.value), after=value_words(manual_measure, change.last.value),

@@ -123,7 +123,7 @@ def _end_values(item: Comparison) -> tuple[str, str]:
 
 
 def change_line(item: Comparison) -> str:
-    """Return ``23° more, error 10°``; of an occluded joint at most a lower bound."""
+    """Return ``23° more, MDC 10°``; of an occluded joint at most a lower bound."""
     if item.is_joint and item.verdict == "not_judged":
         return tr("partly occluded, or too few")
     if item.is_lower_bound:

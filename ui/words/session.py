@@ -105,7 +105,7 @@ def change_sentence(results: SessionResults, earlier: SessionResults, since: str
 
 
 def _describe_change(item: Comparison, limit: str) -> str:
-    """Return ``whole arc 34° better (error 14°)``, ``index at least 20° better``."""
+    """Return ``total arc improved by 34° (MDC 14°)``."""
     subject, what = item.key
     name = to_mid_sentence(finger_name(subject[3:4]) if item.is_joint else terms.movement_long_name(what))
     size = numbers.format_degrees(item.display_difference_deg)

@@ -74,12 +74,12 @@ def deficit_name(movement: str) -> str:
 
 
 def deficit_words(size: str) -> str:
-    """Return ``lacks 20°``: what is missing to neutral."""
+    """Return ``20° deficit``: what is missing to neutral."""
     return tr("{angle} deficit").format(angle=size)
 
 
 def end_words(mean_deg: float, movement: str = "", sd_deg: float = math.nan) -> str:
-    """Return ``42°``, or ``lacks 20°`` for an end that did not reach neutral.
+    """Return ``42°``, or ``20° deficit`` for an end that did not reach neutral.
 
     For the forearm, whose palm faces down at 90° of pronation, it is ``−20°``.
     """
@@ -167,9 +167,9 @@ def hand_status_words(side: str, dominance: str) -> str:
 def start_angle_words(angles_rad: FloatArray) -> str:
     """Return ``Flexion 10°, Pronation 60°`` for the start angles (3,) of a file; empty for neutral."""
     read = to_clinical_wrist_angles(angles_rad, get_exercise("FOREARM_PS"), np.zeros(3))
-    parts = [
-        f"{movement_name(DIRECTIONS[column][0 if read[column] > 0 else 1])} {numbers.format_degrees(math.degrees(read[column]))}"  # noqa: E501
-        for column in (1, 0, 2)
-        if abs(angles_rad[column]) > 1e-6
-    ]
+    parts = []
+    for column in (1, 0, 2):
+        if abs(angles_rad[column]) > 1e-6:
+            name = movement_name(DIRECTIONS[column][0 if read[column] > 0 else 1])
+            parts.append(f"{name} {numbers.format_degrees(math.degrees(read[column]))}")
     return ", ".join(parts)

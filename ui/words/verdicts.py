@@ -91,7 +91,7 @@ def change_since_first(verdict: str, change_deg: float) -> str:
 
 
 def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
-    """Return ``2° more, within error (10°)``, for paper."""
+    """Return ``2° more, within MDC (10°)``, for paper."""
     if verdict == "not_judged" or change_deg != change_deg:
         return tr("not assessed") if verdict == "not_judged" else ""
     pattern = (
@@ -101,7 +101,7 @@ def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str
 
 
 def long_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
-    """Return ``2° more: within measurement error (10°)``, for tables."""
+    """Return ``2° more: within MDC (10°)``, for tables."""
     if verdict == "not_judged" or change_deg != change_deg:
         return ""
     pattern = (
