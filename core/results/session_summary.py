@@ -252,7 +252,8 @@ def _joint_range_lines(session: Session, figures: SessionResults) -> list[str]:
         low, high = ends[row.subject, "extension"], ends[row.subject, "flexion"]
         text = f"arc {format_rounded(row.mean, 1)}°, seen {format_rounded(100.0 * row.seen_share)} %"
         if is_total_active_motion(row.subject):
-            text = f"{format_rounded(row.mean, 1)}°: bending {format_rounded(high, 1)}° less {format_rounded(low, 1)}° to straight"  # noqa: E501
+            total, flexion, deficit = (format_rounded(value, 1) for value in (row.mean, high, low))
+            text = f"{total}°: bending {flexion}° less {deficit}° to straight"
         else:
             text = f"from {format_rounded(low, 1)}° to {format_rounded(high, 1)}°, {text}"
         text += ", end joint not measured" if row.is_inferred else ""
