@@ -39,7 +39,6 @@ NO_CHOICE = {
         "tracking/filter/settings": "_LIMITS",
     },
     "axes and signs": {
-        "calibration/calibrate": "_TOWARDS_CAMERA",
         "calibration/neutral_pose": "TOWARDS_CAMERA",
         "model/hand/anatomy_prior": "_DOWN",
         "tracking/digits/knuckle_flexion": "_DOWN",

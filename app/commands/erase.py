@@ -73,9 +73,8 @@ def _print_erased() -> int:
 
 
 def _print_plan(plan: ErasurePlan) -> None:
-    print(
-        f"This goes: {plan.recording_count} sessions, {len(plan.files)} files, {format_rounded(plan.size_bytes / 1e6, 1)} MB"  # noqa: E501
-    )
+    size = format_rounded(plan.size_bytes / 1e6, 1)
+    print(f"This goes: {plan.recording_count} sessions, {len(plan.files)} files, {size} MB")
     for path in plan.output_files:
         print(f"This stays, delete it yourself: {path}")
     for path in plan.unassigned_files:

@@ -75,7 +75,7 @@ class Readout:
             self._axes = WristAxes(axes, sensitivity, shape.copy())
         return self._axes
 
-    def _axes_of(self, estimate: PalmEstimate) -> tuple[WristAxes, FloatArray]:
+    def _wrist_axes(self, estimate: PalmEstimate) -> tuple[WristAxes, FloatArray]:
         """Return the axes near the estimate's, and as its shape has turned them since, to first order (3, 3)."""
         known = self._axes_near(estimate)
         if self._turned is None or self._turned[0] is not estimate:
@@ -102,7 +102,7 @@ class Readout:
         turn_covariance : (3, 3)
             Of the turn of the palm's axes, in camera axes.
         """
-        known, axes = self._axes_of(estimate)
+        known, axes = self._wrist_axes(estimate)
         disc_m = self._disc_m + estimate.shape_m
         disc_m[_CUPPING, 1:] += estimate.skin_m[_CUPPING, 1:]
         cup, cup_sd = np.zeros((2, N_DIGITS))
@@ -124,7 +124,7 @@ class Readout:
         axes turn S s, make of it Q Exp(A' d + (1 - Q') S s). The origin of W2 is the WRIST disc where the skin has
         carried it; the axes are those of the fixed unit.
         """
-        known, axes = self._axes_of(estimate)
+        known, axes = self._wrist_axes(estimate)
         disc = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
         rotation = axes.T @ estimate.rotation_w2_w0 @ axes
         covariance = _turn_covariance(axes.T, known.sensitivity - rotation.T @ known.sensitivity, estimate)
