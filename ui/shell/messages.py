@@ -255,10 +255,7 @@ def show_files_written(messages: Messages, folder: str, names: Sequence[str]) ->
             tr("Folder: {folder}").format(folder=folder),
             tr("Files: {names}").format(names=format_file_names(names)),
         ),
-        (
-            Answer(tr("Open folder"), lambda: open_folder(folder), "O"),
-            Answer(tr("Continue"), lambda: None),
-        ),
+        (Answer(tr("Open folder"), lambda: open_folder(folder), "O"), Answer(tr("Continue"), lambda: None)),
         icon="download",
     )
 

@@ -34,14 +34,7 @@ from carpus.ui.kit.layouts import grid_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.kit.theme import Theme
 from carpus.ui.words import terms
-from carpus.ui.words.manual_values import (
-    direction_words,
-    group_names,
-    measure_name,
-    mode_name,
-    unit_name,
-    value_words,
-)
+from carpus.ui.words.manual_values import direction_words, group_names, measure_name, mode_name, unit_name, value_words
 
 FIELD_PX = {"angle": 84, "force": 84, "size": 104, "score": 104}
 CARPUS_COLUMN, OTHER_HAND_COLUMN, LAST_COLUMN = 4, 5, 6

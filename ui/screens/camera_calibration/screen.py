@@ -155,9 +155,7 @@ class BoardSetupView(QWidget):
     @property
     def choice(self) -> BoardChoice:
         return BoardChoice(
-            cast("Pattern", self.pattern.value()),
-            cast("Paper", self.paper.value()),
-            self.ruler_field.value(),
+            cast("Pattern", self.pattern.value()), cast("Paper", self.paper.value()), self.ruler_field.value()
         )
 
     def show_status(self, words: str) -> None:

@@ -209,12 +209,7 @@ def paint_marker_map(painter: QPainter, box: QRectF, side: Side, *, whole_hand: 
 
 
 def _paint_names(
-    painter: QPainter,
-    box: QRectF,
-    side: int,
-    names: list[tuple[float, str, QPointF]],
-    text: QFont,
-    unit: float,
+    painter: QPainter, box: QRectF, side: int, names: list[tuple[float, str, QPointF]], text: QFont, unit: float
 ) -> None:
     """Draw the names of one side below each other, each with a line to its marker."""
     painter.setFont(text)

@@ -87,11 +87,7 @@ class PatientsScreen(QWidget):
         self._above_welcome.setFixedHeight(GAP_PX)
         self._above_welcome.hide()
         self._left = column_layout(
-            row_layout(
-                heading(theme, self.tr("Patients")),
-                STRETCH,
-                (self.date_text, 0, foot_line),
-            ),
+            row_layout(heading(theme, self.tr("Patients")), STRETCH, (self.date_text, 0, foot_line)),
             8,
             row_layout((self.search, 1), self.new_button, gap=GAP_PX),
             14,

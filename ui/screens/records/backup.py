@@ -17,13 +17,7 @@ from carpus.core.model.errors import BackupMissing
 from carpus.core.model.fault_text import MessageText
 from carpus.core.model.rounding import format_rounded
 from carpus.core.platform.disks import is_same_disk
-from carpus.core.records.backup import (
-    Backup,
-    create_backup,
-    is_backup_due,
-    list_backups,
-    prune_backups,
-)
+from carpus.core.records.backup import Backup, create_backup, is_backup_due, list_backups, prune_backups
 from carpus.core.records.clinic_records import BackupRecord, read_last_backup, save_backup_record
 from carpus.core.records.restoring import RestorePlan, plan_restore, read_history, restore
 from carpus.core.records.values import BackupSettings, read_or_default

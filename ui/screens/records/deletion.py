@@ -221,11 +221,7 @@ class DeleteDialog(Dialog):
         offered = Text(theme, self.tr("Removes it from all lists and results. Everything can be restored."), wrap=True)
         milder.body.setContentsMargins(0, 12, 12, 12)
         milder.body.addLayout(
-            _make_section(
-                _make_sign(theme, "archive"),
-                Text(theme, self.tr("Archive instead"), 16, SEMIBOLD),
-                offered,
-            )
+            _make_section(_make_sign(theme, "archive"), Text(theme, self.tr("Archive instead"), 16, SEMIBOLD), offered)
         )
         column.addWidget(milder)
         self._scroll = ScrollArea(self._sections)  # large text on a small screen: the answer stays to be seen
@@ -286,10 +282,7 @@ class DeleteDialog(Dialog):
             parts.append(self.tr("Copies elsewhere."))
         for words, found in (
             (self.tr("Delete yourself: reports and exports saved elsewhere ({n}): {path}."), plan.output_files),
-            (
-                self.tr("Check yourself: files outside the patient’s folder ({n}): {path}."),
-                plan.unassigned_files,
-            ),
+            (self.tr("Check yourself: files outside the patient’s folder ({n}): {path}."), plan.unassigned_files),
         ):
             if found:
                 paths = ", ".join(map(str, found[:MAX_PATHS_SHOWN])) + (", …" if len(found) > MAX_PATHS_SHOWN else "")

@@ -40,13 +40,7 @@ class LockController(QObject):
 
     privacy_changed = Signal(bool)
 
-    def __init__(
-        self,
-        context: ScreenContext,
-        *,
-        minutes: int,
-        save_minutes: Callable[[int], None],
-    ) -> None:
+    def __init__(self, context: ScreenContext, *, minutes: int, save_minutes: Callable[[int], None]) -> None:
         super().__init__(context.window)
         shell, theme, library = context.window, context.theme, context.library
         self._context, self._shell, self._library = context, shell, library

@@ -6,15 +6,7 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QApplication,
-    QButtonGroup,
-    QFileDialog,
-    QLineEdit,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QApplication, QButtonGroup, QFileDialog, QLineEdit, QStackedWidget, QVBoxLayout, QWidget
 
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.model.rounding import format_rounded
