@@ -58,10 +58,11 @@ class ExerciseSnapshot:
 
 @dataclass(frozen=True, slots=True)
 class GuideScene:
-    """What is shown. ``direction`` is the direction, 1 or -1; ``value_deg`` of the trained angle, NaN where no hand
-    is to be
-    drawn; ``goal_deg`` with its sign, NaN for none; ``opacity`` of the hand, 0 to 1; ``is_trial``: nothing is recorded
-    yet."""
+    """State of the guide.
+
+    ``direction`` is 1 or -1. ``value_deg`` is the trained angle, NaN where no hand is drawn; ``goal_deg`` has its sign,
+    NaN for none. ``opacity`` of the hand is 0 to 1. ``is_trial``: nothing is recorded yet.
+    """
 
     phase: Phase = "away"
     direction: int = 1
