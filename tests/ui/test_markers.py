@@ -420,7 +420,7 @@ def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(marking: 
     assert screen.picture.wrong_labels == {"MCP4"}
     marking.enter()
     assert screen.picture.hasFocus()
-    assert screen.labels.complete
+    assert screen.labels.is_complete
 
 
 def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot, marking: Marking) -> None:

@@ -29,7 +29,7 @@ def walk(
     guide: ExerciseGuide, values_deg: list[float], *, sure: bool = True, seen: bool = True, from_s: float = 0.0
 ) -> list[GuideScene]:
     """One look every tenth of a second."""
-    state = {"sure": sure, "hand_seen": seen, "state": "recording", "asked": 10}
+    state = {"is_measured": sure, "is_hand_visible": seen, "state": "recording", "asked": 10}
     return [
         guide.update(ExerciseSnapshot(from_s + 0.1 * number, value, **state))  # type: ignore[arg-type]
         for number, value in enumerate(values_deg)
