@@ -96,6 +96,13 @@ def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array
     by_bent: double[:, ::1] = np.empty((9, 6))
     cross: double[:, ::1] = np.empty((9, 21))
     turned: double[:, ::1] = np.empty((21, 9))
+    r: cython.int
+    d: cython.int
+    k: cython.int
+    a: Py_ssize_t
+    b: Py_ssize_t
+    i: Py_ssize_t
+    p: Py_ssize_t
     for r in range(5):
         for p in range(13):
             for d in range(3):
@@ -162,6 +169,7 @@ def _place_in_camera(
     out: double[::1],
 ) -> cython.void:
     """Fill in R p + t."""
+    k: cython.int
     for k in range(3):
         out[k] = _dot(rotation[k], place) + translation[k]
 
@@ -206,6 +214,9 @@ def project_discs(points: Any, view: Any, scale: float) -> tuple[Array, Array, A
     depth: double[:, ::1] = out[2]
     at: double[::1] = np.empty(3)
     image: double[:, ::1] = np.empty((13, 2))
+    r: cython.int
+    d: cython.int
+    p: cython.int
     for r in range(5):
         for d in range(3):
             for p in range(13):
@@ -249,6 +260,10 @@ def propagate_palm_error(linearised: Any, base: Any) -> Array:
     turned: double[:, ::1] = np.empty((6, 9))
     cross: double[:, ::1] = np.empty((9, 6))
     lever: double[::1] = np.empty(3)
+    r: cython.int
+    d: cython.int
+    k: cython.int
+    j: cython.int
     for r in range(5):
         for d in range(3):
             for k in range(3):
@@ -305,6 +320,9 @@ def compute_tilts(normal: Array, covariance: Array, linearised: Any, view: Any) 
     out = np.empty((5, 3)), np.empty((5, 3))
     tilt: double[:, ::1] = out[0]
     variance: double[:, ::1] = out[1]
+    r: cython.int
+    d: cython.int
+    k: cython.int
     for r in range(5):
         total: double = wide[r, 1, 1] if r else 0.0  # a thumb's CMC joint hardly tilts its discs
         for d in range(3):
@@ -361,6 +379,8 @@ def compute_visibility(
     out = np.empty((5, 3)), np.empty((5, 3))
     chance: double[:, ::1] = out[0]
     facing: double[:, ::1] = out[1]
+    r: cython.int
+    d: cython.int
     for r in range(5):
         for d in range(3):
             past_sd = 1.7 * (tilted[r, d] - steepest) / sqrt(unsure[r, d] + soft2)
@@ -407,6 +427,10 @@ def compute_disc_odds(
     own: double[:, :, ::1] = np.empty((15, 3, 3))
     prior: double = assumed
     never: double = impossible
+    d: cython.int
+    i: cython.int
+    j: cython.int
+    b: Py_ssize_t
     for d in range(15):
         for i in range(3):
             for j in range(3):
@@ -474,6 +498,12 @@ def compute_inherited(covariance: Array, base: Any, linearised: Any, normal: Arr
     root_m: double[::1] = np.empty(3)
     lever: double[::1] = np.empty(3)
     moved: double[::1] = np.empty(3)
+    r: cython.int
+    d: cython.int
+    k: cython.int
+    a: Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
     for r in range(5):
         _place_in_camera(rotation, translation, root[r + 1], root_m)
         for d in range(3):
@@ -597,7 +627,11 @@ def measure_assigned_discs(
     measured[:] = NAN
     variance[:] = 1.0
     alone: cython.uchar[::1] = np.empty(3, dtype=np.uint8)
+    r: cython.int
+    d: cython.int
+    k: cython.int
     other: cython.int
+    b: Py_ssize_t
     for r in range(5):
         for d in range(3):
             b = assigned[r, d]
@@ -662,6 +696,9 @@ def _split_blob(
     either lies ``half`` of that from the centre, along the line on which they are expected, as surely as that is known,
     and give or take a ``share`` of it. The depth is of either. ``across`` pixels are a metre there.
     """
+    k: cython.int
+    i: cython.int
+    j: cython.int
     gap2: double = 0.0
     shift2: double = 0.0
     for k in range(2):

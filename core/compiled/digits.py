@@ -83,6 +83,8 @@ def _place_chain(
     disc: double[:, ::1],
 ) -> cython.void:
     """Place a digit with pose ``s``: bones, normals and discs, (3, 3) each, and joint centres (4, 3)."""
+    d: cython.int
+    k: cython.int
     azimuth = s[_FAN] + s[0]
     if digit == 0:
         # The proximal phalanx in the metacarpal's axes: along it, and dorsal to it (that one has no third component).
@@ -140,6 +142,7 @@ def place_digits(pose: Array, root_m: Array) -> tuple[Array, Array, Array, Array
     normal: double[:, :, ::1] = out[1]
     joint: double[:, :, ::1] = out[2]
     disc: double[:, :, ::1] = out[3]
+    r: cython.int
     for r in range(5):
         _place_chain(r, s[r], root[r], bone[r], normal[r], joint[r], disc[r])
     return out
@@ -152,6 +155,8 @@ def place_discs(pose: Array, root_m: Array, digits: list[int]) -> Array:
     out = np.empty((pose.shape[0], pose.shape[1], 3, 3))
     disc: double[:, :, :, ::1] = out
     joint: double[:, :, ::1] = np.empty((3, 4, 3))
+    r: Py_ssize_t
+    i: Py_ssize_t
     for r in range(s.shape[0]):
         digit: cython.int = digits[r]
         for i in range(s.shape[1]):
@@ -202,6 +207,9 @@ def compute_digit_transition(motion: Any, dt_s: float, scale2: Array, forgetting
     forward, noise = np.zeros((5, 21, 21)), np.zeros((5, modes, 21, 21))
     f: double[:, :, ::1] = forward
     q: double[:, :, :, ::1] = noise
+    r: cython.int
+    s: cython.int
+    k: Py_ssize_t
     for r in range(5):
         for s in range(21):
             f[r, s, s] = 1.0
@@ -276,6 +284,10 @@ def spread_points(
     cross: double[:, ::1] = np.empty((6, 10))
     floor: double = FLOOR
     step: double = scale
+    r: cython.int
+    i: Py_ssize_t
+    j: Py_ssize_t
+    p: Py_ssize_t
     for r in range(5):
         for i in range(16):
             s[i] = state[r, pose[i]]
@@ -312,6 +324,9 @@ def _fill_slopes(
     out: double[:, :, ::1],
 ) -> cython.void:
     """Fill zeros with the derivative (3 discs, 3, 10) of the discs by the constants but for the roll."""
+    d: cython.int
+    b: cython.int
+    k: cython.int
     for d in range(3):
         for k in range(3):
             for b in range(d + 1):
@@ -387,6 +402,11 @@ def apply_limits(
     out_mean: double[:, :, ::1]
     out_wide: double[:, :, :, ::1]
     out = None
+    r: Py_ssize_t
+    k: Py_ssize_t
+    i: Py_ssize_t
+    j: Py_ssize_t
+    n: Py_ssize_t
     for r in range(5):
         for k in range(modes):
             any_near: cython.bint = False
