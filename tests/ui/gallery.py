@@ -533,7 +533,7 @@ class Gallery(GalleryWindow):
         self._review_passive(FakeHandSessions(), "hand-7", (3, 4, 5), 0.0)
 
     review_reason = _then("review", lambda screen: screen.exclusion_dialog.open_form(4))
-    review_angle = _then("review", lambda screen: screen.picture.angle_button.click())
+    review_angle = _then("review", lambda screen: screen.frame_view.angle_button.click())
 
     def review_hand_picture(self) -> None:
         screen = self.review()
