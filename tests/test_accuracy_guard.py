@@ -68,7 +68,7 @@ def runs() -> dict[str, list[Run]]:
 
 
 @pytest.mark.parametrize(("name", "pool"), [("mixed axes", SLOW), ("deviation 1.7 Hz", FAST)])
-def test_one_recording_is_tracked_as_well_as_they_were(name: str, pool: str) -> None:
+def test_accuracy_of_single_recording_has_not_fallen(name: str, pool: str) -> None:
     """The short form of what follows."""
     scenario = next(one for one in WRIST if one.name == name)
     one, simplest = done(Job(scenario, scenario.seeds(1)[0], "blobs"), bound=False)

@@ -57,7 +57,7 @@ RATIONAL = replace(LENS, distortion=(0.5, -0.3, 0.001, -0.002, 0.1, 0.45, -0.2, 
 INVERSE = replace(LENS, distortion=(-0.056, 0.067, 0.0009, 0.0005, -0.021), distortion_model=INVERSE_MODEL)
 
 
-def test_a_rational_lens_is_opencvs() -> None:
+def test_rational_lens_is_opencvs() -> None:
     """Judge: OpenCV's map of where each pixel of an ideal picture lies in the real one."""
     across, down = cv2.initUndistortRectifyMap(
         RATIONAL.matrix, np.array(RATIONAL.distortion), np.eye(3), RATIONAL.matrix, (640, 480), cv2.CV_32FC1
@@ -71,7 +71,7 @@ def test_a_rational_lens_is_opencvs() -> None:
     assert np.abs(RATIONAL.undistort(real) - ideal).max() < 1e-4
 
 
-def test_the_inverse_lens_leads_from_the_real_picture_to_the_ideal_one() -> None:
+def test_inverse_lens_leads_from_real_frame_to_ideal_one() -> None:
     """As librealsense takes a pixel of such a stream to its ray; OpenCV's plumb_bob the other way round."""
     real = INVERSE.project(points())
     ideal = INVERSE.undistort(real)
@@ -85,7 +85,7 @@ def test_the_inverse_lens_leads_from_the_real_picture_to_the_ideal_one() -> None
     assert np.abs(INVERSE.distort(ideal) - real).max() < 1e-4
 
 
-def test_a_lens_without_distortion_leaves_pixels_alone() -> None:
+def test_lens_without_distortion_leaves_pixels_alone() -> None:
     pixel = np.array([[3.0, 4.0]])
     assert np.array_equal(CAMERA.undistort(pixel), pixel)
     assert np.array_equal(CAMERA.distort(pixel), pixel)

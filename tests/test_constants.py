@@ -77,7 +77,7 @@ def shaping_numbers(path: Path) -> set[str]:
 
 
 @SOURCES
-def test_what_shapes_a_number_lies_in_settings() -> None:
+def test_constants_that_shape_results_state_their_reason() -> None:
     found = {
         f"{path.relative_to(ROOT / 'core').with_suffix('').as_posix()}.{name}"
         for package in SHAPING

@@ -100,14 +100,14 @@ def is_there(told: str) -> bool:
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
-def test_every_name_in_a_document_is_in_the_program(document: str) -> None:
+def test_documents_name_existing_things_only(document: str) -> None:
     told = re.findall(r"`([^`\n]+)`", (ROOT / document).read_text(encoding="utf-8"))
     assert len(told) > 10
     told = [one for one in told if one not in FORMS]
     assert [one for one in told if not is_there(one)] == []
 
 
-def test_what_is_gone_is_found() -> None:
+def test_document_check_reports_missing_name() -> None:
     gone = ("core/tracking/nowhere.py", "nowhere.py", "Camera.nowhere", "association.nowhere", "NoClass", "no_function",
             "make nothing", "_w9", "core/nowhere/NAME.py")  # fmt: skip
     assert [one for one in gone if is_there(one)] == []
@@ -179,7 +179,7 @@ def is_written(told: str) -> bool:
     )
 
 
-def test_every_name_in_a_docstring_is_in_the_program() -> None:
+def test_docstrings_name_existing_things_only() -> None:
     told = [(where, role, name) for where, text in docstrings() for role, name in ROLE.findall(text)]
     assert len(told) > 400
     assert [one for one in told if not leads_somewhere(*one[1:])] == []
@@ -188,7 +188,7 @@ def test_every_name_in_a_docstring_is_in_the_program() -> None:
     assert [one for one in shown if not is_written(one[1])] == []
 
 
-def test_what_a_docstring_names_and_is_gone_is_found() -> None:
+def test_docstring_check_reports_missing_name() -> None:
     gone = (
         ("mod", "core.library"),
         ("class", "NoClass"),

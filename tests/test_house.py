@@ -60,7 +60,7 @@ def pinned(lock: str) -> dict[str, str]:
     return {name.partition("[")[0]: version for name, version in pins}
 
 
-def test_every_import_is_declared_as_a_run_time_need() -> None:
+def test_imports_are_declared_dependencies() -> None:
     foreign = {
         name
         for path in modules(*PROGRAM)
@@ -77,19 +77,19 @@ def test_every_import_is_declared_as_a_run_time_need() -> None:
 
 
 @pytest.mark.parametrize("lock", ["requirements.lock", "requirements-dev.lock"])
-def test_every_need_is_pinned_and_the_lock_names_no_place(lock: str) -> None:
+def test_dependencies_are_pinned_without_registry_host(lock: str) -> None:
     assert declared() <= set(pinned(lock))
     text = (ROOT / lock).read_text(encoding="utf-8")
     assert "://" not in text
     assert "/" not in text.replace(" / ", "")
 
 
-def test_both_locks_agree() -> None:
+def test_lock_files_agree() -> None:
     run, dev = pinned("requirements.lock"), pinned("requirements-dev.lock")
     assert {name: dev[name] for name in run} == run
 
 
-def test_what_a_person_reads_is_rounded_by_one_function() -> None:
+def test_displayed_numbers_are_rounded_by_one_function() -> None:
     """Halves away from zero: Python's own formats round them to even."""
     own = re.compile(r"\{[^{}\"]+:\.\df\}")
     texts = [path for path in modules("ui", "core") if {"ui", "results"} & set(path.relative_to(ROOT).parts)]
@@ -152,7 +152,7 @@ def test_links_between_pages_lead_somewhere(page: Path) -> None:
             assert heading in titles, f"{page.name}: {target}#{heading}"
 
 
-def test_no_file_names_a_place_of_one_machine() -> None:
+def test_files_name_no_path_of_one_machine() -> None:
     places = re.compile(r"/(?:home|root|work|Users)/\w")
     for path in [*modules(*PROGRAM), *(ROOT / "installer").glob("*"), ROOT / "README.md", ROOT / "Makefile"]:
         if path.is_file():

@@ -24,7 +24,7 @@ def read(truth: Truth, error_deg: FloatArray, sd_deg: float = 1.0) -> Reading:
     return reading_of(truth, every, truth.angles_rad, error_deg, sd, unused=3, shown=60)
 
 
-def test_a_range_read_a_tenth_too_large_is_told_by_repetition_and_at_the_ends(truth: Truth) -> None:
+def test_range_read_tenth_too_large_is_reported_by_repetition_and_at_ends(truth: Truth) -> None:
     error = 0.1 * np.degrees(truth.angles_rad)
     error[:, [0, 2]] = 0.0
     reading = read(truth, error)
@@ -38,7 +38,7 @@ def test_a_range_read_a_tenth_too_large_is_told_by_repetition_and_at_the_ends(tr
     assert read_figures([reading], (0,)).range_worst == 0.0
 
 
-def test_a_wrong_zero_is_no_wrong_range(truth: Truth) -> None:
+def test_wrong_zero_is_no_wrong_range(truth: Truth) -> None:
     found = read_figures([read(truth, np.full(truth.angles_rad.shape, 2.0))], (0, 1, 2))
     assert found.zero_rms == pytest.approx(2.0)
     assert found.end_worst == pytest.approx(2.0)
@@ -47,7 +47,7 @@ def test_a_wrong_zero_is_no_wrong_range(truth: Truth) -> None:
     assert found.inside == 1.0
 
 
-def test_the_longest_time_outside_three_sd_is_that_of_one_angle(truth: Truth) -> None:
+def test_longest_time_outside_three_sd_is_that_of_one_angle(truth: Truth) -> None:
     error = np.zeros(truth.angles_rad.shape)
     error[30:91, 2] = 3.1
     error[200:221, 2] = error[100:110, 0] = -9.0
@@ -57,7 +57,7 @@ def test_the_longest_time_outside_three_sd_is_that_of_one_angle(truth: Truth) ->
     assert read_figures([reading], (0, 1)).outside_s == pytest.approx(0.3, abs=0.02)
 
 
-def test_what_is_unknown_is_left_out_and_told_where_too_much_is(truth: Truth) -> None:
+def test_readings_drop_unknown_and_report_if_too_many(truth: Truth) -> None:
     error = np.zeros(truth.angles_rad.shape)
     error[:, 0] = np.nan
     error[::4, 1] = np.nan

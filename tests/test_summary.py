@@ -48,7 +48,7 @@ def write(path: Path) -> Path:
     return path
 
 
-def test_a_session_is_told_in_plain_lines(tmp_path: Path) -> None:
+def test_session_is_reported_in_plain_lines(tmp_path: Path) -> None:
     path = write(tmp_path / "s.h5")
     lines = session_summary(read_session(path))
     told = values(lines)
@@ -85,7 +85,7 @@ def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
     assert figures.repetition_count >= 2 or exercise == "FREE"
 
 
-def test_a_side_that_was_never_reached_is_told_as_it_is() -> None:
+def test_side_that_was_never_reached_is_reported_as_it_is() -> None:
     made = fakes.session(seconds=20.0, exercise="FREE")
     bent = dataclasses.replace(made.motion, angles_rad=0.2 * made.motion.angles_rad + np.radians([0.0, 40.0, 0.0]))
     turned = dataclasses.replace(made, motion=bent)
@@ -95,13 +95,13 @@ def test_a_side_that_was_never_reached_is_told_as_it_is() -> None:
     assert 20.0 < low < 40.0 < high
 
 
-def test_an_angle_that_stays_at_nought_has_a_range_of_nothing() -> None:
+def test_angle_that_stays_at_nought_has_range_of_nothing() -> None:
     made = fakes.session(seconds=20.0, exercise="FREE")
     still = dataclasses.replace(made, motion=dataclasses.replace(made.motion, angles_rad=0.0 * made.motion.angles_rad))
     assert [line.split(", arc ")[1] for line in range_lines(still, compute_session_results(still))] == ["0.0°"] * 3
 
 
-def test_a_session_cut_short_is_read_when_it_is_recovered(tmp_path: Path) -> None:
+def test_session_cut_short_is_read_when_it_is_recovered(tmp_path: Path) -> None:
     with pytest.raises(SessionUnfinished):
         read_session(unpacked("v2-wrist6.h5.0123abcd.part", tmp_path))
     path = write_session(stored_journal(tmp_path / "s.journal", 6), "2026-11-14T08:00:00+00:00")
@@ -121,7 +121,7 @@ def test_next_to_nothing_is_told_without_numbers_that_do_not_exist(tmp_path: Pat
     assert "nan" not in "\n".join(lines)
 
 
-def test_every_joint_of_a_hand_has_the_range_in_which_it_was_seen(tmp_path: Path) -> None:
+def test_summary_gives_each_joint_its_visible_range(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     hidden = HAND21.markers.index("DIP4")
     with begun(path, make_header(HAND21)) as session:
@@ -139,7 +139,7 @@ def test_every_joint_of_a_hand_has_the_range_in_which_it_was_seen(tmp_path: Path
     assert "end joint not measured" in lines["TAM3"]
 
 
-def test_a_recording_is_told_in_plain_lines(tmp_path: Path) -> None:
+def test_recording_is_reported_in_plain_lines(tmp_path: Path) -> None:
     folder = write_recording(tmp_path / "take")
     depth_lines = (folder / "depth.txt").read_text().splitlines()
     (folder / "depth.txt").write_text("\n".join(depth_lines[:-1]) + "\n")
@@ -152,7 +152,7 @@ def test_a_recording_is_told_in_plain_lines(tmp_path: Path) -> None:
     assert told["Camera"].endswith("(usual values, no camera_info.yaml)")
 
 
-def test_a_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:
+def test_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:
     stored = read_session(write(tmp_path / "s.h5"))
     assert "Source" not in values(session_summary(stored))
     assert any(line.startswith("  doubtful: The hand is tilted 22°") for line in session_summary(stored))
@@ -161,7 +161,7 @@ def test_a_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:
     assert told["Source"] == "simulated: nobody's movement was measured"
 
 
-def test_the_forearm_is_told_from_thumb_up_also_where_it_started_elsewhere() -> None:
+def test_forearm_is_reported_from_thumb_up_also_where_it_started_elsewhere() -> None:
     made = fakes.session(seconds=20.0, exercise="FOREARM_PS", motion="palm_up")
     (line,) = (one for one in range_lines(made, compute_session_results(made)) if "forearm, thumb up" in one)
     assert re.search(r"from 9\d\.\d° pronation to [34]\d\.\d° pronation", line)

@@ -14,7 +14,7 @@ from tests.validation import MOTIONS, main, mountings
 AGAIN = re.compile(r"make validation ARGUMENTS='([^']+)'")
 
 
-def test_the_document_names_what_makes_it_again(tmp_path: Path) -> None:
+def test_document_names_what_makes_it_again(tmp_path: Path) -> None:
     words = ["--people", "0", "--seeds", "1", "--only", "rest, no such row"]
     assert main([*words, "--output", str(tmp_path / "a.md")]) == 0
     made = (tmp_path / "a.md").read_text(encoding="utf-8")
@@ -34,7 +34,7 @@ def test_seeds_are_of_nobody_else() -> None:
     assert not set(made) & set(jobs)
 
 
-def test_a_person_keeps_what_a_new_mounting_does_not_change() -> None:
+def test_person_keeps_what_new_mounting_does_not_change() -> None:
     first, second, other, _ = mountings("flexion", 2, 1)
     assert (first.spec.hand_length_mm, first.spec.range_share) == (second.spec.hand_length_mm, second.spec.range_share)
     assert first.spec.seed != second.spec.seed

@@ -66,7 +66,7 @@ def parts_of_the_checkout() -> set[str]:
     }
 
 
-def test_a_wheel_holds_the_program_and_nothing_beside_it(wheel: Path) -> None:
+def test_wheel_holds_program_and_nothing_next_to_it(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if not name.endswith("/")}
     program = {name for name in names if ".dist-info/" not in name}
@@ -89,7 +89,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_source_archive_holds_all_that_a_wheel_is_built_of(archive: Path) -> None:
+def test_source_archive_holds_all_that_wheel_is_built_of(archive: Path) -> None:
     with tarfile.open(archive) as opened:
         names = {name.partition("/")[2] for name in opened.getnames()}
     assert names >= parts_of_the_checkout() | FACE | {"requirements.lock"}
@@ -97,7 +97,7 @@ def test_a_source_archive_holds_all_that_a_wheel_is_built_of(archive: Path) -> N
 
 
 @pytest.mark.thorough
-def test_a_wheel_of_the_source_archive_is_that_of_a_checkout(archive: Path, wheel: Path, tmp_path: Path) -> None:
+def test_wheel_of_source_archive_is_that_of_checkout(archive: Path, wheel: Path, tmp_path: Path) -> None:
     """Though its parts are no links there."""
     subprocess.run(["tar", "-xf", archive, "-C", tmp_path], check=True)
     (unpacked,) = (folder for folder in tmp_path.iterdir() if folder.is_dir())
@@ -107,7 +107,7 @@ def test_a_wheel_of_the_source_archive_is_that_of_a_checkout(archive: Path, whee
         assert set(first.namelist()) == set(second.namelist())
 
 
-def test_the_parts_are_links_that_every_tool_follows() -> None:
+def test_parts_are_links_that_every_tool_follows() -> None:
     for part in PARTS:
         link = ROOT / "carpus" / part
         assert link.is_symlink()
@@ -136,7 +136,7 @@ def mistakable(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_the_installed_program_runs_where_folders_and_files_are_called_as_its_parts_are(
+def test_installed_program_runs_where_folders_and_files_are_called_as_its_parts_are(
     installed: Path, mistakable: Path
 ) -> None:
     where = "import carpus, carpus.core; print(carpus.__file__, *carpus.core.__path__)"
@@ -148,7 +148,7 @@ def test_the_installed_program_runs_where_folders_and_files_are_called_as_its_pa
 
 
 @pytest.mark.thorough
-def test_the_installed_program_tracks(installed: Path, rendered: Rendered, mistakable: Path) -> None:
+def test_installed_program_tracks(installed: Path, rendered: Rendered, mistakable: Path) -> None:
     (mistakable / "r").symlink_to(rendered(FLEXION))
     words = ("track", "r", "--calibration", "r/calibration.json", "--output", "s.h5")
     assert "Frames: 24, " in carpus(installed, mistakable, *words)

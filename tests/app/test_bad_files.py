@@ -87,7 +87,7 @@ def test_bad_files_do_not_keep_the_program_from_starting(tmp_path: Path, monkeyp
     assert started(tmp_path) == (patients, []), "named once, and not opened again"
 
 
-def test_a_file_set_apart_is_read_again_when_it_has_changed(tmp_path: Path) -> None:
+def test_file_set_apart_is_read_again_when_it_has_changed(tmp_path: Path) -> None:
     path = tmp_path / "sessions" / "s.h5"
     good = stored(path).read_bytes()
     path.write_bytes(good[:3000])
@@ -110,7 +110,7 @@ def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytes
     assert [path.name for path in opened] == ["new.h5"]
 
 
-def test_a_copied_session_counts_once(tmp_path: Path) -> None:
+def test_copied_session_counts_once(tmp_path: Path) -> None:
     first = stored(tmp_path / "sessions" / "b.h5")
     with opened_store(tmp_path) as house:
         house.files.scan()
@@ -143,7 +143,7 @@ def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
     assert faults[0].detail == "5 files"
 
 
-def test_a_part_without_a_header_is_told_once(tmp_path: Path) -> None:
+def test_part_without_header_is_reported_once(tmp_path: Path) -> None:
     part = stored(tmp_path / "sessions" / "s.h5", finished=False)
     part.write_bytes(b"\x89HDF" + bytes(3000))
     os.utime(part, (0, 0))
@@ -189,9 +189,7 @@ def kept_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_register_does_not_keep_the_program_from_starting(
-    kept_folder: Path, tmp_path: Path, damage: str
-) -> None:
+def test_damaged_register_does_not_keep_program_from_starting(kept_folder: Path, tmp_path: Path, damage: str) -> None:
     shutil.copytree(kept_folder, tmp_path, dirs_exist_ok=True)
     DAMAGE[damage](tmp_path / STORE_FILE)
     assert damage != "misnamed" or b"TABLX" in (tmp_path / STORE_FILE).read_bytes()
@@ -207,7 +205,7 @@ def test_a_damaged_register_does_not_keep_the_program_from_starting(
     assert started(tmp_path) == (patients, [])
 
 
-def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
+def test_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
     with opened_store(tmp_path) as house:
         key = house.patients.add(Patient("Linden 42", "right", name="Wilhelmina Featherstone", note="a note"))
         for number in range(50):
@@ -219,7 +217,7 @@ def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
         assert found == []
 
 
-def test_nothing_told_is_lost_between_two_calls(tmp_path: Path) -> None:
+def test_warnings_between_two_calls_are_all_shown(tmp_path: Path) -> None:
     assert new_sessions.MAX_LISTED_FILES >= 1
     for number in range(6):
         stored(tmp_path / "sessions" / f"{number}.h5").write_bytes(b"x" * 100)

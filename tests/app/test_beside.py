@@ -34,7 +34,7 @@ def desktop(open_desktop: Callable[..., Desktop], recorded: tuple[Path, Path], t
     return opened
 
 
-def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop) -> None:
+def test_side_by_side_opens_from_two_ticks_and_returns(qtbot: QtBot, desktop: Desktop) -> None:
     journey, screen = desktop.controller, desktop.controller.beside.screen
     shown_list = journey.sessions.screen.list
     qtbot.waitUntil(lambda: all(line.main_value for line in shown_list.session_model.lines))
@@ -67,7 +67,7 @@ def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop)
     assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 0, 0]
 
 
-def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Desktop) -> None:
+def test_side_by_side_from_review_with_missing_file_is_reported(qtbot: QtBot, desktop: Desktop) -> None:
     journey, screen = desktop.controller, desktop.controller.beside.screen
     newest, older = (line.entry.session_id for line in journey.sessions.screen.list.session_model.lines)
     journey.review.open(newest)

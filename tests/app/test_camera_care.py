@@ -65,7 +65,7 @@ def press(qtbot: QtBot, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.Keyboard
     qtbot.keyClick(at, key, modifier)
 
 
-def test_from_the_settings_over_the_board_to_the_card(
+def test_camera_calibration_leads_from_settings_to_card(
     qtbot: QtBot, desktop: Desktop, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     journey, board = desktop.controller, desktop.controller.board.screen
@@ -95,7 +95,7 @@ def test_from_the_settings_over_the_board_to_the_card(
     desktop.close()
 
 
-def test_who_left_while_a_calibration_is_written_is_not_sent_to_the_card(
+def test_leaving_during_calibration_save_does_not_open_card(
     qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """There whoever is open is closed, and what is recorded of them ends."""
@@ -153,7 +153,7 @@ def test_settings_of_a_camera_that_was_out_say_so_with_the_date(qtbot: QtBot, de
         assert journey.place == expected, "back the way one came"
 
 
-def test_a_check_of_a_camera_without_a_number_is_kept_under_its_name(
+def test_check_of_camera_without_number_is_kept_under_its_name(
     qtbot: QtBot, desktop: Desktop, data: Path, tmp_path: Path, card_camera: list[NoticeHandler],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip

@@ -140,7 +140,7 @@ NOT_LOADED = {
 
 
 @pytest.mark.parametrize("name", NOT_LOADED)
-def test_a_command_that_tells_what_it_takes_loads_little(name: str) -> None:
+def test_command_that_tells_what_it_takes_loads_little(name: str) -> None:
     code = "import atexit, sys; from carpus.app.__main__ import main; atexit.register(lambda: print(*sys.modules))"
     words = (sys.executable, "-c", f"{code}; main([{name!r}, '--help'])")
     loaded = set(subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split())
@@ -149,7 +149,7 @@ def test_a_command_that_tells_what_it_takes_loads_little(name: str) -> None:
 
 
 @pytest.mark.parametrize("asked", ["info SESSION", "track --help"])
-def test_a_full_disk_under_the_output_is_told(asked: str, session: Path) -> None:
+def test_full_disk_under_output_is_reported(asked: str, session: Path) -> None:
     words = (*COMMAND, *asked.replace("SESSION", str(session)).split())
     with Path("/dev/full").open("w", encoding="utf-8") as full:
         ended = subprocess.run(words, cwd=ROOT, env=buffered(), stdout=full, stderr=PIPE, check=False, text=True)
@@ -160,16 +160,14 @@ def test_a_full_disk_under_the_output_is_told(asked: str, session: Path) -> None
     assert "unforeseen" not in ended.stderr
 
 
-def test_a_full_disk_under_the_messages_changes_no_exit_code(tmp_path: Path) -> None:
+def test_full_disk_under_messages_changes_no_exit_code(tmp_path: Path) -> None:
     with Path("/dev/full").open("w", encoding="utf-8") as full:
         words = (*COMMAND, "info", str(tmp_path / "gone.h5"))
         ended = subprocess.run(words, cwd=ROOT, env=buffered(), stdout=PIPE, stderr=full, check=False)
     assert ended.returncode == 1
 
 
-def test_what_could_not_be_said_on_a_full_disk_comes_once_there_is_room(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_message_on_full_disk_is_printed_when_room_returns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with (tmp_path / "said").open("w", encoding="utf-8", buffering=1) as said:
         monkeypatch.setattr(sys, "stderr", said)
         before = resource.getrlimit(resource.RLIMIT_FSIZE)
@@ -183,7 +181,7 @@ def test_what_could_not_be_said_on_a_full_disk_comes_once_there_is_room(
 
 
 @pytest.mark.parametrize(("asked", "unbuffered"), [("info SESSION", "1"), ("track --help", "")])
-def test_a_reader_that_goes_away_is_no_trouble(asked: str, unbuffered: str, session: Path) -> None:
+def test_reader_that_goes_away_is_no_trouble(asked: str, unbuffered: str, session: Path) -> None:
     """As `carpus info FILE | head -1`, with a head that has gone before the first line comes."""
     reading, writing = os.pipe()
     os.close(reading)
@@ -202,7 +200,7 @@ def test_stopped_while_rendering_leaves_nothing(tmp_path: Path) -> None:
     assert not folder.exists()
 
 
-def test_what_a_parent_told_to_ignore_is_ignored(tmp_path: Path) -> None:
+def test_signal_ignored_by_parent_stays_ignored(tmp_path: Path) -> None:
     """A rendering in the background outlives the Ctrl+C meant for another job, and the end of its terminal."""
     folder = tmp_path / "rendered"
     words = (*COMMAND, "simulate", "--output", folder, "--seconds", "0.4")
@@ -235,7 +233,7 @@ def test_stopped_while_tracking_leaves_no_part(recording: Path, tmp_path: Path) 
     assert not list(tmp_path.glob(".*.tmp"))
 
 
-def test_the_unattended_way_can_be_stopped(tmp_path: Path) -> None:
+def test_unattended_way_can_be_stopped(tmp_path: Path) -> None:
     words = (*COMMAND, "demo", "--unattended", "--data-folder", tmp_path / "data")
     code, said = signalled(words, (tmp_path / "data" / "records.sqlite3").exists, signal.SIGTERM)
     *steps, last = said.splitlines()
@@ -243,7 +241,7 @@ def test_the_unattended_way_can_be_stopped(tmp_path: Path) -> None:
     assert all(line.startswith("carpus: demo: ") for line in steps)
 
 
-def test_a_list_is_written_last(recording: Path) -> None:
+def test_list_is_written_last(recording: Path) -> None:
     """A rendering that a kill cuts short has no list yet, and is no recording."""
     written = {path.name: path.stat().st_mtime_ns for path in recording.iterdir() if path.is_file()}
     assert written.pop(COLOR_LIST) >= max(
@@ -251,7 +249,7 @@ def test_a_list_is_written_last(recording: Path) -> None:
     )
 
 
-def test_a_simulated_person_is_drawn_or_given(tmp_path: Path, command: Command) -> None:
+def test_simulated_person_is_drawn_or_given(tmp_path: Path, command: Command) -> None:
     words = ("simulate", "--output", tmp_path / "r", "--seconds=0.05", "--skin-glide-mm=drawn", "--cupping=0.5")
     assert command(*words, "--habit=grip+rolling_forearm").code == 0
     spec = RecordingSpec(**json.loads(str(read_session(tmp_path / "r" / TRUTH_FILE).header.parameters)))
@@ -269,7 +267,7 @@ def test_info_says_that_a_raw_recording_was_cut_short(recording: Path, tmp_path:
 
 
 @pytest.mark.parametrize("whole", [0, 1])
-def test_only_of_what_was_recorded_it_is_said_that_it_can_be_read(
+def test_interrupt_message_names_readable_data_only_if_recorded(
     whole: int, recording: Path, tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     append = TumWriter.append_frame
@@ -284,7 +282,7 @@ def test_only_of_what_was_recorded_it_is_said_that_it_can_be_read(
     assert (done.code, "can be read" in done.out) == (1, bool(whole))
 
 
-def test_a_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path: Path, command: Command) -> None:
+def test_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path: Path, command: Command) -> None:
     path = tmp_path / "r.carpusraw"
     assert command("record", "--from", recording, "--output", path).code == 0
     data = path.read_bytes()
@@ -342,7 +340,7 @@ def test_damaged_pictures_are_a_fault_or_left_out_and_told(recording: Path, tmp_
     assert session.header.is_simulated
 
 
-def test_a_session_is_exported_in_every_format_and_nothing_is_overwritten(
+def test_session_is_exported_in_every_format_and_nothing_is_overwritten(
     session: Path, tmp_path: Path, command: Command
 ) -> None:
     folder = tmp_path / "new" / "export"
@@ -386,7 +384,7 @@ class ATerminal(io.StringIO):
         return True
 
 
-def test_a_terminal_sees_how_far_how_fast_and_how_long_yet(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_terminal_sees_how_far_how_fast_and_how_long_yet(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tqdm.tqdm", partial(tqdm, mininterval=0.0))
     monkeypatch.setattr(sys, "stderr", ATerminal())
     with command_line.progress_bar("tracking") as show:

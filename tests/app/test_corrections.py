@@ -171,7 +171,7 @@ def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Path, "replace", replaced)
 
 
-def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(kept: Kept) -> None:
+def test_trial_is_in_no_list_and_waits_until_it_is_wanted(kept: Kept) -> None:
     corrections, trial = kept.corrections, kept.trial()
     recover_sessions(kept.library)
     assert kept.listed == [kept.session_id]
@@ -196,9 +196,7 @@ def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(kept: Kept) -> None:
 
 @pytest.mark.parametrize("kind", ["session", "patient"])
 @pytest.mark.parametrize("is_damaged", [False, True])
-def test_what_waits_is_erased_with_its_session_also_what_is_damaged_or_not_finished(
-    kept: Kept, kind: str, is_damaged: bool
-) -> None:
+def test_pending_results_are_deleted_with_their_session(kept: Kept, kind: str, is_damaged: bool) -> None:
     other = kept.path
     trials = [kept.trial() for _ in range(2)]
     trials.append(trials[0].with_name(f"{trials[0].name}.12345678.part"))
@@ -220,7 +218,7 @@ def test_what_waits_is_erased_with_its_session_also_what_is_damaged_or_not_finis
     assert nobodys.exists()
 
 
-def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
+def test_pending_result_opens_nothing_and_keys_decide_nothing(
     qtbot: QtBot, kept: Kept, stored: Stored, correcting: Correcting, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def beside(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
@@ -269,7 +267,7 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
     assert flow.pending == []
 
 
-def test_a_wanted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
+def test_wanted_result_counts_and_old_one_stays(kept: Kept) -> None:
     library, session_id, old = kept.library, kept.session_id, kept.path
     old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
     library.save_choices(
@@ -289,7 +287,7 @@ def test_a_wanted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
 @pytest.mark.parametrize(
     ("step", "is_listed"), [("core.records.store.Store.apply", False), ("core.records.corrections.publish", True)]
 )
-def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
+def test_kill_leaves_older_result_or_new_one_with_what_was_excluded(
     kept: Kept, monkeypatch: pytest.MonkeyPatch, step: str, is_listed: bool
 ) -> None:
     library, session_id = kept.library, kept.session_id
@@ -315,7 +313,7 @@ def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
     assert len(list(library.folder.rglob("*.h5"))) == 2
 
 
-def test_an_older_result_counts_again_with_its_choices_until_the_other_one_does(kept: Kept) -> None:
+def test_older_result_counts_again_with_its_choices_until_other_one_does(kept: Kept) -> None:
     library, old, corrections = kept.library, kept.session_id, kept.corrections
     new = corrections.accept(old, kept.trial())
     said = RepetitionChoices({0: "pain"}, {1: (1.0, 2.0)})
@@ -330,7 +328,7 @@ def test_an_older_result_counts_again_with_its_choices_until_the_other_one_does(
     assert kept.counting == [last]
 
 
-def test_a_new_result_goes_to_a_share_on_another_disk(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_new_result_goes_to_share_on_another_disk(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     library, trial = kept.library, kept.trial()
     on_another_disk(monkeypatch)
     new = kept.corrections.accept(kept.session_id, trial)
@@ -344,9 +342,7 @@ def test_a_new_result_goes_to_a_share_on_another_disk(kept: Kept, monkeypatch: p
     assert library.entry(new).path == place
 
 
-def test_what_a_killed_program_had_copied_goes_at_the_next_look_and_is_in_no_backup(
-    kept: Kept, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_copy_of_killed_program_is_removed_and_not_backed_up(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     corrections, folder, trial = kept.corrections, kept.path.parent, kept.trial()
     copies: dict[Path, bytes] = {}
 
@@ -373,7 +369,7 @@ def test_what_a_killed_program_had_copied_goes_at_the_next_look_and_is_in_no_bac
 
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
-def test_a_result_that_did_not_get_its_name_is_in_no_list_and_waits(
+def test_result_that_did_not_get_its_name_is_in_no_list_and_waits(
     kept: Kept, monkeypatch: pytest.MonkeyPatch, number: int
 ) -> None:
     library, session_id, corrections = kept.library, kept.session_id, kept.corrections
@@ -401,7 +397,7 @@ def test_a_result_that_did_not_get_its_name_is_in_no_list_and_waits(
     assert len(library.session(new)) == len(library.session(session_id))
 
 
-def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_one(
+def test_file_that_took_name_in_the_meantime_is_kept_and_result_has_another_one(
     kept: Kept, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     library, trial = kept.library, kept.trial()
@@ -422,7 +418,7 @@ def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_
     assert len(list(taken[0].parent.iterdir())) == 3
 
 
-def test_a_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     """A look for what waits meets one that is just being taken."""
     library, trial = kept.library, kept.trial()
 
@@ -438,9 +434,7 @@ def test_a_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch
     assert not trial.exists()
 
 
-def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_waits(
-    kept: Kept, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_listed_result_is_never_deleted_nor_hides_pending(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     corrections, trial, other = kept.corrections, kept.trial(), kept.trial()
 
     def full(*_: object) -> None:
@@ -480,9 +474,7 @@ def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
     assert new.session_id != kept.session_id
 
 
-def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
-    qtbot: QtBot, kept: Kept, correcting: Correcting
-) -> None:
+def test_result_decided_during_search_is_not_pending(qtbot: QtBot, kept: Kept, correcting: Correcting) -> None:
     trials, told = [kept.trial() for _ in range(2)], Told("settings", behind="review")
     flow, context = correcting(told)
     for trial, decided in zip(trials, (flow.dialog.keep_button, flow.dialog.use_button), strict=True):
@@ -502,7 +494,7 @@ def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
 
 
 @pytest.mark.parametrize("is_answered", ["before the end", "after the end"])
-def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
+def test_result_retracked_during_search_is_pending_once(
     qtbot: QtBot, kept: Kept, stored: Stored, correcting: Correcting, monkeypatch: pytest.MonkeyPatch, is_answered: str
 ) -> None:
     written, ends, answers = threading.Event(), threading.Event(), threading.Event()
@@ -540,9 +532,7 @@ def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
     assert [one.session_id for one in flow.pending] == [kept.session_id]
 
 
-def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
-    kept: Kept, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_result_of_later_session_waits_and_orphan_is_removed(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     corrections, trial, store = kept.corrections, kept.trial(), kept.library.store
     store.apply([delete_row(SESSION, kept.session_id)])
     with monkeypatch.context() as patched:
@@ -557,7 +547,9 @@ def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
     assert not trial.exists()
 
 
-def test_a_share_that_is_away_is_told_before_anything_is_done(tmp_path: Path, stored: Stored, corrected: Path) -> None:
+def test_share_that_is_away_is_reported_before_anything_is_done(
+    tmp_path: Path, stored: Stored, corrected: Path
+) -> None:
     share = tmp_path / "share"
     share.mkdir()
     with closing(Library(tmp_path / "data", sessions_folder=share)) as library:
@@ -570,7 +562,7 @@ def test_a_share_that_is_away_is_told_before_anything_is_done(tmp_path: Path, st
         assert kept.listed == [kept.session_id]
 
 
-def test_a_copy_that_counts_again_is_the_newest_by_any_clock_and_says_no_other_origin(
+def test_copy_that_counts_again_is_newest_by_any_clock_and_says_no_other_origin(
     kept: Kept, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     library, session_id, corrections = kept.library, kept.session_id, kept.corrections
@@ -594,7 +586,7 @@ def test_a_copy_that_counts_again_is_the_newest_by_any_clock_and_says_no_other_o
 
 
 @pytest.mark.parametrize("why", ["pain", PASSIVE])
-def test_what_was_said_of_a_repetition_is_as_true_of_the_new_result(kept: Kept, why: str) -> None:
+def test_exclusions_carry_over_to_new_result(kept: Kept, why: str) -> None:
     """Left out, or moved by another."""
     library = kept.library
     figures = compute_session_results(library.session(kept.session_id))
@@ -628,7 +620,7 @@ def test_match_exclusions_finds_repetitions_of_the_same_moments(
     assert set(match_exclusions(dict.fromkeys(range(len(before)), "pain"), rows(before), rows(after))) == left_out
 
 
-def test_a_moment_is_the_spots_where_no_picture_was_kept(kept: Kept) -> None:
+def test_moment_is_blobs_where_no_frame_was_kept(kept: Kept) -> None:
     picture, spots = kept.corrections.read_frame(kept.session_id, WRONG_FROM)
     assert picture is None
     assert len(spots) == 7

@@ -29,7 +29,7 @@ def _said(desktop: Desktop) -> str:
     return " ".join([*words, desktop.shell.top_bar.camera.text()]).lower()
 
 
-def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -> None:
+def test_demo_screens_have_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -> None:
     desktop = demo()
     journey, panel = desktop.controller, desktop.welcome.panel
     qtbot.waitUntil(lambda: bool(panel.check_rows), timeout=60_000)
@@ -61,7 +61,7 @@ def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], De
     looks_well()
 
 
-def test_who_was_measured_last_is_chosen_at_the_next_start(demo: Callable[[], Desktop], tmp_path: Path) -> None:
+def test_last_measured_patient_is_selected_at_next_start(demo: Callable[[], Desktop], tmp_path: Path) -> None:
     library = Library(tmp_path / "data")
     linden = library.patients.add(LINDEN)
     path = library.session_list.new_path(linden, LINDEN.pseudonym, "WRIST_FE", "right", T0)

@@ -153,7 +153,7 @@ def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: P
         assert [one.path.parent for one in library.sessions(linden)] == [share / linden]
 
 
-def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
+def test_share_keeps_its_rights(tmp_path: Path) -> None:
     """It may belong to another account, which alone may change them."""
     share = tmp_path / "share"
     share.mkdir(0o770)
@@ -166,7 +166,7 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
     assert (share / linden).stat().st_mode & 0o777 == 0o700
 
 
-def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back(tmp_path: Path) -> None:
+def test_pending_data_of_deleted_patient_is_deleted(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     with closing(Library(data, sessions_folder=share)) as library:
         linden = library.patients.add(Patient("Linden 42", "left"))
@@ -186,7 +186,7 @@ def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back
         assert len(library.sessions(heron)) == 1
 
 
-def test_the_empty_place_of_a_share_is_not_taken_for_the_share(tmp_path: Path) -> None:
+def test_empty_place_of_share_is_not_taken_for_share(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     share.mkdir()
     with closing(Library(data, sessions_folder=share)) as library:

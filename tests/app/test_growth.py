@@ -97,7 +97,7 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_a_marker_protocol_is_one_registered_line(copy: Path, tmp_path: Path) -> None:
+def test_marker_protocol_is_one_registered_line(copy: Path, tmp_path: Path) -> None:
     script = tmp_path / "walk.py"
     script.write_text(WALK, encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": str(copy), "QT_QPA_PLATFORM": "offscreen", "CARPUS_DEBUG": "1"}
@@ -107,7 +107,7 @@ def test_a_marker_protocol_is_one_registered_line(copy: Path, tmp_path: Path) ->
     assert walked.returncode == 0, walked.stdout[-2000:] + walked.stderr[-4000:]
 
 
-def test_every_registered_line_leads_to_its_file() -> None:
+def test_registered_lines_lead_to_their_files() -> None:
     for name, form in FORMATS.items():
         assert callable(import_module(f"carpus.core.formats.{form.module}").write), name
     for name in CAMERAS:
@@ -134,7 +134,7 @@ def test_every_registered_line_leads_to_its_file() -> None:
     assert joints == {}, "joints that their discs do not have"
 
 
-def test_the_pages_name_every_format_and_camera() -> None:
+def test_pages_name_every_format_and_camera() -> None:
     page = (ROOT / "resources" / "formats.md").read_text(encoding="utf-8")
     assert [name for name in FORMATS if f"| `{name}` |" not in page] == []
     assert f"--format {','.join(FORMATS)} " in page
@@ -153,7 +153,7 @@ REACHED_OTHERWISE = {
 IMPORTS = r"from (?:cython\.cimports\.)?carpus\.([\w.]+) import (\([^)]*\)|[^\n]*)"
 
 
-def test_nothing_lies_about_that_is_not_registered_or_imported() -> None:
+def test_modules_are_all_registered_or_imported() -> None:
     """A new file without its line would be heard of by nobody."""
     files = {
         ".".join(path.relative_to(ROOT).with_suffix("").parts): path.read_text(encoding="utf-8")
@@ -171,7 +171,7 @@ def test_nothing_lies_about_that_is_not_registered_or_imported() -> None:
     assert {name for name in alone if not name.startswith(tuple(REACHED_OTHERWISE))} == set()
 
 
-def test_every_place_that_the_table_names_is_there() -> None:
+def test_growth_table_names_existing_places() -> None:
     page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     table = page.partition("| a new |")[2].partition("\n\n")[0]
     told = re.findall(r"((?:`\w+`(?:,| and)? )+)(?:in|of) `(\w+/[\w/]+\.py)`", table)

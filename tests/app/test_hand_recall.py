@@ -19,7 +19,7 @@ from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
 
-def test_the_card_of_the_hand_has_every_fingers_total_with_its_change_and_at_least() -> None:
+def test_card_of_hand_has_every_fingers_total_with_its_change_and_at_least() -> None:
     sessions = FakeHandSessions(pictures=False)
     first, last = (compute_session_results(sessions.session(key)) for key in ("hand-3", "hand-7"))
     lines = _compare_results(first, last)
@@ -29,7 +29,7 @@ def test_the_card_of_the_hand_has_every_fingers_total_with_its_change_and_at_lea
     assert any(change.verdict == "improved" for _, change in lines)
 
 
-def test_the_card_of_a_hook_fist_has_the_middle_joints() -> None:
+def test_card_of_hook_fist_has_pip_joints() -> None:
     lines = _compare_results(None, compute_session_results(hand_session(exercise="FIST_HOOK", motion="hook")))
     assert {line.subject for line, _ in lines} <= {f"PIP{k}_flexion" for k in (2, 3, 4, 5)} | {"CMC1_abduction"}
     assert len(lines) >= 4
@@ -41,7 +41,7 @@ def test_plain_lines_have_every_joint() -> None:
     assert any(line.startswith("Index finger, MCP: ") for line in lines)
 
 
-def test_the_markers_shown_are_those_of_the_same_hand_with_the_same_discs(tmp_path: Path) -> None:
+def test_markers_shown_are_those_of_same_hand_with_same_markers(tmp_path: Path) -> None:
     library = Library(tmp_path / "data")
     try:
         linden = library.patients.add(Patient("Linden 42", "right", "right"))

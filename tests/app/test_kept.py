@@ -51,7 +51,7 @@ def deeds(folder: Path) -> list[tuple[str, str, str]]:
         return [(entry.action, entry.source, entry.initials) for entry in read_log(opened)]
 
 
-def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
+def test_window_actions_are_logged_without_names(library: Library, tmp_path: Path) -> None:
     stored = SessionStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
     library.patients.change(Patient("Linden 43", "right", "right", patient_id=linden))
@@ -144,7 +144,7 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
     assert library.sessions(heron) == []
 
 
-def test_a_folder_that_can_only_be_read_is_backed_up_and_reported(
+def test_folder_that_can_only_be_read_is_backed_up_and_reported(
     library: Library, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
@@ -192,7 +192,7 @@ def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_re
     assert (done.code, session in done.out, done.err) == (0, True, "")
 
 
-def test_an_erasing_that_was_cut_short_is_told_as_finished(library: Library, command: Command) -> None:
+def test_deleting_that_was_cut_short_is_reported_as_finished(library: Library, command: Command) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     kept, other = (store(library, set_up(linden, "Linden 42"), after=timedelta(hours=hours)) for hours in range(2))
     paths = [library.entry(one).path for one in (kept, other)]
@@ -225,7 +225,7 @@ def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -
     assert {path.parent for path in plan.output_files} == {tmp_path / "out"}, "what was made is named"
 
 
-def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
+def test_log_that_cannot_be_written_is_reported_and_stops_nothing_else(
     library: Library, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[Exception] = []
@@ -240,7 +240,7 @@ def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
 
 
-def test_a_back_up_by_command_comes_back_elsewhere(library: Library, tmp_path: Path, command: Command) -> None:
+def test_backup_by_command_comes_back_elsewhere(library: Library, tmp_path: Path, command: Command) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     store(library, set_up(linden, "Linden 42"))
     place, new = tmp_path / "disk", tmp_path / "new"

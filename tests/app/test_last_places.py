@@ -19,7 +19,7 @@ def data(tmp_path: Path) -> Path:
     return folder
 
 
-def test_the_first_time_it_is_documents_or_home(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_first_time_it_is_documents_or_home(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     papers = tmp_path / "papers"
     monkeypatch.setattr(recent_locations, "documents_folder", lambda: str(papers))
     assert RecentLocations(data).folder("reports") == str(Path.home()), "the folder for papers is not there"
@@ -27,7 +27,7 @@ def test_the_first_time_it_is_documents_or_home(tmp_path: Path, data: Path, monk
     assert RecentLocations(data).folder("reports") == str(papers)
 
 
-def test_each_kind_has_its_own_place_until_it_is_gone(tmp_path: Path, data: Path) -> None:
+def test_recent_locations_are_kept_per_kind_until_missing(tmp_path: Path, data: Path) -> None:
     places = RecentLocations(data)
     for kind in ("reports", "recordings"):
         (tmp_path / kind).mkdir()
@@ -39,7 +39,7 @@ def test_each_kind_has_its_own_place_until_it_is_gone(tmp_path: Path, data: Path
     assert again.folder("reports") != str(tmp_path / "reports")
 
 
-def test_a_folder_that_cannot_be_written_is_no_fault(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_folder_that_cannot_be_written_is_no_fault(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> None:
         raise DiskFull("disk")
 

@@ -83,7 +83,7 @@ def test_practice_is_never_among_the_patients(library: Library) -> None:
     assert len(library.session(practice)) == 40
 
 
-def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
+def test_length_of_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
     places = SessionIntake(library)
@@ -103,7 +103,7 @@ def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(lib
     assert places.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
 
 
-def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
+def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
     patients = PatientStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted, simulated = set_up(linden, "Linden 42"), json.dumps({"source": {"simulated": "yes"}})
@@ -121,7 +121,7 @@ def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_resul
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
 
 
-def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
+def test_last_set_up_comes_back_with_its_targets(library: Library) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     assert read_last_setup(library.store, linden) is None
     wanted = set_up(linden, "Linden 42")
@@ -149,7 +149,7 @@ def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
     assert not list(library.folder.rglob("*.json")), "nothing that is typed lies beside a session"
 
 
-def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
+def test_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
     stored = SessionStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     heron = library.patients.add(Patient("Heron 17", "right", "right"))
@@ -197,7 +197,7 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
         records.plan_session(one)
 
 
-def test_another_order_of_the_angles_is_read_everywhere_but_in_files(library: Library, tmp_path: Path) -> None:
+def test_angle_order_changes_display_but_not_files(library: Library, tmp_path: Path) -> None:
     patient_id = library.patients.add(Patient("Linden 42", "right", "right"))
     session_id = store(library, set_up(patient_id, "Linden 42"))
     plain = library.session(session_id)

@@ -130,7 +130,7 @@ def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(whole: Session, tmp_pat
     assert ratio.max() < 1.25, "less known, and so stated"
 
 
-def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
+def test_session_whose_looking_back_is_killed_is_whole_as_tracked(
     whole: Session, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     def kill(looker: SmoothingProcess, row: int) -> None:
@@ -152,7 +152,7 @@ def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
     assert line.exc_info is None
 
 
-def test_the_walk_keeps_no_steps() -> None:
+def test_walk_keeps_no_steps() -> None:
     pipeline, kept = live_pipeline(), []
     for frame in islice(frames(), 60):
         pipeline.on_steps = kept.append if frame.index in (3, 4) else None
@@ -161,7 +161,7 @@ def test_the_walk_keeps_no_steps() -> None:
     assert [[step.timestamp_s for step in steps.steps] for steps in kept] == [[10.0 + 3 * DT_S], [10.0 + 4 * DT_S]]
 
 
-def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file(tmp_path: Path) -> None:
+def test_operator_label_reaches_tracker_and_file(tmp_path: Path) -> None:
     """Said in the window's thread; tracked again from what the file holds, the session comes out as it was measured."""
     source, path, begun_at, said_at = ControlledSource(), tmp_path / "session.h5", 10, 40
     settings = TrackSettings(smooth=False)
@@ -219,14 +219,14 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
         assert [event.kind for event in again.events] == [OPERATOR_LABEL]
 
 
-def test_a_session_without_a_frame_is_none(tmp_path: Path) -> None:
+def test_session_without_frame_is_none(tmp_path: Path) -> None:
     session = open_session(tmp_path / "empty.h5", begin_looking_back())
     with pytest.raises(RecordingEmpty):
         session.close()
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_note_from_before_the_first_picture_is_kept_with_the_first_row(tmp_path: Path) -> None:
+def test_note_from_before_first_frame_is_kept_with_first_row(tmp_path: Path) -> None:
     pipeline, session = live_pipeline(), open_session(tmp_path / "early.h5", None)
     session.add_event(float("nan"), "note", "strap loose")
     rows = [pipeline(frame) for frame in list(frames())[:3]]

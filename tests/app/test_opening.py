@@ -64,7 +64,7 @@ class Drawn:
         return Take(), 0.55
 
 
-def test_a_movement_is_played_as_soon_as_it_is_drawn_and_the_next_one_after_it() -> None:
+def test_movement_is_played_as_soon_as_it_is_drawn_and_next_one_after_it() -> None:
     drawn = Drawn()
     assert not drawn.patient.can_move
     drawn.go_on.release()
@@ -76,7 +76,7 @@ def test_a_movement_is_played_as_soon_as_it_is_drawn_and_the_next_one_after_it()
     assert drawn.asked == ["WRIST_FE", "WRIST_RU"]
 
 
-def test_a_drawing_ends_when_nobody_looks_any_more() -> None:
+def test_drawing_ends_when_no_one_looks_any_more() -> None:
     drawn = Drawn()
     drawn.patient.close()
     drawn.go_on.release()
@@ -85,14 +85,14 @@ def test_a_drawing_ends_when_nobody_looks_any_more() -> None:
     assert drawn.asked == ["WRIST_FE"]
 
 
-def test_what_goes_wrong_with_a_drawing_is_told() -> None:
+def test_drawing_failure_is_reported() -> None:
     drawn = Drawn(DiskFull("cache"))
     drawn.go_on.release()
     wait_until(lambda: drawn.told)
     assert isinstance(drawn.told[0], DiskFull)
 
 
-def test_the_beginning_is_what_the_whole_take_begins_with_and_a_dozen_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_beginning_is_what_whole_take_begins_with_and_dozen_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     """A second of drawing, not a minute: the first live picture waits for nothing else."""
     whole = SimulatedRecording(practice_spec(FIRST))
     begun = render_practice_start(FIRST)

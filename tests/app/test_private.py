@@ -44,13 +44,13 @@ def test_sessions_and_raw_pictures_are_for_their_owner(tmp_path: Path) -> None:
         assert mode(tmp_path / "s.carpusraw") == 0o600
 
 
-def test_what_a_command_writes_is_for_its_owner(tmp_path: Path, command: Command) -> None:
+def test_command_output_is_private_to_owner(tmp_path: Path, command: Command) -> None:
     assert command("export", stored(tmp_path, frames=10), "--format", "csv", "--output", tmp_path / "out").code == 0
     assert mode(tmp_path / "out") == 0o700
     assert {mode(file) for file in (tmp_path / "out").iterdir()} == {0o600}
 
 
-def test_the_log_names_nobody(tmp_path: Path, own_folders: Path) -> None:
+def test_log_names_no_one(tmp_path: Path, own_folders: Path) -> None:
     library = Library(tmp_path)
     library.patients.add(Patient("Linden Birke", "right", name="Ada Miller"))
     lines = RedactingFormatter()
@@ -70,7 +70,7 @@ def test_the_log_names_nobody(tmp_path: Path, own_folders: Path) -> None:
         assert part not in said.casefold()
 
 
-def test_a_tooltip_shows_tags_and_does_not_follow_them() -> None:
+def test_tooltip_shows_tags_and_does_not_follow_them() -> None:
     evil = "<img src='/etc/passwd'><b>Linden</b>"
     shown = plain_tooltip(evil)
     assert ("<img" in shown, "&lt;img" in shown) == (False, True)
@@ -78,7 +78,7 @@ def test_a_tooltip_shows_tags_and_does_not_follow_them() -> None:
 
 
 @pytest.mark.parametrize("start", list("=+-@\t\r"))
-def test_a_text_of_a_table_is_not_calculated(start: str) -> None:
+def test_text_of_table_is_not_calculated(start: str) -> None:
     assert escape_formula(f"{start}cmd|' /C calc'!A0").startswith("'")
 
 
@@ -88,7 +88,7 @@ def test_numbers_and_plain_words_of_a_table_stay_as_they_are(text: str) -> None:
 
 
 @pytest.mark.parametrize("separator", [",", "\t"])
-def test_no_table_that_is_written_calculates(tmp_path: Path, separator: str) -> None:
+def test_written_tables_contain_no_formulas(tmp_path: Path, separator: str) -> None:
     path = write_new_table(
         tmp_path / "t.tsv", ("a", "b", "c"), [("=1+2", "-3.5", "@SUM(A1)"), ("-2+3", "+", "x")], TableDialect(separator)
     )
@@ -134,7 +134,7 @@ def test_whatever_the_umask_files_are_for_their_owner(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["/etc/hostname", "../../secret.png", "rgb/../../x.png", "rgb/a\0b.png"])
-def test_a_list_of_pictures_stays_in_its_folder(tmp_path: Path, name: str) -> None:
+def test_list_of_frames_stays_in_its_folder(tmp_path: Path, name: str) -> None:
     from carpus.core.capture.files.tum import TumFolder
 
     (tmp_path / "rgb.txt").write_text(f"1.0 {name}\n")

@@ -43,7 +43,7 @@ def test_commands_of_the_readme_can_be_typed() -> None:
         build_parser(words).parse_args(words)
 
 
-def test_both_papers_are_cited() -> None:
+def test_papers_are_both_cited() -> None:
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert len(cited["references"]) == 2
     for paper in cited["references"]:
@@ -53,6 +53,6 @@ def test_both_papers_are_cited() -> None:
         assert all(author["family-names"] in README for author in paper["authors"])
 
 
-def test_the_readme_is_one_page() -> None:
+def test_readme_is_one_page() -> None:
     assert len(README.splitlines()) <= 100
     assert README.count("![") == 1

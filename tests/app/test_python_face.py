@@ -110,24 +110,24 @@ def refused(function: str, wrong: dict[str, Any], said: str) -> None:
 
 
 @pytest.mark.parametrize(("wrong", "said"), SETTINGS)
-def test_a_wrong_setting_is_refused(wrong: dict[str, Any], said: str) -> None:
+def test_wrong_setting_is_refused(wrong: dict[str, Any], said: str) -> None:
     for function in ("track", "write_session"):
         refused(function, wrong, said)
 
 
 @pytest.mark.parametrize(("function", "wrong", "said"), OF_A_FUNCTION)
-def test_a_wrong_value_is_refused(function: str, wrong: dict[str, Any], said: str) -> None:
+def test_wrong_value_is_refused(function: str, wrong: dict[str, Any], said: str) -> None:
     refused(function, wrong, said)
 
 
-def test_what_is_no_path_is_refused() -> None:
+def test_non_path_argument_is_refused() -> None:
     for function, usual in USUAL.items():
         for name, value in product(usual, NO_PATH):
             if function != "propose_clicks":
                 refused(function, {name: [value] if name == "sessions" else value}, ", a path expected")
 
 
-def test_a_name_that_the_package_does_not_have_is_none_of_it() -> None:
+def test_name_that_package_does_not_have_is_none_of_it() -> None:
     with pytest.raises(AttributeError):
         _ = carpus.no_such_thing
 
@@ -147,7 +147,7 @@ def test_listing_its_functions_loads_nothing_and_opening_a_session_nothing_of_th
     assert opened.split() == ["75", "right", "False"]
 
 
-def test_the_papers_filter_in_python_is_that_of_the_command(rendered: Rendered, tmp_path: Path) -> None:
+def test_papers_filter_in_python_is_that_of_command(rendered: Rendered, tmp_path: Path) -> None:
     folder = rendered(FLEXION)
     frames = list(carpus.track(folder, folder / "calibration.json", filter="paper"))
     session = carpus.write_session(folder, folder / "calibration.json", tmp_path / "paper.h5", filter="paper")
@@ -158,7 +158,7 @@ def test_the_papers_filter_in_python_is_that_of_the_command(rendered: Rendered, 
     assert np.isnan(frames[-1].wrist.angular_velocity_deg_s).all(), "white noise in the papers' model"
 
 
-def test_a_session_is_written_with_velocities_and_repetitions(
+def test_session_is_written_with_velocities_and_repetitions(
     folder: Path, frames: list[HandFrame], tmp_path: Path
 ) -> None:
     clicks = folder / "calibration.json"
@@ -180,7 +180,7 @@ def test_a_session_is_written_with_velocities_and_repetitions(
 
 
 @pytest.mark.parametrize("protocol", ["wrist6", "hand21"])
-def test_the_discs_are_proposed_and_can_be_tracked_with(protocol: str, tmp_path: Path) -> None:
+def test_markers_are_proposed_and_can_be_tracked_with(protocol: str, tmp_path: Path) -> None:
     recording = tmp_path / "recording"
     carpus.simulate(recording, protocol=protocol, motion="flexion", seconds=0.4, seed=4)
     found = carpus.propose_clicks(recording, hand="right", protocol=protocol)
@@ -217,7 +217,7 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("sessions", "formats", "name"), [([], "csv", "sessions"), ("s.h5", (), "formats")])
-def test_an_export_of_nothing_is_a_mistake(
+def test_export_of_nothing_is_mistake(
     sessions: str | list[str], formats: str | tuple[str, ...], name: str, tmp_path: Path
 ) -> None:
     with pytest.raises(SettingsInvalid, match=f"{name} is empty"):
@@ -225,7 +225,7 @@ def test_an_export_of_nothing_is_a_mistake(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_page_of_python_names_every_function_and_its_lines_compile() -> None:
+def test_page_of_python_names_every_function_and_its_lines_compile() -> None:
     page = (ROOT / "resources" / "api.md").read_text(encoding="utf-8")
     for name in set(carpus.__all__) - {"__version__"}:
         assert f"`{name}(" in page or f"carpus.{name}(" in page, name
@@ -235,7 +235,7 @@ def test_the_page_of_python_names_every_function_and_its_lines_compile() -> None
     assert called <= set(carpus.__all__)
 
 
-def test_a_unit_that_is_assumed_is_warned_of_before_tracking(folder: Path, tmp_path: Path) -> None:
+def test_unit_that_is_assumed_is_warned_of_before_tracking(folder: Path, tmp_path: Path) -> None:
     for path in folder.iterdir():
         if path.name in ("rgb.txt", "depth.txt"):
             lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]

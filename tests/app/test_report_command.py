@@ -89,7 +89,7 @@ def test_sessions_make_a_report_of_a_session_or_of_progress(
     assert "Session report" in words(tmp_path / "twice.pdf")
 
 
-def test_the_comment_is_on_it_and_paper_and_language_are_chosen(
+def test_comment_is_on_it_and_paper_and_language_are_chosen(
     sessions: list[Path], tmp_path: Path, command: Command
 ) -> None:
     path, out = tmp_path / "data" / "sessions" / "day.h5", tmp_path / "de.pdf"
@@ -105,7 +105,7 @@ def test_the_comment_is_on_it_and_paper_and_language_are_chosen(
     assert "612 x 792" in subprocess.run(["pdfinfo", str(out)], capture_output=True, text=True, check=True).stdout
 
 
-def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path, command: Command) -> None:
+def test_repetition_excluded_in_review_is_excluded_everywhere(tmp_path: Path, command: Command) -> None:
     path = tmp_path / "data" / "sessions" / "day.h5"
     path.parent.mkdir(parents=True)
     calibration = replace(make_calibration(), rotation_w0_cam=np.diag([1.0, -1.0, -1.0]))
@@ -138,7 +138,7 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path, 
     assert f"mean of {left} repetitions" in command("info", path).out
 
 
-def test_without_a_display_the_window_says_so_and_what_shows_the_way() -> None:
+def test_missing_display_is_reported_with_remedy() -> None:
     done = carpus()
     assert done.returncode == 1
     assert "carpus demo" in done.stderr
@@ -155,7 +155,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path / "sessions"
 
 
-def test_a_patients_figures_are_a_table(folder: Path, command: Command) -> None:
+def test_patients_values_are_table(folder: Path, command: Command) -> None:
     done = command("progress", "linden 42", "--sessions", folder / "one.h5")
     rows = list(csv.DictReader(io.StringIO(done.out)))
     assert (done.code, tuple(rows[0])) == (0, MEASURES_HEADER)

@@ -81,7 +81,7 @@ def visible_words(window: QWidget) -> set[str]:
     return words
 
 
-def test_a_session_is_looked_at_given_away_archived_and_erased_from_the_list(qtbot: QtBot, opened: Open) -> None:
+def test_session_is_looked_at_given_away_archived_and_deleted_from_list(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
     journey, sheet = desktop.controller, desktop.data_protection.erasing.dialog
     rows = journey.sessions.screen.list.session_model
@@ -117,7 +117,7 @@ def test_a_session_is_looked_at_given_away_archived_and_erased_from_the_list(qtb
     ]  # fmt: skip
 
 
-def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: Open) -> None:
+def test_archived_patient_is_restored_from_archive(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
     journey, sheet, who = desktop.controller, desktop.data_protection.erasing.dialog, linden(desktop)
 
@@ -172,7 +172,7 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
 
 
-def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Path) -> None:
+def test_patient_is_deleted_from_form(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened()
     patients, sheet = desktop.controller.patients.screen, desktop.data_protection.erasing.dialog
     patients.change_patient(linden(desktop))
@@ -190,9 +190,7 @@ def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Pat
     assert not patients.form.remove_button.isVisible()
 
 
-def test_who_goes_on_with_another_patient_while_one_is_erased_stays_there(
-    qtbot: QtBot, opened: Open, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_deleting_patient_keeps_other_patient_open(qtbot: QtBot, opened: Open, monkeypatch: pytest.MonkeyPatch) -> None:
     desktop = opened()
     journey, records = desktop.controller, desktop.data_protection.erasing._records
     goes_on, erase = threading.Event(), records.erase
@@ -218,7 +216,7 @@ def test_who_goes_on_with_another_patient_while_one_is_erased_stays_there(
     assert journey.current.patient.patient_id == heron
 
 
-def test_a_window_with_a_pin_shows_nothing_before_it(
+def test_window_with_pin_shows_nothing_before_it(
     qtbot: QtBot, opened: Open, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Pin(data).set("4821")
@@ -249,7 +247,7 @@ def test_a_window_with_a_pin_shows_nothing_before_it(
     assert done[-3:] == ["locked", "pin_refused", "unlocked"]
 
 
-def test_it_locks_by_key_and_by_itself_but_never_over_a_recording(
+def test_lock_by_key_and_timeout_never_during_recording(
     qtbot: QtBot, opened: Open, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Pin(data).set("4821")
@@ -275,7 +273,7 @@ def test_it_locks_by_key_and_by_itself_but_never_over_a_recording(
     assert journey.sessions.screen.exercise_dialog.isVisible(), "what was open is open again"
 
 
-def test_a_pin_is_set_changed_and_taken_away_in_the_settings(qtbot: QtBot, opened: Open, data: Path) -> None:
+def test_pin_is_set_changed_and_removed_in_settings(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened()
     locking = desktop.data_protection.locking
     locking.lock_or_set_pin()
@@ -354,7 +352,7 @@ def test_back_up_now_without_a_folder_asks_for_one_and_backs_up(
     assert (facts.state, facts.folder_state) == ("good", "good")
 
 
-def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
+def test_automatic_backup_runs_daily_and_not_during_recording(
     qtbot: QtBot, opened: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     disk = tmp_path / "disk"

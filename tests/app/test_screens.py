@@ -107,7 +107,7 @@ def test_esc_closes_the_patients_view_and_a_slow_source_is_said_of_the_simulated
         )
 
 
-def test_a_start_makes_no_screen_but_the_first_and_loads_the_others_in_the_windows_thread(
+def test_start_makes_no_screen_but_first_and_loads_others_in_windows_thread(
     open_desktop: Callable[..., Desktop], qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Two threads that name classes of Qt for the first time at once end the process."""
@@ -164,7 +164,7 @@ def all_made(desktop: Desktop) -> None:
     assert set(way.factories) - shown == set(), "screens without a picture"
 
 
-def test_what_is_chosen_reaches_the_screens_that_are_made_later(open_desktop: Callable[..., Desktop]) -> None:
+def test_preferences_reach_screens_created_later(open_desktop: Callable[..., Desktop]) -> None:
     early, late = open_desktop(), open_desktop()
     all_made(early)
     before = seen(early, *SOME)

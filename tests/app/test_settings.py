@@ -50,7 +50,7 @@ def leaves(table: dict[str, Any], where: tuple[str, ...] = ()) -> list[tuple[tup
     return out
 
 
-def test_the_shipped_file_says_what_the_code_does_without_it() -> None:
+def test_shipped_file_says_what_code_does_without_it() -> None:
     for place, value in leaves(tomllib.loads(DEFAULTS.read_text(encoding="utf-8"))):
         found: Any = Settings().track if place[0] in TRACKING else Settings()
         for name in place:
@@ -80,11 +80,11 @@ def test_shipped_file_has_each_setting_with_a_sentence() -> None:
     assert explained == settable_places(Settings) | tracking
 
 
-def test_without_files_the_defaults_hold(tmp_path: Path) -> None:
+def test_settings_without_files_are_defaults(tmp_path: Path) -> None:
     assert load_settings(tmp_path / "nothing") == Settings()
 
 
-def test_a_persons_file_goes_over_the_defaults_and_leaves_the_rest(tmp_path: Path) -> None:
+def test_persons_file_goes_over_defaults_and_leaves_rest(tmp_path: Path) -> None:
     text = '[tracker]\nprofile = "slow"\nlost_after_s = 2\n[live]\nrows_waiting = 800\n'
     settings = load_settings(written(tmp_path, text))
     assert settings.track.tracker.profile == "slow"
@@ -110,7 +110,7 @@ def test_a_persons_file_goes_over_the_defaults_and_leaves_the_rest(tmp_path: Pat
         ("screen = 3\n", "screen"),
     ],
 )
-def test_what_cannot_be_used_is_named_with_its_file(tmp_path: Path, text: str, named: str) -> None:
+def test_invalid_setting_is_reported_with_its_file(tmp_path: Path, text: str, named: str) -> None:
     with pytest.raises(SettingsInvalid) as fault:
         load_settings(written(tmp_path, text))
     assert fault.value.subject == named
@@ -121,7 +121,7 @@ def test_what_cannot_be_used_is_named_with_its_file(tmp_path: Path, text: str, n
     assert SETTINGS_FILE in fault.value.subject, "no TOML at all"
 
 
-def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_path: Path) -> None:
+def test_window_preferences_override_settings_file(tmp_path: Path) -> None:
     written(tmp_path, '[screen]\ntheme = "light"\n[tracker]\nprofile = "brisk"\n')
     chosen = dataclasses.replace(
         Settings(),
@@ -147,7 +147,7 @@ def test_settings_of_earlier_versions_that_are_gone_are_ignored_with_a_line_in_t
         assert place in caplog.text
 
 
-def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_data_folder_is_users_own_unless_named(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert load_settings().data_folder.is_relative_to(own_folders)
     written(settings_folder(), '[recording]\nfolder = "/clinic"\n')
     assert load_settings().data_folder == Path("/clinic")
@@ -156,13 +156,13 @@ def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkey
 
 
 @pytest.mark.parametrize("url", ["http://h/d", "postgresql:h", "postgresql://h:abc/d", "postgresql://[::1/d", "carpus"])
-def test_a_url_that_is_none_is_told(tmp_path: Path, url: str) -> None:
+def test_url_that_is_none_is_reported(tmp_path: Path, url: str) -> None:
     written(tmp_path, f'[records]\nurl = "{url}"\n')
     with pytest.raises(SettingsInvalid, match="not one of a PostgreSQL server"):
         load_settings(tmp_path)
 
 
-def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
+def test_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
     written(tmp_path / "settings", '[recording]\nfolder = "/clinic"\n[records]\nurl = "postgresql://a@b/c"\n')
     settings = with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")
     assert (settings.data_folder, settings.records.url, settings.backup.hour) == (tmp_path / "of one run", "", -1)
@@ -175,13 +175,13 @@ def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[
     assert "folder" not in (tmp_path / "settings" / PREFERENCES_FILE).read_text(encoding="utf-8")
 
 
-def test_a_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
+def test_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
     desktop = open_desktop(is_demo=True)
     desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
     assert not (tmp_path / "settings").exists()
 
 
-def test_a_data_folder_chosen_and_taken_back_is_the_one_of_before(
+def test_data_folder_chosen_and_taken_back_is_one_of_before(
     open_desktop: Callable[..., Desktop], tmp_path: Path
 ) -> None:
     keeper = open_desktop().preferences
@@ -192,7 +192,7 @@ def test_a_data_folder_chosen_and_taken_back_is_the_one_of_before(
     assert load_settings(tmp_path / "settings").data_folder == tmp_path / "data"
 
 
-def test_a_data_folder_that_changes_is_noticed_at_the_next_start(tmp_path: Path) -> None:
+def test_data_folder_that_changes_is_noticed_at_next_start(tmp_path: Path) -> None:
     one, other = tmp_path / "one", tmp_path / "other"
     assert save_last_data_folder(one, tmp_path) is None, "nobody knows of any before"
     assert save_last_data_folder(one, tmp_path) is None
@@ -200,7 +200,7 @@ def test_a_data_folder_that_changes_is_noticed_at_the_next_start(tmp_path: Path)
     assert save_last_data_folder(other, tmp_path) is None
 
 
-def test_what_the_window_does_not_show_stays_as_a_file_said(open_desktop: Callable[..., Desktop]) -> None:
+def test_hidden_settings_stay_as_in_file(open_desktop: Callable[..., Desktop]) -> None:
     desktop = open_desktop(Settings(screen=ScreenSettings("light"), report=ReportSettings("AB", "isb")))
     desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
     assert desktop.controller.context.patient_sound

@@ -65,7 +65,7 @@ def test_fingers_by_colour_alone_are_called_an_experiment(
     ("options", "dip", "on_skin"),
     [((), "free", False), (("--dip", "coupled"), "coupled", False), (("--discs", "on-skin"), "free", True)],
 )
-def test_a_session_tracked_again_keeps_its_end_joints_and_its_discs_unless_told(
+def test_session_tracked_again_keeps_its_dip_joints_and_its_markers_unless_reported(
     options: tuple[str, ...], dip: str, on_skin: bool, tmp_path: Path, command: Command
 ) -> None:
     settings = TrackSettings(tracker=TrackerSettings(dip="free", fingers=FingerSettings(skin_offsets=False)))
@@ -77,7 +77,7 @@ def test_a_session_tracked_again_keeps_its_end_joints_and_its_discs_unless_told(
     assert ("DIP3_flexion" in again.joint_names) == (dip == "free")
 
 
-def test_a_session_is_tracked_again_as_it_was_and_what_differs_is_said(tmp_path: Path, command: Command) -> None:
+def test_session_is_tracked_again_as_it_was_and_what_differs_is_reported(tmp_path: Path, command: Command) -> None:
     tracker = TrackerSettings(profile="slow", mode_scales=(1.0,), use_depth=False)
     before = TrackSettings(tracker=tracker, detection=DetectionSettings(least_area=0.2), smooth=False)
     session = stored(tmp_path / "session.h5", parameters=said_of(before))
@@ -96,7 +96,7 @@ def test_a_session_is_tracked_again_as_it_was_and_what_differs_is_said(tmp_path:
     assert (other["profile"], other["mode_scales"], other["use_depth"]) == ("brisk", [1.0], True)
 
 
-def test_another_version_and_a_setting_that_is_gone_are_said(tmp_path: Path, command: Command) -> None:
+def test_other_version_and_removed_setting_are_reported(tmp_path: Path, command: Command) -> None:
     parameters = json.loads(said_of(TrackSettings()))
     parameters["settings"]["tracker"]["oracle"] = 3
     session = stored(tmp_path / "session.h5", version="0.0.9", parameters=json.dumps(parameters))
@@ -106,7 +106,7 @@ def test_another_version_and_a_setting_that_is_gone_are_said(tmp_path: Path, com
     assert "no settings any more: tracker.oracle" in done.out
 
 
-def test_a_recording_is_tracked_with_the_settings_of_the_person_and_streamed_when_chosen(tmp_path: Path) -> None:
+def test_recording_is_tracked_with_settings_of_person_and_streamed_when_chosen(tmp_path: Path) -> None:
     (settings_folder() / "settings.toml").parent.mkdir(parents=True, exist_ok=True)
     (settings_folder() / "settings.toml").write_text('[tracker]\nprofile = "slow"\n', encoding="utf-8")
     arguments = argparse.ArgumentParser()
@@ -128,7 +128,7 @@ def test_a_recording_is_tracked_with_the_settings_of_the_person_and_streamed_whe
         (("--recorded", "2023-04-05T14:30+02:00"), datetime.fromisoformat("2023-04-05T14:30+02:00"), False),
     ],
 )
-def test_when_the_hand_moved_is_asked_or_taken_from_the_file_and_said(
+def test_motion_onset_is_asked_or_read_from_file_and_reported(
     options: tuple[str, ...], day: datetime, doubted: bool, rendered: Rendered, tmp_path: Path, command: Command
 ) -> None:
     folder = Path(shutil.copytree(rendered(FLEXION), tmp_path / "r"))
@@ -166,7 +166,7 @@ print(json.dumps(samples))
 """
 
 
-def test_another_process_hears_what_is_tracked_at_the_times_of_the_pictures(rendered: Rendered, tmp_path: Path) -> None:
+def test_stream_receiver_gets_tracked_values_at_frame_times(rendered: Rendered, tmp_path: Path) -> None:
     folder, output = rendered(FLEXION), tmp_path / "session.h5"
     (tmp_path / "lsl_api.cfg").write_text(SETTINGS, encoding="utf-8")
     environment = {**os.environ, "LSLAPICFG": str(tmp_path / "lsl_api.cfg")}

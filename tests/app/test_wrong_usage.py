@@ -225,7 +225,7 @@ def options(name: str) -> Iterator[argparse.Action]:
     yield from (one for one in command_parser(name)._actions if not isinstance(one, argparse._HelpAction))
 
 
-def test_every_command_is_tried() -> None:
+def test_wrong_usage_covers_every_command() -> None:
     assert set(WRONG) == set(COMMANDS)
 
 
@@ -247,7 +247,7 @@ def test_wrong_input_is_told_in_one_line(
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_option_refuses_what_it_cannot_read(name: str, command: Command) -> None:
+def test_options_refuse_unreadable_values(name: str, command: Command) -> None:
     """A value that no option of its kind can have, given to each; with what else it needs left out."""
     for option in options(name):
         if not option.option_strings or option.nargs == 0 or (option.type in (None, Path) and not option.choices):
@@ -286,7 +286,7 @@ def test_options_say_what_they_are_and_what_they_take_in_the_same_words(name: st
         assert option.help or not option.option_strings, option.dest
 
 
-def test_an_unknown_command_is_told_with_what_was_meant(command: Command) -> None:
+def test_unknown_command_is_reported_with_what_was_meant(command: Command) -> None:
     done = command("trak", "recording")
     assert (done.code, done.err.count("\n")) == (2, 1)
     assert "Unknown command “trak”. Did you mean “track”?" in done.err
@@ -294,7 +294,7 @@ def test_an_unknown_command_is_told_with_what_was_meant(command: Command) -> Non
 
 
 @pytest.mark.usefixtures("data")
-def test_a_list_of_patients_that_another_program_holds_is_left_where_it_is(
+def test_list_of_patients_that_another_program_holds_is_left_where_it_is(
     places: dict[str, Path], command: Command
 ) -> None:
     holding = sqlite3.connect(places["data"] / STORE_FILE, isolation_level=None)
@@ -310,7 +310,7 @@ def test_a_list_of_patients_that_another_program_holds_is_left_where_it_is(
     assert "move" not in done.err
 
 
-def test_an_address_of_openni2_needs_no_kind() -> None:
+def test_address_of_openni2_needs_no_kind() -> None:
     for address in ("", "xtion", "realsense:123", "1d27/0601@1/7", "xtion:1d27/0601@1/7"):
         cameras.validate_address(address)
     with pytest.raises(cameras.CameraUnknown):

@@ -79,7 +79,7 @@ def told(folder: Path) -> dict[str, str]:
 
 
 @pytest.mark.thorough
-def test_a_worker_that_is_killed_costs_nothing(address: str, recordings: Path, tmp_path: Path) -> None:
+def test_worker_that_is_killed_costs_nothing(address: str, recordings: Path, tmp_path: Path) -> None:
     out = tmp_path / "far"
     found_there = plan_inputs([recordings], out)
     broken = replace(found_there[0], clicks=recordings / "none.json", session=out / "none.h5", name="none.h5")
@@ -133,7 +133,7 @@ def test_workers_elsewhere_track_what_the_command_asks(made_in_python: str, rend
 
 
 @pytest.mark.thorough
-def test_a_client_that_is_killed_begins_again(made_in_python: str, recordings: Path, tmp_path: Path) -> None:
+def test_client_that_is_killed_begins_again(made_in_python: str, recordings: Path, tmp_path: Path) -> None:
     out, table = tmp_path / "out", tmp_path / "all.parquet"
     words = ["track", str(recordings), "--no-smooth", "--output", str(out), "--table", str(table)]
     words += ["--scheduler", made_in_python]
@@ -152,7 +152,7 @@ def test_a_client_that_is_killed_begins_again(made_in_python: str, recordings: P
     assert [path.name for path in tmp_path.iterdir() if path.is_file()] == [table.name]
 
 
-def test_a_scheduler_that_is_not_there_is_told(
+def test_scheduler_that_is_not_there_is_reported(
     recordings: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("carpus.app.batch.worker_pool.CONNECT_TIMEOUT_S", 1.0)
@@ -163,7 +163,7 @@ def test_a_scheduler_that_is_not_there_is_told(
     assert "nonsense" in capsys.readouterr().err
 
 
-def test_without_the_extra_it_says_what_to_install(
+def test_missing_extra_names_package_to_install(
     recordings: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)

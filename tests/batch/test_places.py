@@ -19,7 +19,7 @@ def names(found) -> list[tuple[str, str]]:  # type: ignore[no-untyped-def]
     return [(place.recording.name, place.name) for place in found]
 
 
-def test_a_folder_is_searched(tmp_path: Path) -> None:
+def test_folder_is_searched(tmp_path: Path) -> None:
     root = folder_of(
         tmp_path / "in", "b/rgb.txt", "b/depth.txt", "a/c/rgb.txt", "a/x.oni", "a/y.carpusraw", "a/old.h5",
         "a/notes.txt", "sim/truth.h5", ".hidden/rgb.txt", "out/z.oni",
@@ -34,7 +34,7 @@ def test_a_folder_is_searched(tmp_path: Path) -> None:
     assert by_name["a/x.h5"] == root / "a/x.calibration.json"
 
 
-def test_what_is_named_counts_once_and_keeps_its_place(tmp_path: Path) -> None:
+def test_named_recording_counts_once_in_order(tmp_path: Path) -> None:
     root = folder_of(tmp_path, "p1/rec/rgb.txt", "p2/rec/rgb.txt", "p3/s.h5", "p2/rec.oni")
     named = [root / "p1/rec", root / "p2", root / "p2/rec", root / "p3/s.h5", root / "gone"]
     found = plan_inputs(named, root / "out")
@@ -46,7 +46,7 @@ def test_what_is_named_counts_once_and_keeps_its_place(tmp_path: Path) -> None:
     assert len({place.session for place in found}) == len(found)
 
 
-def test_one_or_many(tmp_path: Path) -> None:
+def test_recordings_of_one_or_many_paths(tmp_path: Path) -> None:
     root = folder_of(tmp_path, "in/a/rgb.txt", "s.h5")
     (root / "there").mkdir()
     assert is_batch([root / "in/a", root / "s.h5"], root / "x")

@@ -24,7 +24,7 @@ def task(folder: Path, name: str, kind: str = "") -> TrackingTask:
     return TrackingTask(TrackingInput(folder / name, None, folder / f"{name}.h5", f"{name}.h5"), TrackSettings(), kind)
 
 
-def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
+def test_worker_death_is_only_fault_of_task(tmp_path: Path) -> None:
     kinds = ["", "dies", "once", ""]
     tasks = [task(tmp_path, f"r{i}", kind) for i, kind in enumerate(kinds)]
     found = {outcome.tracking_input.name: outcome for outcome in run_tasks(tasks, 2, deadly)}
@@ -35,20 +35,20 @@ def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
     assert found["r1.h5"].messages == (DIED_TEXT,)
 
 
-def test_what_hangs_is_given_up(tmp_path: Path) -> None:
+def test_hanging_task_is_abandoned(tmp_path: Path) -> None:
     (outcome,) = run_tasks([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
     assert "0.1 minutes" in outcome.messages[0]
     assert not list(tmp_path.iterdir()), "half a session is gone"
 
 
-def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
+def test_transient_failure_alone_is_retried(tmp_path: Path) -> None:
     tasks = [task(tmp_path, "r0", "stutters"), task(tmp_path, "r1", "refuses")]
     found = {outcome.tracking_input.name: outcome.result for outcome in run_tasks(tasks, 2, deadly)}
     assert found == {"r0.h5": "tracked", "r1.h5": "fault"}
     assert [(tmp_path / f"r{k}.tries").read_text() for k in (0, 1)] == ["xx", "x"]
 
 
-def test_what_another_run_finished_meanwhile_was_done_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_task_finished_by_other_run_is_skipped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def slower(_: Path, output: Path, *__: object, **___: object) -> None:
         record(output, "", datetime(2026, 11, 1, tzinfo=UTC))
         raise OutputExists(output)
@@ -58,13 +58,13 @@ def test_what_another_run_finished_meanwhile_was_done_before(tmp_path: Path, mon
     assert (outcome.result, outcome.frames > 0) == ("kept", True)
 
 
-def test_a_worker_with_another_version_tracks_nothing(tmp_path: Path) -> None:
+def test_worker_with_another_version_tracks_nothing(tmp_path: Path) -> None:
     outcome = tracking_task.execute_task(replace(task(tmp_path, "r0"), software_version="0.0.1"))
     assert outcome.result == "fault"
     assert "0.0.1" in outcome.messages[0]
 
 
-def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
+def test_abandoned_iteration_leaves_no_process(tmp_path: Path) -> None:
     tasks = [task(tmp_path, "quick"), *(task(tmp_path, f"r{i}", "waits") for i in range(3))]
     coming = run_tasks(tasks, 2, deadly)
     assert next(coming).tracking_input.name == "quick.h5"
@@ -76,12 +76,12 @@ def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
     assert "carpus-batch" not in {child.name for child in multiprocessing.active_children()}
 
 
-def test_there_is_a_core() -> None:
+def test_core_count_is_at_least_one() -> None:
     assert count_cores() >= 1
     assert list(run_tasks([], 2)) == []
 
 
-def test_more_processes_than_tasks(tmp_path: Path) -> None:
+def test_pool_with_more_workers_than_tasks(tmp_path: Path) -> None:
     tasks = [task(tmp_path, f"r{i}") for i in range(2)]
     assert {outcome.tracking_input.name for outcome in run_tasks(tasks, 5, deadly)} == {
         t.tracking_input.name for t in tasks

@@ -127,7 +127,7 @@ def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, command:
     assert [path.name for path in out.iterdir()] == [MEASURES_FILE]
 
 
-def test_a_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(measures_files, "BATCH_ROWS", 5)
     kinds = {"str": "", "float": math.nan, "int": 0, "bool": False}
     row = MeasureRow(**{field.name: kinds[str(field.type)] for field in fields(MeasureRow)})  # type: ignore[arg-type]

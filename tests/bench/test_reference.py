@@ -17,7 +17,7 @@ from tests.tracking.hands import CAMERA, Pose, blobs, calibration
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_the_plain_filter_follows_wrist_and_fingers(seed: int) -> None:
+def test_plain_filter_follows_wrist_and_fingers(seed: int) -> None:
     plain, rng = reference.ReferenceFilter(), np.random.default_rng(seed)
     place_m, joints_rad = [], []
     for k in range(1, 240):
@@ -32,7 +32,7 @@ def test_the_plain_filter_follows_wrist_and_fingers(seed: int) -> None:
     assert np.degrees(np.sqrt(np.mean(np.square(joints_rad)))) < 8.0
 
 
-def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
+def test_spy_measures_parts_of_frame_and_leaves_no_trace() -> None:
     class Blobs:
         def detect(self, _frame: Frame, _region: object = None) -> Detections:
             return blobs(Pose())
@@ -54,6 +54,6 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
     assert spy.cpu_since("association", 0) > 0.0
 
 
-def test_a_row_of_the_table_tells_median_percentile_and_ratio() -> None:
+def test_row_of_table_tells_median_percentile_and_ratio() -> None:
     assert line("x", [1.0, 2.0, 3.0], 0.5, "n") == "| x | 2.000 | 2.900 | 4.00 | n |"
     assert line("x", []).count("|") == HEAD.splitlines()[0].count("|")

@@ -39,7 +39,7 @@ def test_odds_of_names_are_the_oracles(blobs: int) -> None:
     assert blobs < 25 or (found[1].any() and not found[1].all())
 
 
-def test_an_unknown_marker_or_blob_has_the_oracles_odds() -> None:
+def test_unknown_marker_or_blob_has_oracles_odds() -> None:
     expected, covariance, measured, variance = asked(25)
     expected[1, 0] = expected[2, 2] = measured[3, 1] = np.nan
     found = compiled.compute_log_odds(expected, covariance, measured, variance, *REST)
@@ -56,7 +56,7 @@ def test_arrays_stored_otherwise_give_the_same_and_wrong_sizes_are_refused() -> 
             compiled.compute_log_odds(*of[:k], wrong, *of[k + 1 :], *REST)
 
 
-def test_the_likeliest_blobs_are_taken_unless_two_take_one() -> None:
+def test_likeliest_blobs_are_taken_unless_two_take_one() -> None:
     odds = np.array([[-1.0, 2.0, 3.0], [4.0, np.nan, -1.0], [-1.0, 0.0, -2.0]])
     assert compiled.find_likeliest(odds).tolist() == [2, 0, -1]
     assert compiled.find_likeliest(np.asfortranarray(odds)).tolist() == [2, 0, -1]

@@ -85,17 +85,17 @@ def test_whole_blobs_are_those_of_opencv() -> None:
     np.testing.assert_array_equal(found.centre_px[of], middle[1:][same])
 
 
-def test_more_blobs_than_sixteen_bits_number_are_found() -> None:
+def test_blobs_beyond_16_bit_count_are_found() -> None:
     mask = np.zeros((600, 1000), dtype=np.uint8)
     mask[::2, ::2] = 1
     assert find_components(mask, radius_at).label.size == 150_000
 
 
-def test_a_picture_of_nothing_has_no_blobs() -> None:
+def test_frame_of_nothing_has_no_blobs() -> None:
     assert found_alike(np.zeros((20, 30), dtype=np.uint8)).label.size == 0
 
 
-def test_a_disc_of_no_size_takes_nothing_apart() -> None:
+def test_marker_of_no_size_takes_nothing_apart() -> None:
     mask = mask_of("discs", 0.5, np.random.default_rng(9))
     for radius_px in (0.0, -1.0, np.nan):
         assert not find_components(mask, lambda place, r=radius_px: np.full(len(place), r), 0.1, 2.0).label.size
@@ -208,7 +208,7 @@ def test_pictures_stored_otherwise_measure_the_same(layout: Callable[[Any], Any]
     assert_same(scene.measured(PRIMESENSE, layout), scene.expected(PRIMESENSE))
 
 
-def test_no_blobs_measure_nothing() -> None:
+def test_blobs_empty_give_empty_measurement() -> None:
     scene = Scene()
     scene.blobs = scene.blobs.subset(np.empty(0, dtype=np.int64))
     assert [len(numbers) for numbers in scene.measured(PRIMESENSE)] == [0] * 6

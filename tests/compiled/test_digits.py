@@ -121,7 +121,7 @@ def test_points_and_their_images_are_the_oracles(which: tuple[str, int, bool]) -
 
 
 @pytest.mark.parametrize("blobs", [0, 9])
-def test_what_named_blobs_measure_is_the_oracles(blobs: int) -> None:
+def test_labelled_blob_measurement_matches_oracle(blobs: int) -> None:
     it, rng = hand("right", 0), np.random.default_rng(3)
     linearised = it.linearised()
     value = rng.normal(size=(blobs, 3)) + [300.0, 200.0, 0.7]
@@ -156,7 +156,7 @@ def test_what_named_blobs_measure_is_the_oracles(blobs: int) -> None:
 
 
 @pytest.mark.parametrize("dt_s", [0.0, 0.033, 0.2])
-def test_a_step_of_digits_is_the_oracles(dt_s: float) -> None:
+def test_step_of_digits_is_oracles(dt_s: float) -> None:
     it, rng = hand(), np.random.default_rng(21)
     unseen_s = np.where(rng.uniform(size=(5, 5)) < 0.5, 0.0, rng.uniform(0.0, 1.0, size=(5, 5)))
     motion, scale2 = it.fingers.model.motion, rng.uniform(0.1, 4.0, size=(5, 2))
@@ -223,7 +223,7 @@ def test_arrays_stored_otherwise_give_the_same(layout: Laid) -> None:
         assert_same(step(*(laid_out(one, layout) for one in of)), step(*of), 0.0)
 
 
-def test_an_unknown_digit_leaves_the_others_known() -> None:
+def test_unknown_digit_leaves_others_known() -> None:
     it, others = hand(), [0, 1, 3, 4]
     mean = it.mean.copy()
     mean[2, 1] = np.nan
@@ -241,7 +241,7 @@ def test_an_unknown_digit_leaves_the_others_known() -> None:
     assert_same(compiled.apply_limits(*asked), oracle.apply_limits(*asked))
 
 
-def test_what_is_no_covariance_is_refused() -> None:
+def test_digits_invalid_covariance_is_refused() -> None:
     it = hand()
     with pytest.raises(np.linalg.LinAlgError):
         draw_sigma_points(it.mean, -it.covariance, it.root_m, UnscentedParameters())

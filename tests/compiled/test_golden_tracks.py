@@ -14,7 +14,7 @@ which moves a hand in trouble by degrees."""
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_a_recording_tracked_again_gives_the_same_numbers(case: str, rendered: Rendered) -> None:
+def test_recording_tracked_again_gives_same_numbers(case: str, rendered: Rendered) -> None:
     found = tracked(rendered(SPECS[case.removesuffix(IN_TROUBLE)]), in_trouble=case.endswith(IN_TROUBLE))
     with np.load(PLACE) as file:
         expected = {key: file[f"{case}/{key}"] for key in found}

@@ -21,7 +21,7 @@ def test_modules_run_compiled() -> None:
     assert find_uncompiled(Path(compiled.__file__).parent) == []
 
 
-def test_a_source_without_its_extension_is_named(tmp_path: Path) -> None:
+def test_source_without_its_extension_is_named(tmp_path: Path) -> None:
     of_another_python = f"other.cpython-399{EXTENSION_SUFFIXES[-1]}"
     for name in ("__init__.py", "one.py", f"one{EXTENSION_SUFFIXES[0]}", "other.py", of_another_python):
         (tmp_path / name).touch()

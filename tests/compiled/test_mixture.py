@@ -106,7 +106,7 @@ def test_correction_of_any_size_is_the_oracles(size: tuple[int, ...], unseen: fl
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("unknown", [np.nan, np.inf])
-def test_a_number_unknown_is_not_passed_over_where_nothing_depends_on_it(size: tuple[int, ...], unknown: float) -> None:
+def test_number_unknown_is_not_passed_over_where_nothing_depends_on_it(size: tuple[int, ...], unknown: float) -> None:
     rng = np.random.default_rng(9)
     chains, modes, n, m = size
     mixture, line = mixture_of(rng, chains, modes, n), line_of(rng, chains, n, m)
@@ -143,7 +143,7 @@ def test_arrays_stored_otherwise_give_the_same(layout: Callable[[np.ndarray], np
     assert_same(found, oracle.corrected(mixture, line, measured, variance))
 
 
-def test_no_correction_by_what_is_no_covariance_and_unknown_stays_unknown() -> None:
+def test_mixture_invalid_covariance_is_refused_and_nan_stays() -> None:
     mixture, line = small()
     negative = replace(line, error=line.error - 1e3 * np.eye(4))
     no_scatter = replace(line, slope=np.zeros((1, 4, 6)), error=-np.eye(4)[None])
@@ -155,7 +155,7 @@ def test_no_correction_by_what_is_no_covariance_and_unknown_stays_unknown() -> N
         assert np.isnan(how(mixture, unknown, ONES, ONES).mixture.mean).all()
 
 
-def test_a_mode_that_is_far_off_keeps_the_same_little_chance() -> None:
+def test_mode_that_is_far_off_keeps_same_little_chance() -> None:
     mixture, line = small(modes=3)
     mixture.mean[0, 2] += 1e3
     found = update_mixture(mixture, line, ONES, ONES)
@@ -193,7 +193,7 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
 
 
 @pytest.mark.parametrize("wrong", ["covariance", "about", "measured", "variance", "shared", "partial"])
-def test_a_measurement_of_another_size_is_refused(wrong: str) -> None:
+def test_measurement_of_another_size_is_refused(wrong: str) -> None:
     """NumPy would repeat it for every chain; compiled, what lies behind it would be read."""
     rng = np.random.default_rng(13)
     mixture, line = mixture_of(rng, 5, 2, 6), line_of(rng, 5, 6, 4)

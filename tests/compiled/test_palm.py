@@ -93,7 +93,7 @@ def test_arrays_stored_otherwise_are_read_as_they_are(layout: Callable[[np.ndarr
     assert_same(found, oracle.move_palm(motion, estimate.rate_rad_s, 0.03, unseen, SPEEDS))
 
 
-def test_an_unknown_number_is_unknown_where_the_oracles_is() -> None:
+def test_unknown_number_is_unknown_where_oracles_is() -> None:
     rng = np.random.default_rng(5)
     estimate, view = moving(5), view_of(rng)
     mixture = mixture_about(estimate, rng, 2)
@@ -108,7 +108,7 @@ def test_an_unknown_number_is_unknown_where_the_oracles_is() -> None:
 
 
 @pytest.mark.parametrize("sign", [-1.0, np.nan])
-def test_a_palm_that_is_not_known_at_all_is_no_covariance(sign: float) -> None:
+def test_palm_that_is_not_known_at_all_is_no_covariance(sign: float) -> None:
     rng, estimate = np.random.default_rng(0), moving()
     broken = replace(estimate, covariance=sign * estimate.covariance)
     with pytest.raises(np.linalg.LinAlgError):

@@ -61,7 +61,7 @@ def test_readings_as_far_from_a_disc_as_others_are_taken_row_by_row() -> None:
     assert len(found[1]) == 10
 
 
-def test_a_picture_without_readings_gives_none() -> None:
+def test_frame_without_readings_gives_none() -> None:
     assert not len(same(outline, np.zeros_like(RAW), CORNERS)[1])
     assert same(discs, np.zeros_like(RAW), DISCS) is None
 
@@ -81,7 +81,7 @@ def test_arrays_stored_otherwise_give_the_same(layout: Callable[[np.ndarray], np
             np.testing.assert_array_equal(one, other)
 
 
-def test_what_is_no_request_is_refused() -> None:
+def test_samples_invalid_request_is_refused() -> None:
     for read, places in ((outline, CORNERS), (discs, DISCS)):
         for raw, place, how in (
             (RAW.astype(np.int32), places, {}),

@@ -65,7 +65,7 @@ def test_readings_of_something_else_are_no_surface(surface: DorsalSurface) -> No
         assert compiled.measure_surface(estimate, some, surface, view_by(), replace(SETTINGS, steps=1)) is None
 
 
-def test_an_unknown_reading_leaves_all_unknown_as_the_oracles_does(surface: DorsalSurface) -> None:
+def test_unknown_reading_leaves_all_unknown_as_oracles_does(surface: DorsalSurface) -> None:
     estimate, samples = seen_of(1)
     samples.depth_m[3] = np.nan
     settings = replace(SETTINGS, steps=1)
@@ -100,7 +100,7 @@ def test_sizes_and_types_that_do_not_fit_are_refused(surface: DorsalSurface) -> 
             compiled.measure_surface(palm, some, surface, view_by(), SETTINGS)
 
 
-def test_a_surface_corrects_the_palm_only_where_it_can_be_this_one(surface: DorsalSurface) -> None:
+def test_surface_corrects_palm_only_where_it_can_be_this_one(surface: DorsalSurface) -> None:
     estimate, samples = seen_of(0)
     mixture, partial = mixture_about(estimate, np.random.default_rng(0), 3), shape_partial_update(0.2)
     off = mixture.mean + np.where(np.arange(SIZE) == RELIEF.start, 0.5, 0.0)

@@ -29,7 +29,7 @@ def pages(entry: object) -> list[str]:
     return [page for one in found for page in pages(one)]  # type: ignore[attr-defined]
 
 
-def test_every_page_is_in_the_site_once(docs: ModuleType) -> None:
+def test_docs_site_has_every_page_once(docs: ModuleType) -> None:
     named = pages(docs.navigation())
     there = {str(path.relative_to(docs.PAGES)) for path in docs.PAGES.rglob("*.md")}
     assert sorted(named) == sorted(there)
@@ -48,12 +48,12 @@ def test_pictures_of_the_guide_are_found_and_no_warning_is_kept_quiet(docs: Modu
     assert "--quiet" not in Path(docs.__file__).read_text(), "MkDocs counts only the warnings that it says"
 
 
-def test_a_new_page_is_in_the_site_by_itself(docs: ModuleType) -> None:
+def test_new_page_is_in_site_automatically(docs: ModuleType) -> None:
     (docs.PAGES / "resources" / "new.md").write_text("# New\n")
     assert "resources/new.md" in pages(docs.navigation())
 
 
-def test_the_tools_are_pinned_and_apart_from_what_runs() -> None:
+def test_tools_are_pinned_and_apart_from_what_runs() -> None:
     text = (ROOT / "requirements-docs.lock").read_text()
     pinned = re.split(r"^(?=[\w.-]+==)", text, flags=re.MULTILINE)[1:]
     assert all(re.search(r"--hash=sha256:[0-9a-f]{64}", part) for part in pinned)

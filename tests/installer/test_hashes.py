@@ -23,7 +23,7 @@ def with_hashes(folder: Path, *locks: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize("lock", LOCKS)
-def test_every_pin_is_installed_with_a_hash(lock: str) -> None:
+def test_pins_all_have_hashes(lock: str) -> None:
     done = with_hashes(ROOT, lock)
     assert (done.returncode, done.stderr) == (0, "")
     assert pins(done.stdout) == pins((ROOT / lock).read_text(encoding="utf-8"))
@@ -32,7 +32,7 @@ def test_every_pin_is_installed_with_a_hash(lock: str) -> None:
     assert "://" not in done.stdout, "it names no host"
 
 
-def test_a_pin_without_a_hash_stops_the_set_up(tmp_path: Path) -> None:
+def test_pin_without_hash_stops_set_up(tmp_path: Path) -> None:
     (tmp_path / "installer").mkdir()
     for name in ("with_hashes.sh", "hashes.lock"):
         shutil.copy(ROOT / "installer" / name, tmp_path / "installer" / name)

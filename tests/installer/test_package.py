@@ -50,7 +50,7 @@ def tool(name: str) -> str:
     return path
 
 
-def test_the_version_stands_in_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_version_stands_in_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
     build = script(HERE / "build.py", monkeypatch)
     assert build.version() == __version__
     assert build.commit_date().count("-") == 2
@@ -64,7 +64,7 @@ def test_debian_orders_versions_as_python_does(monkeypatch: pytest.MonkeyPatch) 
         assert subprocess.run(command, check=False).returncode == 0, (low, high)
 
 
-def test_the_control_file_says_what_apt_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_control_file_says_what_apt_needs(monkeypatch: pytest.MonkeyPatch) -> None:
     debian = script(HERE / "debian.py", monkeypatch)
     text = debian.control("1.2.3rc4", 1_025_000, "amd64")
     fields = dict(re.findall(r"^([A-Z][\w-]*): (.*)$", text, re.MULTILINE))
@@ -76,7 +76,7 @@ def test_the_control_file_says_what_apt_needs(monkeypatch: pytest.MonkeyPatch) -
     assert text.endswith("\n")
 
 
-def test_the_package_lies_where_the_system_looks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_package_lies_where_system_looks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     debian = script(HERE / "debian.py", monkeypatch)
     date = "2026-11-22"
     place = "usr/share/metainfo/carpus.metainfo.xml"
@@ -98,7 +98,7 @@ def test_the_package_lies_where_the_system_looks(tmp_path: Path, monkeypatch: py
     assert [line for line in faults if not any(known in line for known in not_ours)] == []
 
 
-def test_the_second_package_fits_one_version_and_debian_reads_the_changelog(
+def test_second_package_fits_one_version_and_debian_reads_changelog(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     debian = script(HERE / "debian.py", monkeypatch)
@@ -111,7 +111,7 @@ def test_the_second_package_fits_one_version_and_debian_reads_the_changelog(
         assert (told.stdout.strip(), told.stderr) == (value, "")
 
 
-def test_the_desktop_entry_is_valid_and_opens_sessions() -> None:
+def test_desktop_entry_is_valid_and_opens_sessions() -> None:
     path = LINUX / "carpus.desktop"
     told = subprocess.run([tool("desktop-file-validate"), str(path)], capture_output=True, text=True, check=False)
     assert (told.returncode, told.stdout + told.stderr) == (0, "")
@@ -124,14 +124,14 @@ def test_the_desktop_entry_is_valid_and_opens_sessions() -> None:
         assert command[1] == "%f" or command[1] in COMMANDS
 
 
-def test_the_metainfo_names_the_same_program() -> None:
+def test_metainfo_names_same_program() -> None:
     root = ElementTree.parse(LINUX / "carpus.metainfo.xml.in").getroot()
     assert root.findtext("launchable") == "carpus.desktop"
     assert root.findtext("provides/mediatype") == MIME
     assert "Not a medical device" in " ".join("".join(root.itertext()).split())
 
 
-def test_the_file_type_knows_our_sessions_and_no_others(tmp_path: Path) -> None:
+def test_file_type_knows_our_sessions_and_no_others(tmp_path: Path) -> None:
     kind = ElementTree.parse(LINUX / "carpus.xml").getroot().find("m:mime-type", NAMESPACE)
     assert kind.attrib["type"] == MIME
     outer = kind.find("m:magic/m:match", NAMESPACE)
@@ -156,7 +156,7 @@ def test_the_file_type_knows_our_sessions_and_no_others(tmp_path: Path) -> None:
     assert f":{MIME}:*.h5" in (tmp_path / "mime" / "globs2").read_text()
 
 
-def test_the_man_page_has_every_command(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_man_page_has_every_command(monkeypatch: pytest.MonkeyPatch) -> None:
     page = script(HERE / "man_page.py", monkeypatch).man_page("1.0", "2026-11-22", COMMANDS)
     assert page.startswith('.TH CARPUS 1 "2026-11-22" "Carpus 1.0"')
     for name in COMMANDS:
@@ -166,7 +166,7 @@ def test_the_man_page_has_every_command(monkeypatch: pytest.MonkeyPatch) -> None
     ]
 
 
-def test_every_need_is_among_the_parts_with_its_licence(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_package_lists_every_dependency_with_licence(monkeypatch: pytest.MonkeyPatch) -> None:
     parts = {re.sub(r"[-_.]+", "-", part.name).lower(): part for part in list_bundled_parts()}
     assert next(iter(parts)) == "carpus"
     lock = (ROOT / "requirements.lock").read_text(encoding="utf-8")
@@ -194,7 +194,7 @@ def test_windows_is_told_version_and_icon(tmp_path: Path, monkeypatch: pytest.Mo
     assert program_icon_image(64).pixelColor(32, 53).blue() > 180, "a disc"
 
 
-def test_a_payload_with_a_path_too_long_for_windows_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_payload_with_path_too_long_for_windows_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     setup = script(HERE / "windows" / "setup_program.py", monkeypatch)
     folder = setup.stand_in(tmp_path / "payload")
     assert setup.too_long(folder) == []
@@ -204,7 +204,7 @@ def test_a_payload_with_a_path_too_long_for_windows_is_refused(tmp_path: Path, m
     assert setup.too_long(folder) == [str(long.relative_to(folder))]
 
 
-def test_what_is_packed_is_what_is_pinned_and_every_file_of_it_has_its_hash() -> None:
+def test_package_contains_pinned_files_with_hashes() -> None:
     def pins(text: str) -> set[str]:
         return set(re.findall(r"^[\w.-]+==[\w.]+", text, re.MULTILINE))
 

@@ -28,7 +28,7 @@ def release() -> ModuleType:
     return module
 
 
-def test_the_version_is_that_of_the_program(release: ModuleType) -> None:
+def test_version_is_that_of_program(release: ModuleType) -> None:
     assert release.version_of((ROOT / "core" / "platform" / "version.py").read_text(encoding="utf-8")) == __version__
 
 
@@ -44,13 +44,13 @@ def test_the_version_is_that_of_the_program(release: ModuleType) -> None:
     ],
     ids=["another version", "no date", "nothing said", "an empty line", "something left", "no file"],
 )
-def test_an_empty_changelog_is_refused(release: ModuleType, text: str) -> None:
+def test_empty_changelog_is_refused(release: ModuleType, text: str) -> None:
     assert release.changes_of(GOOD, "1.2.0") == "### Added\n- Something."
     with pytest.raises(release.NotReleasableError, match=r"CHANGELOG\.md"):
         release.changes_of(text, "1.2.0")
 
 
-def test_the_real_changelog_can_become_this_release_by_its_heading_alone(release: ModuleType) -> None:
+def test_real_changelog_can_become_this_release_by_its_heading_alone(release: ModuleType) -> None:
     text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     heads = re.findall(r"^## .*$", text, re.MULTILINE)
     assert heads[0] == "## [Unreleased]"
@@ -63,7 +63,7 @@ def test_the_real_changelog_can_become_this_release_by_its_heading_alone(release
 @pytest.mark.parametrize(
     ("status", "tags"), [(" M core/model/so3.py\n", ""), ("?? new.py\n", ""), ("", "v1.1.0\nv1.2.0\n")]
 )
-def test_a_dirty_tree_or_an_old_version_is_refused(release: ModuleType, status: str, tags: str) -> None:
+def test_dirty_tree_or_old_version_is_refused(release: ModuleType, status: str, tags: str) -> None:
     with pytest.raises(release.NotReleasableError):
         release.check_tree(status, tags, "1.2.0")
     release.check_tree("", "v1.1.0\nv1.2.0rc1\n", "1.2.0")
@@ -99,7 +99,7 @@ def test_failing_tests_are_refused(release: ModuleType, monkeypatch: pytest.Monk
     assert ran == [("make", "test")]
 
 
-def test_the_hosted_checks_call_targets_that_there_are() -> None:
+def test_hosted_checks_call_targets_that_there_are() -> None:
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
     for path in (ROOT / ".github" / "workflows").glob("*.yml"):
         called = re.findall(r"- run: make ([a-z -]+)$", path.read_text(encoding="utf-8"), re.MULTILINE)
@@ -107,7 +107,7 @@ def test_the_hosted_checks_call_targets_that_there_are() -> None:
         assert {name for line in called for name in line.split()} <= targets
 
 
-def test_the_folder_of_packages_is_what_apt_and_the_program_read(release: ModuleType, tmp_path: Path) -> None:
+def test_folder_of_packages_is_what_apt_and_program_read(release: ModuleType, tmp_path: Path) -> None:
     packages = []
     for version in ("1.2.0", "1.10.0~rc1"):
         root = tmp_path / version

@@ -24,7 +24,7 @@ def session(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_session_of_nobody_here_is_shown_once_somebody_has_the_pin_and_stays_where_it_is(
+def test_session_of_no_one_here_is_shown_once_someone_has_pin_and_stays_where_it_is(
     qtbot: QtBot, open_desktop: Open, session: Path, data: Path, tmp_path: Path
 ) -> None:
     before = session.read_bytes()
@@ -55,7 +55,7 @@ def test_a_session_of_nobody_here_is_shown_once_somebody_has_the_pin_and_stays_w
     assert [path.name for path in session.parent.iterdir()] == [session.name]
 
 
-def test_a_session_of_a_patient_is_opened_as_theirs_also_by_a_copy(
+def test_session_of_patient_is_opened_as_theirs_also_by_copy(
     qtbot: QtBot, open_desktop: Open, session: Path, data: Path
 ) -> None:
     (data / "sessions").mkdir(parents=True)
@@ -67,9 +67,7 @@ def test_a_session_of_a_patient_is_opened_as_theirs_also_by_a_copy(
     assert journey.current.patient.session_count == 1
 
 
-def test_a_file_alone_is_as_good_as_the_command(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_file_alone_is_as_good_as_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert command_line.main(["not there.h5"]) == 1
     assert "not there.h5" in capsys.readouterr().err
     opened: list[Path] = []

@@ -23,7 +23,7 @@ def shown(desktop: Desktop, bubble: str) -> bool:
     return desktop.tour.bubble == bubble
 
 
-def test_the_first_session_is_led_from_control_to_control(
+def test_first_session_is_led_from_control_to_control(
     qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path
 ) -> None:
     desktop = open_desktop()
@@ -92,7 +92,7 @@ def test_escape_leaves_the_guide_and_not_the_screen_and_it_is_for_the_practice_p
         assert tour.bubble == ("camera" if asked_for else None)
 
 
-def test_with_a_patient_in_the_list_it_is_no_first_start(open_desktop: Open) -> None:
+def test_first_start_is_skipped_with_patients(open_desktop: Open) -> None:
     first = open_desktop()
     first.library.patients.add(_somebody())
     first.close()
@@ -100,7 +100,7 @@ def test_with_a_patient_in_the_list_it_is_no_first_start(open_desktop: Open) -> 
     assert again.welcome.panel is None
 
 
-def test_another_folder_is_looked_at_typing_goes_to_the_search_and_escape_says_not_now(
+def test_first_start_folder_choice_search_and_escape(
     qtbot: QtBot, open_desktop: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop = open_desktop()
@@ -123,7 +123,7 @@ def test_another_folder_is_looked_at_typing_goes_to_the_search_and_escape_says_n
     assert load_settings(tmp_path / "settings").first_start.answered
 
 
-def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
+def test_first_start_unreadable_folder_is_reported(
     qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fails(folder: Path) -> list[object]:
@@ -140,7 +140,7 @@ def _somebody() -> Patient:
     return Patient("Heron 17", "right", "right")
 
 
-def test_the_look_opens_nothing_makes_no_folder_and_calls_no_drivers_own_code_in_the_windows_process(
+def test_look_opens_nothing_makes_no_folder_and_calls_no_drivers_own_code_in_windows_process(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """OpenNI2 ends the process of a second thread that calls it."""

@@ -109,7 +109,7 @@ def check_pictures(desktop: Desktop, path: Path) -> None:
         assert blue > red + 30
 
 
-def test_the_whole_journey_by_mouse(
+def test_whole_journey_by_mouse(
     qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     journey = (desktop := open_desktop()).controller
@@ -189,7 +189,7 @@ def test_the_whole_journey_by_mouse(
     assert stored.repetition_count == 0 or math.isfinite(stored.wrist_ranges[0].mean)
 
 
-def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time(
+def test_recording_is_measured_from_its_first_frame_to_its_last_in_real_time(
     qtbot: QtBot, open_desktop: Open, take: Path
 ) -> None:
     journey = (desktop := open_desktop()).controller
@@ -260,7 +260,7 @@ def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_tha
     assert journey.current.source is None
 
 
-def test_a_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_stopped_again_by_closing(
+def test_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_stopped_again_by_closing(
     qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
@@ -305,7 +305,7 @@ def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, MainCo
     return desktop, desktop.controller
 
 
-def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_needs_no_new_markers(
+def test_question_during_recording_loses_nothing_and_second_set_keeps_markers(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
@@ -388,7 +388,7 @@ def cut_short(data_folder: Path) -> None:
     journal_of(folder / "cut.journal", 60).abandon()
 
 
-def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
+def test_session_rescued_later_is_in_list_as_soon_as_list_is_shown(open_desktop: Open) -> None:
     journey = (desktop := open_desktop()).controller
     linden = desktop.library.patients.add(Patient("Linden 42", "right"))
     journey.patients.open()
@@ -398,7 +398,7 @@ def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(ope
     assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
 
 
-def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
+def test_simulated_camera_is_practice_patient_s_and_no_one_else_s(
     qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(MaintenanceCameras, "name", lambda _: None)
@@ -419,7 +419,7 @@ def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
         journey.patients.open()
 
 
-def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
+def test_interrupted_session_is_reported_at_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
     first = open_desktop()
     first.close()
     cut_short(first.library.folder)

@@ -48,9 +48,7 @@ def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: Qt
     assert not journey.messages.is_busy
 
 
-def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet_and_a_recording_keeps_its_keys(
-    qtbot: QtBot, open_desktop: Open
-) -> None:
+def test_theme_change_reaches_all_labels_and_keeps_recording_keys(qtbot: QtBot, open_desktop: Open) -> None:
     desktop = open_desktop()
     journey, theme = desktop.controller, desktop.theme
 

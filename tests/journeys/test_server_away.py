@@ -48,7 +48,7 @@ def is_away(desktop: Desktop) -> bool:
     return screen._offline_view.isVisible() and not any(one.isVisible() and one.isEnabled() for one in shown)
 
 
-def test_a_server_that_stops_hides_the_list_and_measuring_goes_on(
+def test_server_that_stops_hides_list_and_measuring_continues(
     qtbot: QtBot, open_desktop: Open, take: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(server_monitor, "CHECK_EVERY_MS", 200)

@@ -36,7 +36,7 @@ print(instance.acquire(), instance.notify_running_instance(Path(sys.argv[2]) if 
 
 
 @pytest.mark.parametrize("handed", [(), ("/tmp/Grüße in einem/langen Ordner/сессия.h5",)], ids=["alone", "a file"])
-def test_a_second_carpus_does_not_get_the_folder_and_calls_the_first(
+def test_second_carpus_does_not_get_folder_and_calls_first(
     qtbot: QtBot, tmp_path: Path, handed: tuple[str, ...]
 ) -> None:
     first = SingleInstance(tmp_path)
@@ -54,7 +54,7 @@ def test_a_second_carpus_does_not_get_the_folder_and_calls_the_first(
     third.release()
 
 
-def test_another_folder_is_another_carpus(tmp_path: Path) -> None:
+def test_second_data_folder_starts_second_instance(tmp_path: Path) -> None:
     folders = [tmp_path / name for name in "ab"]
     for folder in folders:
         folder.mkdir()
@@ -66,7 +66,7 @@ def test_another_folder_is_another_carpus(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("answer", ["close", "choose", "think again"])
-def test_a_folder_that_cannot_be_used_is_told_in_a_window(
+def test_folder_that_cannot_be_used_is_reported_in_window(
     qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answer: str
 ) -> None:
     asking = FolderWindow(Theme(), MessageText("It cannot be written.", "All is safe.", "Choose another."), tmp_path)
@@ -95,7 +95,7 @@ def quiet(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("quiet")
-def test_the_window_opens_on_the_folder_that_was_chosen_instead(
+def test_window_opens_on_folder_that_was_chosen_instead(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     blocked, good = tmp_path / "blocked", tmp_path / "good"
@@ -115,7 +115,7 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
 
 @pytest.mark.usefixtures("quiet")
 @pytest.mark.parametrize("is_demo", [False, True])
-def test_a_folder_named_for_one_start_is_said_on_the_first_screen(
+def test_folder_named_for_one_start_is_reported_on_first_screen(
     is_demo: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(QApplication, "exec", lambda *_: 0)
@@ -133,7 +133,7 @@ def test_a_folder_named_for_one_start_is_said_on_the_first_screen(
 
 
 @pytest.mark.usefixtures("quiet")
-def test_nobody_chooses_and_it_ends_with_a_sentence(
+def test_start_without_choice_ends_with_message(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "blocked").write_text("")
@@ -143,7 +143,7 @@ def test_nobody_chooses_and_it_ends_with_a_sentence(
 
 
 @pytest.mark.usefixtures("quiet")
-def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
+def test_window_that_is_closed_while_it_comes_up_ends_in_peace(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(QApplication, "exec", lambda *_: pytest.fail("a closed window waits for nobody"))
@@ -159,7 +159,7 @@ def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
 
 
 @pytest.mark.usefixtures("quiet")
-def test_another_language_opens_the_window_again_with_the_settings_in_it(
+def test_language_change_reopens_window_at_settings(
     qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On the same data folder, which nobody else gets meanwhile, and in the place that the person came from."""

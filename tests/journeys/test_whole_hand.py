@@ -28,7 +28,7 @@ def hand_take(rendered: Rendered) -> Path:
     return rendered(SPEC)
 
 
-def test_the_whole_hand_from_set_up_to_session_file(
+def test_whole_hand_from_set_up_to_session_file(
     qtbot: QtBot, open_desktop: Open, hand_take: Path, tmp_path: Path
 ) -> None:
     desktop = open_desktop(practice_renderer=take_of(hand_take, SPEC.fps), speed=1.0)

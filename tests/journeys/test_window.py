@@ -127,7 +127,7 @@ def person(display: str, take: Path, tmp_path: Path) -> Iterator[Person]:
     person.kill()
 
 
-def test_a_person_measures_in_a_real_window(person: Person, tmp_path: Path) -> None:
+def test_person_measures_in_real_window(person: Person, tmp_path: Path) -> None:
     person.sees("started")
     person.sees("place patients")
     person.use("search", "--sync", "--onlyvisible", "--name", "^Carpus$", "windowfocus", "--sync")

@@ -55,7 +55,7 @@ def imported(path: Path) -> set[str]:
 
 
 @SOURCES
-def test_the_program_knows_nothing_of_the_second_patient_nor_it_of_the_first() -> None:
+def test_program_knows_nothing_of_second_patient_nor_it_of_first() -> None:
     for folder in ("app", "core", "ui", "resources", "installer"):
         for path in (ROOT / folder).rglob("*"):
             if path.suffix in (".py", ".toml", ".json", ".sh"):
@@ -229,7 +229,7 @@ def test_skin_glides_as_far_as_was_drawn_and_settles(seed: int) -> None:
 
 
 @pytest.mark.thorough
-def test_a_rigid_palm_is_rigid() -> None:
+def test_rigid_palm_is_rigid() -> None:
     take = take_of(row_named("pro/supination, rigid palm"), 12)
     disc = take.truth.disc_position_cam_m
     apart = np.linalg.norm(disc[:, :, None] - disc[:, None], axis=-1)
@@ -306,7 +306,7 @@ def test_colour_noise_grows_with_the_light() -> None:
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name)
-def test_every_row_begins_still_and_stays_in_the_picture(row: Row, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_second_patient_starts_still_and_stays_in_frame(row: Row, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recording, "FPS", 10.0)
     truth = take_of(row, 12 + ROWS.index(row) % 2).truth
     still = truth.timestamp_s - truth.timestamp_s[0] < 0.6
@@ -320,7 +320,7 @@ def test_every_row_begins_still_and_stays_in_the_picture(row: Row, monkeypatch: 
 
 
 @pytest.mark.thorough
-def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
+def test_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
     folder = tmp_path / "take"
     truth = recorded(take_of(row_named("rest, fingers open and close"), 12, seconds=0.9), folder)
     assert json.loads((folder / CLICKS_FILE).read_text())["protocol"] == "wrist6"
@@ -339,7 +339,7 @@ def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
 
 
 @pytest.mark.thorough
-def test_what_is_kept_shows_the_hand_its_truth_describes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_second_patient_recording_matches_truth(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A motion that is drawn of other data beside another checkout is no recording of this one."""
     monkeypatch.setattr("platformdirs.user_cache_dir", lambda *_, **__: str(tmp_path))
     row = next(row for row in ROWS if row.motion == "grasp")

@@ -13,7 +13,7 @@ FILES = {"session": 8, "part": 8, "register": 8}
 
 
 @pytest.mark.parametrize("kind", ["program with pictures", "capture"])
-def test_a_kill_loses_a_second_at_most(tmp_path: Path, kind: str) -> None:
+def test_kill_loses_second_at_most(tmp_path: Path, kind: str) -> None:
     """That of looking back is ``tests/app/test_measuring``'s."""
     done = kills.kill_once(kind, 1, tmp_path / "killed")
     assert done.lost_s <= kills.MOST_LOST_S
@@ -24,12 +24,12 @@ def test_kill_at_any_write_of_a_recording_or_recovery_keeps_what_was_synchronise
 
 
 @pytest.mark.parametrize("kind", backup_kills.KINDS)
-def test_a_killed_back_up_or_restore_leaves_nothing_half(tmp_path: Path, kind: str) -> None:
+def test_killed_backup_or_restore_leaves_nothing_half(tmp_path: Path, kind: str) -> None:
     assert backup_kills.line(kind, 3, tmp_path / "kills")
 
 
 @pytest.mark.parametrize("kind", store_kills.KINDS)
-def test_a_killed_change_of_the_store_is_there_whole_or_not_at_all(tmp_path: Path, kind: str) -> None:
+def test_killed_change_of_store_is_there_whole_or_not_at_all(tmp_path: Path, kind: str) -> None:
     assert store_kills.line(kind, 1, tmp_path / "kills")
 
 
@@ -42,9 +42,9 @@ def test_damaged_files_are_told(tmp_path: Path, kind: str) -> None:
     assert kind == "journal" or any(one.said != "read" for one in outcomes), mutation_line(kind, outcomes)
 
 
-def test_the_program_starts_with_all_of_them_in_its_folder(tmp_path: Path) -> None:
+def test_program_starts_with_all_of_them_in_its_folder(tmp_path: Path) -> None:
     assert "set apart" in start_line(2, tmp_path)
 
 
-def test_two_programs_on_one_server_that_fails(tmp_path: Path) -> None:
+def test_torture_two_programs_on_failing_server(tmp_path: Path) -> None:
     assert two_programs.line(40, 2.0, 0.4, tmp_path / "clinic")

@@ -42,7 +42,7 @@ def mean_of(figures: SessionResults | None) -> float:
     return figures.find("flexion", "flexion").mean
 
 
-def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
+def test_passive_repetitions_never_count_as_active() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     helped = [number for number, one in enumerate(figures.repetitions) if one.is_passive]
     assert figures.repetition_count >= 3
@@ -58,7 +58,7 @@ def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
 
 
 @pytest.mark.parametrize("exercise", ["FREE", "REACH_GRASP"])
-def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exercise: str) -> None:
+def test_passive_range_without_repetitions_is_unknown(exercise: str) -> None:
     def free(*events: tuple[float, str]) -> SessionResults:
         made = helped_session(*events)
         return figures_once(replace(made, header=replace(made.header, exercise=exercise)))
@@ -69,7 +69,7 @@ def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exerci
     assert "passive" not in repetition_words(free())
 
 
-def test_a_session_that_is_passive_only_is_named_so_and_has_no_empty_column() -> None:
+def test_session_that_is_passive_only_is_named_so_and_has_no_empty_column() -> None:
     helped = figures_once(helped_session((0.0, PASSIVE)))
     later = replace(
         figures_once(session()), when=helped.when + timedelta(days=7), session_id="later", recording_id="later"
@@ -82,7 +82,7 @@ def test_a_session_that_is_passive_only_is_named_so_and_has_no_empty_column() ->
     assert find_previous([helped, later], later) is None, "it has nothing to be beside"
 
 
-def test_a_passive_repetition_that_was_hidden_says_that() -> None:
+def test_passive_repetition_that_was_hidden_says_that() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     number = next(number for number, one in enumerate(figures.repetitions) if one.is_passive)
     shown = list(figures.repetitions)
@@ -92,7 +92,7 @@ def test_a_passive_repetition_that_was_hidden_says_that() -> None:
     )
 
 
-def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> None:
+def test_fist_measures_exclude_passive_repetitions() -> None:
     made = FakeHandSessions().session("hand-7")
     assert figures_once(made).measures_in_group("task")
     helped = replace(made, events=(Event(float(made.timestamp_s[0]), PASSIVE, ""),))
@@ -104,7 +104,7 @@ def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> Non
     ).measures_in_group("task")
 
 
-def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
+def test_person_has_last_word_and_active_again_ends_stretch() -> None:
     made = helped_session((HELPED_S, PASSIVE))
     helped = [number for number, one in enumerate(figures_once(made).repetitions) if one.is_passive]
     taken_back = figures_once(made, RepetitionChoices({helped[0]: ""}))
@@ -117,7 +117,7 @@ def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
     assert build_active_passive(everything, ()) is not None
 
 
-def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
+def test_table_has_active_passive_and_manually_in_one_row() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     found = build_active_passive(figures, hand_values_today())
     flexion = next(row for row in found.table.rows if row[0] == "Flexion")
@@ -129,7 +129,7 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     assert build_active_passive(figures_once(session()), ()) is None, "one way alone has no table"
 
 
-def test_where_passive_went_less_far_the_table_says_so_and_the_sentence_keeps_the_sign() -> None:
+def test_passive_range_below_active_is_reported_with_sign() -> None:
     found = build_active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
     arc = next(row for row in found.table.rows if row[0] == "Total arc")
     assert arc[3].startswith("\N{MINUS SIGN}")
@@ -148,7 +148,7 @@ def test_beside_at_least_stands_what_the_goniometer_said() -> None:
     assert not any(head.endswith("passive") for head in found.table.heads), "nothing was passive: no column of it"
 
 
-def test_the_report_prints_both_and_what_was_measured_by_hand(tmp_path: Path) -> None:
+def test_report_prints_both_and_what_was_measured_manually(tmp_path: Path) -> None:
     path = write_session_report(
         helped_session((HELPED_S, PASSIVE)), tmp_path / "both.pdf", manual_values=hand_values_today()
     )

@@ -24,7 +24,7 @@ def of(name: str, bias: float, sd: float, count: int = 200) -> AnglePairs:
     return AnglePairs(name, np.arange(count) / 30.0, np.radians(measured), np.radians(reference), figures)
 
 
-def test_the_sign_is_a_word() -> None:
+def test_sign_is_word() -> None:
     assert format_difference(-3.44, "flexion") == "3.4° extension"
     assert format_difference(0.31, "deviation") == "0.3° radial"
     assert format_difference(-2.0, "PIP3_flexion") == "2.0° less"
@@ -44,13 +44,13 @@ def test_the_sign_is_a_word() -> None:
         (0.0, 0.5, 9, 5.0, "few"), (0.0, 4.0, 11, 4.0, "few"),  # its limit is not known as well as that
     ],
 )  # fmt: skip
-def test_both_limits_must_lie_within_what_was_set_and_few_or_scattered_readings_say_nothing(
+def test_agreement_verdict_needs_both_limits_and_enough_readings(
     bias: float, sd: float, count: int, limit: float, verdict: str
 ) -> None:
     assert judge_agreement(of("flexion", bias, sd, count).agreement_deg, limit) == verdict
 
 
-def test_what_lies_within_the_plot_is_where_its_axis_says(theme: Theme) -> None:
+def test_agreement_points_match_axis(theme: Theme) -> None:
     pairs = of("flexion", 2.0, 1.0)
     plot = AgreementPlot(pairs, 5.0, is_time_series=False)
     panel = plot.panel(screen_style(theme), QRectF(0, 0, 900, 300))

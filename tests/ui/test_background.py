@@ -12,7 +12,7 @@ from carpus.ui.kit.background import Background
 
 
 @pytest.mark.parametrize("fails", [False, True])
-def test_who_has_been_answered_is_kept_by_nothing(qtbot: QtBot, background: Background, *, fails: bool) -> None:
+def test_background_releases_answered_callers(qtbot: QtBot, background: Background, *, fails: bool) -> None:
     """A window that stands open for days asks ten thousand times."""
 
     def ask() -> weakref.ref[Asks]:

@@ -39,7 +39,7 @@ def test_screens_load_no_device_filter_or_file_code() -> None:
 PLOTTING = re.compile(r"^\s*(?:import|from)\s+pyqtgraph\b", re.MULTILINE)
 
 
-def test_only_the_plotting_room_knows_pyqtgraph() -> None:
+def test_pyqtgraph_is_imported_by_charts_only() -> None:
     sources = [path for part in ("app", "core", "ui") for path in sorted((ROOT / part).rglob("*.py"))]
     users = {path.relative_to(ROOT).parent for path in sources if PLOTTING.search(path.read_text(encoding="utf-8"))}
     assert users == {Path("ui/charts")}

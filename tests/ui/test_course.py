@@ -46,7 +46,7 @@ def place(chart: ProgressChart, number: int) -> QPointF:
     return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean)))
 
 
-def test_a_click_on_a_point_opens_its_session_and_one_beside_it_nothing(qtbot: QtBot, chart: ProgressChart) -> None:
+def test_click_on_point_opens_its_session_and_one_next_to_it_nothing(qtbot: QtBot, chart: ProgressChart) -> None:
     opened: list[str] = []
     chart.session_chosen.connect(opened.append)
     at = place(chart, 2).toPoint()
@@ -57,7 +57,7 @@ def test_a_click_on_a_point_opens_its_session_and_one_beside_it_nothing(qtbot: Q
     assert opened == ["session-3"]
 
 
-def test_a_point_under_the_mouse_says_date_value_set_up_and_remarks(chart: ProgressChart) -> None:
+def test_point_under_mouse_says_date_value_set_up_and_remarks(chart: ProgressChart) -> None:
     for number in range(7):
         move(chart.mouse_target, QPointF(place(chart, number).toPoint()))
         assert chart.current_session == number
@@ -106,7 +106,7 @@ def test_time_is_to_scale_and_can_be_looked_into(qtbot: QtBot, chart: ProgressCh
     assert timedelta(seconds=chart.x_range()[1] - chart.x_range()[0]) >= timedelta(hours=23)
 
 
-def test_the_table_has_a_row_for_each_point_that_is_shown(chart: ProgressChart) -> None:
+def test_table_has_row_for_each_point_that_is_shown(chart: ProgressChart) -> None:
     head, rows = chart.table()
     rows = list(rows)
     assert head[:3] == ["session", "when", "what"]

@@ -27,7 +27,7 @@ def screen(show: Show[ExerciseScreen]) -> ExerciseScreen:
     return show(screen)
 
 
-def test_a_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen) -> None:
+def test_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen) -> None:
     for typed, degrees in (("37,5", 37.5), ("37.5", 37.5), ("40", 40.0), ("40°", 40.0), (" ", math.nan)):
         screen.target_fields[0].clear()
         qtbot.keyClicks(screen.target_fields[0], typed)
@@ -35,7 +35,7 @@ def test_a_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen
         assert screen.set_up().target_positive_deg == pytest.approx(degrees, nan_ok=True)
 
 
-def test_a_target_that_cannot_be_stays_is_marked_and_stops_the_way(qtbot: QtBot, screen: ExerciseScreen) -> None:
+def test_target_that_cannot_be_stays_is_marked_and_stops_way(qtbot: QtBot, screen: ExerciseScreen) -> None:
     sent: list[object] = []
     screen.set_up_chosen.connect(sent.append)
     for typed in ("-200", "200", "0", "abc", "4o", "1e3", "nan"):
@@ -54,7 +54,7 @@ def test_a_target_that_cannot_be_stays_is_marked_and_stops_the_way(qtbot: QtBot,
     assert sent
 
 
-def test_the_last_targets_come_back_and_never_those_of_another_patient(screen: ExerciseScreen) -> None:
+def test_last_targets_come_back_and_never_those_of_another_patient(screen: ExerciseScreen) -> None:
     last = replace(set_up(), target_positive_deg=37.5, target_negative_deg=-20.0)
     screen.show_patient(LINDEN, last, "right", False)
     assert [field.value() for field in screen.target_fields] == [37.5, -20.0]
@@ -62,7 +62,7 @@ def test_the_last_targets_come_back_and_never_those_of_another_patient(screen: E
     assert all(math.isnan(field.value()) for field in screen.target_fields)
 
 
-def test_of_a_patient_with_two_hands_affected_one_must_be_chosen(qtbot: QtBot, screen: ExerciseScreen) -> None:
+def test_exercise_screen_of_both_hands_requires_choice(qtbot: QtBot, screen: ExerciseScreen) -> None:
     screen.show_patient(Patient("Ash 7", "both", patient_id="ash"), None, None, False)
     assert not screen.primary_button.isEnabled()
     assert "hand" in screen.primary_button.text()

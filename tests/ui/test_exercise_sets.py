@@ -57,7 +57,7 @@ def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tm
         assert read_sets(store) == (longer,)
 
 
-def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) -> None:
+def test_next_session_begins_with_set_of_last_one(tmp_path: Path) -> None:
     library = Library(tmp_path)
     patient = library.patients.add(Patient("Heron 3", "left"))
     save_sets(library.store, (OWN,), DEFAULT_SETS)
@@ -91,7 +91,7 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
     library.close()
 
 
-def test_a_goal_of_supination_is_read_from_thumb_up_and_one_of_an_older_version_is_converted(tmp_path: Path) -> None:
+def test_goal_of_supination_is_read_from_thumb_up_and_one_of_older_version_is_converted(tmp_path: Path) -> None:
     library = Library(tmp_path)
     patient = library.patients.add(Patient("Heron 3", "left"))
     one = replace(set_up("FOREARM_PS", -30.0), patient_id=patient, pseudonym="Heron 3")
@@ -105,9 +105,7 @@ def test_a_goal_of_supination_is_read_from_thumb_up_and_one_of_an_older_version_
     library.close()
 
 
-def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
-    theme: Theme, show: Show[ExerciseScreen]
-) -> None:
+def test_proposed_goal_is_taken_over_or_changed_and_shown_over_weeks(theme: Theme, show: Show[ExerciseScreen]) -> None:
     screen = show(ExerciseScreen(theme))
     row = FakeStore().rows[5]
     last = set_up(target_deg=math.nan)
@@ -133,7 +131,7 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
     assert goals_deg(shown, ("flexion", "extension")) == []
 
 
-def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
+def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
     live = LiveScreen(theme, Background())
     qtbot.addWidget(live)
     patient = PatientViewController(
@@ -185,7 +183,7 @@ def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) ->
     patient.close()
 
 
-def test_a_therapist_makes_names_and_chooses_a_set(qtbot: QtBot, theme: Theme) -> None:
+def test_therapist_makes_names_and_chooses_set(qtbot: QtBot, theme: Theme) -> None:
     screen = ExerciseScreen(theme)
     qtbot.addWidget(screen)
     screen.show_sets(DEFAULT_SETS)

@@ -20,7 +20,7 @@ from carpus.ui.words.fault_words import fault_words
 
 
 @pytest.mark.parametrize("root", ["/home/someone/.local/share/carpus", "C:\\Users\\Some One\\AppData\\carpus"])
-def test_a_long_path_is_told_by_its_end(root: str) -> None:
+def test_long_path_is_reported_by_its_end(root: str) -> None:
     stroke = "\\" if "\\" in root else "/"
     name = "Blue-Hummingbird-Mountain-42_2026-11-21_154533_WRIST_FE_right.h5"
     words = fault_words(DiskFull(stroke.join((root, "sessions", "Blue-Hummingbird-Mountain-42", name)), "full"))
@@ -29,13 +29,13 @@ def test_a_long_path_is_told_by_its_end(root: str) -> None:
     assert "right.h5" in words.summary
 
 
-def test_what_is_no_path_stays() -> None:
+def test_fault_text_keeps_non_paths() -> None:
     assert "take 7" in fault_words(DiskFull("take 7", "1/2 full")).summary
     assert "1/2 full" in fault_words(DiskFull("take 7", "1/2 full")).details
 
 
 @pytest.mark.parametrize("most", [8, 9, 30])
-def test_a_shortened_name_keeps_both_ends(most: int) -> None:
+def test_shortened_name_keeps_both_ends(most: int) -> None:
     name = "abcdefghijklmnopqrstuvwxyz0123456789"
     short = shorten(name, most)
     assert len(short) == most
@@ -44,7 +44,7 @@ def test_a_shortened_name_keeps_both_ends(most: int) -> None:
     assert shorten("short", most) == "short"
 
 
-def test_a_recovered_practice_session_names_the_patient_in_the_persons_language(qtbot: QtBot) -> None:
+def test_recovered_practice_session_names_patient_in_persons_language(qtbot: QtBot) -> None:
     host = QWidget()
     qtbot.addWidget(host)
     messages = Messages(host, Theme("light"))

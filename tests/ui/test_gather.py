@@ -9,14 +9,14 @@ from carpus.ui.screens.live.status_light import TrackingLag, lag_light
 from tests.ui.fakes import FakeFeed, FakeSessions
 
 
-def test_the_number_of_a_session_counts_the_sessions_of_its_hand() -> None:
+def test_number_of_session_counts_sessions_of_its_hand() -> None:
     store = FakeSessions()
     report = build_session_report(store.session("session-7"), history=store.history("linden"))
     assert {one.side for one in store.history("linden")} == {"left", "right"}
     assert report.session_number == 7
 
 
-def test_the_report_of_progress_shows_the_other_hand_that_the_screen_shows() -> None:
+def test_report_of_progress_shows_other_hand_that_screen_shows() -> None:
     history = FakeSessions().history("linden")
     right, (left,) = [one for one in history if one.side == "right"], [one for one in history if one.side == "left"]
     assert build_progress_report(right).progress.other_hand is None

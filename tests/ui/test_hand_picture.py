@@ -44,7 +44,7 @@ def side() -> Session:
     return session(exercise="WRIST_RU", motion="deviation", seconds=20.0, speed_hz=0.16)
 
 
-def test_only_what_is_near_the_hand_stays(side: Session) -> None:
+def test_hand_picture_is_cropped_to_hand(side: Session) -> None:
     for row in ROWS[::10]:
         alone = cut_out_hand(room(), side, row)
         left, top = alone.left_px, alone.top_px
@@ -62,7 +62,7 @@ def test_only_what_is_near_the_hand_stays(side: Session) -> None:
     assert cut_out_hand(room(), replace(side, status=status), ROWS[0]) is None, "a lost hand shows nothing"
 
 
-def test_the_angle_on_the_picture_is_the_one_that_was_measured(side: Session) -> None:
+def test_angle_on_frame_is_one_that_was_measured(side: Session) -> None:
     exercise = get_exercise("WRIST_RU")
     for row in ROWS[::7]:
         drawn = angle_overlay(side, row, exercise)
@@ -73,7 +73,7 @@ def test_the_angle_on_the_picture_is_the_one_that_was_measured(side: Session) ->
     assert angle_overlay(bending, 60, get_exercise("WRIST_FE")) is None, "towards the camera it would look too small"
 
 
-def test_without_agreement_or_frames_no_picture_is_saved(qtbot: QtBot, review: Reviewing) -> None:
+def test_hand_picture_without_consent_or_frames_is_not_saved(qtbot: QtBot, review: Reviewing) -> None:
     screen = review(FakeSessions(pictures=False), "session-7")
     assert screen.frame_view.save_button.isHidden()
     screen.open_hand_image_dialog()
@@ -111,7 +111,7 @@ def test_words_on_a_picture_say_where_the_angle_is_not_the_patients_own(qtbot: Q
     assert build_hand_image(simulated, row, time_s).words.endswith("°, passive · Simulated hand")
 
 
-def test_a_saved_picture_shows_the_hand_alone_is_told_and_noted(
+def test_saved_frame_shows_hand_alone_is_reported_and_noted(
     qtbot: QtBot, theme: Theme, host: QWidget, background: Background, side: Session, tmp_path: Path
 ) -> None:
     made: list[tuple[str, object]] = []

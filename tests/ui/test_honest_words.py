@@ -92,7 +92,7 @@ def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: obje
 
 # --- a recording counts once ------------------------------------------------------------------------------
 @pytest.mark.parametrize("earlier", [0, 1, 3])
-def test_the_card_says_that_a_recording_counts_once_where_one_was_tracked_again(theme: Theme, earlier: int) -> None:
+def test_card_says_that_recording_counts_once_where_one_was_tracked_again(theme: Theme, earlier: int) -> None:
     row = replace(FakeStore().rows[5], session_count=6, result_count=6 + earlier)
     card = PatientCardView(theme, NOW.date)
     card.show_card(PatientCard(row, has_sessions=True), is_camera_ready=True)
@@ -180,7 +180,7 @@ def turning(frames: list[TrackedFrame], moved_mm: float) -> list[TrackedFrame]:
 
 
 @pytest.mark.parametrize("moved_mm", [0.0, 22.0])
-def test_the_lamp_judges_the_forearm_by_the_point_that_the_wrist_turns_about(moved_mm: float) -> None:
+def test_lamp_judges_forearm_by_point_that_wrist_turns_about(moved_mm: float) -> None:
     history, seen = History(WRIST6), []
     for frame in turning(FakeFeed(seconds=20.0).frames[:500], moved_mm):
         history.append([frame])
@@ -192,7 +192,7 @@ def test_the_lamp_judges_the_forearm_by_the_point_that_the_wrist_turns_about(mov
 
 
 # --- what lacks -------------------------------------------------------------------------------------------
-def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme: Theme) -> None:
+def test_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme: Theme) -> None:
     before = not_reaching((30.0, 60.0), when=NOW - timedelta(days=20), session_id="before")
     course = compute_progress([before, not_reaching((10.0, 60.0), session_id="after")])
     item = next(item for item in course.comparisons if item.after.quantity == "extension")
@@ -207,7 +207,7 @@ def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme:
 
 
 # --- whose figures ----------------------------------------------------------------------------------------
-def test_the_footnote_names_the_sd_that_is_printed() -> None:
+def test_footnote_names_sd_that_is_printed() -> None:
     many = figures_once(session())
     assert "SD between repetitions." in method_words(many, 6, compared=False)
     assert "SD of the estimate" not in method_words(many, 6, compared=False)
@@ -218,7 +218,7 @@ def test_the_footnote_names_the_sd_that_is_printed() -> None:
     assert "with fewer than 3: SD of the estimate" in method_words(mixed, 6, compared=False)
 
 
-def test_an_error_that_all_changes_share_is_said_once_and_else_with_each() -> None:
+def test_error_that_all_changes_share_is_reported_once_and_else_with_each() -> None:
     made = figures_once(session())
     before = with_ranges(replace(made, session_id="before"), lambda row: {"mean": row.mean - 40.0})
     assert change_sentence(made, before, "then").count("(MDC ") == 3, "an arc has two ends"
@@ -248,7 +248,7 @@ def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_large
     assert limits["Total active motion (TAM)"] == "22°"
 
 
-def test_the_middle_finger_spreads_radially_and_ulnarly() -> None:
+def test_middle_finger_spreads_radially_and_ulnarly() -> None:
     assert [words for _, words in spread_labels(20.0, 3)] == ["Radial 20°", "0°", "Ulnar 20°"]
     assert spread_labels(20.0, 2)[0][1] == "Out 20°"
     made = hand_session()
@@ -258,7 +258,7 @@ def test_the_middle_finger_spreads_radially_and_ulnarly() -> None:
 
 
 @pytest.mark.parametrize("exercise", ["THUMB_OPP", "FIST_HOOK"])
-def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None:
+def test_report_shows_tam_for_fist_exercises_only(exercise: str) -> None:
     figures = figures_once(hand_session(exercise=exercise))
     assert "TAM" not in " ".join(map(cell_text, finger_table(figures, None).heads)) + limitation_words(
         figures
@@ -273,14 +273,14 @@ def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None
         ("too_quick", "each was quicker than 0.4 s"),
     ],
 )  # fmt: skip
-def test_why_no_repetition_was_counted_is_said(uncounted: NoRepetitionReason, words: str) -> None:
+def test_report_states_why_no_repetition_counted(uncounted: NoRepetitionReason, words: str) -> None:
     made = replace(figures_once(session()), repetitions=(), no_repetitions_reason=uncounted)
     assert repetition_words(made) == f"range over the whole recording; no repetitions: {words}"
     free = replace(figures_once(session(exercise="FREE")), no_repetitions_reason=None)
     assert repetition_words(free) == "range over the whole recording; no repetitions"
 
 
-def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
+def test_report_states_occlusion_and_speed_below_noise() -> None:
     made = figures_once(session())
     assert repetition_words(replace(made, occluded_s=6.2)).endswith("6 s occluded and not analysed")
     assert "not visible" not in repetition_words(replace(made, occluded_s=0.0))
@@ -293,7 +293,7 @@ def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is
 
 # --- what is not beyond the error ------------------------------------------------------------------------
 @SOURCES
-def test_no_change_is_never_claimed() -> None:
+def test_change_text_never_claims_no_change() -> None:
     assert verdict_word("no_change") == change_since_first("no_change", 2.0) == "no change beyond MDC"
     assert difference_words(0.2) == "0°"
     said = []
@@ -307,11 +307,11 @@ def test_no_change_is_never_claimed() -> None:
 
 
 @pytest.mark.parametrize(("speed", "words"), [(2.0, "<\N{NO-BREAK SPACE}10°/s"), (38.0, "38°/s"), (math.nan, "–")])
-def test_a_still_hand_has_no_speed(speed: float, words: str) -> None:
+def test_still_hand_has_no_speed(speed: float, words: str) -> None:
     assert speed_words(speed) == words
 
 
-def test_the_list_s_figure_is_of_the_joint_that_is_trained_and_says_at_least() -> None:
+def test_list_s_value_is_of_joint_that_is_trained_and_says_at_least() -> None:
     figures = figures_once(hand_session())
     trained = find_finger_angle(figures.exercise.joint).finger
     rows = {figure.finger: figures.find(figure.joint, "arc") for figure in main_angles(figures)}
@@ -322,7 +322,7 @@ def test_the_list_s_figure_is_of_the_joint_that_is_trained_and_says_at_least() -
     assert get_exercise(figures.exercise.id).joint == figures.exercise.joint
 
 
-def test_two_sessions_of_one_day_have_names_of_their_own() -> None:
+def test_sessions_of_same_day_have_distinct_names() -> None:
     fist = build_session_report(hand_session())
     wrist = replace(fist, results=replace(fist.results, exercise=get_exercise("WRIST_FE")))
     later = replace(fist, results=replace(fist.results, when=fist.results.when + timedelta(hours=1)))
@@ -354,7 +354,7 @@ def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "{}", None])
-def test_the_window_reads_them_from_the_data_folder_and_tells_a_damaged_file(tmp_path: Path, text: str | None) -> None:
+def test_window_reads_them_from_data_folder_and_tells_damaged_file(tmp_path: Path, text: str | None) -> None:
     if text is None:
         save_limits(tmp_path, [STUDY])
     else:

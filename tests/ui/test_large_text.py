@@ -79,7 +79,7 @@ def test_tables_are_as_high_on_a_window_of_another_size_before_as_on_one_that_wa
     assert heights_px((1600, 1040)) == [large_px]
 
 
-def test_what_must_be_recalled_of_a_patient_has_room_below_a_strip(gallery: Gallery) -> None:
+def test_large_text_keeps_room_for_patient_reminder(gallery: Gallery) -> None:
     gallery.patients_recovered()
     gallery.settle()
     screen = gallery.shown(PatientsScreen)
@@ -98,7 +98,7 @@ def test_checks_are_read_whole_and_the_guide_gives_way(gallery: Gallery, state: 
         assert all(text.height() >= text.minimumSizeHint().height() for text in texts)
 
 
-def test_the_lock_stands_below_its_bar(gallery: Gallery) -> None:
+def test_lock_stands_below_its_bar(gallery: Gallery) -> None:
     gallery.locked()
     sheet = gallery.over[-1]
     assert isinstance(sheet, LockScreen)
@@ -106,7 +106,7 @@ def test_the_lock_stands_below_its_bar(gallery: Gallery) -> None:
     assert above >= below // 2
 
 
-def test_a_choice_without_room_ends_in_dots(theme: Theme, qapp: QApplication) -> None:
+def test_choice_without_room_ends_in_dots(theme: Theme, qapp: QApplication) -> None:
     host = QWidget()
     box = Combo()
     box.setParent(host)
@@ -129,7 +129,7 @@ def turned(field: QWidget) -> bool:
     return turn.isAccepted()
 
 
-def test_the_wheel_chooses_nothing_in_a_list_of_choices(qtbot: QtBot) -> None:
+def test_wheel_chooses_nothing_in_list_of_choices(qtbot: QtBot) -> None:
     choice = Combo()
     choice.set_choices([(1, "one"), (2, "two")])
     qtbot.addWidget(choice)
@@ -139,7 +139,7 @@ def test_the_wheel_chooses_nothing_in_a_list_of_choices(qtbot: QtBot) -> None:
     assert choice.currentIndex() == 0
 
 
-def test_the_wheel_changes_no_number_and_no_day(qtbot: QtBot, theme: Theme) -> None:
+def test_wheel_changes_no_number_and_no_day(qtbot: QtBot, theme: Theme) -> None:
     number, record = number_field(theme, 20), ManualMeasurementsScreen(theme, lambda: TODAY)
     number.setValue(7)
     for field in (number, record.day_field):

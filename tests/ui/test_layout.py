@@ -65,7 +65,7 @@ def gallery(qapp: QApplication) -> Iterator[Gallery]:
 
 
 @pytest.mark.parametrize("state", STATES)
-def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> None:
+def test_layout_has_no_cut_or_overlap(gallery: Gallery, state: str) -> None:
     order = [USUAL, LARGE, SMALL] if state in MAIN else [LARGE]
     gallery.theme.choose(text_scale=order[0][1])  # before there is a screen: it costs nothing
     gallery.show_state(state)
@@ -110,7 +110,7 @@ OWN_WORDS = re.compile(
 """Names, days and abbreviations, which are no language's."""
 
 
-def test_in_a_longer_language_nothing_is_cut_and_nothing_stays_english(qapp: QApplication) -> None:
+def test_layout_in_longer_language_is_complete(qapp: QApplication) -> None:
     """The texts of the gallery's own fakes stay English: what they say is listed in the gallery."""
     with pseudo.spoken():
         shown = Gallery(qapp, "light", (1280, 800))
@@ -138,7 +138,7 @@ class Painted(QWidget):
             painter.drawText(x, y, text)
 
 
-def test_what_it_would_find_is_found(qapp: QApplication) -> None:
+def test_layout_check_detects_defects(qapp: QApplication) -> None:
     """The test of the test: cut, over each other, reaching out, crossing."""
     host = QWidget()
     host.resize(400, 200)

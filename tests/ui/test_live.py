@@ -41,7 +41,7 @@ from tests.ui.live_tried import TriedLive
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
 
-def test_the_number_is_that_of_the_picture_shown_and_f4_changes_between_angles_and_speeds(live: Live) -> None:
+def test_number_is_that_of_frame_shown_and_f4_changes_between_angles_and_speeds(live: Live) -> None:
     tried = live(FakeFeed(), 5.0)
     shown = math.degrees(float(tried.feed.current_view().tracked.kinematics.angles_rad[1]))
     assert tried.reading().value_deg == pytest.approx(shown)
@@ -53,7 +53,7 @@ def test_the_number_is_that_of_the_picture_shown_and_f4_changes_between_angles_a
         assert (len(curves.panels()), curves.is_showing_speeds) == (panels, panels == 2)
 
 
-def test_what_each_key_does_while_a_recording_runs(qtbot: QtBot, live: Live) -> None:
+def test_live_keys_during_recording(qtbot: QtBot, live: Live) -> None:
     tried = live(FakeFeed(), 1.0)
     tried.record()
     screen, recording = tried.screen, tried.screen.recording
@@ -118,7 +118,7 @@ def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(live:
     assert tried.screen.recording.duration_s == pytest.approx(10 / 30, abs=0.05)
 
 
-def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, live: Live) -> None:
+def test_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, live: Live) -> None:
     tried = live(FakeFeed(), 1.0)
     tried.measuring.fault = DiskFull("disk")
     with qtbot.waitSignal(tried.screen.event_received) as told:
@@ -144,7 +144,7 @@ def test_predicted_frames_are_marked_and_do_not_count_as_best(live: Live) -> Non
     assert tried.screen.controls.light_view.status_light.rank == "warn"
 
 
-def test_a_lost_camera_leaves_no_old_picture_and_no_old_number_and_nothing_offers_to_go_on(live: Live) -> None:
+def test_lost_camera_leaves_no_old_frame_and_no_old_number_and_nothing_offers_to_continue(live: Live) -> None:
     tried = live(FakeFeed(), 2.0)
     tried.record()
     screen = tried.screen
@@ -161,7 +161,7 @@ def test_a_lost_camera_leaves_no_old_picture_and_no_old_number_and_nothing_offer
     assert screen.controls.pause_button.isEnabled()
 
 
-def test_a_new_picture_is_drawn_at_once_but_drawing_never_takes_all_the_time(live: Live) -> None:
+def test_new_frame_is_drawn_at_once_but_drawing_never_takes_all_time(live: Live) -> None:
     tried = live(FakeFeed(), 0.5)
     for since_s, drawing_ms, drawn in (
         (math.inf, 5.0, True),
@@ -184,7 +184,7 @@ def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(live: Live, t
 
 
 @pytest.mark.parametrize(("width", "scale"), [(620, 1.0), (430, 1.5)])
-def test_the_light_is_read_whole_however_narrow_it_is(
+def test_light_is_read_whole_however_narrow_it_is(
     theme: Theme, show: Show[StatusLightView], width: int, scale: float
 ) -> None:
     theme.choose(text_scale=scale)
@@ -224,7 +224,7 @@ def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme) -> None:
 
 
 @pytest.mark.parametrize("stored", [False, True])
-def test_one_key_starts_and_stops_on_every_source_and_a_hasty_end_asks(
+def test_live_start_stop_key_works_and_early_stop_asks(
     qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch, stored: bool
 ) -> None:
     tried = live(FakeFeed())
@@ -247,7 +247,7 @@ def test_one_key_starts_and_stops_on_every_source_and_a_hasty_end_asks(
     assert asked == [True]
 
 
-def test_a_spot_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden() -> None:
+def test_blob_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden() -> None:
     feed = FakeFeed()
     frame, camera = feed.frames[30], feed.pictures.truth.camera
     measured = frame.marker_measured_px.copy()
@@ -268,7 +268,7 @@ def test_a_spot_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden
     assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", False, False)
 
 
-def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBot, live: Live) -> None:
+def test_question_about_blob_is_answered_while_measuring_continues(qtbot: QtBot, live: Live) -> None:
     feed = FakeFeed()
     with_other_spot(feed, 3, 1.5, taken=False, off_px=(20.0, 0.0))
     tried = live(feed)
@@ -311,7 +311,7 @@ def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBo
     assert screen.number_card.reading.angle != angle, "without a question the key does what it did"
 
 
-def test_a_question_stands_only_after_it_has_lasted() -> None:
+def test_question_stands_only_after_it_has_lasted() -> None:
     steady, unknown = SteadyDoubt(), np.full(2, np.nan)
     doubt = MarkerDoubt("MCP3", unknown, np.array([1.0, 2.0]))
     shown = [steady.update(doubt if 0.1 <= t < 0.3 or t >= 1.0 else None, t) is not None for t in np.arange(0, 2, 0.05)]
@@ -322,7 +322,7 @@ def test_a_question_stands_only_after_it_has_lasted() -> None:
     assert not gone[-1]
 
 
-def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_are(live: Live) -> None:
+def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Live) -> None:
     tried = live(LateFeed(), 1.0)
     tried.record()
     feed, screen = tried.feed, tried.screen
@@ -353,7 +353,7 @@ def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_
     assert "late" not in screen.controls.light_view.status_light.state
 
 
-def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, live: Live) -> None:
+def test_stop_says_how_long_catching_up_takes(qtbot: QtBot, live: Live) -> None:
     tried = live(LateFeed(), 1.0)
     tried.record()
     feed, screen = tried.feed, tried.screen
@@ -389,7 +389,7 @@ def test_history_keeps_ten_seconds_whatever_comes() -> None:
     assert np.all(np.diff(series.time_s) > 0)
 
 
-def test_the_arm_is_said_to_have_moved_only_outside_the_ball() -> None:
+def test_arm_is_reported_to_have_moved_only_outside_ball() -> None:
     feed = FakeFeed()
     frames = [with_moment(frame, position_m=np.zeros(3)) for frame in feed.frames[:30]]
     history = History(WRIST6)
@@ -401,7 +401,7 @@ def test_the_arm_is_said_to_have_moved_only_outside_the_ball() -> None:
         assert history.has_forearm_moved() is moved
 
 
-def test_the_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_does_at_once() -> None:
+def test_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_does_at_once() -> None:
     good, warn = StatusLight("good", "a", ""), StatusLight("warn", "b", "")
     for before, wanted, delay_s in ((good, warn, 0.3), (warn, good, 0.5)):
         light = SteadyLight()
@@ -415,7 +415,7 @@ def test_the_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_do
     assert light.update(StatusLight("bad", "c", ""), 4.0).rank == "bad"
 
 
-def test_the_light_names_the_one_hidden_marker_and_its_remedy() -> None:
+def test_light_names_one_hidden_marker_and_its_remedy() -> None:
     frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
     lamp = wrist_light(frame, MARKERS, False)
     assert lamp.state == "Thumb base hidden"
@@ -448,7 +448,7 @@ def test_axes_point_along_the_hand_in_the_picture() -> None:
     assert (y_end - origin) @ (discs[2] - discs[5]) > 0
 
 
-def test_the_ellipse_is_two_standard_deviations_of_any_covariance() -> None:
+def test_ellipse_is_two_standard_deviations_of_any_covariance() -> None:
     rng = np.random.default_rng(3)
     for _ in range(20):
         root = rng.normal(0, 6, (2, 2))
@@ -460,7 +460,7 @@ def test_the_ellipse_is_two_standard_deviations_of_any_covariance() -> None:
         np.testing.assert_allclose(rebuilt, covariance, rtol=1e-9)
 
 
-def test_a_letter_outside_the_picture_moves_to_the_nearest_place_inside() -> None:
+def test_letter_outside_frame_moves_to_nearest_place_inside() -> None:
     box = QRectF(16, 16, 100, 50)
     assert clamp_to_box(QPointF(40, 40), box) == QPointF(40, 40)
     assert clamp_to_box(QPointF(200, 40), box) == QPointF(116, 40)
@@ -481,7 +481,7 @@ def begun(beginning: StartTrigger, angle_deg, until_s: float, from_s: float = 0.
     return math.nan
 
 
-def test_a_hand_begins_only_once_it_lies_still_and_is_counted_down() -> None:
+def test_hand_begins_only_once_it_lies_still_and_is_counted_down() -> None:
     beginning = StartTrigger()
     assert math.isnan(begun(beginning, lambda _: 0.0, 60.0)), "nobody asked for it"
     noise = np.random.default_rng(7).normal(0.0, 0.5, 2000)
@@ -492,7 +492,7 @@ def test_a_hand_begins_only_once_it_lies_still_and_is_counted_down() -> None:
 
 
 @pytest.mark.parametrize("what", ["moves", "lost"])
-def test_a_hand_that_moves_or_goes_while_it_is_counted_waits_again(what: str) -> None:
+def test_hand_that_moves_or_goes_while_it_is_counted_waits_again(what: str) -> None:
     beginning = StartTrigger()
     beginning.start_waiting()
     assert math.isnan(begun(beginning, lambda _: 0.0, STILL_S + 1.0))
@@ -517,7 +517,7 @@ def waiting(live: Live, mode: StartMode) -> TriedLive:
     return tried
 
 
-def test_the_key_and_a_pedal_count_down_and_take_back(qtbot: QtBot, live: Live) -> None:
+def test_key_and_pedal_count_down_and_take_back(qtbot: QtBot, live: Live) -> None:
     tried = waiting(live, "countdown")
     screen, feed = tried.screen, tried.feed
     tried.run(1.0)
@@ -551,7 +551,7 @@ def test_over_a_still_hand_a_recording_begins_by_itself_but_in_no_rest(qtbot: Qt
     assert screen.controls.main_button.text() == "Stop and review"
 
 
-def test_a_stored_recording_is_played_at_once(qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stored_recording_is_played_at_once(qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(FakeMeasuring, "is_playback", True)
     tried = waiting(live, "countdown")
     tried.run(1.0)
@@ -616,7 +616,7 @@ def test_counted_piece_by_piece_is_counted_as_a_whole(
             assert running.update_count() == most
 
 
-def test_what_somebody_else_moved_neither_counts_nor_is_a_best() -> None:
+def test_live_passive_movement_is_not_counted() -> None:
     time_s = np.arange(0.0, 30.0, 1.0 / RATE_HZ)
     frames = bending(time_s, np.where(time_s < 15.0, 30.0, 60.0) * np.sin(2.0 * np.pi * 0.4 * time_s))
     half, running = len(frames) // 2, RepetitionCounter(get_exercise("WRIST_FE"))

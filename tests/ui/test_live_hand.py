@@ -62,7 +62,7 @@ def frame_at(time_s: float) -> TrackedFrame:
     return feed_of().frames[round(30 * time_s)]
 
 
-def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_middle_finger() -> None:
+def test_live_hand_values_match_joint_and_abduction_sign() -> None:
     frame = frame_at(CLOSED_S)
     names = joint_angle_names()
     angle = dict(zip(names, np.degrees(frame.kinematics.joint_angles_rad), strict=True))
@@ -80,7 +80,7 @@ def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_mi
     assert sd[0, column] == pytest.approx(math.hypot(sds["MCP3_flexion"], 5 / 3 * sds["PIP3_flexion"]))
 
 
-def test_with_free_end_joints_nothing_is_inferred() -> None:
+def test_live_hand_with_free_dip_infers_nothing() -> None:
     frame = feed_of().frames[10]
     free = joint_angle_names(dip_free=True)
     frame = with_moment(
@@ -96,7 +96,7 @@ def test_with_free_end_joints_nothing_is_inferred() -> None:
     assert not history.is_inferred(end)
 
 
-def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> None:
+def test_joint_counts_as_measured_only_while_marker_beyond_it_is_seen() -> None:
     hidden = [(0.0, 9.0, name) for name in ("DIP4", "TIP4", "MCP1")]
     history = History(HAND21)
     history.append(feed_of(hidden).frames[:90])
@@ -111,7 +111,7 @@ def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> Non
 
 
 @pytest.mark.parametrize(("every", "points_s"), [(1, 10.0), (2, 15.0)])
-def test_a_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s: float) -> None:
+def test_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s: float) -> None:
     """Of 30 and of 15 pictures a second; one picture that is missing is no gap, half a second is."""
     frames = [
         replace(frame, index=k, timestamp_s=k * every / 30.0) for k, frame in enumerate(feed_of([]).frames[:300:every])
@@ -127,7 +127,7 @@ def test_a_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s
     assert len(history.angle_block().series(0).gaps_s()) == 1
 
 
-def test_the_band_of_a_hidden_joint_grows() -> None:
+def test_band_of_hidden_joint_grows() -> None:
     history = History(HAND21)
     history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])
     sd = history.angle_block().series(FINGER_ANGLES.index(FingerAngle(2, "middle"))).sd
@@ -135,7 +135,7 @@ def test_the_band_of_a_hidden_joint_grows() -> None:
     assert np.all(np.diff(sd[len(sd) // 2 :]) >= 0.0)
 
 
-def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: Live) -> None:
+def test_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: Live) -> None:
     tried = live(feed_of([(1.0, 9.0, "PIP3"), (1.0, 9.0, "DIP3")]))
     tried.record()
     tried.run(0.8)
@@ -154,7 +154,7 @@ def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: L
     assert "no value" not in screen.number_card.movement_name()
 
 
-def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
+def test_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
     tried = live(feed_of(), CLOSED_S)
     feed, screen = tried.feed, tried.screen
     assert screen.number_card.movement_name() == "Middle finger, MCP"
@@ -195,14 +195,14 @@ def test_spreading_says_its_side_and_the_thumbs_lift_runs_from_the_palms_plane(q
     assert angle_suffix(lift, 20.0) == "palm. abd."
 
 
-def test_a_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
+def test_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
     tried = live(feed_of(lost=[(1.0, 9.0)]), 2.0)
     assert math.isnan(tried.reading().value_deg)
     assert all(math.isnan(value) for value, _, _ in tried.screen.finger_curves._values.values())
     assert tried.screen.controls.light_view.status_light.rank == "bad"
 
 
-def test_the_wrist_keeps_its_own_screen(live: Live) -> None:
+def test_wrist_keeps_its_own_screen(live: Live) -> None:
     screen = live(feed_of()).screen
     parts = (screen.finger_curves, screen.hand_map, screen.curves, screen.path_view)
     assert [part.isVisible() for part in parts] == [True, True, False, False]
@@ -223,14 +223,14 @@ def test_the_wrist_keeps_its_own_screen(live: Live) -> None:
         (("WRIST", "CMC1", "MCP2", "MCP3"), "Too few markers seen", "Turn the back of the hand to the camera"),
     ],
 )
-def test_the_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], state: str, remedy: str) -> None:
+def test_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], state: str, remedy: str) -> None:
     frame = feed_of([(0.0, 9.0, name) for name in hidden]).frames[20]
     lamp = hand_light(frame, {name: "hidden" if name in hidden else "seen" for name in MARKERS})
     assert (lamp.state, lamp.remedy) == (state, remedy)
     assert lamp.rank == ("warn" if hidden else "good")
 
 
-def test_the_map_says_it_in_one_sentence() -> None:
+def test_map_says_it_in_one_sentence() -> None:
     seen = dict.fromkeys(MARKERS, "seen")
     assert hand_map_words(seen) == "All markers seen, every joint is measured."  # type: ignore[arg-type]
     assert "follow the middle joints" in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
@@ -240,7 +240,7 @@ def test_the_map_says_it_in_one_sentence() -> None:
     assert "now and then" in hand_map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
 
 
-def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> None:
+def test_bent_finger_goes_below_back_of_hand_in_side_view() -> None:
     straight, bent = (side_points_m(frame_at(time_s), HAND21, 3) for time_s in (OPEN_S, CLOSED_S))
     assert np.all(np.diff(straight[:, 0]) > 0.0)
     assert abs(straight[3, 1]) < 0.03
@@ -250,13 +250,13 @@ def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> Non
     np.testing.assert_allclose(length[0], length[1], atol=0.004)
 
 
-def test_a_predicted_frame_supports_no_joint() -> None:
+def test_predicted_frame_supports_no_joint() -> None:
     frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
     assert not estimate_finger_angles(HAND21, [frame])[3].any()
 
 
 @pytest.mark.parametrize("exercise", ["FIST_COMPOSITE", "FIST_HOOK"])
-def test_what_is_counted_live_is_what_the_review_counts_though_the_joint_hides(exercise: str) -> None:
+def test_live_count_matches_review_with_occlusion(exercise: str) -> None:
     chosen = get_exercise(exercise)
     session = hand_session(exercise=exercise, motion="hook" if exercise == "FIST_HOOK" else "fist")
     count = RepetitionCounter(chosen)

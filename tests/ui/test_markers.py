@@ -125,7 +125,7 @@ def test_clicks_snap_to_the_discs_in_the_order_of_the_protocol(marking: Marking)
     assert calibrator.begun is not None
 
 
-def test_the_whole_way_by_keyboard_alone(qtbot: QtBot, marking: Marking) -> None:
+def test_whole_way_by_keyboard_alone(qtbot: QtBot, marking: Marking) -> None:
     calibrator, picture = marking.begin(), marking.screen.picture
     marking.press(Qt.Key.Key_Left)
     for pixel in calibrator.disc_px:
@@ -169,7 +169,7 @@ def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking
         assert marking.screen.picture.no_marker_words == "Already the wrist"
 
 
-def test_the_cursor_of_the_last_picture_is_forgotten(qtbot: QtBot, marking: Marking) -> None:
+def test_cursor_of_last_frame_is_forgotten(qtbot: QtBot, marking: Marking) -> None:
     picture = marking.screen.picture
     qtbot.mouseMove(picture, marking.at(marking.begin().disc_px[0]))
     marking.press(Qt.Key.Key_Right)
@@ -190,7 +190,7 @@ def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, mar
     assert not following.judged
 
 
-def test_what_is_still_worked_out_of_one_picture_measures_no_other(
+def test_markers_pending_result_is_dropped_for_new_frame(
     qtbot: QtBot, screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calibrator, asked, worked_out = FakeCalibrator(is_live=True), threading.Event(), threading.Event()
@@ -214,7 +214,7 @@ def test_what_is_still_worked_out_of_one_picture_measures_no_other(
     assert calibrator.begun is None
 
 
-def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, marking: Marking) -> None:
+def test_click_next_to_every_marker_sets_nothing_and_says_so(qtbot: QtBot, marking: Marking) -> None:
     marking.begin()
     screen = marking.screen
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))
@@ -252,7 +252,7 @@ def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: M
     assert marking.clicking.missing == WRIST6.markers
 
 
-def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, marking: Marking) -> None:
+def test_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, marking: Marking) -> None:
     calibrator = marking.begin(TILT)
     marking.judge_all()
     assert marking.screen.second_button.isVisible()
@@ -265,7 +265,7 @@ def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, mark
     assert calibrator.begun is not None
 
 
-def test_what_blocks_cannot_be_started_at_all(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_blocking_finding_prevents_start(qtbot: QtBot, marking: Marking) -> None:
     calibrator = marking.begin(CalibrationFinding("no_depth", ("CMC1",), blocks=True))
     marking.judge_all()
     assert not marking.screen.second_button.isVisible()
@@ -274,7 +274,7 @@ def test_what_blocks_cannot_be_started_at_all(qtbot: QtBot, marking: Marking) ->
     assert marking.clicking.missing == ("CMC1",)
 
 
-def test_a_given_start_angle_reaches_the_calibration_with_its_sign(qtbot: QtBot, marking: Marking) -> None:
+def test_given_start_angle_reaches_calibration_with_its_sign(qtbot: QtBot, marking: Marking) -> None:
     calibrator, screen = marking.begin(), marking.screen
     qtbot.mouseClick(screen.start_angle_button, Qt.MouseButton.LeftButton)
     direction, value = screen.angle_dialog.fields[1]
@@ -287,7 +287,7 @@ def test_a_given_start_angle_reaches_the_calibration_with_its_sign(qtbot: QtBot,
     assert "Extension 20°" in screen.start_angle_button.text()
 
 
-def test_a_live_camera_shows_pictures_until_one_is_taken(qtbot: QtBot, marking: Marking) -> None:
+def test_live_camera_shows_frames_until_one_is_taken(qtbot: QtBot, marking: Marking) -> None:
     marking.begin(is_live=True)
     assert marking.clicking is None
     marking.press(Qt.Key.Key_Space)
@@ -324,7 +324,7 @@ def test_doubtful_names_are_said_in_words_and_one_click_settles_each(marking: Ma
     assert not marking.clicking.doubtful
 
 
-def test_a_wrong_proposal_is_dragged_to_its_disc_and_names_change_places(marking: Marking) -> None:
+def test_wrong_proposal_is_dragged_to_its_marker_and_names_change_places(marking: Marking) -> None:
     marking.propose()
     clicking, tip, other = marking.clicking, marking.disc_px("TIP2"), marking.disc_px("TIP3")
     marking.drag(tip, other)
@@ -337,7 +337,7 @@ def test_a_wrong_proposal_is_dragged_to_its_disc_and_names_change_places(marking
     np.testing.assert_allclose(clicking.confirmed_px["TIP3"], other)
 
 
-def test_a_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
+def test_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
     calibrator = marking.propose(not_found=("TIP1",))
     assert "thumb tip" in marking.screen.guidance.title_label.text()
     marking.press(Qt.Key.Key_Return)
@@ -358,9 +358,7 @@ def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(marki
 
 
 @pytest.mark.parametrize("scale", [1.0, 1.5])
-def test_no_name_covers_a_disc_that_is_to_be_clicked(
-    qtbot: QtBot, screen: MarkersScreen, theme: Theme, scale: float
-) -> None:
+def test_markers_labels_do_not_cover_targets(qtbot: QtBot, screen: MarkersScreen, theme: Theme, scale: float) -> None:
     theme.choose(text_scale=scale)
     calibrator = FakeCalibrator()
     screen.open_calibrator(calibrator)
@@ -379,9 +377,7 @@ def test_no_name_covers_a_disc_that_is_to_be_clicked(
             assert not any(one.plate.intersects(other.plate) for other in plates if other is not one)
 
 
-def test_where_the_names_are_long_a_knuckle_has_its_fingers_name(
-    qtbot: QtBot, screen: MarkersScreen, theme: Theme
-) -> None:
+def test_markers_long_labels_shorten_to_finger(qtbot: QtBot, screen: MarkersScreen, theme: Theme) -> None:
     theme.choose(text_scale=1.5)
     calibrator = FakeCalibrator()
     screen.open_calibrator(calibrator)
@@ -398,14 +394,14 @@ def test_where_the_names_are_long_a_knuckle_has_its_fingers_name(
     assert plates[-1].words == "Kleinfinger"
 
 
-def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_can_all_be_clicked_manually(qtbot: QtBot, marking: Marking) -> None:
     calibrator = marking.propose()
     qtbot.mouseClick(marking.screen.second_button, Qt.MouseButton.LeftButton)
     assert not marking.clicking.proposals
     np.testing.assert_allclose(marking.judge_all(off_px=1.0).pixel, calibrator.disc_px)
 
 
-def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(marking: Marking) -> None:
+def test_bad_frame_is_taken_again_by_enter_and_wrong_names_are_not(marking: Marking) -> None:
     calibrator, screen = marking.begin(TILT, is_live=True), marking.screen
     marking.press(Qt.Key.Key_Space)
     marking.judge_all()
@@ -423,7 +419,7 @@ def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(marking: 
     assert screen.labels.is_complete
 
 
-def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_swapped_fingers_are_exchanged_by_key(qtbot: QtBot, marking: Marking) -> None:
     names = [f"{joint}{k}" for k in (3, 4) for joint in ("MCP", "PIP", "DIP", "TIP")]
     calibrator = marking.propose()
     calibrator.findings = (CalibrationFinding("swapped", tuple(names)),)
@@ -449,7 +445,7 @@ def test_enter_never_takes_a_doubtful_name_unseen(marking: Marking) -> None:
     assert not screen.accept_all_button.isVisible()
 
 
-def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> None:
+def test_proposed_name_dropped_on_taken_marker_changes_places_with_it() -> None:
     clicking = LabelState(HAND21, "right")
     places = {name: np.array([20.0 * i, 0.0]) for i, name in enumerate(HAND21.markers)}
     clicking.set_proposals({name: LabelProposal(at, 9.0, True) for name, at in places.items()})
@@ -481,14 +477,14 @@ def test_names_that_are_proposed_leave_the_marker_that_a_person_has_gone_to() ->
     assert clicking.current == HAND21.markers[1]
 
 
-def test_the_loupe_keeps_off_the_discs(marking: Marking) -> None:
+def test_loupe_keeps_off_markers(marking: Marking) -> None:
     picture = marking.screen.picture
     for pixel in marking.propose().disc_px:
         picture.set_cursor(pixel)
         assert not picture.loupe_box().adjusted(-30, -20, 30, 20).contains(picture.to_screen(*map(float, pixel)))
 
 
-def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_alternative_blob_is_shown_and_accepted(qtbot: QtBot, marking: Marking) -> None:
     spot = tuple(map(float, FakeCalibrator().disc_px[3] + 25.0))
     calibrator = marking.begin(CalibrationFinding("other_spot", ("MCP3",), spot_px=spot))
     marking.judge_all()
@@ -502,7 +498,7 @@ def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: Qt
     assert screen.picture.questioned_blobs == []
 
 
-def test_a_picture_without_discs_says_so(screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_frame_without_markers_says_so(screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch) -> None:
     calibrator = FakeCalibrator()
     for seen, said in ((0, True), (6, False)):
         monkeypatch.setattr(calibrator, "count_candidates", lambda seen=seen: seen)

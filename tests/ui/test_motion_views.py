@@ -42,7 +42,7 @@ def panels(theme: Theme) -> list[Panel]:
     return plane_panels(screen_style(theme), BOX, 12.0)
 
 
-def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(qtbot: QtBot, theme: Theme) -> None:
+def test_paths_chart_fits_panel_with_one_scale(qtbot: QtBot, theme: Theme) -> None:
     curves = compute_motion_curves(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     chart = shown(qtbot, theme)
     for plot in (wrist_path(curves), finger_paths(curves, 0), finger_paths(curves, 1), finger_paths(curves, 3)):
@@ -68,7 +68,7 @@ def shown(qtbot: QtBot, theme: Theme) -> PathsChart:
     return chart
 
 
-def test_a_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> None:
+def test_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> None:
     style = screen_style(theme)
     line = QFontMetricsF(style.label_font).height() + 4 * style.unit
     seen = set()
@@ -80,13 +80,13 @@ def test_a_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> N
     assert seen == {True, False}
 
 
-def test_a_still_hand_is_not_blown_up(panels: list[Panel]) -> None:
+def test_still_hand_is_not_blown_up(panels: list[Panel]) -> None:
     plot = wrist_path(compute_motion_curves(hand_session(exercise="THUMB_OPP", motion="opposition")))
     assert float((plot.high_mm - plot.low_mm).max()) < MIN_SPAN_MM
     assert plot.per_mm(panels[0].box) * MIN_SPAN_MM <= panels[0].box.width() + 1e-9
 
 
-def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(qtbot: QtBot, theme: Theme) -> None:
+def test_thumb_side_is_on_its_side_of_panel_for_both_hands(qtbot: QtBot, theme: Theme) -> None:
     chart = shown(qtbot, theme)
     for side, thumb_left in (("right", True), ("left", False)):
         plot = finger_paths(
@@ -100,7 +100,7 @@ def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(qtbot: QtBot,
         assert (x[0] < x[4]) is thumb_left
 
 
-def test_a_way_and_the_hand_s_axes_are_really_drawn(qtbot: QtBot, theme: Theme) -> None:
+def test_way_and_hand_s_axes_are_really_drawn(qtbot: QtBot, theme: Theme) -> None:
     chart = shown(qtbot, theme)
     chart.show_plot(wrist_path(compute_motion_curves(session())))
     chart.set_time(20.0)
@@ -131,7 +131,7 @@ def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
 
 
 # --- review -----------------------------------------------------------------------------------------------
-def test_the_review_shows_path_speeds_and_zyz_in_turn(review: Reviewing) -> None:
+def test_review_shows_path_speeds_and_zyz_in_turn(review: Reviewing) -> None:
     screen = review(FakeSessions(), "session-7")
     assert screen.charts.curves.isVisible()
     screen.player.next_view()
@@ -148,7 +148,7 @@ def test_the_review_shows_path_speeds_and_zyz_in_turn(review: Reviewing) -> None
     assert not isinstance(screen.charts.curves._plot, MotionPlot)
 
 
-def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(review: Reviewing) -> None:
+def test_review_of_reach_has_its_values_and_ways_of_joints(review: Reviewing) -> None:
     store = FakeHandSessions(pictures=False)
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
@@ -213,7 +213,7 @@ def test_totals_are_graded_beside_their_share() -> None:
 
 
 # --- paper ------------------------------------------------------------------------------------------------
-def test_the_second_page_has_the_papers_figures(tmp_path: Path) -> None:
+def test_second_page_has_papers_values(tmp_path: Path) -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     path = write_session_report(made, tmp_path / "reach.pdf")
     first, second = (words_of(path, page) for page in (1, 2))

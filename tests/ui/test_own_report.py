@@ -56,7 +56,7 @@ def report(**look: object) -> SessionReport:
 
 
 @pytest.mark.parametrize("paper", PAPERS)
-def test_nothing_is_cut_on_either_paper_whatever_stands_on_it(paper: Paper, tmp_path: Path) -> None:
+def test_report_is_not_cut_on_a4_or_letter(paper: Paper, tmp_path: Path) -> None:
     logo = logo_png(picture(tmp_path / "logo.png"))
     head = Letterhead("W" * 60, ("12 Riverside Road", "Y" * 80, "Vienna", "Phone 12 34 56"), logo)
     path = write_session_report(report(form=ReportForm(head, paper), comment=LONG), tmp_path / "x.pdf")
@@ -76,7 +76,7 @@ def test_nothing_is_cut_on_either_paper_whatever_stands_on_it(paper: Paper, tmp_
 
 
 @pytest.mark.parametrize("printed", PAPERS)
-def test_a_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
+def test_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
     made = report(form=ReportForm(paper="a4"), comment="Splint.")
     pages = pages_of_report(made)
     printer = make_printer(made, len(pages))
@@ -89,7 +89,7 @@ def test_a_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path)
     assert "as measured live" in words_of(tmp_path / "p.pdf")
 
 
-def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
+def test_report_mandatory_sections_stay(tmp_path: Path) -> None:
     made = report(form=ReportForm(excluded_sections=frozenset(SECTIONS)))
     doubtful = replace(made, results=replace(made.results, is_simulated=True))
     words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
@@ -100,7 +100,7 @@ def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
         assert gone not in words
 
 
-def test_the_form_is_kept_with_its_logo_and_a_second_person_s_change_is_told(tmp_path: Path) -> None:
+def test_form_is_kept_with_its_logo_and_second_person_s_change_is_reported(tmp_path: Path) -> None:
     with Store(tmp_path) as store:
         usual = ReportForm(paper="letter")
         assert read_form(store, "letter") == usual
@@ -119,7 +119,7 @@ def test_the_form_is_kept_with_its_logo_and_a_second_person_s_change_is_told(tmp
 DRAWING = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><rect width="99" height="99"/></svg>'
 
 
-def test_what_is_no_picture_not_there_too_small_or_of_too_many_pixels_is_no_logo(tmp_path: Path) -> None:
+def test_report_invalid_logo_is_refused(tmp_path: Path) -> None:
     large = QImage(7900, 7900, QImage.Format.Format_Mono)
     large.fill(0)
     assert large.save(str(tmp_path / "large.png"))
@@ -145,7 +145,7 @@ def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured
     assert fill_sentence("{change}", replace(made, previous=None)) == "Not measured."
 
 
-def test_the_report_of_an_older_result_says_that_a_newer_one_counts() -> None:
+def test_report_of_older_result_says_that_newer_one_counts() -> None:
     store = FakeSessions()
     session = store.session("session-7")
     made = build_session_report(session).results
@@ -156,7 +156,7 @@ def test_the_report_of_an_older_result_says_that_a_newer_one_counts() -> None:
 
 
 @pytest.mark.parametrize(("language", "hand"), [("en", False), ("de", False), ("de", True)])
-def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, tmp_path: Path) -> None:
+def test_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, tmp_path: Path) -> None:
     store = FakeHandSessions() if hand else FakeSessions()
     stored = store.session("hand-7" if hand else "session-7")
     head = Letterhead("W" * 60, ("Y" * 80,) * 4, logo_png(picture(tmp_path / "logo.png")))
@@ -186,7 +186,7 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
     ("language", "names"),
     [("en", ("WRIST_FE",)), *((code, ("FIST_COMPOSITE", "THUMB_OPP", "FOREARM_PS")) for code in ("de", "it"))],
 )
-def test_the_sheet_for_home_is_one_page_in_the_patients_language(
+def test_dialog_for_home_is_one_page_in_patients_language(
     language: str, names: tuple[str, ...], tmp_path: Path
 ) -> None:
     path = write_report(home_report(language, "left", names), tmp_path / "home.pdf")
@@ -207,7 +207,7 @@ def test_the_sheet_for_home_is_one_page_in_the_patients_language(
     assert "<image" not in drawn
 
 
-def test_the_sheet_for_home_has_no_bad_news() -> None:
+def test_dialog_for_home_has_no_bad_news() -> None:
     store = FakeSessions()
     history, goals = store.history("linden"), {("WRIST_FE", "right"): (60.0, -50.0)}
     last = next(one for one in history if one.session_id == "session-7")
@@ -227,7 +227,7 @@ def test_the_sheet_for_home_has_no_bad_news() -> None:
     assert build_home_progress(worse, history, {}) is None
 
 
-def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
+def test_dialog_for_home_asks_in_window_and_goes_back(
     qtbot: QtBot, theme: Theme, host: QWidget, tmp_path: Path
 ) -> None:
     sheet, asked = HomeDialog(host, theme), []
@@ -288,14 +288,14 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     assert not screen.show_parent_report(), "from the report itself Esc leads on"
 
 
-def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:
+def test_letter_names_no_one_unless_asked(tmp_path: Path) -> None:
     made = report()
     words = words_of(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
     kept = ("Dr A", "Vienna", "22 Nov 2026", "Total arc", "± ", "first session on", LEGAL_SENTENCE[:60])
     assert all(one in words for one in (f"camera: {made.pseudonym} Dear", *kept))
 
 
-def test_the_comment_beside_the_preview_is_told_once_it_is_written(theme: Theme) -> None:
+def test_comment_next_to_preview_is_reported_once_it_is_written(theme: Theme) -> None:
     screen = ReportScreen(theme, Background())
     told: list[tuple[str, str]] = []
     screen.panel.comment_saved.connect(lambda session, text: told.append((session, text)))
@@ -314,7 +314,7 @@ def test_the_comment_beside_the_preview_is_told_once_it_is_written(theme: Theme)
     assert shown.form.excluded_sections == {"bars", "diagnosis"}
 
 
-def test_a_diagnosis_is_printed_only_where_the_clinic_wants_it(tmp_path: Path) -> None:
+def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None:
     """With the weeks that had passed on the day of the session."""
     day = report().results.when.date() - timedelta(weeks=13)
     own = replace(report(), diagnosis="Wrist fracture, plate", onset="operation", onset_day=day)

@@ -54,7 +54,7 @@ def phases(scenes: list[GuideScene]) -> list[tuple[str, int]]:
     return found
 
 
-def test_a_goal_reached_is_held_then_comes_the_way_back_and_the_other_side() -> None:
+def test_goal_reached_is_held_then_comes_way_back_and_other_side() -> None:
     guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, -40.0)
     scenes = walk(guide, [*[0.0] * 4, *ramp(0, 62), *[62.0] * 14, *ramp(62, -42), *[-42.0] * 14, *ramp(-42, 30)])
     assert phases(scenes) == [
@@ -63,7 +63,7 @@ def test_a_goal_reached_is_held_then_comes_the_way_back_and_the_other_side() -> 
     assert guide.goals_reached == 2
 
 
-def test_a_missed_goal_is_not_said_and_the_way_just_empties() -> None:
+def test_missed_goal_is_not_said_and_way_just_empties() -> None:
     guide = ExerciseGuide(get_exercise("FIST_COMPOSITE"), 80.0, NONE)
     scenes = walk(guide, [*[5.0] * 4, *ramp(5, 60, 5, 50)])
     assert phases(scenes)[1:] == [("out", 1), ("back", 1), ("out", 1)]
@@ -79,7 +79,7 @@ def test_small_movements_without_a_goal_are_followed_too() -> None:
 
 
 @pytest.mark.parametrize("sure", [True, False])
-def test_a_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
+def test_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
     guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, NONE)
     walk(guide, [20.0] * 5)
     value = NONE if sure else 20.0
@@ -90,7 +90,7 @@ def test_a_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> Non
     assert walk(guide, [22.0] * 5, from_s=1.4)[-1].phase == "out"
 
 
-def test_nobody_is_told_to_show_the_dots_where_the_computer_is_late() -> None:
+def test_patient_view_with_lag_does_not_ask_for_dots() -> None:
     guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, NONE)
     walk(guide, [20.0] * 5)
     scenes = [
@@ -100,7 +100,7 @@ def test_nobody_is_told_to_show_the_dots_where_the_computer_is_late() -> None:
     assert patient_words("WRIST_FE", scenes[-1], "adult") == PatientWords("", "One moment.")
 
 
-def test_a_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:
+def test_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:
     guide = ExerciseGuide(get_exercise("FIST_COMPOSITE"), 80.0, NONE)
     walk(guide, [*[5.0] * 4, *ramp(5, 60)])
     hidden = walk(guide, [66.0] * 12, sure=False, seen=True, from_s=3.0)
@@ -109,9 +109,7 @@ def test_a_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:
     assert patient_words("FIST_COMPOSITE", hidden[-1], "adult").task == "Open your hand"
 
 
-def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirror_image(
-    qtbot: QtBot, theme: Theme
-) -> None:
+def test_patient_view_covers_every_exercise_and_mirrors_left(qtbot: QtBot, theme: Theme) -> None:
     view = PatientView(theme)
     qtbot.addWidget(view)
     view.resize(640, 360)
@@ -152,7 +150,7 @@ def test_esc_closes_a_view_that_lies_over_the_window(qtbot: QtBot, theme: Theme)
     assert not viewing.is_open
 
 
-def test_a_window_that_hears_nothing_more_shows_no_hand(qtbot: QtBot, theme: Theme) -> None:
+def test_window_that_receives_nothing_more_shows_no_hand(qtbot: QtBot, theme: Theme) -> None:
     window = PatientWindow(theme)
     qtbot.addWidget(window)
     assert window.windowFlags() & Qt.WindowType.WindowDoesNotAcceptFocus

@@ -97,7 +97,7 @@ def test_zoomed_in_a_drag_moves_along_and_all_panels_go_together(qtbot: QtBot, v
     assert [tuple(own.viewRange()[0]) for own in view.plots] == [pytest.approx(view.zoom_range)] * 3
 
 
-def test_the_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: SessionChart) -> None:
+def test_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: SessionChart) -> None:
     panel = view.panels()[0][0]
     view.set_time(8.0)
     moved: list[float] = []
@@ -113,7 +113,7 @@ def test_the_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot:
     assert view.zoom_range == (5.0, 15.0)
 
 
-def test_the_wheel_alone_is_the_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
+def test_wheel_alone_is_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
     assert not wheel(view.mouse_target, center(view), 120), "the page that it lies on scrolls"
     assert view.zoom_range is None
     assert wheel(view.mouse_target, center(view), 120, Qt.KeyboardModifier.ControlModifier)
@@ -152,7 +152,7 @@ def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None
     assert not view._hover_label.isVisible()
 
 
-def test_the_menu_speaks_our_words_and_has_no_other(view: SessionChart) -> None:
+def test_menu_speaks_our_words_and_has_no_other(view: SessionChart) -> None:
     words = [action.text().split("\t")[0] for action in view.menu.build_menu().actions() if action.text()]
     assert words == [
         "Show all", "Zoom in", "Zoom out", "Copy picture", "Save picture (PNG)…", "Save drawing (SVG)…",
@@ -161,7 +161,7 @@ def test_the_menu_speaks_our_words_and_has_no_other(view: SessionChart) -> None:
     assert all(box.menu is None for box in view.plots)
 
 
-def test_a_picture_is_of_print_size_a_drawing_of_lines_and_a_folder_that_is_not_there_is_told(
+def test_frame_is_of_print_size_drawing_of_lines_and_folder_that_is_not_there_is_reported(
     qtbot: QtBot, view: SessionChart, tmp_path: Path
 ) -> None:
     view.menu.save(tmp_path / "curves.png")
@@ -186,7 +186,7 @@ def test_a_picture_is_of_print_size_a_drawing_of_lines_and_a_folder_that_is_not_
     assert isinstance(told.args[0], OutputNotWritable)
 
 
-def test_the_table_has_what_is_shown_with_gaps_empty(view: SessionChart, tmp_path: Path) -> None:
+def test_table_has_what_is_shown_with_gaps_empty(view: SessionChart, tmp_path: Path) -> None:
     plot = view._plot
     angles = plot.curves.angles_deg.copy()
     angles[330:333] = math.nan
@@ -235,7 +235,7 @@ def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, rat
 
 
 @pytest.mark.parametrize("ratio", [1.0, 1.5])
-def test_a_curve_in_pieces_looks_like_the_stroked_one_and_keeps_every_peak(
+def test_curve_in_pieces_looks_like_stroked_one_and_keeps_every_peak(
     qapp: QApplication, theme: Theme, ratio: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Up and down every dozen pixels, with one sample far out, a gap, and a stretch that is predicted."""
@@ -267,7 +267,7 @@ def test_dashes_are_half_of_a_line_whether_level_or_steep_and_run_with_it(qapp: 
 
 @pytest.mark.parametrize("on_pixels", [True, False])
 @pytest.mark.parametrize("seen", [range(100), range(7, 8), range(0)])
-def test_all_that_is_drawn_of_a_curve_lies_on_it(
+def test_chart_curve_points_lie_on_data(
     qapp: QApplication, theme: Theme, monkeypatch: pytest.MonkeyPatch, seen: range, on_pixels: bool
 ) -> None:
     """As pieces on pixels and as lines on paper, half of it dashed, all but one piece, or all."""
@@ -300,7 +300,7 @@ def test_words_stand_at_a_point_or_on_their_side_of_a_box(qapp: QApplication, th
     assert 28 < down.min() < down.max() < 40
 
 
-def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> None:
+def test_chart_ignores_mouse_during_recording(qtbot: QtBot, theme: Theme) -> None:
     feed, history = FakeFeed(), History(WRIST6)
     curves = LiveCurves(theme, history)
     qtbot.addWidget(curves)
@@ -323,7 +323,7 @@ NAMES = joint_angle_names()
 COLUMN = NAMES.index("PIP4_flexion")
 
 
-def test_an_angle_that_no_joint_can_have_is_a_gap_in_review_and_figures() -> None:
+def test_angle_that_no_joint_can_have_is_gap_in_review_and_values() -> None:
     session = hand_session()
     angles = session.motion.joint_angles_rad.copy()
     angles[600:602] = np.radians(-3627.0)  # as after pictures were missing for twelve seconds
@@ -338,7 +338,7 @@ def test_an_angle_that_no_joint_can_have_is_a_gap_in_review_and_figures() -> Non
             assert not abs(value) > 400.0, row.key
 
 
-def test_an_angle_that_no_joint_can_have_takes_only_its_own_figures_live() -> None:
+def test_angle_that_no_joint_can_have_takes_only_its_own_values_live() -> None:
     frame = FakeFeed("fist", 3.0, protocol="hand21").frames[10]
     angles = frame.kinematics.joint_angles_rad.copy()
     angles[COLUMN] = np.radians(-3627.0)
@@ -389,7 +389,7 @@ def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_
 
 
 @pytest.mark.parametrize("fps", [1.5, 5.0, 30.0])
-def test_a_recording_of_few_frames_a_second_is_drawn_and_its_gaps_stay(fps: float) -> None:
+def test_recording_of_few_frames_second_is_drawn_and_its_gaps_stay(fps: float) -> None:
     time_s = np.arange(40) / fps
     whole = Series(time_s, np.zeros(40), None, np.zeros(40, bool), find_max_step_s(time_s))
     assert whole.gaps_s() == []
@@ -398,7 +398,7 @@ def test_a_recording_of_few_frames_a_second_is_drawn_and_its_gaps_stay(fps: floa
     assert len(replace(whole, value=value).gaps_s()) == 1
 
 
-def test_a_target_short_of_thumb_up_keeps_its_sign_and_its_words_off_the_curve(view: SessionChart) -> None:
+def test_target_short_of_thumb_up_keeps_its_sign_and_its_words_off_curve(view: SessionChart) -> None:
     view.show_plot(replace(view._plot, target_positive_deg=-40.0, target_negative_deg=-70.0))
     panel = view.panels()[0][0]
     places = {

@@ -50,9 +50,7 @@ def plain(text: str) -> str:
     return " ".join(text.replace(numbers.NARROW_GAP, " ").split())
 
 
-def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
-    store: FakeHandSessions, tmp_path: Path
-) -> None:
+def test_report_hand_page_has_fingers_totals_and_visibility(store: FakeHandSessions, tmp_path: Path) -> None:
     path = write_session_report(store.session("hand-7"), tmp_path / "h.pdf", history=store.history("x"))
     assert pages_of(path) == 2
     words = plain(words_of(path))
@@ -75,7 +73,7 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
 
 
 @pytest.mark.parametrize("code", ["en", "de", "it"])
-def test_no_cell_of_a_finger_runs_into_the_one_beside_it(store: FakeHandSessions, tmp_path: Path, code: str) -> None:
+def test_report_hand_table_cells_do_not_overlap(store: FakeHandSessions, tmp_path: Path, code: str) -> None:
     first = figures_once(store.session("hand-3"))
     made = build_session_report(store.session("hand-7"), history=store.history("x"), language=code)
     for number, previous in enumerate((None, first)):
@@ -84,7 +82,7 @@ def test_no_cell_of_a_finger_runs_into_the_one_beside_it(store: FakeHandSessions
 
 
 @pytest.mark.parametrize(("exercise", "motion"), [("FIST_HOOK", "hook"), ("", "fist")])
-def test_every_exercise_of_the_hand_fits_one_page(tmp_path: Path, exercise: str, motion: str) -> None:
+def test_report_hand_exercises_fit_one_page(tmp_path: Path, exercise: str, motion: str) -> None:
     made = hand_session(exercise=exercise, motion=motion, hidden=[(0.0, 99.0, "TIP1")])
     path = write_session_report(made, tmp_path / "h.pdf", history=[figures_once(made)])
     assert pages_of(path) == 2
@@ -94,14 +92,14 @@ def test_every_exercise_of_the_hand_fits_one_page(tmp_path: Path, exercise: str,
     assert ("TAM: thumb" in words) == (exercise == "")
 
 
-def test_a_hand_never_tracked_gives_an_honest_page(tmp_path: Path) -> None:
+def test_hand_never_tracked_gives_honest_page(tmp_path: Path) -> None:
     path = write_session_report(hand_session(lost=[(0.0, 99.0)]), tmp_path / "h.pdf")
     words = plain(words_of(path))
     assert "index not visible" in words
     assert "0.0 % of" in words
 
 
-def test_a_lower_bound_is_a_gain_when_it_is_beyond_the_error_and_else_not_judged(store: FakeHandSessions) -> None:
+def test_lower_bound_is_gain_when_it_is_beyond_error_and_else_not_judged(store: FakeHandSessions) -> None:
     first, last = (figures_once(store.session(key)) for key in ("hand-3", "hand-7"))
     row = last.find("TAM3", "arc")
     before = first.find("TAM3", "arc")
@@ -114,7 +112,7 @@ def test_a_lower_bound_is_a_gain_when_it_is_beyond_the_error_and_else_not_judged
     assert compare_ranges(last, first, [before])[0].verdict == "not_judged"
 
 
-def test_a_hand_that_was_seen_all_the_time_is_judged_joint_by_joint() -> None:
+def test_hand_that_was_seen_all_time_is_judged_joint_by_joint() -> None:
     first, last = (figures_once(without_hidden(hand_session(share=share))) for share in (0.6, 1.0))
     compared = compare_ranges(first, last, [row for row in last.joint_ranges if row.subject == "MCP3_flexion"])
     arc = next(item for item in compared if item.after.quantity == "arc")
@@ -144,7 +142,7 @@ def test_progress_follows_totals_first_and_one_finger_on_request_and_of_the_thum
     assert shown_of(thumb) == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
 
 
-def test_the_progress_report_of_a_hand_names_the_finger(store: FakeHandSessions, tmp_path: Path) -> None:
+def test_progress_report_of_hand_names_finger(store: FakeHandSessions, tmp_path: Path) -> None:
     path = write_progress_report(build_progress_report(store.history("x"), choice="4"), tmp_path / "p.pdf")
     assert pages_of(path) == 1
     words = plain(words_of(path))
@@ -152,7 +150,7 @@ def test_the_progress_report_of_a_hand_names_the_finger(store: FakeHandSessions,
     assert "Ring finger, PIP" in words
 
 
-def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHandSessions, tmp_path: Path) -> None:
+def test_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHandSessions, tmp_path: Path) -> None:
     course = compute_progress(store.history("x"), None, finger_measure_keys(0))
     write_table(tmp_path / "t.csv", course)
     with (tmp_path / "t.csv").open(encoding="utf-8-sig", newline="") as file:
@@ -166,7 +164,7 @@ def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHand
         assert (line["at_least"] == "yes") == row.is_lower_bound
 
 
-def test_how_sure_is_amber_as_soon_as_a_joint_is_a_lower_bound() -> None:
+def test_report_hand_lower_bound_is_amber() -> None:
     limited = figures_once(hand_session())
     lines = {name: (value, fine) for name, value, fine in quality_lines(limited)}
     value, fine = lines["Minimum (≥) or not visible"]
@@ -178,7 +176,7 @@ def test_how_sure_is_amber_as_soon_as_a_joint_is_a_lower_bound() -> None:
     assert all(fine for _, _, fine in quality_lines(seen))
 
 
-def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
+def test_report_hand_occlusion_is_measured_within_repetitions() -> None:
     made = hand_session(hidden=[(0.0, 99.0, "TIP5")])
     figures = figures_once(made)
     time_s = made.timestamp_s - made.timestamp_s[0]
@@ -191,7 +189,7 @@ def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
     assert figures.quality.hidden_share != pytest.approx(hidden.mean(), rel=1e-3)
 
 
-def test_a_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen() -> None:
+def test_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen() -> None:
     figures = figures_once(hand_session())
     rows = [[cell_text(cell) for cell in row[1:6]] for row in finger_table(figures, None).rows]
     bounds = [words for row in rows for words in row if "≥" in words]
@@ -212,7 +210,7 @@ def test_total_active_motion_is_explained_once_and_only_after_a_fist() -> None:
     assert "never all visible at once" in limitation_words(unseen)
 
 
-def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
+def test_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
     figures = figures_once(hand_session())
     low = ("PIP3_flexion", "extension")
     beyond = with_ranges(figures, lambda row: {"mean": -3.2} if row.key == low else {})
@@ -226,7 +224,7 @@ def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
     assert format_spread(0.4) == "0°"
 
 
-def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:
+def test_thumbs_exercise_is_reported_of_thumb(tmp_path: Path) -> None:
     made = hand_session(exercise="THUMB_OPP", motion="thumb")
     figures = figures_once(made)
     assert len(figures.repetitions) >= 3

@@ -49,7 +49,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
 
 
-def test_the_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Path) -> None:
+def test_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Path) -> None:
     assert pages_of(report) == 2
     assert "A4" in tool("pdfinfo", str(report))
     fonts = tool("pdffonts", str(report)).splitlines()[2:]
@@ -66,7 +66,7 @@ def test_the_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Pat
     assert min(paths) > 480, "about 70 and 240 of them are the plots'"
 
 
-def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
+def test_values_on_page_are_those_of_session(report: Path) -> None:
     words = words_of(report)
     figures = figures_once(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
     for row in figures.wrist_ranges:
@@ -80,7 +80,7 @@ def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
     assert words.count(LEGAL_SENTENCE) == 2, "word for word on each page"
 
 
-def test_the_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) -> None:
+def test_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) -> None:
     made = session()
     said = {"provenance": {"revision": "0123456789" * 4}, "source": {"sha256": "ab12" + "0" * 56 + "cd34"}}
     header = replace(made.header, parameters=json.dumps(said), software_version="10.11.12")
@@ -93,7 +93,7 @@ def test_the_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) 
     assert float(end) <= 595.0 - 42.0, "nothing leaves the margin on the right"
 
 
-def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(report: Path, tmp_path: Path) -> None:
+def test_simulated_and_doubtful_session_says_so_and_shows_its_targets(report: Path, tmp_path: Path) -> None:
     stored = session()
     parameters = json.dumps({"source": {"simulated": "yes"}, "set_up": {"targets_deg": [45.0, -30.0]}})
     verdict = replace(stored.calibration.verdict, findings=(CalibrationFinding("tilt", (), 22.0, 15.0, "deg"),))
@@ -121,7 +121,7 @@ def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path
     assert "MDC" not in words_of(alone)
 
 
-def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None:
+def test_single_pain_is_reported_with_its_time_and_two_as_first_and_last() -> None:
     figures = figures_once(session())
     once = dict(speed_pain_lines(replace(figures, pain_scores=(3,), pain_times_s=(74.2,))))
     assert once["Pain (0–10)"] == "3 at 01:14"
@@ -135,7 +135,7 @@ def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None
 
 
 @pytest.mark.parametrize("number", ["1", "2"])
-def test_nothing_is_painted_outside_the_margins(report: Path, tmp_path: Path, number: str) -> None:
+def test_report_stays_inside_margins(report: Path, tmp_path: Path, number: str) -> None:
     tool("pdftoppm", "-r", "50", "-gray", "-f", number, "-singlefile", str(report), str(tmp_path / "page"))
     grey = cv2.imread(str(tmp_path / "page.pgm"), cv2.IMREAD_GRAYSCALE)
     margin = round(10 / 25.4 * 50)
@@ -169,13 +169,13 @@ def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_noth
     ("exercise", "motion"),
     [("FOREARM_PS", "pronosupination"), ("something old, taken for free", "mixed")],
 )
-def test_every_other_exercise_fits_the_page(tmp_path: Path, exercise: str, motion: str) -> None:
+def test_report_other_exercises_fit_page(tmp_path: Path, exercise: str, motion: str) -> None:
     path = write_session_report(session(exercise=exercise, motion=motion, lost=[(20.0, 22.0)]), tmp_path / "x.pdf")
     assert pages_of(path) == 2
     assert LEGAL_SENTENCE in words_of(path)
 
 
-def test_a_session_without_any_tracked_frame_still_gives_an_honest_page(tmp_path: Path) -> None:
+def test_session_without_any_tracked_frame_still_gives_honest_page(tmp_path: Path) -> None:
     path = write_session_report(session(seconds=10.0, lost=[(0.0, 99.0)]), tmp_path / "x.pdf")
     words = words_of(path)
     assert "No range could be measured." in words
@@ -183,7 +183,7 @@ def test_a_session_without_any_tracked_frame_still_gives_an_honest_page(tmp_path
     assert "known to about" not in words, "nothing is known"
 
 
-def test_a_name_longer_than_the_page_leaves_the_page_its_size(qapp: QApplication) -> None:
+def test_name_longer_than_page_leaves_page_its_size(qapp: QApplication) -> None:
     for parts in (
         page_head("Report", "", 64 * "W", "Wrist flexion"),
         fact_row([("Date", "today"), ("Note", 200 * "W")]),
@@ -191,7 +191,7 @@ def test_a_name_longer_than_the_page_leaves_the_page_its_size(qapp: QApplication
         assert fit_parts(parts, PAPER.px(BODY_WIDTH_PT), PAPER.px(800.0))[1] == 1.0
 
 
-def test_the_progress_report_gives_the_answer_and_names_what_was_left_out(tmp_path: Path) -> None:
+def test_progress_report_gives_answer_and_names_what_was_excluded(tmp_path: Path) -> None:
     path = write_progress_report(FakeSessions().history("linden"), tmp_path / "p.pdf")
     words = words_of(path)
     for said in ("The total arc has improved by", "camera 18 cm further away", LEGAL_SENTENCE):
@@ -199,9 +199,7 @@ def test_the_progress_report_gives_the_answer_and_names_what_was_left_out(tmp_pa
     assert pages_of(path) == 1
 
 
-def test_what_cannot_be_written_or_painted_leaves_things_as_they_were(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_report_failure_leaves_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     there = tmp_path / "there.pdf"
     there.write_bytes(b"mine")
     short = session(seconds=10.0)
@@ -224,9 +222,7 @@ class Killed(BaseException):
     """Stands for a SIGKILL."""
 
 
-def test_a_kill_leaves_no_half_report_and_the_next_one_is_whole(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_kill_leaves_no_half_report_and_next_one_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     output = tmp_path / "out.pdf"
 
     def killed(half: Path, _: Path) -> None:
@@ -242,7 +238,7 @@ def test_a_kill_leaves_no_half_report_and_the_next_one_is_whole(
     assert [path.name for path in tmp_path.iterdir()] == ["out.pdf"]
 
 
-def test_a_report_is_written_without_any_display(tmp_path: Path) -> None:
+def test_report_is_written_without_any_display(tmp_path: Path) -> None:
     program = (
         "import pickle, sys; from pathlib import Path\n"
         "from carpus.ui.report.builders import write_session_report\n"
@@ -272,7 +268,7 @@ def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path)
     assert any("clinic" in word for word, top, _ in places if top < legal_top), "what stands over it is all there"
 
 
-def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
+def test_foot_of_course_says_what_made_it_and_of_what() -> None:
     sessions = FakeSessions().history("linden")
     report = build_progress_report(sessions)
     said = provenance_words(report.made_by, report.sessions)
@@ -285,7 +281,7 @@ def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
 
 
 @pytest.mark.parametrize("code", ["en", "de", "it"])
-def test_no_word_is_printed_over_another_whatever_the_language(tmp_path: Path, code: str) -> None:
+def test_report_words_do_not_overlap_in_any_language(tmp_path: Path, code: str) -> None:
     said = build_session_report(session(), language=code)
     pauses = {"pauses": 1.2, "pause time": 10.2}
     rows = [replace(row, mean=pauses.get(row.quantity, row.mean)) for row in said.results.measures]
@@ -294,7 +290,7 @@ def test_no_word_is_printed_over_another_whatever_the_language(tmp_path: Path, c
 
 
 @pytest.mark.parametrize("paper", PAPERS)
-def test_the_preview_shows_the_lines_and_places_of_the_pdf(qapp: QApplication, tmp_path: Path, paper: Paper) -> None:
+def test_preview_shows_lines_and_places_of_pdf(qapp: QApplication, tmp_path: Path, paper: Paper) -> None:
     """Of the hardest page: many warnings, in German."""
     made = build_session_report(session(), language="de", form=ReportForm(paper=paper), comment="Schiene nachts.")
     names = session().header.protocol.markers

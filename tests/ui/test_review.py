@@ -70,7 +70,7 @@ def test_keys_and_mouse_go_to_pictures_and_repetitions(qtbot: QtBot, screen: Rev
     assert screen.current == 1
 
 
-def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+def test_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
     qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].is_session_excluded)
     assert screen.results.is_excluded
@@ -84,7 +84,7 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
     assert screen.results.repetitions[screen.current].exclusion_reason == "pain"
 
 
-def test_the_card_has_figures_beside_others_notes_pain_and_when_it_was_stored(screen: ReviewScreen) -> None:
+def test_card_has_values_next_to_others_notes_pain_and_when_it_was_stored(screen: ReviewScreen) -> None:
     movement, *_, other_hand, _, last, change = (cell.text for cell in screen.card.tables.range_table.rows[0])
     assert movement == "Total arc"
     assert last.endswith("°")
@@ -99,7 +99,7 @@ def test_the_card_has_figures_beside_others_notes_pain_and_when_it_was_stored(sc
     assert (screen.reviewed.end_time - figures.when).total_seconds() == pytest.approx(figures.duration_s)
 
 
-def test_a_session_that_cannot_be_read_is_said_to_be_so_and_another_one_can_be(
+def test_session_that_cannot_be_read_is_reported_to_be_so_and_another_one_can_be(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
     gone = store.sessions.pop("session-6")
@@ -113,7 +113,7 @@ def test_a_session_that_cannot_be_read_is_said_to_be_so_and_another_one_can_be(
     qtbot.waitUntil(lambda: screen.is_loaded and screen.frame_view.image is not None)
 
 
-def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
+def test_repetition_is_excluded_with_reason_stored_and_taken_back(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
     screen.select_repetition(3)
@@ -143,7 +143,7 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     assert screen.results.repetitions[7].is_counted
 
 
-def test_the_edges_of_a_repetition_are_moved_by_keys_and_dragged_by_mouse(
+def test_edges_of_repetition_are_moved_by_keys_and_dragged_by_mouse(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
     screen.select_repetition(2)
@@ -160,7 +160,7 @@ def test_the_edges_of_a_repetition_are_moved_by_keys_and_dragged_by_mouse(
     assert screen.results.repetitions[2].start_s == after.start_s
 
 
-def test_without_pictures_the_marks_are_still_shown(review: Reviewing) -> None:
+def test_review_without_frames_shows_markers(review: Reviewing) -> None:
     assert not review(FakeSessions(pictures=False), "session-7").grab().isNull()
 
 
@@ -186,7 +186,7 @@ def test_progress_of_nobody_says_so() -> None:
     assert headline(Progress((), (), None)) == ("No sessions of this exercise yet.", "")
 
 
-def test_of_the_session_before_nothing_is_seen_while_another_is_read(qtbot: QtBot, screen: ReviewScreen) -> None:
+def test_review_hides_previous_session_while_loading(qtbot: QtBot, screen: ReviewScreen) -> None:
     """It may be another patient's."""
     card, places = screen.card, (screen.card.tables.geometry(), screen.card.report_button.geometry())
     shown = (card.title, card.count_text, card.tables)
@@ -206,7 +206,7 @@ def test_of_the_session_before_nothing_is_seen_while_another_is_read(qtbot: QtBo
     assert all(button.isEnabled() for button in acts[:3])
 
 
-def test_what_is_asked_about_is_what_is_left_out_however_far_it_plays(qtbot: QtBot, screen: ReviewScreen) -> None:
+def test_review_excludes_repetition_of_question(qtbot: QtBot, screen: ReviewScreen) -> None:
     screen.select_repetition(1)
     screen.playing.toggle()
     screen.toggle_excluded()
@@ -240,7 +240,7 @@ class Unwritten(datetime):
         raise AssertionError(spec)
 
 
-def test_only_the_session_that_is_told_from_the_others_is_put_in_words() -> None:
+def test_review_labels_ambiguous_session_only() -> None:
     first, others = datetime(2026, 11, 21, 9, 5, 7), (Unwritten(2026, 11, 21, 9, 5, 41), Unwritten(2026, 11, 20, 9, 5))
     assert format_distinct_time(first, *others) == "09:05:07"
 
@@ -253,7 +253,7 @@ def results(*made: datetime) -> list[SessionEntry]:
     ]
 
 
-def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+def test_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
     store.results = results(*[datetime(2026, 11, 21, 9, 5)] * 2)
     for session_id, owners, is_older in (
         ("session-7", {}, True),
@@ -266,7 +266,7 @@ def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: Revie
         assert screen.card.count_text.text().startswith("older result, excluded") is is_older
 
 
-def test_an_older_result_is_told_by_its_time_and_can_count_again(
+def test_older_result_is_reported_by_its_time_and_can_count_again(
     qtbot: QtBot, theme: Theme, show: Show[VersionChoice]
 ) -> None:
     choice, both = show(VersionChoice(theme)), results(datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29))

@@ -49,7 +49,7 @@ def plot_of(screen: ReviewScreen) -> HandPlot:
     return plot
 
 
-def test_every_finger_has_a_panel_and_a_chosen_one_two_and_the_wrist_three(screen: ReviewScreen) -> None:
+def test_review_hand_panels_per_finger_and_wrist(screen: ReviewScreen) -> None:
     curves, buttons = screen.charts.curves, screen.charts.finger.buttons()
     assert len(curves.panels()) == 5
     buttons[4].click()
@@ -63,7 +63,7 @@ def test_every_finger_has_a_panel_and_a_chosen_one_two_and_the_wrist_three(scree
     assert len(curves.panels()) == 5
 
 
-def test_a_curve_is_dashed_where_its_discs_were_hidden_and_open_where_the_hand_was_lost(
+def test_curve_is_dashed_where_its_markers_were_hidden_and_open_where_hand_was_lost(
     screen: ReviewScreen, store: FakeHandSessions
 ) -> None:
     session, plot = store.session("hand-7"), plot_of(screen)
@@ -81,7 +81,7 @@ def test_a_curve_is_dashed_where_its_discs_were_hidden_and_open_where_the_hand_w
     assert value_deg == pytest.approx(2.0 / 3.0 * read_joint_angle(plot, FingerAngle(3, "middle"), 1.0)[0])
 
 
-def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
+def test_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
     tables, at_least = screen.card.tables, []
     assert len(tables.hand_table.rows) == 5
     for finger, row in enumerate(tables.hand_table.rows, 1):
@@ -113,7 +113,7 @@ def test_space_plays_with_a_finger_chosen_and_curves_and_number_keep_step(qtbot:
         assert said.startswith(words) if words else "Repetition" not in said
 
 
-def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -> None:
+def test_skeleton_goes_from_wrist_to_each_tip(store: FakeHandSessions) -> None:
     for finger in (1, 2, 3, 4, 5):
         assert SITES[SITE_CHAINS[finger - 1][0]] == "WRIST"
         assert SITES[SITE_CHAINS[finger - 1][-1]] == f"TIP{finger}"
@@ -124,7 +124,7 @@ def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -
     assert np.isnan(places[session.status == 2]).all()
 
 
-def test_the_places_are_final_before_the_session_is_read(
+def test_places_are_final_before_session_is_read(
     qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], store: FakeHandSessions, background: Background,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
@@ -158,9 +158,7 @@ def double_click(qtbot: QtBot, on: QWidget, at: QPointF) -> None:
     qtbot.mouseRelease(on, Qt.MouseButton.LeftButton, pos=at.toPoint())
 
 
-def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repetitions(
-    qtbot: QtBot, screen: ReviewScreen
-) -> None:
+def test_wheel_shows_less_time_about_mouse_and_double_click_repetitions(qtbot: QtBot, screen: ReviewScreen) -> None:
     curves = screen.charts.curves
     whole = plot_of(screen).visible_s
     assert whole == (0.0, plot_of(screen).end_s)
@@ -218,7 +216,7 @@ def free_ends(session: Session) -> Session:
 
 
 @pytest.mark.parametrize("ground", [BLANK_GREY, 255])
-def test_the_way_of_a_fingertip_is_no_bone_but_dots_that_fade(ground: int) -> None:
+def test_way_of_fingertip_is_no_bone_but_dots_that_fade(ground: int) -> None:
     ways = np.full((30, len(HAND21.markers), 2), np.nan)
     ways[:, HAND21.chains[3][-1]] = np.stack((np.arange(30) * 10.0 + 5.0, np.full(30, 10.0)), axis=1)
     seen = np.ones(ways.shape[:2], dtype=bool)

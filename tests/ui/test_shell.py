@@ -73,7 +73,7 @@ def test_language_that_was_refused_when_chosen_again_is_told_again(settings: Set
     assert [one.language for one in told] == ["it", "it"]
 
 
-def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication) -> None:
+def test_bundled_face_is_used_and_its_values_are_tabular(qapp: QApplication) -> None:
     assert {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts())
     assert QFontInfo(font(14)).family().startswith("Carpus Inter")
     for size in (14, 44, 128):
@@ -83,7 +83,7 @@ def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication
         assert metrics.horizontalAdvance("1111") == pytest.approx(metrics.horizontalAdvance("0408"), abs=0.01 * size)
 
 
-def test_the_way_through_a_session_the_recording_and_the_keys_of_all_screens(qtbot: QtBot, shell: MainWindow) -> None:
+def test_way_through_session_recording_and_keys_of_all_screens(qtbot: QtBot, shell: MainWindow) -> None:
     bar = shell.top_bar
     bar.show_steps(["Exercise", "Camera", "Markers", "Measure"], 2)
     assert [button.isEnabled() for button in bar.navigation_buttons()] == [True, True, False, False], (
@@ -106,7 +106,7 @@ def test_the_way_through_a_session_the_recording_and_the_keys_of_all_screens(qtb
     assert told.args == ["help"]
 
 
-def test_what_comes_while_settings_are_open_is_behind_them(shell: MainWindow) -> None:
+def test_shell_new_screen_waits_behind_settings(shell: MainWindow) -> None:
     way, shown = Navigator(shell, lambda: False, lambda: False), list[str]()
 
     def put(place: str) -> None:
@@ -129,7 +129,7 @@ def test_what_comes_while_settings_are_open_is_behind_them(shell: MainWindow) ->
     assert way.screen_name == "correct"
 
 
-def test_the_focus_ring_follows_the_keyboard(qtbot: QtBot, shell: MainWindow) -> None:
+def test_focus_ring_follows_keyboard(qtbot: QtBot, shell: MainWindow) -> None:
     host = QWidget()
     button = QPushButton("x", host)
     button.setGeometry(100, 50, 80, 40)
@@ -141,7 +141,7 @@ def test_the_focus_ring_follows_the_keyboard(qtbot: QtBot, shell: MainWindow) ->
     assert not shell.focus_ring.isVisible() or shell.focus_ring.geometry() != place
 
 
-def test_a_change_of_theme_and_scale_reaches_everything(
+def test_change_of_theme_and_scale_reaches_everything(
     qapp: QApplication, qtbot: QtBot, theme: Theme, shell: MainWindow
 ) -> None:
     label = Text(theme, "x", 14, token="text2")
@@ -153,7 +153,7 @@ def test_a_change_of_theme_and_scale_reaches_everything(
     assert theme.tokens.canvas in qapp.styleSheet(), "nor are surfaces left behind"
 
 
-def test_a_title_has_room_for_the_dots_of_its_capitals(qtbot: QtBot, theme: Theme) -> None:
+def test_title_has_room_for_dots_of_its_capitals(qtbot: QtBot, theme: Theme) -> None:
     label = heading(theme, "Which exercise?")
     qtbot.addWidget(label)
     plain_px = label.sizeHint().height()
@@ -166,9 +166,7 @@ def test_a_title_has_room_for_the_dots_of_its_capitals(qtbot: QtBot, theme: Them
     assert label.sizeHint().height() == plain_px
 
 
-def test_a_message_gives_three_answers_and_its_buttons_act_by_key(
-    qtbot: QtBot, theme: Theme, shell: MainWindow
-) -> None:
+def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, theme: Theme, shell: MainWindow) -> None:
     done: list[str] = []
     card = MessageDialog(shell.screen_stack, theme)
     card.show_words(
@@ -226,7 +224,7 @@ def test_settings_act_at_once_and_tell_what_was_chosen(settings: Settings) -> No
     assert (now.theme, now.text_scale, now.therapist, now.data_folder) == ("dark", 1.5, "M. R.", "/data")
 
 
-def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(settings: Settings) -> None:
+def test_shell_research_options_are_hidden_by_default(settings: Settings) -> None:
     screen, told = settings(stream=True, angle_order="isb")
     screen.show_page("research")
     folded = (screen.form["angle_order"], screen.form["stream"])
@@ -249,13 +247,13 @@ def test_about_tells_what_lies_in_the_clinics_folder(settings: Settings) -> None
     assert "cannot be read" in told[3]
 
 
-def test_every_key_has_words_and_is_a_key() -> None:
+def test_shell_keys_have_texts() -> None:
     for name, key in KEYS.items():
         assert action_words(name)
         assert QKeySequence(key).count() == 1
 
 
-def test_a_report_is_saved_in_the_background_and_replaces_only_when_asked(
+def test_report_is_saved_in_background_and_replaces_only_when_asked(
     qtbot: QtBot, theme: Theme, show: Show[ReportScreen], tmp_path: Path
 ) -> None:
     screen = show(ReportScreen(theme, Background()))
@@ -313,7 +311,7 @@ def parts(qtbot: QtBot, theme: Theme) -> tuple[QWidget, QScrollArea, list[QPushB
     return window, area, buttons, ring
 
 
-def test_the_ring_follows_what_is_scrolled_goes_with_it_and_comes_back(
+def test_ring_follows_what_is_scrolled_goes_with_it_and_comes_back(
     parts: tuple[QWidget, QScrollArea, list[QPushButton], FocusRing],
 ) -> None:
     window, area, buttons, ring = parts

@@ -53,7 +53,7 @@ SESSION = (
 """The moments that a person comes by, from the patient to the report."""
 
 
-def test_a_session_comes_by_the_bubbles_in_their_order() -> None:
+def test_session_comes_by_bubbles_in_their_order() -> None:
     shown = [find_bubble(moment) for moment in SESSION]
     assert shown == [
         "patient", None, "aim", "click", None, "check", "record", "stop", None, None, "results", "save", "end",
@@ -64,7 +64,7 @@ def test_a_session_comes_by_the_bubbles_in_their_order() -> None:
 
 
 @given(MOMENTS, READ)
-def test_a_bubble_is_on_its_own_screen_and_not_read_yet(moment: TourState, read: frozenset[Bubble]) -> None:
+def test_bubble_is_on_its_own_screen_and_not_read_yet(moment: TourState, read: frozenset[Bubble]) -> None:
     bubble = find_bubble(moment, read)
     if bubble is not None:
         assert PLACES[bubble] == moment.place
@@ -94,11 +94,11 @@ def test_while_recording_nothing_speaks_of_beginning_one(moment: TourState, read
 
 
 @given(MOMENTS)
-def test_what_is_wrong_with_the_markers_is_the_screens_to_say(moment: TourState) -> None:
+def test_tour_leaves_marker_faults_to_screen(moment: TourState) -> None:
     assert find_bubble(replace(moment, place="markers", label_stage="doubtful")) is None
 
 
-def test_each_says_one_plain_sentence() -> None:
+def test_tour_bubbles_have_one_sentence() -> None:
     for bubble in BUBBLES:
         words = bubble_words(bubble)
         assert words.endswith(".")
@@ -107,7 +107,7 @@ def test_each_says_one_plain_sentence() -> None:
         assert 0 <= part_number(bubble) <= len(PARTS)
 
 
-def test_both_ways_on_are_always_there_and_over_a_recording_take_no_key(theme: Theme) -> None:
+def test_tour_buttons_stay_and_take_no_key_during_recording(theme: Theme) -> None:
     view = BubbleView(theme)
     assert view.isHidden()
     for bubble in BUBBLES:

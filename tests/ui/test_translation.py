@@ -70,7 +70,7 @@ def extracted(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @SOURCES
-def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
+def test_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     qtbot: QtBot, theme: Theme, extracted: Path, tmp_path: Path
 ) -> None:
     """All texts are given another language, compiled, installed, and read back from the program."""
@@ -101,7 +101,7 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     assert header.tr("Patient") == "Patient"
 
 
-def test_a_page_in_another_language_is_painted_in_a_thread_of_its_own_while_the_window_goes_on_in_its_own(
+def test_page_in_another_language_is_painted_in_thread_own_while_window_continues_in_its_own(
     qtbot: QtBot,
 ) -> None:
     language.register_language("xx", lambda context, text: f"¡{text}" if text == "Cancel" else None, QLocale("de_CH"))
@@ -120,7 +120,7 @@ def test_a_page_in_another_language_is_painted_in_a_thread_of_its_own_while_the_
     assert said == ["¡Cancel13 Nov.xx"]
 
 
-def test_the_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: QtBot) -> None:
+def test_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: QtBot) -> None:
     try:
         language.set_window_language("de")
         assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Abbrechen"
@@ -145,7 +145,7 @@ def test_days_are_named_in_the_language_where_the_computer_has_them_in_another(m
 
 
 @pytest.mark.parametrize("code", [code for code in language.LANGUAGES if code != "en"])
-def test_every_text_is_translated_with_the_same_places_and_no_key_twice(code: str, extracted: Path) -> None:
+def test_translations_are_complete_with_same_placeholders(code: str, extracted: Path) -> None:
     kept = ROOT / "resources" / "translations" / f"carpus_{code}.ts"
     texts = language.parse_texts(kept.read_bytes())
     unfinished = set(translations.missing(kept))

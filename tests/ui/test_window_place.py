@@ -19,17 +19,17 @@ ROOM = QRect(0, 0, 1280, 800)
         (QRect(100, 60, 1024, 700), True), (QRect(0, 0, 3000, 2000), False),
     ],
 )  # fmt: skip
-def test_no_place_reaches_out_of_the_screen(place: QRect, whole: bool) -> None:
+def test_window_position_stays_on_screen(place: QRect, whole: bool) -> None:
     fits, kept_size = fit_on_screen(place, ROOM)
     assert ROOM.adjusted(0, TITLE_BAR_PX, 0, 0).contains(fits)
     assert kept_size == whole
 
 
-def test_a_place_that_fits_is_left_alone() -> None:
+def test_place_that_fits_is_left_alone() -> None:
     assert fit_on_screen(QRect(100, 60, 1024, 700), ROOM) == (QRect(100, 60, 1024, 700), True)
 
 
-def test_the_window_remembers_its_place(qtbot: QtBot) -> None:
+def test_window_remembers_its_place(qtbot: QtBot) -> None:
     first, second = QWidget(), QWidget()
     for window in (first, second):
         qtbot.addWidget(window)

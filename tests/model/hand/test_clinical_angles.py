@@ -40,7 +40,7 @@ def towards_the_thumb(side: Side) -> float:
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_the_hand_lies_before_the_camera_as_the_reference_says(side: Side) -> None:
+def test_hand_lies_before_camera_as_reference_says(side: Side) -> None:
     pixel, depth = seen(np.eye(3), side)
     assert pixel[MCP3, 1] < pixel[WRIST, 1] - 50.0, "fingers point to the top of the picture"
     assert np.sign(pixel[CMC1, 0] - pixel[WRIST, 0]) == towards_the_thumb(side)
@@ -104,7 +104,7 @@ def test_angles_from_rotation_inverts_rotation_from_angles(
 
 @settings(deadline=None)
 @given(st.floats(-60.0, 60.0), st.floats(-80.0, 80.0), st.floats(-60.0, 60.0))
-def test_the_left_hand_is_the_right_one_in_a_mirror(deviation: float, flexion: float, supination: float) -> None:
+def test_left_hand_is_right_one_in_mirror(deviation: float, flexion: float, supination: float) -> None:
     """R' = M R M with M = diag(1, -1, 1), reference 1.2; and the right one is SciPy's Z-Y-X."""
     angles = np.radians([deviation, flexion, supination])
     right = clinical_angles.rotation_from_angles(angles, "right")

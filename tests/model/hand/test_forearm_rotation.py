@@ -54,7 +54,7 @@ def test_thumb_up_has_the_thumb_above_the_little_finger_on_both_hands() -> None:
         assert palm[1, 2] > palm[5, 2]
 
 
-def test_both_signs_and_full_turns_come_back_to_the_angle_in_the_files() -> None:
+def test_forearm_rotation_signs_and_turns_round_trip() -> None:
     deg = np.array([-179.0, -20.0, 0.0, 65.0, 90.0, 135.0, 180.0])
     read = np.degrees(supination_from_thumb_up(np.radians(deg)))
     assert read == pytest.approx([91.0, -110.0, -90.0, -25.0, 0.0, 45.0, 90.0])

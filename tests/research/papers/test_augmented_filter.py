@@ -19,7 +19,7 @@ def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
 
 
 @pytest.mark.parametrize("spread", SPREADS)
-def test_on_a_linear_model_it_is_the_kalman_filter(spread: UnscentedParameters) -> None:
+def test_augmented_filter_on_linear_model_is_kalman_filter(spread: UnscentedParameters) -> None:
     rng = np.random.default_rng(3)
     n, k, m = 5, 3, 4
     x, p, q = rng.normal(size=n), some_covariance(rng, n), some_covariance(rng, k)

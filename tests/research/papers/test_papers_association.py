@@ -13,7 +13,7 @@ RESOLUTION = 640.0 * 480.0
 
 
 @given(st.integers(0, 10_000), st.integers(0, 12), st.integers(1, 8), st.floats(0.01, 0.9))
-def test_every_blob_goes_to_the_largest_posterior(seed: int, blobs: int, markers: int, clutter: float) -> None:
+def test_association_takes_largest_posterior_per_blob(seed: int, blobs: int, markers: int, clutter: float) -> None:
     rng = np.random.default_rng(seed)
     predicted = rng.uniform(200, 260, (markers, 2))
     root = rng.normal(size=(markers, 2, 2)) * 4.0

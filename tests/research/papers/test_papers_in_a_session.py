@@ -40,7 +40,7 @@ def angles(path: Path) -> FloatArray:
         return np.asarray(file["wrist/angles"])
 
 
-def test_the_preset_is_stored_and_repeated(by_paper: Path, tmp_path: Path) -> None:
+def test_preset_is_stored_and_repeated(by_paper: Path, tmp_path: Path) -> None:
     session = read_session(by_paper)
     told = json.loads(session.header.parameters)["settings"]
     assert told["paper"]["palm"] == "flat"
@@ -60,7 +60,7 @@ def test_the_preset_is_stored_and_repeated(by_paper: Path, tmp_path: Path) -> No
     assert not np.array_equal(angles(brisk), angles(by_paper), equal_nan=True)
 
 
-def test_the_two_filters_undo_each_other(recording: Path, by_paper: Path, tmp_path: Path) -> None:
+def test_two_filters_undo_each_other(recording: Path, by_paper: Path, tmp_path: Path) -> None:
     """Through the stored detections, to and fro: what each stands on is not what the other left."""
     default = first(recording, tmp_path / "default.h5", "--no-smooth")
     paper = tracked(default, tmp_path / "paper.h5", "--filter", "paper")

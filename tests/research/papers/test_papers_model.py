@@ -19,7 +19,7 @@ DT_S = 1.0 / 30.0
 SETTINGS = PaperSettings(acceleration_m_s2=2.0, turn_rate_rad_s=1.5, joint_rate_rad_s=0.7)
 
 
-def test_the_state_moves_by_equation_1() -> None:
+def test_state_moves_by_equation_1() -> None:
     rng = np.random.default_rng(2)
     state, noise = rng.normal(size=(4, 26)), rng.normal(size=(4, 23))
     out = PaperMotion(SETTINGS, 17).build_transition(DT_S)(state, noise)
@@ -49,7 +49,7 @@ def test_euler_angles_there_and_back_without_a_jump() -> None:
     assert np.allclose(rotation_from_euler(there), Rotation.from_euler("ZYX", there).as_matrix())
 
 
-def test_a_small_change_of_euler_angles_is_that_turn() -> None:
+def test_small_change_of_euler_angles_is_that_turn() -> None:
     euler, step = np.array([0.5, -0.7, 0.4]), 1e-6
     by_euler = body_rate_matrix(euler)
     for axis in range(3):
@@ -59,7 +59,7 @@ def test_a_small_change_of_euler_angles_is_that_turn() -> None:
 
 
 @pytest.mark.parametrize("mirror", [1.0, -1.0])
-def test_the_flat_palm_keeps_lengths_and_angles(mirror: float) -> None:
+def test_flat_palm_keeps_lengths_and_angles(mirror: float) -> None:
     palm = RIGHT_PALM_M * [1.0, mirror, 1.0]
     flat = model_palm(palm, "flat")
     assert not flat[:, 2].any()
@@ -73,7 +73,7 @@ def test_the_flat_palm_keeps_lengths_and_angles(mirror: float) -> None:
     assert model_palm(palm, "measured") is palm
 
 
-def test_the_straight_hand_is_found_as_it_is() -> None:
+def test_straight_hand_is_found_as_it_is() -> None:
     anatomy, _ = straight_hand()
     hand = measure_hand(hand_calibration(FROM_ABOVE), CAMERA, "flat")
     bent = np.linspace(-0.2, 0.6, 17)
@@ -94,7 +94,7 @@ def test_lengths_of_the_chain_are_those_between_the_discs() -> None:
         assert np.allclose(of_skin, of_model)
 
 
-def test_a_disc_without_depth_is_as_far_as_the_one_before() -> None:
+def test_marker_without_depth_is_as_far_as_one_before() -> None:
     whole = hand_calibration(FROM_ABOVE)
     lost = whole.marker_position_w0_m.copy()
     tip = SITES.index("TIP3")
@@ -108,7 +108,7 @@ def test_a_disc_without_depth_is_as_far_as_the_one_before() -> None:
     )
 
 
-def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> None:
+def test_neutral_pose_is_least_squares_one_of_palm_as_modelled() -> None:
     before = calibration(RIGHT_PALM_M)
     after = calibrate_as_written(before, CAMERA, "flat")
     flat = model_palm(RIGHT_PALM_M, "flat")
@@ -133,7 +133,7 @@ def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> 
     assert np.allclose(again.marker_position_w0_m @ again.rotation_w0_cam.T + again.translation_w0_cam_m, point)
 
 
-def test_a_palm_taken_as_measured_lies_where_its_discs_are() -> None:
+def test_palm_taken_as_measured_lies_where_its_markers_are() -> None:
     after = calibrate_as_written(calibration(RIGHT_PALM_M), CAMERA, "measured")
     place = CAMERA.project(after.marker_position_w0_m @ after.rotation_w0_cam.T + after.translation_w0_cam_m)
     model = model_palm(

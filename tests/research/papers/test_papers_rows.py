@@ -13,7 +13,7 @@ from tests.accuracy.papers import HAND_ROWS, HEAD, WRIST_ROWS, PaperJob, lines_o
 from tests.accuracy.readings import read_figures
 
 
-def test_the_recordings_are_those_of_carpus() -> None:
+def test_recordings_are_those_of_carpus() -> None:
     jobs = paper_jobs(WRIST_ROWS, HAND_ROWS, 2)
     carpus = [job.scenario.spec(job.seed, BLOB_SECONDS) for job in jobs_for(WRIST_ROWS, 2, 0)]
     carpus += [job.row.spec(job.number) for job in hand_jobs(HAND_ROWS, 4, 0)]
@@ -21,7 +21,7 @@ def test_the_recordings_are_those_of_carpus() -> None:
     assert len(jobs) == 2 * (len(WRIST_ROWS) + len(HAND_ROWS))
 
 
-def test_a_row_of_the_wrist_and_one_of_the_hand() -> None:
+def test_row_of_wrist_and_one_of_hand() -> None:
     by_name = {row.name: row for row in WRIST_ROWS}
     wrist = paper_jobs([by_name["deviation ±25°"]], [], 1)[0]
     hand = paper_jobs([], [HAND_ROWS[0]], 1)[0]

@@ -40,9 +40,7 @@ def errors_deg(frames: list[TrackedFrame], at) -> FloatArray:  # type: ignore[no
 
 @pytest.mark.parametrize("side", ["right", "left"])
 @pytest.mark.parametrize(("which", "amplitude_deg"), [(0, 25.0), (1, 35.0), (2, 30.0)])
-def test_a_rigid_palm_without_clutter_is_followed_to_a_few_degrees(
-    which: int, amplitude_deg: float, side: Side
-) -> None:
+def test_rigid_palm_without_clutter_is_followed_to_few_degrees(which: int, amplitude_deg: float, side: Side) -> None:
     at = swing(which, amplitude_deg)
     frames = track_poses(wrist_tracker(side), palm_blobs(at, FRAMES, side=side))
     error = errors_deg(frames, at)
