@@ -60,7 +60,7 @@ def test_session_is_reported_in_plain_lines(tmp_path: Path) -> None:
     assert told["Tracking"] == "tracked 50.0 %, predicted 33.3 %, lost 16.7 %"
     assert told["Events"] == "2 note"
     assert told["Smoothed"] == "yes"
-    assert told["Pictures"] == "not kept"
+    assert told["Video"] == "not saved"
     assert "--json" in told["Settings"]
     assert not any(line.startswith("{") or " {" in line for line in lines)
     assert told["Origin"] == "tracked again from earlier.h5"
@@ -68,7 +68,7 @@ def test_session_is_reported_in_plain_lines(tmp_path: Path) -> None:
     assert "fx 570.25" in told["Camera"]
     assert sum(line.endswith("not measured") for line in lines) == 3, "three frames are no range"
     text = "\n".join(lines)
-    assert "Index and middle knuckle look swapped; swap the two names" in text
+    assert "Index and middle finger MCP look swapped; swap the two labels" in text
     assert "Start angles as given by the therapist" in text
     assert "nan" not in text
 

@@ -130,19 +130,19 @@ def test_format_fault_names_file_and_line() -> None:
 
 def test_marker_names_are_clinical() -> None:
     called = {
-        "WRIST": "wrist", "MCP1": "thumb knuckle", "IP1": "thumb end joint", "DIP3": "middle finger end joint",
-        "TIP4": "ring tip", "elsewhere": "elsewhere", "CMC1": "thumb base", "MCP2": "index knuckle",
-        "MCP3": "middle knuckle", "MCP4": "ring knuckle", "MCP5": "little knuckle",
+        "WRIST": "wrist", "MCP1": "thumb MCP", "IP1": "thumb IP", "DIP3": "middle finger DIP",
+        "TIP4": "ring fingertip", "elsewhere": "elsewhere", "CMC1": "thumb CMC", "MCP2": "index MCP",
+        "MCP3": "middle finger MCP", "MCP4": "ring finger MCP", "MCP5": "little finger MCP",
     }  # fmt: skip
     assert {name: marker_name(name) for name in called} == called
-    assert (join_marker_names(("MCP4",)), join_marker_names(())) == ("ring knuckle", "")
+    assert (join_marker_names(("MCP4",)), join_marker_names(())) == ("ring finger MCP", "")
     assert len({marker_name(name) for name in HAND21.markers}) == 21
 
 
 def test_format_fault_names_marker_both_ways() -> None:
-    fault = errors.ClickOutsideImage("MCP3", "700, 20 in a picture of 640 x 480 pixels")
-    assert format_fault(fault).summary.startswith("A click lies outside the image: middle knuckle (700")
-    assert "middle knuckle, MCP3 (700, 20" in format_fault_line(fault)
+    fault = errors.ClickOutsideImage("MCP3", "700, 20 in a frame of 640 x 480 pixels")
+    assert format_fault(fault).summary.startswith("A click lies outside the image: middle finger MCP (700")
+    assert "middle finger MCP, MCP3 (700, 20" in format_fault_line(fault)
 
 
 @pytest.mark.parametrize("kind", typing.get_args(FindingKind))
@@ -155,7 +155,7 @@ def test_findings_state_marker_and_number(kind: FindingKind) -> None:
         assert "22.3" in words.summary
         assert "15" in words.summary
     if "{markers}" in FINDING_TEXTS[kind][0]:
-        assert "ndex and middle knuckle" in words.summary
+        assert "ndex and middle finger MCP" in words.summary
     line = finding_sentence(finding)
     assert line.endswith(words.remedy[1:])
     assert "\n" not in line
@@ -164,10 +164,10 @@ def test_findings_state_marker_and_number(kind: FindingKind) -> None:
 def test_finding_swapped_markers_sentence() -> None:
     assert (
         finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).summary
-        == "Index and middle knuckle look swapped."
+        == "Index and middle finger MCP look swapped."
     )
 
 
 def test_finding_shifted_names_sentence() -> None:
     words = finding_words(CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
-    assert words.summary == "The names look shifted: the marker clicked as wrist is the little knuckle."
+    assert words.summary == "The labels look shifted: the marker clicked as wrist is the little finger MCP."

@@ -72,7 +72,7 @@ def check_clicks_inside(clicks: Clicks, width_px: int, height_px: int) -> None:
     for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel.tolist(), strict=True):
         if not (-0.5 <= u < width_px - 0.5 and -0.5 <= v < height_px - 0.5):
             size = {"width_px": width_px, "height_px": height_px}
-            words = phrase("{u}, {v} in a picture of {width_px} x {height_px} pixels", u=f"{u:g}", v=f"{v:g}", **size)
+            words = phrase("{u}, {v} in a frame of {width_px} x {height_px} pixels", u=f"{u:g}", v=f"{v:g}", **size)
             raise ClickOutsideImage(name, words)
 
 
@@ -81,10 +81,10 @@ def _read_json_object(path: Path) -> dict[str, Any]:
         with path.open("rb") as file:
             data = file.read(_MAX_BYTES + 1)
         if len(data) > _MAX_BYTES:
-            raise ClicksUnreadable(path, phrase("much too long for clicks"))
+            raise ClicksUnreadable(path, phrase("too long for a file of clicks"))
         content = json.loads(data.decode("utf-8-sig"), object_pairs_hook=_reject_duplicate_keys)
     except FileNotFoundError as cause:
-        raise ClicksUnreadable(path, phrase("there is no such file")) from cause
+        raise ClicksUnreadable(path, phrase("file not found")) from cause
     except OSError as cause:
         raise ClicksUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
     except UnicodeDecodeError as cause:
@@ -92,7 +92,7 @@ def _read_json_object(path: Path) -> dict[str, Any]:
     except json.JSONDecodeError as cause:
         raise ClicksUnreadable(path, phrase("not JSON, line {lineno}", lineno=cause.lineno)) from cause
     except _DuplicateKeyError as cause:
-        raise ClicksUnreadable(path, phrase("{cause} is there twice", cause=cause)) from cause
+        raise ClicksUnreadable(path, phrase("{cause} appears twice", cause=cause)) from cause
     except (ValueError, RecursionError) as cause:
         raise ClicksUnreadable(path, phrase("not JSON")) from cause
     if not isinstance(content, dict):

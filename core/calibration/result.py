@@ -146,14 +146,14 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
         phrase("The clicks for the {markers} are on one marker."),
         phrase("Click each of the two on its own marker."),
     ),
-    "swapped": (phrase("{markers} look swapped."), phrase("Swap the two names, or click both markers again.")),
+    "swapped": (phrase("{markers} look swapped."), phrase("Swap the two labels, or click both markers again.")),
     "misnamed": (
         phrase("The {markers} does not lie on the line of its finger."),
-        phrase("Look at the lines on the picture, and give the marker its right name."),
+        phrase("Check the lines on the image, and give the marker its correct label."),
     ),
     "shifted": (
-        phrase("The names look shifted: the marker clicked as {first} is the {second}."),
-        phrase("Click all markers again, each under its own name."),
+        phrase("The labels look shifted: the marker clicked as {first} is the {second}."),
+        phrase("Click all markers again, each under its own label."),
     ),
     "wrong_side": (
         phrase("This looks like the other hand."),
@@ -161,35 +161,35 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
     ),
     "no_depth": (
         phrase("The camera measures no depth at the {markers}."),
-        phrase("Move the hand a little, and keep sunlight and shine off the marker."),
+        phrase("Move the hand a little, and keep sunlight and reflections off the marker."),
     ),
     "residual": (
-        phrase("The marker of the {markers} is {value} mm off its place (up to {limit} mm is good)."),
-        phrase("Click it again in its middle, and keep the hand still."),
+        phrase("The {markers} marker is {value} mm from its expected position (up to {limit} mm is good)."),
+        phrase("Click it again in its centre, and keep the hand still."),
     ),
     "hand_length": (
-        phrase("The hand measures {value} mm ({limit} mm is the limit)."),
-        phrase("Check that every marker is clicked under its own name."),
+        phrase("The hand measures {value} mm (the limit is {limit} mm)."),
+        phrase("Check that every marker is clicked under its own label."),
     ),
     "other_spot": (
         phrase("Another blue spot fits the {markers} better."),
-        phrase("Take the spot with the question mark, if it is the disc."),
+        phrase("Choose the spot with the question mark, if it is the marker."),
     ),
     "spare_spot": (
-        phrase("There is one more blue spot on the hand than there are names."),
-        phrase("Cover the spot with the question mark, or give it its name."),
+        phrase("There is one more blue spot on the hand than there are labels."),
+        phrase("Cover the spot with the question mark, or give it its label."),
     ),
     "near_spot": (
-        phrase("Another blue spot lies close to the {markers}: it may be the disc."),
-        phrase("Click the {markers} again in its middle, or cover the other spot."),
+        phrase("Another blue spot is close to the {markers}: it may be the marker."),
+        phrase("Click the {markers} again in its centre, or cover the other spot."),
     ),
     "no_palm": (
-        phrase("No hand has this shape: the {markers} does not lie where the other discs expect it."),
-        phrase("Check that a disc was clicked there, and not another blue spot."),
+        phrase("No hand has this shape: the {markers} does not fit the other markers."),
+        phrase("Check that a marker was clicked there, and not another blue spot."),
     ),
     "other_length": (
-        phrase("The hand measures {value} mm, and {limit} mm last time."),
-        phrase("Check the patient, the side, and that every marker is clicked under its own name."),
+        phrase("The hand measures {value} mm. Last time it measured {limit} mm."),
+        phrase("Check the patient, the side, and that every marker is clicked under its own label."),
     ),
     "tilt": (
         phrase("The hand is tilted {value}° to the camera (up to {limit}° is good)."),
@@ -197,19 +197,19 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
     ),
     "distance": (
         phrase("The hand is {value} m from the camera ({limit} m or more is good)."),
-        phrase("Move the camera further from the hand."),
+        phrase("Move the camera farther from the hand."),
     ),
     "moved": (
         phrase("The hand moved in the first half second."),
-        phrase("Keep the hand still and take the first picture again."),
+        phrase("Keep the hand still and take the first image again."),
     ),
     "few_frames": (
-        phrase("The hand was still for {value} pictures only ({limit} or more are good)."),
+        phrase("The hand was still for {value} frames only ({limit} or more are good)."),
         phrase("Keep the hand still for half a second."),
     ),
     "depth_off": (
-        phrase("Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good)."),
-        phrase("Switch on registration in the camera, or track without depth."),
+        phrase("Depth and colour are not aligned at the {markers} ({value} {unit}, up to {limit} is good)."),
+        phrase("Turn on depth registration in the camera settings, or track without depth."),
     ),
 }
 """Problem and remedy of each kind of finding."""

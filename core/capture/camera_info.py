@@ -80,7 +80,7 @@ def read_camera_info(path: Path) -> CameraInfo:
         with path.open("rb") as file:
             data = file.read(_MAX_BYTES + 1)
         if len(data) > _MAX_BYTES:
-            raise CameraFileUnreadable(path, phrase("much too long for a camera calibration"))
+            raise CameraFileUnreadable(path, phrase("too long for a camera calibration"))
         content = yaml.safe_load(data.decode("utf-8-sig"))
     except OSError as cause:
         raise CameraFileUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
@@ -195,7 +195,7 @@ def _parse_camera(content: dict[str, Any]) -> Camera:
         raise _ContentError(phrase("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]"))
     if not all(_FOCAL_LENGTH_RANGE[0] <= f / width <= _FOCAL_LENGTH_RANGE[1] for f in (fx, fy)):
         values = {"fx": f"{fx:g}", "fy": f"{fy:g}", "width": width}
-        raise _ContentError(phrase("fx {fx} and fy {fy} are no camera's with pictures {width} pixels wide", **values))
+        raise _ContentError(phrase("fx {fx} and fy {fy} do not fit a frame width of {width} pixels", **values))
     distortion = _parse_numbers(content, "distortion_coefficients") if "distortion_coefficients" in content else []
     wanted = DISTORTION_COEFFICIENT_COUNTS[model]
     if len(distortion) not in (0, 4, 5, wanted):
@@ -213,7 +213,7 @@ def _parse_camera(content: dict[str, Any]) -> Camera:
     with np.errstate(all="ignore"):
         off_px = np.abs(camera.distort(camera.undistort(pixel)) - pixel).max()
     if not off_px <= _MAX_ROUND_TRIP_PX:
-        raise _ContentError(phrase("distortion_coefficients are no lens’s: points do not find back to their places"))
+        raise _ContentError(phrase("distortion_coefficients do not describe a lens: they cannot be inverted"))
     return camera
 
 
@@ -233,10 +233,10 @@ def _parse_calibration(content: dict[str, Any]) -> StoredCalibration | None:
         if not is_moment(calibration.calibrated):
             raise ValueError(calibration.calibrated)
     except (KeyError, TypeError, ValueError, OverflowError) as cause:
-        raise _ContentError(phrase("{calibration} is not as Carpus writes it", calibration=_CALIBRATION)) from cause
+        raise _ContentError(phrase("{calibration} is not in the format of Carpus", calibration=_CALIBRATION)) from cause
     is_scale = _SCALE_RANGE[0] <= calibration.depth_scale <= _SCALE_RANGE[1]
     if not (is_scale and abs(calibration.depth_offset_m) <= _MAX_OFFSET_M):
-        raise _ContentError(phrase("{calibration} has depth that no camera reads", calibration=_CALIBRATION))
+        raise _ContentError(phrase("{calibration} has an impossible depth", calibration=_CALIBRATION))
     return calibration
 
 
@@ -264,7 +264,7 @@ def _parse_numbers(content: dict[str, Any], key: str) -> list[float]:
     except (TypeError, ValueError):
         numbers = []
     if len(numbers) != len(data) or not all(math.isfinite(value) for value in numbers):
-        raise _ContentError(phrase("{key} holds something that is not a number", key=key))
+        raise _ContentError(phrase("{key} contains a value that is not a number", key=key))
     return numbers
 
 

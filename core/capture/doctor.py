@@ -140,8 +140,8 @@ def check_compiled_parts() -> Finding:
         import_module("carpus.core.compiled")
     except CompiledPartMissing as fault:
         missing = phrase("missing: {name}", name=fault.subject)
-        return Finding(phrase("Compiled parts"), "bad", missing, phrase("Install Carpus anew."))
-    return Finding(phrase("Compiled parts"), "good", phrase("all there"))
+        return Finding(phrase("Compiled parts"), "bad", missing, phrase("Install Carpus again."))
+    return Finding(phrase("Compiled parts"), "good", phrase("complete"))
 
 
 def check_window() -> Finding:
@@ -164,9 +164,9 @@ def check_window() -> Finding:
     wanted = SYSTEM_LIBRARIES if is_packed() else WINDOW_LIBRARIES
     missing = [name for name in wanted if ctypes.util.find_library(name) is None]
     if missing:
-        remedy = phrase("Install the packages that bring these libraries.")
+        remedy = phrase("Install the packages that contain these libraries.")
         if not is_packed():
-            remedy = phrase("Run: installer/setup.sh run. Or: install the packages that bring these libraries.")
+            remedy = phrase("Run: installer/setup.sh run. Or: install the packages that contain these libraries.")
         return Finding(
             phrase("Window"), "warning", f"Qt {qt}; missing: " + ", ".join(f"lib{name}" for name in missing), remedy
         )
@@ -184,7 +184,7 @@ def check_fonts() -> Finding:
         return Finding(
             phrase("Fonts"),
             "bad",
-            phrase("none of the program's own"),
+            phrase("none of the program’s own"),
             phrase("Install Carpus again: part of it is missing."),
         )
     return Finding(phrase("Fonts"), "good", phrase("{count} faces", count=len(faces)))
@@ -194,7 +194,7 @@ def check_data_folder(folder: Path) -> Finding:
     """Check that recordings can be stored, and that no other user can read them."""
     there = _existing_ancestor(folder)
     if not os.access(there, os.W_OK | os.X_OK) or not there.is_dir():
-        remedy = phrase("Give yourself the right to write there, or choose another folder in the settings.")
+        remedy = phrase("Allow writing there, or choose another folder in the settings.")
         return Finding(
             phrase("Data folder"),
             "bad",
@@ -205,8 +205,8 @@ def check_data_folder(folder: Path) -> Finding:
         return Finding(phrase("Data folder"), "good", phrase("{folder}, made at the first recording", folder=folder))
     if os.name == "posix" and folder.stat().st_mode & 0o077:
         remedy = phrase(
-            "Others on this computer can look into it. In its properties, take away every right of the group and of "
-            "others; or run: chmod 700 '{folder}'",
+            "Others on this computer can read it. In its properties, remove all rights of the group and of others,"
+            " or run: chmod 700 '{folder}'",
             folder=folder,
         )
         return Finding(phrase("Data folder"), "warning", str(folder), remedy)
@@ -217,7 +217,7 @@ def check_disk_space(folder: Path, free_bytes: int) -> Finding:
     """Check the space for recordings."""
     minutes = free_bytes / (1e6 * MB_PER_MINUTE)
     text = phrase(
-        "{free} GB free, about {minutes} minutes with pictures",
+        "{free} GB free, about {minutes} minutes with video",
         free=format_rounded(free_bytes / 1000000000.0, 1),
         minutes=format_rounded(minutes),
     )
@@ -284,7 +284,7 @@ def check_cameras(connected: list[tuple[CameraKind, UsbCamera]], wanted_kind: st
     """Check the cameras on the bus before any is opened."""
     if not connected:
         port = load_camera_kind(wanted_kind or parse_kind("")).port_advice
-        remedy = phrase("Plug the camera in, at best straight into the computer. {port}", port=port)
+        remedy = phrase("Plug the camera in, preferably directly into the computer. {port}", port=port)
         return [Finding(phrase("Camera"), "warning", phrase("none plugged in"), remedy)]
     return [check_camera(kind, camera) for kind, camera in connected]
 
@@ -301,7 +301,9 @@ def check_camera(kind: CameraKind, camera: UsbCamera) -> Finding:
     )
     if not camera.can_open:
         remedy = phrase(
-            "You may not open {node}. Install the camera rights named above and plug it in again.", node=camera.node
+            "You have no permission to open {node}. Install the camera rights named above, "
+            "then plug the camera in again.",
+            node=camera.node,
         )
         return Finding(phrase("Camera"), "bad", text, remedy)
     if camera.is_claimed:
@@ -315,7 +317,10 @@ def check_camera(kind: CameraKind, camera: UsbCamera) -> Finding:
         return Finding(phrase("Camera"), "bad", text, phrase("This port is too slow. {port}", port=kind.port_advice))
     if 0 < camera.speed_mbit < kind.needed_mbit:
         return Finding(
-            phrase("Camera"), "warning", text, phrase("This port is slow for it. {port}", port=kind.port_advice)
+            phrase("Camera"),
+            "warning",
+            text,
+            phrase("This port is slow for this camera. {port}", port=kind.port_advice),
         )
     return Finding(phrase("Camera"), "good", text)
 
@@ -351,7 +356,7 @@ def check_frames(frames: list[Frame]) -> Finding:
     """Check rate, gaps and depth of some seconds of frames."""
     if len(frames) < 2:
         remedy = phrase("Plug the camera in again, into another port, without a hub.")
-        return Finding(phrase("Pictures"), "bad", phrase("{count} frames", count=len(frames)), remedy)
+        return Finding(phrase("Frames"), "bad", phrase("{count} frames", count=len(frames)), remedy)
     gaps_s = np.array([later.timestamp_s - earlier.timestamp_s for earlier, later in pairwise(frames)])
     fps = 1.0 / float(gaps_s.mean())
     missing = sum(frame.dropped_before for frame in frames)
@@ -366,17 +371,17 @@ def check_frames(frames: list[Frame]) -> Finding:
         with_depth=with_depth,
         count=len(frames),
     )
-    remedy = phrase("Use another USB port, without a hub and without other cameras on it; end other heavy programs.")
+    remedy = phrase("Use another USB port, without a hub or other cameras. Close other demanding programs.")
     if fps < MIN_FPS or with_depth < len(frames) // 2:
-        return Finding(phrase("Pictures"), "bad", text, remedy)
+        return Finding(phrase("Frames"), "bad", text, remedy)
     if fps < GOOD_FPS or missing:
         return Finding(
-            phrase("Pictures"),
+            phrase("Frames"),
             "warning",
             text,
             phrase("{remedy} In a dark room the camera slows down: add light.", remedy=remedy),
         )
-    return Finding(phrase("Pictures"), "good", text)
+    return Finding(phrase("Frames"), "good", text)
 
 
 def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list[float]) -> list[Finding]:
@@ -384,11 +389,15 @@ def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list
     settings, findings = info.settings, []
     registered = settings.get("registered", "")
     if registered == "no":
-        remedy = phrase("This camera does not lay depth on colour by itself; depths will be read beside the markers.")
-        findings.append(Finding(phrase("Registration"), "warning", phrase("depth does not lie on colour"), remedy))
+        remedy = phrase("This camera does not align depth with colour. Depths will be read next to the markers.")
+        findings.append(Finding(phrase("Registration"), "warning", phrase("depth and colour are not aligned"), remedy))
     elif registered:
         findings.append(
-            Finding(phrase("Registration"), "good", phrase("depth lies on colour, {registered}", registered=registered))
+            Finding(
+                phrase("Registration"),
+                "good",
+                phrase("depth and colour are aligned, {registered}", registered=registered),
+            )
         )
     turned = settings.get("mirrored", "no") != "no"
     findings.append(Finding(phrase("Mirror"), "good", phrase("on, turned back by Carpus") if turned else phrase("off")))
@@ -406,12 +415,10 @@ def check_clock(camera_s: float, computer_s: float, clock: str) -> Finding:
         here_s=format_rounded(computer_s, 2),
     )
     if clock == "computer":
-        remedy = phrase(
-            "This camera does not tell when it took a picture; its times are those of arrival: speeds are rough."
-        )
+        remedy = phrase("This camera sends no time stamps. Times are those of arrival, so speeds are approximate.")
         return Finding(phrase("Clock"), "warning", text, remedy)
     if abs(camera_s - computer_s) > MAX_CLOCK_DRIFT * computer_s + CLOCK_TOLERANCE_S:
-        remedy = phrase("Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.")
+        remedy = phrase("Plug the camera in again. If this persists, times and speeds of this camera are not reliable.")
         return Finding(phrase("Clock"), "warning", text, remedy)
     return Finding(phrase("Clock"), "good", text)
 
@@ -427,7 +434,7 @@ def _camera_fault_finding(fault: CarpusFault, uri: str) -> Finding:
     if isinstance(fault, DriverMissing | ExtraMissing):
         driver = load_camera_kind(choose_kind(uri)).check_driver(False, True)
         remedy = driver.remedy if driver is not None and driver.remedy else remedy
-    return Finding(phrase("Pictures"), "bad", words.summary, remedy)
+    return Finding(phrase("Frames"), "bad", words.summary, remedy)
 
 
 def _existing_ancestor(folder: Path) -> Path:

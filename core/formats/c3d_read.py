@@ -42,7 +42,7 @@ def read_c3d(path: Path) -> PointTrack:
     try:
         return _parse_points(content, path)
     except (ValueError, IndexError, KeyError, struct.error, OverflowError) as cause:
-        raise ReferenceUnreadable(path, phrase("damaged, or no C3D")) from cause
+        raise ReferenceUnreadable(path, phrase("damaged, or not C3D")) from cause
 
 
 def _parse_points(content: bytes, path: Path) -> PointTrack:
@@ -51,7 +51,7 @@ def _parse_points(content: bytes, path: Path) -> PointTrack:
     at = (content[0] - 1) * BLOCK
     processor = content[at + 3]
     if processor not in (INTEL, DEC, SGI):
-        raise ReferenceUnreadable(path, phrase("made by an unknown processor {processor}", processor=processor))
+        raise ReferenceUnreadable(path, phrase("unknown processor type {processor}", processor=processor))
     order = ">" if processor == SGI else "<"
     parameters = _read_parameters(content, at, order, processor == DEC)
     point = parameters["POINT"]
@@ -65,17 +65,17 @@ def _parse_points(content: bytes, path: Path) -> PointTrack:
     word = 4 if is_float else 2
     row_bytes = (4 * used + analog) * word
     if not used or rate_hz <= 0.0 or not np.isfinite(rate_hz):
-        raise ReferenceUnreadable(path, phrase("it holds no points, or says no rate"))
+        raise ReferenceUnreadable(path, phrase("no points, or no rate stated"))
     stored_rows = (len(content) - begin * BLOCK) // row_bytes
     frames = min(_frame_count(parameters, last - first + 1), stored_rows)
     if frames < 1:
-        raise ReferenceUnreadable(path, phrase("it holds no frame"))
+        raise ReferenceUnreadable(path, phrase("no frames"))
     raw = np.frombuffer(content, np.uint8, frames * row_bytes, begin * BLOCK).reshape(frames, row_bytes)
     values = _to_numbers(raw[:, : 4 * used * word], order, processor == DEC, is_float).reshape(frames, used, 4)
     place = values[..., :3] if is_float else values[..., :3] * np.float32(scale)
     unit = str(point.get("UNITS", ["mm"])[0]).strip().lower() or "mm"
     if unit not in _METRES:
-        raise ReferenceUnreadable(path, phrase("its unit is {unit}", unit=unit))
+        raise ReferenceUnreadable(path, phrase("unit {unit}", unit=unit))
     known = values[..., 3] >= 0.0
     place_m = np.where(known[..., None], place.astype(np.float64) * _METRES[unit], np.nan)
     names = [str(name).strip() for k in ("", *map(str, range(2, 99))) for name in point.get(f"LABELS{k}", [])]

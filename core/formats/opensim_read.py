@@ -34,12 +34,12 @@ def read_trc(path: Path) -> PointTrack:
     head = dict(zip(lines[1].split(tab), lines[2].split(tab), strict=False))
     unit = head.get("Units", "mm").strip().lower()
     if unit not in _METRES:
-        raise ReferenceUnreadable(path, phrase("its unit is {unit}", unit=unit))
+        raise ReferenceUnreadable(path, phrase("unit {unit}", unit=unit))
     names = [name.strip() for name in lines[3].split(tab)[2:] if name.strip()]
     rows = [line.split(tab) for line in lines[5:] if line.strip(f"{tab} ")]
     width = 2 + 3 * len(names)
     if not names or not rows:
-        raise ReferenceUnreadable(path, phrase("it holds no points"))
+        raise ReferenceUnreadable(path, phrase("no points"))
     try:
         table = np.array([[_parse_cell(cell) for cell in (row + [""] * width)[:width]] for row in rows])
     except ValueError as cause:
@@ -53,7 +53,7 @@ def read_mot(path: Path) -> TimeTable:
     lines = read_text(path).splitlines()
     ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
     if not ends or ends[0] + 1 >= len(lines):
-        raise ReferenceUnreadable(path, phrase("no MOT: it has no end of its header"))
+        raise ReferenceUnreadable(path, phrase("not MOT: the header has no end"))
     header = dict(line.lower().replace(" ", "").rstrip(",").split("=", 1) for line in lines[: ends[0]] if "=" in line)
     tab = "," if "," in lines[ends[0] + 1] else None  # None: any white space
     names = lines[ends[0] + 1].split(tab)
@@ -61,9 +61,9 @@ def read_mot(path: Path) -> TimeTable:
     try:
         table = np.array([[_parse_cell(cell) for cell in row] for row in rows])
     except ValueError as cause:
-        raise ReferenceUnreadable(path, phrase("rows of different length, or no numbers")) from cause
+        raise ReferenceUnreadable(path, phrase("rows of different length, or not numbers")) from cause
     if table.ndim != 2 or table.shape[1] != len(names) or names[0].lower() != "time":
-        raise ReferenceUnreadable(path, phrase("its columns are not what its names say"))
+        raise ReferenceUnreadable(path, phrase("columns do not match their names"))
     columns = {name: table[:, k] for k, name in enumerate(names) if k}
     in_degrees = header.get("indegrees")
     return TimeTable(
@@ -80,5 +80,5 @@ def _parse_cell(cell: str) -> float:
 
 def _check_times(time_s: FloatArray, path: Path) -> FloatArray:
     if not np.isfinite(time_s).all() or (np.diff(time_s) <= 0.0).any():
-        raise ReferenceUnreadable(path, phrase("its times do not rise"))
+        raise ReferenceUnreadable(path, phrase("times out of order"))
     return time_s

@@ -75,7 +75,7 @@ def read_table(path: Path, known_names: Collection[str]) -> TextTable:
     found = [_find_table(text, separator, known_names) for separator in separators]
     best = max((one for one in found if one is not None), key=lambda one: one[0], default=None)
     if best is None:
-        raise ReferenceUnreadable(path, phrase("it holds no table"))
+        raise ReferenceUnreadable(path, phrase("no table"))
     return best[1]
 
 

@@ -252,7 +252,7 @@ class ReferenceUnsuited(CarpusFault, code="C-602"):
 class StudyUnsuited(CarpusFault, code="C-603"):
     summary = phrase("These sessions are not a test-retest study: {subject} ({detail}).")
     data_safety = phrase("The limits of change stay as they are.")
-    remedy = phrase("Measure at least 10 people twice within 14 days, with the markers placed anew each time.")
+    remedy = phrase("Measure at least 10 people twice within 14 days, and replace the markers each time.")
 
 
 class SettingsInvalid(CarpusFault, code="C-004"):

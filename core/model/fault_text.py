@@ -48,26 +48,26 @@ _ABOUT_MARKERS = (
 
 MARKERS: dict[str, Phrase] = {
     "WRIST": phrase("wrist"),
-    "CMC1": phrase("thumb base"),
-    "MCP1": phrase("thumb knuckle"),
-    "IP1": phrase("thumb end joint"),
+    "CMC1": phrase("thumb CMC"),
+    "MCP1": phrase("thumb MCP"),
+    "IP1": phrase("thumb IP"),
     "TIP1": phrase("thumb tip"),
-    "MCP2": phrase("index knuckle"),
-    "PIP2": phrase("index finger middle joint"),
-    "DIP2": phrase("index finger end joint"),
-    "TIP2": phrase("index tip"),
-    "MCP3": phrase("middle knuckle"),
-    "PIP3": phrase("middle finger middle joint"),
-    "DIP3": phrase("middle finger end joint"),
-    "TIP3": phrase("middle tip"),
-    "MCP4": phrase("ring knuckle"),
-    "PIP4": phrase("ring finger middle joint"),
-    "DIP4": phrase("ring finger end joint"),
-    "TIP4": phrase("ring tip"),
-    "MCP5": phrase("little knuckle"),
-    "PIP5": phrase("little finger middle joint"),
-    "DIP5": phrase("little finger end joint"),
-    "TIP5": phrase("little tip"),
+    "MCP2": phrase("index MCP"),
+    "PIP2": phrase("index PIP"),
+    "DIP2": phrase("index DIP"),
+    "TIP2": phrase("index fingertip"),
+    "MCP3": phrase("middle finger MCP"),
+    "PIP3": phrase("middle finger PIP"),
+    "DIP3": phrase("middle finger DIP"),
+    "TIP3": phrase("middle fingertip"),
+    "MCP4": phrase("ring finger MCP"),
+    "PIP4": phrase("ring finger PIP"),
+    "DIP4": phrase("ring finger DIP"),
+    "TIP4": phrase("ring fingertip"),
+    "MCP5": phrase("little finger MCP"),
+    "PIP5": phrase("little finger PIP"),
+    "DIP5": phrase("little finger DIP"),
+    "TIP5": phrase("little fingertip"),
 }
 """Clinical name of every marker."""
 
@@ -140,7 +140,7 @@ def marker_name(marker: str, translate: Translate = str) -> str:
     """Return the clinical name of a marker; any other name stays.
 
     >>> marker_name("MCP2"), marker_name("CMC1"), marker_name("PIP5")
-    ('index knuckle', 'thumb base', 'little finger middle joint')
+    ('index MCP', 'thumb CMC', 'little finger PIP')
     """
     return translate(MARKERS[marker]) if marker in MARKERS else marker
 
@@ -149,11 +149,11 @@ def join_marker_names(markers: list[str] | tuple[str, ...], translate: Translate
     """Join the clinical names of markers.
 
     >>> join_marker_names(("MCP2", "MCP3")), join_marker_names(("WRIST", "CMC1", "MCP4"))
-    ('index and middle knuckle', 'wrist, thumb base and ring knuckle')
+    ('index and middle finger MCP', 'wrist, thumb CMC and ring finger MCP')
     """
     names = [marker_name(marker, translate) for marker in markers]
-    if len(names) > 1 and all(name.endswith(" knuckle") for name in names):  # as one says it in English
-        names = [*(name.removesuffix(" knuckle") for name in names[:-1]), names[-1]]
+    if len(names) > 1 and all(name.endswith(" MCP") for name in names):  # as one says it in English
+        names = [*(name.removesuffix(" MCP") for name in names[:-1]), names[-1]]
     if len(names) < 2:
         return "".join(names)
     return translate(phrase("{one} and {other}", one=", ".join(names[:-1]), other=names[-1]))

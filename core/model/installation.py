@@ -42,7 +42,8 @@ def install_hint(*packages: str) -> Phrase:
         alone = "--no-deps " if set(packages) <= set(NO_DEPENDENCY_PACKAGES) else ""
         return phrase("Run “{command}”.", command=f"{sys.executable} -m pip install {alone}{' '.join(packages)}")
     if sys.platform.startswith("linux") and set(packages) <= set(CAMERAS_EXTRA_PACKAGES):
-        return phrase("Install the package {package}, which comes beside that of Carpus.", package=CAMERAS_EXTRA)
+        return phrase("Install the package {package}, which is next to the Carpus package.", package=CAMERAS_EXTRA)
     return phrase(
-        "The packed program does without {packages}; Carpus from its source can have it.", packages=", ".join(packages)
+        "The packaged program does not include {packages}. Carpus installed from source can use it.",
+        packages=", ".join(packages),
     )

@@ -43,7 +43,7 @@ def convert_value(hint: Any, value: Any, name: str, file: str = "") -> Any:
         wanted = next(one for one in arguments if one is not type(None))
         return convert_value(wanted, value, name, file)
     if isinstance(value, str) and "\0" in value:
-        raise SettingsInvalid(name, phrase("a text with a character that is none, in {file}", file=file))
+        raise SettingsInvalid(name, phrase("a text with an invalid character, in {file}", file=file))
     if hint is Path and isinstance(value, str):
         return expand_home(value)
     if hint is float and isinstance(value, (int, float)) and not isinstance(value, bool):

@@ -196,7 +196,7 @@ class RecordedSession:
         try:
             draft.read()
             if draft.frame_count != len(self._times_s):  # else the journal would go with what is only in it
-                raise OutputNotWritable(self.path.parent, phrase("what was written is not what is read"))
+                raise OutputNotWritable(self.path.parent, phrase("the data read back differ from the data written"))
             self.path = draft.finish() or self.path
         finally:
             draft.discard()

@@ -155,7 +155,7 @@ class SessionFrames:
         for row, images in enumerate(read_raw(session.path)):
             color = decode_color(images.color)
             if color is None:
-                raise FrameDamaged(session.path, phrase("colour picture {row}", row=row))
+                raise FrameDamaged(session.path, phrase("colour frame {row}", row=row))
             depth = decode_depth(images.depth) if images.depth else None
             time_s, dropped = float(session.timestamp_s[row]), int(session.quality.dropped_before[row])
             yield Frame(row, time_s, color, depth, self._unit_m, max(dropped, 0))

@@ -48,25 +48,25 @@ def check_disk_encryption(state: EncryptionState) -> Finding:
         return Finding(
             name, "warning", phrase("The disk of the data folder is not encrypted."), format_encryption_advice()
         )
-    remedy = phrase("Ask whoever looks after this computer. {how}", how=format_encryption_advice())
-    return Finding(name, "warning", phrase("Whether the disk of the data folder is encrypted is not known."), remedy)
+    remedy = phrase("Ask your IT support. {how}", how=format_encryption_advice())
+    return Finding(name, "warning", phrase("It is not known whether the disk of the data folder is encrypted."), remedy)
 
 
 def format_encryption_advice(platform: str = sys.platform) -> str:
     """Return how to switch on the encryption of this system."""
     if platform == "win32":
         return phrase(
-            "Switch it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control "
-            "Panel. Keep the recovery key away from this computer."
+            "Turn it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the "
+            "Control Panel. Do not keep the recovery key with this computer."
         )
     if platform == "darwin":
         return phrase(
-            "Switch it on: System Settings → Privacy and Security → FileVault. Keep the recovery key away from this "
-            "computer."
+            "Turn it on: System Settings → Privacy and Security → FileVault. Do not keep the recovery key with "
+            "this computer."
         )
     return phrase(
-        "Linux encrypts a disk when it is set up (LUKS): choose it when the system is installed, or move the data "
-        "folder to a disk that was set up so. Keep its passphrase away from this computer."
+        "Linux encrypts a disk when it is set up (LUKS). Choose this when the system is installed, or move the "
+        "data folder to an encrypted disk. Do not keep the passphrase with this computer."
     )
 
 

@@ -242,7 +242,7 @@ def backup_from_json(name: str, text: str) -> Backup:
     """
     content = json.loads(text)
     if content["format"] != FORMAT:
-        raise BackupUnreadable(name, phrase("not a back-up"))
+        raise BackupUnreadable(name, phrase("not a backup"))
     if _parse_count(content["format_version"]) > FORMAT_VERSION:
         newer = "version {version}, this Carpus reads up to {format_version}"
         raise BackupUnreadable(name, phrase(newer, version=content["format_version"], format_version=FORMAT_VERSION))
@@ -250,7 +250,7 @@ def backup_from_json(name: str, text: str) -> Backup:
         BackupFile(str(p), str(h), _parse_count(size), _parse_count(ns)) for p, h, size, ns in content["files"]
     )
     if not all(_is_safe_path(one.path) and _SHA256.fullmatch(one.sha256) for one in files):
-        raise BackupUnreadable(name, phrase("paths that lead out of the folder"))
+        raise BackupUnreadable(name, phrase("paths outside the folder"))
     made = datetime.fromisoformat(content["made"])
     if made.tzinfo is None or not 2000 <= made.year < 9000 or len({one.path for one in files}) != len(files):
         raise ValueError("no such back-up was made")
@@ -335,7 +335,7 @@ def check_backup_folder(data_folder: Path, backup_folder: Path) -> None:
     """Raise :class:`BackupFolderUnsuited` for a folder inside or around the data folder."""
     data, there = data_folder.resolve(), _resolve_links(backup_folder)
     if data == there or data in there.parents or there in data.parents:
-        raise BackupFolderUnsuited(backup_folder, phrase("in the data folder, or around it"))
+        raise BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
 
 
 def _resolve_links(place: Path) -> Path:
@@ -361,7 +361,7 @@ def list_files(
             missing.append(name.rstrip("/"))
             continue
         if backup_folder is not None and backup_folder.is_relative_to(here.resolve()):
-            raise BackupFolderUnsuited(backup_folder, phrase("in the data folder, or around it"))
+            raise BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
         if (state.st_dev, state.st_ino) in seen:
             continue
         seen.add((state.st_dev, state.st_ino))

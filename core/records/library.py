@@ -186,7 +186,7 @@ class Library:
             return self.unlisted[session_id]
         with suppress(KeyError):
             return self.session_list.get(session_id)
-        raise SessionUnreadable(session_id, phrase("not in the list of patients"))
+        raise SessionUnreadable(session_id, phrase("not in the patient list"))
 
     def is_listed(self, session_id: str) -> bool:
         with suppress(KeyError):
@@ -240,7 +240,7 @@ class Library:
             return [self.unlisted[session_id]]
         with suppress(KeyError):
             return self.session_list.result_versions(session_id)
-        raise SessionUnreadable(session_id, phrase("not in the list of patients"))
+        raise SessionUnreadable(session_id, phrase("not in the patient list"))
 
     def choices(self, session_id: str) -> RepetitionChoices:
         if session_id in self.unlisted:

@@ -26,13 +26,13 @@ def read_limits(data_folder: Path) -> ErrorLimits:
     except FileNotFoundError:
         return ErrorLimits()
     except (OSError, ValueError, RecursionError) as cause:
-        raise SettingsInvalid(path, phrase("it cannot be read as JSON; the usual limits hold")) from cause
+        raise SettingsInvalid(path, phrase("not readable as JSON, so the default limits apply")) from cause
     try:
         if content["format"] != FORMAT or content["format_version"] != FORMAT_VERSION:
             raise ValueError("another format")
         return ErrorLimits(tuple(_parse_study(one) for one in content["studies"]))
     except (KeyError, TypeError, ValueError, AttributeError) as cause:
-        raise SettingsInvalid(path, phrase("it does not hold limits; the usual ones hold")) from cause
+        raise SettingsInvalid(path, phrase("no limits in it, so the default limits apply")) from cause
 
 
 def _parse_study(content: dict[str, Any]) -> RetestStudy:

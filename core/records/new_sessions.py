@@ -176,7 +176,7 @@ class SessionIntake:
             if not isinstance(
                 fault, (ServerUnavailable, ConcurrentChange)
             ):  # else it is listed when the server is back
-                library.on_fault(SessionSpooled(path, fault.detail or phrase("not there now")))
+                library.on_fault(SessionSpooled(path, fault.detail or phrase("not available now")))
             return entry.session_id
         library.audit_log.log_session("recorded", session_id)
         return session_id

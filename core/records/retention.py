@@ -99,14 +99,14 @@ class RecordRetention:
         try:
             return erasure.plan_session(self._store, session_id)
         except KeyError:
-            raise SessionUnreadable(session_id, phrase("not in the list of patients")) from None
+            raise SessionUnreadable(session_id, phrase("not in the patient list")) from None
 
     def plan_patient(self, patient_id: str) -> ErasurePlan:
         """Plan the erasure of a patient. Raises :class:`SessionUnreadable` if there is none."""
         try:
             return erasure.plan_patient(self._store, patient_id)
         except KeyError:
-            raise SessionUnreadable(patient_id, phrase("not in the list of patients")) from None
+            raise SessionUnreadable(patient_id, phrase("not in the patient list")) from None
 
     def erase(self, plan: ErasurePlan) -> int:
         """Erase as planned. Raises what :func:`erasure.erase` does."""

@@ -119,7 +119,7 @@ class Server:
                 connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
             except DBAPIError as cause:
                 self._retry_at_s = time.monotonic() + RETRY_AFTER_S
-                raise ServerUnavailable(self.name, phrase("another computer is bringing what it has")) from cause
+                raise ServerUnavailable(self.name, phrase("another computer is sending its data")) from cause
             yield connection
 
     @contextlib.contextmanager

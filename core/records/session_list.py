@@ -295,7 +295,7 @@ class SessionList:
         for one, folder in ((path, self.folder), (path.resolve(), self._resolved_folder)):
             if one.is_relative_to(folder):
                 return one.relative_to(folder).as_posix()
-        raise SessionUnreadable(path, phrase("not in the folder of the sessions"))
+        raise SessionUnreadable(path, phrase("not in the session folder"))
 
     def _entry_from_row(self, row: Row[Any]) -> SessionEntry:
         return SessionEntry(
@@ -383,7 +383,7 @@ class SessionFileScanner:
                 else:
                     del now_seen[path]
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
-            faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is no text")) for one in nameless]
+            faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is not text")) for one in nameless]
         gone = [path for path in before if path not in there and not self._is_unfinished_part(path)]
         taken = self._update_list(found, known, there.keys(), now_seen)
         save_file_states(self._store, now_seen, gone)

@@ -116,7 +116,7 @@ class ExerciseSet:
 
 DEFAULT_SETS = (
     ExerciseSet(
-        "usual-wrist", phrase("Wrist, all ways"), "wrist6",
+        "usual-wrist", phrase("Wrist, all movements"), "wrist6",
         tuple(SetPart(get_exercise(name), 10, 0, 30) for name in ("WRIST_FE", "WRIST_RU", "FOREARM_PS")),
     ),
     ExerciseSet(

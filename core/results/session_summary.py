@@ -58,7 +58,7 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
         _line("Camera", camera_text(session.camera) + _calibration_age(header.parameters)),
         _line("Sensor", sensor_text(session.camera.sensor)),
         _line("Smoothed", "yes" if session.smoothed is not None else "no"),
-        _line("Pictures", "kept" if has_raw(session.path) else "not kept"),
+        _line("Video", "saved" if has_raw(session.path) else "not saved"),
         _line("Events", _event_counts(session)),
         *_provenance_lines(session),
         _line("Settings", "carpus info --json FILE shows them"),

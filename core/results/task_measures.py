@@ -58,7 +58,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     "straightness": Quantity(phrase("Path length ratio"), "length/chord", 2),
     "movement units": Quantity(phrase("Number of speed peaks"), "1", 1),
     "smoothness": Quantity(phrase("Smoothness (SPARC)"), "SPARC", 2),
-    "largest aperture": Quantity(phrase("Widest opening, thumb–index"), "mm"),
+    "largest aperture": Quantity(phrase("Maximum grip aperture, thumb–index"), "mm"),
     "wrist extension at grasp": Quantity(phrase("Wrist angle at grasp"), "deg"),
     "hand span": Quantity(phrase("Hand span, thumb–little"), "mm"),
     "tip span": Quantity(phrase("Largest span, {one}–{other}"), "mm"),

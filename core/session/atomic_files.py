@@ -62,11 +62,11 @@ def reserve_space(descriptor: int, path: Path, begin: int, length: int) -> None:
     except OSError as cause:
         if cause.errno in DISK_FULL_ERRNOS:
             raise DiskFull(
-                path, phrase("no room for another {length} MB", length=format_rounded(length / 1000000.0, 1))
+                path, phrase("no space for another {length} MB", length=format_rounded(length / 1000000.0, 1))
             ) from cause
         # this file system cannot reserve: ask how much is free instead
     if shutil.disk_usage(path.parent).free < length:
-        raise DiskFull(path, phrase("no room for another {length} MB", length=format_rounded(length / 1000000.0, 1)))
+        raise DiskFull(path, phrase("no space for another {length} MB", length=format_rounded(length / 1000000.0, 1)))
 
 
 def is_being_written(path: Path) -> bool:

@@ -41,11 +41,11 @@ def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
     ):
         text: str = getattr(header, name)
         if len(text) > MAX_TEXT_CHARACTERS or not (text.isprintable() or name == "origin"):
-            raise SessionUnreadable(path, phrase("damaged: its {name} is no such thing", name=name))
+            raise SessionUnreadable(path, phrase("damaged: invalid {name}", name=name))
     if not header.session_id.strip():
         raise SessionUnreadable(path, phrase("damaged: no session_id"))
     if _nesting_depth(parameters) > MAX_PARAMETERS_DEPTH or len(header.parameters) > MAX_PARAMETERS_CHARACTERS:
-        raise SessionUnreadable(path, phrase("damaged: its parameters are no settings"))
+        raise SessionUnreadable(path, phrase("damaged: invalid settings"))
 
 
 def check_times(path: Path, timestamp_s: FloatArray) -> None:
@@ -53,21 +53,21 @@ def check_times(path: Path, timestamp_s: FloatArray) -> None:
     if not len(timestamp_s):
         return
     if not np.isfinite(timestamp_s).all() or np.abs(timestamp_s).max() > MAX_TIME_S:
-        raise SessionUnreadable(path, phrase("damaged: a frame has no possible time"))
+        raise SessionUnreadable(path, phrase("damaged: impossible frame time"))
     wrong = np.flatnonzero(np.diff(timestamp_s) <= 0.0)
     if len(wrong):
         raise SessionUnreadable(
-            path, phrase("damaged: the time of frame {number} is not after the one before", number=int(wrong[0]) + 1)
+            path, phrase("damaged: frame {number} is not later than the previous one", number=int(wrong[0]) + 1)
         )
     if timestamp_s[-1] - timestamp_s[0] > MAX_DURATION_S:
-        raise SessionUnreadable(path, phrase("its times span more than a day: damaged, or a clock jumped"))
+        raise SessionUnreadable(path, phrase("times span more than a day: damaged, or a clock jumped"))
 
 
 def check_values(path: Path, session: Session) -> None:
     """Raise :class:`SessionUnreadable` for impossible numbers; NaN stands for unknown everywhere."""
     check_times(path, session.timestamp_s)
     if len(session.status) and int(session.status.max()) >= STATUS_COUNT:
-        raise SessionUnreadable(path, phrase("damaged: a frame has a status that there is not"))
+        raise SessionUnreadable(path, phrase("damaged: unknown frame status"))
     limits: list[tuple[str, FloatArray, float]] = [
         ("a marker's position", session.markers.position_cam_m, MAX_POSITION_M),
         ("a calibrated position", session.calibration.marker_position_w0_m, MAX_POSITION_M),
@@ -86,17 +86,17 @@ def check_values(path: Path, session: Session) -> None:
     for what, values, limit in limits:
         # NaN compares as neither, so unknown values pass.
         if len(values) and bool((np.abs(values) > limit).any()):
-            raise SessionUnreadable(path, phrase("damaged: {what} is beyond all measure", what=what))
+            raise SessionUnreadable(path, phrase("damaged: {what} out of range", what=what))
     for motion in (session.motion, session.smoothed):
         if motion is not None and any(
             bool((values < 0.0).any()) for values in (motion.angles_sd_rad, motion.joint_angles_sd_rad)
         ):
-            raise SessionUnreadable(path, phrase("damaged: a standard deviation is below zero"))
+            raise SessionUnreadable(path, phrase("damaged: negative standard deviation"))
     camera = session.camera
     if not all(map(math.isfinite, (camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *camera.distortion))):
-        raise SessionUnreadable(path, phrase("damaged: the camera's figures are not known"))
+        raise SessionUnreadable(path, phrase("damaged: unknown camera values"))
     if min(camera.fx_px, camera.fy_px) <= 0.0 or not 1 <= min(camera.width_px, camera.height_px) <= 1 << 16:
-        raise SessionUnreadable(path, phrase("damaged: the camera's figures are not a camera's"))
+        raise SessionUnreadable(path, phrase("damaged: impossible camera values"))
     if not all(math.isfinite(event.time_s) for event in session.events):
         raise SessionUnreadable(path, phrase("damaged: an event has no time"))
 
@@ -112,7 +112,7 @@ def check_calibration(path: Path, calibration: Calibration) -> None:
         good = bool(np.isfinite(spread).all() and np.abs(spread).max() <= MAX_COVARIANCE_M2)
         good = good and float(np.linalg.eigvalsh(spread).min()) >= -COVARIANCE_TOLERANCE_M2
     if not good:
-        raise SessionUnreadable(path, phrase("damaged: its calibration is not one of a hand"))
+        raise SessionUnreadable(path, phrase("damaged: its calibration does not describe a hand"))
 
 
 def check_detections(path: Path, detections: Detections) -> None:
@@ -122,7 +122,7 @@ def check_detections(path: Path, detections: Detections) -> None:
     for values, most in ((detections.depth_m, MAX_POSITION_M), (detections.depth_sd_m, MAX_POSITION_M)):
         good = good and not bool(((values < 0.0) | (values > most)).any())
     if not good:
-        raise SessionUnreadable(path, phrase("damaged: a blob is in no picture"))
+        raise SessionUnreadable(path, phrase("damaged: a blue spot belongs to no frame"))
 
 
 def _nesting_depth(value: object) -> int:

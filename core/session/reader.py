@@ -112,17 +112,17 @@ class ReadingProcess:
                 size = 0
             if not link.poll(TIMEOUT_S + size / BYTES_PER_S):
                 self._end()
-                raise SessionUnreadable(path, phrase("damaged: reading it does not end"))
+                raise SessionUnreadable(path, phrase("damaged: reading does not finish"))
             try:
                 count, packed = int(link.recv_bytes()), link.recv_bytes()
                 buffers = [link.recv_bytes() for _ in range(count)]
                 outcome, value = _AnswerUnpickler(io.BytesIO(packed), buffers=buffers).load()
             except (EOFError, OSError):
                 self._end()
-                raise SessionUnreadable(path, phrase("damaged: it cannot be read to its end")) from None
+                raise SessionUnreadable(path, phrase("damaged: not readable to the end")) from None
             except Exception as cause:
                 self._end()
-                raise SessionUnreadable(path, phrase("damaged: what was read of it makes no sense")) from cause
+                raise SessionUnreadable(path, phrase("damaged: its content is implausible")) from cause
         if outcome == "done":
             return value
         kind = getattr(errors, str(outcome), SessionUnreadable)

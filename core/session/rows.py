@@ -46,11 +46,11 @@ def check_structure(path: Path, file: h5py.File) -> None:
     while waiting:
         place, group, depth = waiting.pop()
         if depth > MAX_DEPTH:
-            raise SessionUnreadable(path, phrase("groups within groups without end at {place}", place=place))
+            raise SessionUnreadable(path, phrase("endlessly nested groups at {place}", place=place))
         for name in _list_members(path, group, place):
             inside = f"{place}/{name.decode('utf-8', 'replace')}"
             if group.links.get_info(name).type != h5py.h5l.TYPE_HARD:
-                raise SessionUnreadable(path, phrase("{inside} points out of its place", inside=inside))
+                raise SessionUnreadable(path, phrase("{inside} links outside the file", inside=inside))
             info = h5py.h5o.get_info(group, name)
             key = (info.fileno, info.addr)
             if key in seen:
@@ -71,7 +71,7 @@ def check_structure(path: Path, file: h5py.File) -> None:
             elif inside in _FIELDS:
                 raise SessionUnreadable(path, phrase("{inside} is a type, values expected", inside=inside))
     if declared > MAX_COMPRESSION_RATIO * size + 65536:
-        raise SessionUnreadable(path, phrase("it claims more values than the file can hold"))
+        raise SessionUnreadable(path, phrase("more values declared than the file can hold"))
 
 
 def count_stored_rows(dataset: h5py.Dataset) -> int:
@@ -93,9 +93,9 @@ def _list_members(path: Path, group: h5py.h5g.GroupID, place: str) -> list[bytes
 def _check_storage(path: Path, place: str, dataset: h5py.Dataset) -> None:
     plan = dataset.id.get_create_plist()
     if plan.get_layout() not in _PLAIN_LAYOUTS or plan.get_external_count() > 0:
-        raise SessionUnreadable(path, phrase("{place} keeps its values in another file", place=place))
+        raise SessionUnreadable(path, phrase("{place} stores its values in another file", place=place))
     if any(plan.get_filter(number)[0] not in _PLAIN_FILTERS for number in range(plan.get_nfilters())):
-        raise SessionUnreadable(path, phrase("{place} is packed in a way that a session is not", place=place))
+        raise SessionUnreadable(path, phrase("{place} uses an unsupported compression", place=place))
 
 
 def _check_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int, *, whole: bool) -> int:
@@ -105,7 +105,7 @@ def _check_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int
         raise SessionUnreadable(
             path,
             phrase(
-                "{path} is of the type {dtype}, {dtype2} expected",
+                "{path} has type {dtype}, {dtype2} expected",
                 path=field.path,
                 dtype=dataset.dtype,
                 dtype2=field.dtype,
@@ -116,7 +116,7 @@ def _check_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int
         raise SessionUnreadable(
             path,
             phrase(
-                "{path} has the shape {shape}, {count} axes expected",
+                "{path} has shape {shape}, {count} axes expected",
                 path=field.path,
                 shape=shape,
                 count=len(field.shape),
@@ -134,7 +134,7 @@ def _check_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int
         raise SessionUnreadable(
             path,
             phrase(
-                "{path} claims {claimed} bytes, and {stored} are there", path=field.path, claimed=claimed, stored=stored
+                "{path} declares {claimed} bytes, {stored} are stored", path=field.path, claimed=claimed, stored=stored
             ),
         )
     return 0 if field.path in _ENDS_OF_RAW else claimed

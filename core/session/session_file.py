@@ -176,7 +176,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     except CarpusFault:
         raise
     except MemoryError as cause:
-        raise SessionUnreadable(path, phrase("damaged: it asks for more memory than a session needs")) from cause
+        raise SessionUnreadable(path, phrase("damaged: more memory needed than a session can use")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
         # The library's own message helps developers only.
         log.info("reading %s: %s", path, cause)
@@ -256,7 +256,7 @@ class _SessionFile:
         times = self._file["/frames/timestamp"]
         duration_s = float(times[frames - 1] - times[0]) if frames else 0.0
         if not 0.0 <= duration_s <= MAX_DURATION_S:
-            raise SessionUnreadable(self._path, phrase("damaged: the times of its frames are no session's"))
+            raise SessionUnreadable(self._path, phrase("damaged: implausible frame times"))
         return SessionOutline(
             header=self._header,
             frames=frames,
@@ -301,7 +301,7 @@ class _SessionFile:
         if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > self._file[stream.path].shape[0]):
             raise SessionUnreadable(
                 self._path,
-                phrase("damaged: {path} does not fit {path2}", path=schema.RAW_ENDS[number].path, path2=stream.path),
+                phrase("damaged: {path} does not match {path2}", path=schema.RAW_ENDS[number].path, path2=stream.path),
             )
         return ends
 

@@ -420,11 +420,11 @@
         <translation>Tafel neigen: {side} näher</translation>
     </message>
     <message>
-        <source>Bring the board nearer</source>
+        <source>Move the board nearer</source>
         <translation>Tafel näher heran</translation>
     </message>
     <message>
-        <source>Take the board farther away</source>
+        <source>Move the board farther away</source>
         <translation>Tafel weiter weg</translation>
     </message>
     <message>
@@ -489,7 +489,7 @@
     </message>
     <message>
         <source>Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how.</source>
-        <translation>Nichts ist geändert. Schalten Sie die Deckung von Tiefe und Farbe in der Kamera ein: „carpus doctor“ sagt, wie.</translation>
+        <translation>Nichts ist geändert. Schalten Sie die Registrierung von Tiefe und Farbe in der Kamera ein: „carpus doctor“ sagt, wie.</translation>
     </message>
     <message>
         <source>The reprojection error is {error} pixels.</source>
@@ -764,8 +764,8 @@
         <translation>2. Daumensattelgelenk (CMC): auf der Knochenkante, eine Daumenbreite vom Handgelenkmarker.</translation>
     </message>
     <message>
-        <source>3. MCP joints: on the back of the hand, just proximal to each knuckle.</source>
-        <translation>3. MCP-Gelenke: auf dem Handrücken, knapp proximal jedes Knöchels.</translation>
+        <source>3. MCP joints: on the back of the hand, just proximal to each MCP joint.</source>
+        <translation>3. MCP-Gelenke: auf dem Handrücken, knapp proximal des Gelenks.</translation>
     </message>
     <message>
         <source>Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm.</source>
@@ -1224,8 +1224,8 @@
         <translation>Fingerrücken zur Kamera drehen</translation>
     </message>
     <message>
-        <source>All markers seen. End joints are not measured: they follow the middle joints.</source>
-        <translation>Alle Marker zu sehen. Endgelenke werden nicht gemessen: Sie folgen den Mittelgelenken.</translation>
+        <source>All markers visible. DIP joints are not measured: they follow the PIP joints.</source>
+        <translation>Alle Marker sichtbar. DIP-Gelenke werden nicht gemessen: Sie folgen den PIP-Gelenken.</translation>
     </message>
     <message>
         <source>All markers seen, every joint is measured.</source>
@@ -1300,16 +1300,16 @@
         <translation>Mitten auf dem Handgelenkrücken, im kleinen Grübchen.</translation>
     </message>
     <message>
-        <source>At the root of the thumb, just past the hollow beside the wrist.</source>
-        <translation>An der Daumenwurzel, gleich hinter der Mulde neben dem Handgelenk.</translation>
+        <source>At the base of the thumb, just distal to the anatomical snuffbox.</source>
+        <translation>An der Daumenbasis, knapp distal der Tabatière.</translation>
     </message>
     <message>
-        <source>On the back of the hand, 3–5 mm behind the knuckle, towards the wrist.</source>
-        <translation>Auf dem Handrücken, 3–5 mm hinter dem Grundgelenk, zum Handgelenk hin.</translation>
+        <source>On the back of the hand, 3–5 mm proximal to the MCP joint.</source>
+        <translation>Auf dem Handrücken, 3–5 mm proximal des MCP-Gelenks.</translation>
     </message>
     <message>
-        <source>In the middle of the creases over the middle joint.</source>
-        <translation>Mitten auf den Falten über dem Mittelgelenk.</translation>
+        <source>Centred on the creases over the PIP joint.</source>
+        <translation>Mitten auf den Falten über dem PIP-Gelenk.</translation>
     </message>
     <message>
         <source>In the middle of the creases over the end joint.</source>
@@ -1409,7 +1409,7 @@
     </message>
     <message>
         <source>Correct names</source>
-        <translation>Namen berichtigen</translation>
+        <translation>Bezeichnungen korrigieren</translation>
     </message>
     <message>
         <source>Take that spot</source>
@@ -2048,7 +2048,7 @@
         <translation>Kamera</translation>
     </message>
     <message>
-        <source>Pictures</source>
+        <source>Frames</source>
         <translation>Bilder</translation>
     </message>
     <message>
@@ -2100,7 +2100,7 @@
         <translation>Flüssigkeit der Bewegung (SPARC)</translation>
     </message>
     <message>
-        <source>Widest opening, thumb–index</source>
+        <source>Maximum grip aperture, thumb–index</source>
         <translation>Größte Öffnung, Daumen–Zeigefinger</translation>
     </message>
     <message>
@@ -2208,7 +2208,7 @@
         <translation>Hinlangen und Greifen</translation>
     </message>
     <message>
-        <source>Thumb to the finger tips</source>
+        <source>Thumb to the fingertips</source>
         <translation>Daumen zu den Fingerspitzen</translation>
     </message>
     <message>
@@ -2237,7 +2237,7 @@
     </message>
     <message>
         <source>dashed: occluded; hatched: lost</source>
-        <translation>gestrichelt: verdeckt; schraffiert: verloren</translation>
+        <translation>gestrichelt: verdeckt; schraffiert: nicht verfolgt</translation>
     </message>
     <message>
         <source>Finger flexion over time</source>
@@ -3112,8 +3112,8 @@
         <translation>Die Finger weit spreizen, dann schließen.</translation>
     </message>
     <message>
-        <source>Touch each fingertip with the thumb in turn, opening it wide in between.</source>
-        <translation>Mit dem Daumen nacheinander jede Fingerspitze berühren, dazwischen weit öffnen.</translation>
+        <source>Touch each fingertip with the thumb in turn. Abduct the thumb fully in between.</source>
+        <translation>Mit dem Daumen nacheinander jede Fingerspitze berühren, dazwischen den Daumen ganz abspreizen.</translation>
     </message>
     <message>
         <source>Reach, take the cup, lift it a little, put it back, return.</source>
@@ -3152,24 +3152,24 @@
         <translation>Unterarm auf dem Keil, Daumenseite etwas nach oben gedreht, Finger locker.</translation>
     </message>
     <message>
-        <source>Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm.</source>
-        <translation>Hand an ihrem Platz an der Kante, ein Becher von 5 bis 7 cm in 20 bis 30 cm Abstand.</translation>
+        <source>Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
+        <translation>Hand an ihrem Platz an der Tischkante. Becher mit 5 bis 7 cm Durchmesser in 20 bis 30 cm Abstand.</translation>
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
         <translation>Hand im Blick der Kamera, Handrücken nach oben, Finger gestreckt.</translation>
     </message>
     <message>
-        <source>At the end of a fist the middle and end joints go out of the camera&apos;s sight: repetitions are counted all the same, and those ranges are given as “at least”. To see more, turn the thumb side up.</source>
-        <translation>Am Ende der Faust sieht die Kamera Mittel- und Endgelenke nicht mehr: Wiederholungen werden trotzdem gezählt, und diese Umfänge stehen als „mindestens“ da. Um mehr zu sehen, drehen Sie die Daumenseite nach oben.</translation>
+        <source>At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these ranges are minimum values (≥). To see more, turn the thumb side up.</source>
+        <translation>Am Ende der Faust sind die PIP- und DIP-Gelenke verdeckt. Wiederholungen werden trotzdem gezählt, und diese Bewegungsausmaße sind Mindestwerte (≥). Um mehr zu sehen, die Daumenseite nach oben drehen.</translation>
     </message>
     <message>
-        <source>About half-way the middle joints go out of the camera&apos;s sight: repetitions are counted all the same, and their range is given as “at least”. To see more, raise the wrist or turn the thumb side up.</source>
-        <translation>Etwa auf halbem Weg sieht die Kamera die Mittelgelenke nicht mehr: Wiederholungen werden trotzdem gezählt, und ihr Umfang steht als „mindestens“ da. Um mehr zu sehen, heben Sie das Handgelenk oder drehen Sie die Daumenseite nach oben.</translation>
+        <source>About half-way the PIP joints are occluded. Repetitions are still counted, and their range is a minimum value (≥). To see more, raise the wrist or turn the thumb side up.</source>
+        <translation>Etwa auf halbem Weg sind die PIP-Gelenke verdeckt. Wiederholungen werden trotzdem gezählt, und ihr Bewegungsausmaß ist ein Mindestwert (≥). Um mehr zu sehen, das Handgelenk anheben oder die Daumenseite nach oben drehen.</translation>
     </message>
     <message>
-        <source>Under the palm the thumb&apos;s tip goes out of the camera&apos;s sight: what is trained here is its lift away from the palm, which stays in view.</source>
-        <translation>Unter der Handfläche sieht die Kamera die Daumenspitze nicht mehr: Geübt wird hier das Abheben von der Handfläche, das sichtbar bleibt.</translation>
+        <source>Under the palm the thumb tip is occluded. This exercise trains palmar abduction of the thumb, which stays visible.</source>
+        <translation>Unter der Handfläche ist die Daumenspitze verdeckt. Geübt wird hier die Palmarabduktion des Daumens, die sichtbar bleibt.</translation>
     </message>
     <message>
         <source>Legal notice, in its English wording:</source>
@@ -3400,12 +3400,12 @@
         <translation>{markers}: Eine andere blaue Stelle passt besser.</translation>
     </message>
     <message>
-        <source>Another blue spot lies close to the {markers}: it may be the disc.</source>
+        <source>Another blue spot is close to the {markers}: it may be the marker.</source>
         <translation>{markers}: Dicht daneben liegt eine andere blaue Stelle, die der Marker sein könnte.</translation>
     </message>
     <message>
-        <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
-        <translation>Bringen Sie die Firmware mit dem RealSense Viewer des Herstellers auf den neuesten Stand.</translation>
+        <source>Update the firmware with the manufacturer’s RealSense Viewer.</source>
+        <translation>Aktualisieren Sie die Firmware mit dem RealSense Viewer des Herstellers.</translation>
     </message>
     <message>
         <source>Camera rights, {title}</source>
@@ -3416,20 +3416,20 @@
         <translation>Carpus kann nicht nach {subject} schreiben ({detail}).</translation>
     </message>
     <message>
-        <source>Check that a disc was clicked there, and not another blue spot.</source>
-        <translation>Prüfen Sie, ob dort ein Punkt angeklickt wurde und nicht etwas anderes Blaues.</translation>
+        <source>Check that a marker was clicked there, and not another blue spot.</source>
+        <translation>Prüfen Sie, ob dort ein Marker angeklickt wurde und keine andere blaue Stelle.</translation>
     </message>
     <message>
-        <source>Check that every marker is clicked under its own name.</source>
-        <translation>Prüfen Sie, ob jeder Marker unter seinem Namen angeklickt ist.</translation>
+        <source>Check that every marker is clicked under its own label.</source>
+        <translation>Prüfen Sie, ob jeder Marker unter seiner Bezeichnung angeklickt ist.</translation>
     </message>
     <message>
         <source>Check the name and the folder.</source>
         <translation>Prüfen Sie Namen und Ordner.</translation>
     </message>
     <message>
-        <source>Check the patient, the side, and that every marker is clicked under its own name.</source>
-        <translation>Prüfen Sie Patient und Seite, und ob jeder Marker unter seinem Namen angeklickt ist.</translation>
+        <source>Check the patient, the side, and that every marker is clicked under its own label.</source>
+        <translation>Prüfen Sie Patient und Seite, und ob jeder Marker unter seiner Bezeichnung angeklickt ist.</translation>
     </message>
     <message>
         <source>Choose a folder on another disk.</source>
@@ -3448,15 +3448,15 @@
         <translation>Wählen Sie die andere Seite, oder klicken Sie die Marker neu an.</translation>
     </message>
     <message>
-        <source>Click all markers again, each under its own name.</source>
-        <translation>Klicken Sie alle Marker neu an, jeden unter seinem Namen.</translation>
+        <source>Click all markers again, each under its own label.</source>
+        <translation>Klicken Sie alle Marker neu an, jeden unter seiner Bezeichnung.</translation>
     </message>
     <message>
         <source>Click each of the two on its own marker.</source>
         <translation>Klicken Sie jeden der beiden auf seinem eigenen Marker an.</translation>
     </message>
     <message>
-        <source>Click it again in its middle, and keep the hand still.</source>
+        <source>Click it again in its centre, and keep the hand still.</source>
         <translation>Klicken Sie ihn neu in seiner Mitte an, und halten Sie die Hand ruhig.</translation>
     </message>
     <message>
@@ -3464,7 +3464,7 @@
         <translation>Klicken Sie näher am Marker, oder prüfen Sie das Licht.</translation>
     </message>
     <message>
-        <source>Click the {markers} again in its middle, or cover the other spot.</source>
+        <source>Click the {markers} again in its centre, or cover the other spot.</source>
         <translation>Klicken Sie noch einmal in die Mitte ({markers}), oder decken Sie die andere Stelle ab.</translation>
     </message>
     <message>
@@ -3480,16 +3480,16 @@
         <translation>Schließen Sie das andere Programm, und versuchen Sie es dann noch einmal.</translation>
     </message>
     <message>
-        <source>Cover the spot with the question mark, or give it its name.</source>
-        <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr den Namen.</translation>
+        <source>Cover the spot with the question mark, or give it its label.</source>
+        <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr die Bezeichnung.</translation>
     </message>
     <message>
         <source>Data folder</source>
         <translation>Datenordner</translation>
     </message>
     <message>
-        <source>Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good).</source>
-        <translation>Tiefe und Farbe decken sich hier nicht: {markers} ({value} {unit}, bis {limit} ist gut).</translation>
+        <source>Depth and colour are not aligned at the {markers} ({value} {unit}, up to {limit} is good).</source>
+        <translation>Tiefe und Farbe sind hier nicht deckungsgleich: {markers} ({value} {unit}, bis {limit} ist gut).</translation>
     </message>
     <message>
         <source>Disk</source>
@@ -3520,15 +3520,15 @@
         <translation>Schaffen Sie Platz auf dem Datenträger von {folder}.</translation>
     </message>
     <message>
-        <source>Give yourself the right to write there, or choose another folder in the settings.</source>
-        <translation>Geben Sie sich dort Schreibrecht, oder wählen Sie in den Einstellungen einen anderen Ordner.</translation>
+        <source>Allow writing there, or choose another folder in the settings.</source>
+        <translation>Erlauben Sie das Schreiben dort, oder wählen Sie in den Einstellungen einen anderen Ordner.</translation>
     </message>
     <message>
         <source>Install Carpus again: part of it is missing.</source>
         <translation>Installieren Sie Carpus neu: Ein Teil fehlt.</translation>
     </message>
     <message>
-        <source>Install OpenNI2 from the camera&apos;s maker, then start Carpus again.</source>
+        <source>Install OpenNI2 from the camera’s manufacturer, then restart Carpus.</source>
         <translation>Installieren Sie OpenNI2 vom Hersteller der Kamera, und starten Sie Carpus neu.</translation>
     </message>
     <message>
@@ -3540,7 +3540,7 @@
         <translation>Installieren Sie es neu.</translation>
     </message>
     <message>
-        <source>Install it, and what it names, again.</source>
+        <source>Reinstall it, and what it names.</source>
         <translation>Installieren Sie es und das Genannte neu.</translation>
     </message>
     <message>
@@ -3548,11 +3548,11 @@
         <translation>Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
     </message>
     <message>
-        <source>Install the package {package}, which comes beside that of Carpus.</source>
+        <source>Install the package {package}, which is next to the Carpus package.</source>
         <translation>Installieren Sie das Paket {package}, das neben dem von Carpus liegt.</translation>
     </message>
     <message>
-        <source>Install the packages that bring these libraries.</source>
+        <source>Install the packages that contain these libraries.</source>
         <translation>Installieren Sie die Pakete mit diesen Bibliotheken.</translation>
     </message>
     <message>
@@ -3560,7 +3560,7 @@
         <translation>Sie bleibt diesem Programm überlassen.</translation>
     </message>
     <message>
-        <source>Keep the hand still and take the first picture again.</source>
+        <source>Keep the hand still and take the first image again.</source>
         <translation>Halten Sie die Hand ruhig, und nehmen Sie das erste Bild neu auf.</translation>
     </message>
     <message>
@@ -3568,32 +3568,32 @@
         <translation>Halten Sie die Hand eine halbe Sekunde ruhig.</translation>
     </message>
     <message>
-        <source>Look at the lines on the picture, and give the marker its right name.</source>
-        <translation>Sehen Sie die Linien im Bild an, und geben Sie dem Marker seinen richtigen Namen.</translation>
+        <source>Check the lines on the image, and give the marker its correct label.</source>
+        <translation>Prüfen Sie die Linien im Bild, und geben Sie dem Marker die richtige Bezeichnung.</translation>
     </message>
     <message>
         <source>Mirror</source>
         <translation>Spiegelung</translation>
     </message>
     <message>
-        <source>Move the camera further from the hand.</source>
+        <source>Move the camera farther from the hand.</source>
         <translation>Rücken Sie die Kamera weiter von der Hand weg.</translation>
     </message>
     <message>
-        <source>Move the hand a little, and keep sunlight and shine off the marker.</source>
-        <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonne und Glanz vom Marker fern.</translation>
+        <source>Move the hand a little, and keep sunlight and reflections off the marker.</source>
+        <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonnenlicht und Reflexe vom Marker fern.</translation>
     </message>
     <message>
         <source>Needed for live cameras. {remedy}</source>
-        <translation>Nötig für Kameras. {remedy}</translation>
+        <translation>Nötig für Live-Kameras. {remedy}</translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
         <translation>Kein blauer Marker: {markers}.</translation>
     </message>
     <message>
-        <source>No hand has this shape: the {markers} does not lie where the other discs expect it.</source>
-        <translation>Keine Hand hat diese Form; nicht am erwarteten Platz: {markers}.</translation>
+        <source>No hand has this shape: the {markers} does not fit the other markers.</source>
+        <translation>Keine Hand hat diese Form, der Marker passt nicht zu den anderen: {markers}.</translation>
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
@@ -3604,16 +3604,16 @@
         <translation>OpenNI2</translation>
     </message>
     <message>
-        <source>OpenNI2 ends when it is asked for its version</source>
-        <translation>OpenNI2 bricht ab, wenn es nach seiner Version gefragt wird</translation>
+        <source>OpenNI2 stops when its version is queried</source>
+        <translation>OpenNI2 bricht bei der Abfrage seiner Version ab</translation>
     </message>
     <message>
         <source>OpenNI2 {value}</source>
         <translation>OpenNI2 {value}</translation>
     </message>
     <message>
-        <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Andere an diesem Computer können hineinsehen. Nehmen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 &apos;{folder}&apos;</translation>
+        <source>Others on this computer can read it. In its properties, remove all rights of the group and of others, or run: chmod 700 &apos;{folder}&apos;</source>
+        <translation>Andere an diesem Computer können ihn lesen. Entziehen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 &apos;{folder}&apos;</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -3628,8 +3628,8 @@
         <translation>Schließen Sie die Kamera neu an, an einem anderen Anschluss, ohne Verteiler.</translation>
     </message>
     <message>
-        <source>Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.</source>
-        <translation>Schließen Sie die Kamera neu an; bleibt es so, ist auf Zeiten und Geschwindigkeiten dieser Kamera kein Verlass.</translation>
+        <source>Plug the camera in again. If this persists, times and speeds of this camera are not reliable.</source>
+        <translation>Schließen Sie die Kamera neu an. Bleibt es so, sind Zeiten und Geschwindigkeiten dieser Kamera nicht verlässlich.</translation>
     </message>
     <message>
         <source>Plug the camera in.</source>
@@ -3649,14 +3649,14 @@
     </message>
     <message>
         <source>Registration</source>
-        <translation>Deckung von Tiefe und Farbe</translation>
+        <translation>Registrierung von Tiefe und Farbe</translation>
     </message>
     <message>
         <source>Run “{command}”.</source>
         <translation>Führen Sie „{command}“ aus.</translation>
     </message>
     <message>
-        <source>Run: installer/setup.sh run. Or: install the packages that bring these libraries.</source>
+        <source>Run: installer/setup.sh run. Or: install the packages that contain these libraries.</source>
         <translation>Ausführen: installer/setup.sh run. Oder: Installieren Sie die Pakete mit diesen Bibliotheken.</translation>
     </message>
     <message>
@@ -3668,16 +3668,16 @@
         <translation>Starten Sie das Fenster aus einem Desktop. Die Befehle für Dateien gehen ohne Bildschirm.</translation>
     </message>
     <message>
-        <source>Swap the two names, or click both markers again.</source>
-        <translation>Tauschen Sie die beiden Namen, oder klicken Sie beide Marker neu an.</translation>
+        <source>Swap the two labels, or click both markers again.</source>
+        <translation>Tauschen Sie die beiden Bezeichnungen, oder klicken Sie beide Marker neu an.</translation>
     </message>
     <message>
-        <source>Switch on registration in the camera, or track without depth.</source>
-        <translation>Schalten Sie die Deckung von Tiefe und Farbe in der Kamera ein, oder verfolgen Sie ohne Tiefe.</translation>
+        <source>Turn on depth registration in the camera settings, or track without depth.</source>
+        <translation>Schalten Sie die Tiefenregistrierung in den Kameraeinstellungen ein, oder verfolgen Sie ohne Tiefe.</translation>
     </message>
     <message>
-        <source>Take the spot with the question mark, if it is the disc.</source>
-        <translation>Nehmen Sie die Stelle mit dem Fragezeichen, wenn sie der Punkt ist.</translation>
+        <source>Choose the spot with the question mark, if it is the marker.</source>
+        <translation>Wählen Sie die Stelle mit dem Fragezeichen, wenn sie der Marker ist.</translation>
     </message>
     <message>
         <source>The PIN cannot be checked: {subject} is missing on this computer ({detail}).</source>
@@ -3712,7 +3712,7 @@
         <translation>ChArUco-Tafel {columns} x {rows}, Felder von {size} mm</translation>
     </message>
     <message>
-        <source>Install Carpus anew.</source>
+        <source>Install Carpus again.</source>
         <translation>Carpus neu installieren.</translation>
     </message>
     <message>
@@ -3728,7 +3728,7 @@
         <translation>Schließen Sie sie an einen USB-3-Anschluss an, mit USB-3-Kabel und ohne Verteiler.</translation>
     </message>
     <message>
-        <source>Plug the camera in, at best straight into the computer. {port}</source>
+        <source>Plug the camera in, preferably directly into the computer. {port}</source>
         <translation>Schließen Sie die Kamera an, am besten direkt am Computer. {port}</translation>
     </message>
     <message>
@@ -3740,8 +3740,8 @@
         <translation>Die Kamera ist wieder da: {subject} (war {detail} weg).</translation>
     </message>
     <message>
-        <source>The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).</source>
-        <translation>Die Kamera misst falsch: {what} (die Grenzen sind {most_angle}° und {most_length} mm, alle Längen {most_share} %).</translation>
+        <source>Camera out of tolerance: {what} (limits: {most_angle}°, {most_length} mm, all lengths {most_share} %).</source>
+        <translation>Kamera außerhalb der Toleranz: {what} (Grenzen: {most_angle}°, {most_length} mm, alle Längen {most_share} %).</translation>
     </message>
     <message>
         <source>The camera measures no depth at a marker: {subject}.</source>
@@ -3752,8 +3752,8 @@
         <translation>Die Kamera misst hier keine Tiefe: {markers}.</translation>
     </message>
     <message>
-        <source>The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm.</source>
-        <translation>Die Kamera misst richtig: höchstens {angle}° und {length} mm Abweichung; die Grenzen sind {most_angle}° und {most_length} mm.</translation>
+        <source>Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and {most_length} mm).</source>
+        <translation>Kamera innerhalb der Toleranz: höchstens {angle}° und {length} mm Abweichung (Grenzen: {most_angle}° und {most_length} mm).</translation>
     </message>
     <message>
         <source>The clicks for the {markers} are on one marker.</source>
@@ -3776,24 +3776,24 @@
         <translation>Die Hand ist {value} m von der Kamera entfernt ({limit} m oder mehr ist gut).</translation>
     </message>
     <message>
-        <source>The hand measures {value} mm ({limit} mm is the limit).</source>
+        <source>The hand measures {value} mm (the limit is {limit} mm).</source>
         <translation>Die Hand misst {value} mm ({limit} mm ist die Grenze).</translation>
     </message>
     <message>
-        <source>The hand measures {value} mm, and {limit} mm last time.</source>
-        <translation>Die Hand misst {value} mm, letztes Mal {limit} mm.</translation>
+        <source>The hand measures {value} mm. Last time it measured {limit} mm.</source>
+        <translation>Die Hand misst {value} mm, letztes Mal waren es {limit} mm.</translation>
     </message>
     <message>
         <source>The hand moved in the first half second.</source>
         <translation>Die Hand bewegte sich in der ersten halben Sekunde.</translation>
     </message>
     <message>
-        <source>The hand was still for {value} pictures only ({limit} or more are good).</source>
+        <source>The hand was still for {value} frames only ({limit} or more are good).</source>
         <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
     </message>
     <message>
-        <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
-        <translation>{markers}: Der Marker liegt {value} mm neben seinem Platz (bis {limit} mm ist gut).</translation>
+        <source>The {markers} marker is {value} mm from its expected position (up to {limit} mm is good).</source>
+        <translation>{markers}: Der Marker liegt {value} mm neben der erwarteten Position (bis {limit} mm ist gut).</translation>
     </message>
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
@@ -3804,8 +3804,8 @@
         <translation>Der Name {subject} gehört einem anderen Patienten.</translation>
     </message>
     <message>
-        <source>The names look shifted: the marker clicked as {first} is the {second}.</source>
-        <translation>Die Namen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber „{second}“.</translation>
+        <source>The labels look shifted: the marker clicked as {first} is the {second}.</source>
+        <translation>Die Bezeichnungen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber „{second}“.</translation>
     </message>
     <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
@@ -3840,16 +3840,16 @@
         <translation>Es gibt keinen Ordner {subject}.</translation>
     </message>
     <message>
-        <source>There is one more blue spot on the hand than there are names.</source>
-        <translation>Auf der Hand ist eine blaue Stelle mehr, als es Namen gibt.</translation>
+        <source>There is one more blue spot on the hand than there are labels.</source>
+        <translation>Auf der Hand ist eine blaue Stelle mehr, als es Bezeichnungen gibt.</translation>
     </message>
     <message>
-        <source>This camera does not lay depth on colour by itself; depths will be read beside the markers.</source>
-        <translation>Diese Kamera legt Tiefe nicht selbst auf Farbe; Tiefen werden neben den Markern gelesen.</translation>
+        <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
+        <translation>Diese Kamera richtet Tiefe nicht an der Farbe aus. Tiefen werden neben den Markern gelesen.</translation>
     </message>
     <message>
-        <source>This camera does not tell when it took a picture; its times are those of arrival: speeds are rough.</source>
-        <translation>Diese Kamera sagt nicht, wann sie ein Bild aufnahm; ihre Zeiten sind die der Ankunft: Geschwindigkeiten sind grob.</translation>
+        <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
+        <translation>Diese Kamera sendet keine Zeitstempel. Es gelten die Zeiten der Ankunft, daher sind Geschwindigkeiten ungenau.</translation>
     </message>
     <message>
         <source>This line is 100 mm long. If it is not,</source>
@@ -3860,8 +3860,8 @@
         <translation>Das sieht nach der anderen Hand aus.</translation>
     </message>
     <message>
-        <source>This port is slow for it. {port}</source>
-        <translation>Dieser Anschluss ist langsam für sie. {port}</translation>
+        <source>This port is slow for this camera. {port}</source>
+        <translation>Dieser Anschluss ist für diese Kamera langsam. {port}</translation>
     </message>
     <message>
         <source>This port is too slow. {port}</source>
@@ -3888,8 +3888,8 @@
         <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, zum Beispiel die Xtion.</translation>
     </message>
     <message>
-        <source>Use another USB port, without a hub and without other cameras on it; end other heavy programs.</source>
-        <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Verteiler und ohne andere Kameras daran; beenden Sie andere aufwendige Programme.</translation>
+        <source>Use another USB port, without a hub or other cameras. Close other demanding programs.</source>
+        <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Verteiler und ohne andere Kameras. Schließen Sie andere aufwendige Programme.</translation>
     </message>
     <message>
         <source>Use wrist6 or hand21.</source>
@@ -3904,27 +3904,27 @@
         <translation>Fenster</translation>
     </message>
     <message>
-        <source>Wrist, all ways</source>
-        <translation>Handgelenk, alle Richtungen</translation>
+        <source>Wrist, all movements</source>
+        <translation>Handgelenk, alle Bewegungen</translation>
     </message>
     <message>
-        <source>You may not open {node}. Install the camera rights named above and plug it in again.</source>
-        <translation>Sie dürfen {node} nicht öffnen. Installieren Sie die oben genannten Kamerarechte, und schließen Sie sie neu an.</translation>
+        <source>You have no permission to open {node}. Install the camera rights named above, then plug the camera in again.</source>
+        <translation>Keine Berechtigung für {node}. Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
     </message>
     <message>
         <source>a folder</source>
         <translation>ein Ordner</translation>
     </message>
     <message>
-        <source>a marker was put beside the picture</source>
+        <source>a marker was placed outside the image</source>
         <translation>ein Marker liegt außerhalb des Bildes</translation>
     </message>
     <message>
-        <source>a name that is no text</source>
+        <source>a name that is not text</source>
         <translation>ein Name, der kein Text ist</translation>
     </message>
     <message>
-        <source>a text with a character that is none, in {file}</source>
+        <source>a text with an invalid character, in {file}</source>
         <translation>ein Text mit einem ungültigen Zeichen, in {file}</translation>
     </message>
     <message>
@@ -3936,16 +3936,16 @@
         <translation>alle Längen sind {share} % zu klein, die schlechteste um {length} mm</translation>
     </message>
     <message>
-        <source>all six discs in {count} of {looked} pictures</source>
-        <translation>alle sechs Punkte in {count} von {looked} Bildern</translation>
+        <source>all six markers in {count} of {looked} frames</source>
+        <translation>alle sechs Marker in {count} von {looked} Bildern</translation>
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
         <translation>eine HDF5-Datei, aber keine Sitzung</translation>
     </message>
     <message>
-        <source>angles are {angle}° off</source>
-        <translation>Winkel sind {angle}° daneben</translation>
+        <source>angles deviate by {angle}°</source>
+        <translation>Winkel weichen um {angle}° ab</translation>
     </message>
     <message>
         <source>angles by table</source>
@@ -3956,12 +3956,12 @@
         <translation>Winkel aus {format}</translation>
     </message>
     <message>
-        <source>another computer is bringing what it has</source>
-        <translation>ein anderer Computer bringt gerade, was er hat</translation>
+        <source>another computer is sending its data</source>
+        <translation>ein anderer Computer sendet gerade seine Daten</translation>
     </message>
     <message>
-        <source>bytes that follow its end: {count}</source>
-        <translation>Bytes, die auf ihr Ende folgen: {count}</translation>
+        <source>{count} bytes after its end</source>
+        <translation>{count} Bytes nach dem Ende</translation>
     </message>
     <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
@@ -3988,7 +3988,7 @@
         <translation>Farbe als {name}</translation>
     </message>
     <message>
-        <source>colour picture {row}</source>
+        <source>colour frame {row}</source>
         <translation>Farbbild {row}</translation>
     </message>
     <message>
@@ -3996,15 +3996,15 @@
         <translation>Spalten</translation>
     </message>
     <message>
-        <source>corners lie {error_px} px off, at most {most_px} are fair</source>
-        <translation>Ecken liegen {error_px} px daneben, höchstens {most_px} sind in Ordnung</translation>
+        <source>reprojection error {error_px} px, at most {most_px} px accepted</source>
+        <translation>Reprojektionsfehler {error_px} px, höchstens {most_px} px zulässig</translation>
     </message>
     <message>
-        <source>cropped pictures</source>
+        <source>cropped frames</source>
         <translation>beschnittene Bilder</translation>
     </message>
     <message>
-        <source>cut off or altered</source>
+        <source>truncated or altered</source>
         <translation>abgeschnitten oder verändert</translation>
     </message>
     <message>
@@ -4012,20 +4012,20 @@
         <translation>beschädigt</translation>
     </message>
     <message>
-        <source>damaged, or no C3D</source>
+        <source>damaged, or not C3D</source>
         <translation>beschädigt, oder kein C3D</translation>
     </message>
     <message>
-        <source>damaged: a frame has a status that there is not</source>
-        <translation>beschädigt: ein Bild hat einen Zustand, den es nicht gibt</translation>
+        <source>damaged: unknown frame status</source>
+        <translation>beschädigt: unbekannter Bildstatus</translation>
     </message>
     <message>
-        <source>damaged: a frame has no possible time</source>
-        <translation>beschädigt: ein Bild hat keine mögliche Zeit</translation>
+        <source>damaged: impossible frame time</source>
+        <translation>beschädigt: unmögliche Bildzeit</translation>
     </message>
     <message>
-        <source>damaged: a standard deviation is below zero</source>
-        <translation>beschädigt: eine Standardabweichung ist unter null</translation>
+        <source>damaged: negative standard deviation</source>
+        <translation>beschädigt: negative Standardabweichung</translation>
     </message>
     <message>
         <source>damaged: an event has no time</source>
@@ -4036,51 +4036,51 @@
         <translation>beschädigt: Tiefensensor, {cause}</translation>
     </message>
     <message>
-        <source>damaged: it asks for more memory than a session needs</source>
-        <translation>beschädigt: sie verlangt mehr Speicher, als eine Sitzung braucht</translation>
+        <source>damaged: more memory needed than a session can use</source>
+        <translation>beschädigt: mehr Speicher verlangt, als eine Sitzung braucht</translation>
     </message>
     <message>
-        <source>damaged: it cannot be read to its end</source>
+        <source>damaged: not readable to the end</source>
         <translation>beschädigt: nicht bis zum Ende lesbar</translation>
     </message>
     <message>
-        <source>damaged: its parameters are no settings</source>
-        <translation>beschädigt: ihre Parameter sind keine Einstellungen</translation>
+        <source>damaged: invalid settings</source>
+        <translation>beschädigt: ungültige Einstellungen</translation>
     </message>
     <message>
-        <source>damaged: its {name} is no such thing</source>
-        <translation>beschädigt: {name} ist nicht, was es sein soll</translation>
+        <source>damaged: invalid {name}</source>
+        <translation>beschädigt: ungültiges {name}</translation>
     </message>
     <message>
         <source>damaged: no session_id</source>
         <translation>beschädigt: keine session_id</translation>
     </message>
     <message>
-        <source>damaged: reading it does not end</source>
+        <source>damaged: reading does not finish</source>
         <translation>beschädigt: das Lesen endet nicht</translation>
     </message>
     <message>
-        <source>damaged: the camera&apos;s figures are not a camera&apos;s</source>
-        <translation>beschädigt: die Kamerawerte sind nicht die einer Kamera</translation>
+        <source>damaged: impossible camera values</source>
+        <translation>beschädigt: unmögliche Kamerawerte</translation>
     </message>
     <message>
-        <source>damaged: the camera&apos;s figures are not known</source>
-        <translation>beschädigt: die Kamerawerte sind unbekannt</translation>
+        <source>damaged: unknown camera values</source>
+        <translation>beschädigt: unbekannte Kamerawerte</translation>
     </message>
     <message>
-        <source>damaged: the time of frame {number} is not after the one before</source>
-        <translation>beschädigt: die Zeit von Bild {number} liegt nicht nach der vorigen</translation>
+        <source>damaged: frame {number} is not later than the previous one</source>
+        <translation>beschädigt: Bild {number} liegt zeitlich nicht nach dem vorigen</translation>
     </message>
     <message>
-        <source>damaged: the times of its frames are no session&apos;s</source>
-        <translation>beschädigt: die Zeiten der Bilder sind nicht die einer Sitzung</translation>
+        <source>damaged: implausible frame times</source>
+        <translation>beschädigt: unplausible Bildzeiten</translation>
     </message>
     <message>
-        <source>damaged: what was read of it makes no sense</source>
-        <translation>beschädigt: das Gelesene ergibt keinen Sinn</translation>
+        <source>damaged: its content is implausible</source>
+        <translation>beschädigt: unplausibler Inhalt</translation>
     </message>
     <message>
-        <source>damaged: {path} does not fit {path2}</source>
+        <source>damaged: {path} does not match {path2}</source>
         <translation>beschädigt: {path} passt nicht zu {path2}</translation>
     </message>
     <message>
@@ -4088,20 +4088,20 @@
         <translation>beschädigt: {value}</translation>
     </message>
     <message>
-        <source>damaged: {what} is beyond all measure</source>
-        <translation>beschädigt: {what} liegt außerhalb jedes Maßes</translation>
+        <source>damaged: {what} out of range</source>
+        <translation>beschädigt: {what} außerhalb des Bereichs</translation>
     </message>
     <message>
         <source>depth as {name}</source>
         <translation>Tiefe als {name}</translation>
     </message>
     <message>
-        <source>depth does not lie on colour</source>
-        <translation>Tiefe und Farbe decken sich nicht</translation>
+        <source>depth and colour are not aligned</source>
+        <translation>Tiefe und Farbe sind nicht deckungsgleich</translation>
     </message>
     <message>
-        <source>depth lies on colour, {registered}</source>
-        <translation>Tiefe und Farbe decken sich, {registered}</translation>
+        <source>depth and colour are aligned, {registered}</source>
+        <translation>Tiefe und Farbe sind deckungsgleich, {registered}</translation>
     </message>
     <message>
         <source>distortion {model} with {count} coefficients</source>
@@ -4124,7 +4124,7 @@
         <translation>Fuß: auf die Karte kleben</translation>
     </message>
     <message>
-        <source>for {width_px} x {height_px} pixels, pictures have {size}</source>
+        <source>for {width_px} x {height_px} pixels, the frames have {size}</source>
         <translation>für {width_px} x {height_px} Pixel, die Bilder haben {size}</translation>
     </message>
     <message>
@@ -4140,8 +4140,8 @@
         <translation>über Wochen, verglichen mit dem Messfehler (MDC95)</translation>
     </message>
     <message>
-        <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
-        <translation>fx {fx} und fy {fy} passen zu keiner Kamera mit {width} Pixel breiten Bildern</translation>
+        <source>fx {fx} and fy {fy} do not fit a frame width of {width} pixels</source>
+        <translation>fx {fx} und fy {fy} passen nicht zu {width} Pixel breiten Bildern</translation>
     </message>
     <message>
         <source>glue under the low edge</source>
@@ -4149,14 +4149,14 @@
     </message>
     <message>
         <source>goniometer list</source>
-        <translation>Liste vom Winkelmesser</translation>
+        <translation>Goniometer-Liste</translation>
     </message>
     <message>
-        <source>grey, a colour picture is expected</source>
+        <source>grey, a colour image is expected</source>
         <translation>grau, erwartet ist ein Farbbild</translation>
     </message>
     <message>
-        <source>groups within groups without end at {place}</source>
+        <source>endlessly nested groups at {place}</source>
         <translation>endlos verschachtelte Gruppen bei {place}</translation>
     </message>
     <message>
@@ -4172,87 +4172,87 @@
         <translation>Hand {hand}</translation>
     </message>
     <message>
-        <source>in colour, a depth picture of 16 bits is expected</source>
+        <source>in colour, a 16-bit depth image is expected</source>
         <translation>farbig, erwartet ist ein Tiefenbild mit 16 Bit</translation>
     </message>
     <message>
-        <source>in none of the pictures</source>
+        <source>in none of the images</source>
         <translation>in keinem der Bilder</translation>
     </message>
     <message>
-        <source>in the data folder, or around it</source>
-        <translation>im Datenordner oder um ihn herum</translation>
+        <source>inside the data folder, or containing it</source>
+        <translation>im Datenordner, oder er enthält ihn</translation>
     </message>
     <message>
         <source>index finger</source>
         <translation>Zeigefinger</translation>
     </message>
     <message>
-        <source>index finger end joint</source>
-        <translation>Zeigefinger-Endgelenk</translation>
+        <source>index DIP</source>
+        <translation>Zeigefinger-DIP</translation>
     </message>
     <message>
-        <source>index finger middle joint</source>
-        <translation>Zeigefinger-Mittelgelenk</translation>
+        <source>index PIP</source>
+        <translation>Zeigefinger-PIP</translation>
     </message>
     <message>
-        <source>index knuckle</source>
-        <translation>Zeigefinger-Grundgelenk</translation>
+        <source>index MCP</source>
+        <translation>Zeigefinger-MCP</translation>
     </message>
     <message>
-        <source>index tip</source>
+        <source>index fingertip</source>
         <translation>Zeigefingerspitze</translation>
     </message>
     <message>
-        <source>it cannot be read as JSON; the usual limits hold</source>
-        <translation>nicht als JSON lesbar; es gelten die üblichen Grenzen</translation>
+        <source>not readable as JSON, so the default limits apply</source>
+        <translation>nicht als JSON lesbar; es gelten die Standardgrenzen</translation>
     </message>
     <message>
-        <source>it claims more values than the file can hold</source>
-        <translation>es gibt mehr Werte an, als die Datei fasst</translation>
+        <source>more values declared than the file can hold</source>
+        <translation>mehr Werte angegeben, als die Datei fasst</translation>
     </message>
     <message>
-        <source>it does not hold limits; the usual ones hold</source>
-        <translation>es enthält keine Grenzen; es gelten die üblichen</translation>
+        <source>no limits in it, so the default limits apply</source>
+        <translation>enthält keine Grenzen; es gelten die Standardgrenzen</translation>
     </message>
     <message>
         <source>it has no marker {name}</source>
         <translation>sie hat keinen Marker {name}</translation>
     </message>
     <message>
-        <source>it has no picture {number}</source>
+        <source>it has no frame {number}</source>
         <translation>sie hat kein Bild {number}</translation>
     </message>
     <message>
-        <source>it holds no frame</source>
-        <translation>sie enthält kein Bild</translation>
+        <source>no frames</source>
+        <translation>keine Bilder</translation>
     </message>
     <message>
-        <source>it holds no points</source>
-        <translation>sie enthält keine Punkte</translation>
+        <source>no points</source>
+        <translation>keine Punkte</translation>
     </message>
     <message>
-        <source>it holds no points, or says no rate</source>
-        <translation>sie enthält keine Punkte oder nennt keine Rate</translation>
+        <source>no points, or no rate stated</source>
+        <translation>keine Punkte, oder keine Rate angegeben</translation>
     </message>
     <message>
-        <source>it holds no reading</source>
-        <translation>sie enthält keine Ablesung</translation>
+        <source>no readings</source>
+        <translation>keine Messwerte</translation>
     </message>
     <message>
-        <source>it holds no table</source>
-        <translation>sie enthält keine Tabelle</translation>
+        <source>no table</source>
+        <translation>keine Tabelle</translation>
     </message>
     <message>
-        <source>it stored no blue spots</source>
+        <source>it contains no stored blue spots</source>
         <translation>sie hat keine blauen Stellen gespeichert</translation>
     </message>
     <message>
-        <source>its columns are not what its names say</source>
-        <translation>ihre Spalten sind nicht, was ihre Namen sagen</translation>
+        <source>columns do not match their names</source>
+        <translation>Spalten passen nicht zu ihren Namen</translation>
     </message>
     <message>
-        <source>its folder cannot be written</source>
+        <source>its folder is not writable</source>
         <translation>in ihrem Ordner lässt sich nicht schreiben</translation>
     </message>
     <message>
@@ -4260,20 +4260,20 @@
         <translation>ihr Prozess ist beendet</translation>
     </message>
     <message>
-        <source>its side with one disc here</source>
-        <translation>Seite mit einem Punkt hier</translation>
+        <source>its side with one marker here</source>
+        <translation>Seite mit einem Marker hier</translation>
     </message>
     <message>
-        <source>its times do not rise</source>
-        <translation>ihre Zeiten steigen nicht an</translation>
+        <source>times out of order</source>
+        <translation>Zeiten nicht aufsteigend</translation>
     </message>
     <message>
-        <source>its times span more than a day: damaged, or a clock jumped</source>
-        <translation>ihre Zeiten umfassen mehr als einen Tag: beschädigt, oder eine Uhr ist gesprungen</translation>
+        <source>times span more than a day: damaged, or a clock jumped</source>
+        <translation>Zeiten umfassen mehr als einen Tag: beschädigt, oder eine Uhr ist gesprungen</translation>
     </message>
     <message>
-        <source>its unit is {unit}</source>
-        <translation>ihre Einheit ist {unit}</translation>
+        <source>unit {unit}</source>
+        <translation>Einheit {unit}</translation>
     </message>
     <message>
         <source>larger than 1 GB</source>
@@ -4284,8 +4284,8 @@
         <translation>größer als 2 GB</translation>
     </message>
     <message>
-        <source>less than {least_overlap_s} s in common, or nothing moves</source>
-        <translation>weniger als {least_overlap_s} s gemeinsam, oder nichts bewegt sich</translation>
+        <source>less than {least_overlap_s} s of overlap, or no movement</source>
+        <translation>weniger als {least_overlap_s} s Überschneidung, oder keine Bewegung</translation>
     </message>
     <message>
         <source>line {number} is not a time and a file name: {content}</source>
@@ -4304,24 +4304,24 @@
         <translation>Kleinfinger</translation>
     </message>
     <message>
-        <source>little finger end joint</source>
-        <translation>Kleinfinger-Endgelenk</translation>
+        <source>little finger DIP</source>
+        <translation>Kleinfinger-DIP</translation>
     </message>
     <message>
-        <source>little finger middle joint</source>
-        <translation>Kleinfinger-Mittelgelenk</translation>
+        <source>little finger PIP</source>
+        <translation>Kleinfinger-PIP</translation>
     </message>
     <message>
-        <source>little knuckle</source>
-        <translation>Kleinfinger-Grundgelenk</translation>
+        <source>little finger MCP</source>
+        <translation>Kleinfinger-MCP</translation>
     </message>
     <message>
-        <source>little tip</source>
+        <source>little fingertip</source>
         <translation>Kleinfingerspitze</translation>
     </message>
     <message>
-        <source>made by an unknown processor {processor}</source>
-        <translation>von einem unbekannten Verfahren {processor} erstellt</translation>
+        <source>unknown processor type {processor}</source>
+        <translation>unbekannter Prozessortyp {processor}</translation>
     </message>
     <message>
         <source>marker protocol {subject}</source>
@@ -4336,24 +4336,24 @@
         <translation>Mittelfinger</translation>
     </message>
     <message>
-        <source>middle finger end joint</source>
-        <translation>Mittelfinger-Endgelenk</translation>
+        <source>middle finger DIP</source>
+        <translation>Mittelfinger-DIP</translation>
     </message>
     <message>
-        <source>middle finger middle joint</source>
-        <translation>Mittelfinger-Mittelgelenk</translation>
+        <source>middle finger PIP</source>
+        <translation>Mittelfinger-PIP</translation>
     </message>
     <message>
-        <source>middle knuckle</source>
-        <translation>Mittelfinger-Grundgelenk</translation>
+        <source>middle finger MCP</source>
+        <translation>Mittelfinger-MCP</translation>
     </message>
     <message>
-        <source>middle tip</source>
+        <source>middle fingertip</source>
         <translation>Mittelfingerspitze</translation>
     </message>
     <message>
-        <source>missing, and pictures of {size} have no default camera</source>
-        <translation>fehlt, und für Bilder mit {size} gibt es keine übliche Kamera</translation>
+        <source>missing, and there is no default camera for frames of {size}</source>
+        <translation>fehlt, und für Bilder mit {size} gibt es keine Standardkamera</translation>
     </message>
     <message>
         <source>missing, {place}</source>
@@ -4380,15 +4380,15 @@
         <translation>mehr als {most_objects} Teile in {value}</translation>
     </message>
     <message>
-        <source>much too long for a camera calibration</source>
-        <translation>viel zu lang für eine Kamerakalibrierung</translation>
+        <source>too long for a camera calibration</source>
+        <translation>zu lang für eine Kamerakalibrierung</translation>
     </message>
     <message>
-        <source>much too long for clicks</source>
-        <translation>viel zu lang für Klicks</translation>
+        <source>too long for a file of clicks</source>
+        <translation>zu lang für eine Datei mit Klicks</translation>
     </message>
     <message>
-        <source>no MOT: it has no end of its header</source>
+        <source>not MOT: the header has no end</source>
         <translation>kein MOT: Der Kopf hat kein Ende</translation>
     </message>
     <message>
@@ -4400,7 +4400,7 @@
         <translation>kein Attribut {name}</translation>
     </message>
     <message>
-        <source>no colour pictures</source>
+        <source>no colour frames</source>
         <translation>keine Farbbilder</translation>
     </message>
     <message>
@@ -4408,11 +4408,11 @@
         <translation>kein Datensatz {path}</translation>
     </message>
     <message>
-        <source>no depth picture within {pairing_limit_s} ms of a colour picture</source>
+        <source>no depth frame within {pairing_limit_s} ms of a colour frame</source>
         <translation>kein Tiefenbild innerhalb von {pairing_limit_s} ms um ein Farbbild</translation>
     </message>
     <message>
-        <source>no intrinsics for pictures of {size}</source>
+        <source>no intrinsics for frames of {size}</source>
         <translation>keine Kamerawerte für Bilder mit {size}</translation>
     </message>
     <message>
@@ -4420,11 +4420,11 @@
         <translation>keine Marker</translation>
     </message>
     <message>
-        <source>no picture in {color_list}</source>
+        <source>no frame in {color_list}</source>
         <translation>kein Bild in {color_list}</translation>
     </message>
     <message>
-        <source>no picture in {depth_list}</source>
+        <source>no frame in {depth_list}</source>
         <translation>kein Bild in {depth_list}</translation>
     </message>
     <message>
@@ -4432,7 +4432,7 @@
         <translation>kein Leser für {value}</translation>
     </message>
     <message>
-        <source>no reading can be used</source>
+        <source>no usable reading</source>
         <translation>keine Ablesung ist verwendbar</translation>
     </message>
     <message>
@@ -4440,7 +4440,7 @@
         <translation>keine Aufnahme in einer Form, die Carpus kennt</translation>
     </message>
     <message>
-        <source>no room for another {length} MB</source>
+        <source>no space for another {length} MB</source>
         <translation>kein Platz für weitere {length} MB</translation>
     </message>
     <message>
@@ -4448,7 +4448,7 @@
         <translation>keine udev-Regeln für die Kamera</translation>
     </message>
     <message>
-        <source>none of the program&apos;s own</source>
+        <source>none of the program’s own</source>
         <translation>keine eigenen des Programms</translation>
     </message>
     <message>
@@ -4472,7 +4472,7 @@
         <translation>kein YAML</translation>
     </message>
     <message>
-        <source>not a back-up</source>
+        <source>not a backup</source>
         <translation>keine Sicherung</translation>
     </message>
     <message>
@@ -4484,7 +4484,7 @@
         <translation>kein Ordner</translation>
     </message>
     <message>
-        <source>not a picture</source>
+        <source>not an image</source>
         <translation>kein Bild</translation>
     </message>
     <message>
@@ -4508,12 +4508,12 @@
         <translation>kein Objekt mit hand, protocol und markers</translation>
     </message>
     <message>
-        <source>not in the figures of all: {people}, with fewer than {fewest} pairs</source>
-        <translation>nicht in den Werten aller: {people}, mit weniger als {fewest} Paaren</translation>
+        <source>excluded from the group values: {people}, fewer than {fewest} pairs</source>
+        <translation>nicht in den Gruppenwerten: {people}, weniger als {fewest} Paare</translation>
     </message>
     <message>
-        <source>not in the list of patients</source>
-        <translation>nicht in der Liste der Patienten</translation>
+        <source>not in the patient list</source>
+        <translation>nicht in der Patientenliste</translation>
     </message>
     <message>
         <source>not the part file of a session</source>
@@ -4528,8 +4528,8 @@
         <translation>an, von Carpus zurückgedreht</translation>
     </message>
     <message>
-        <source>paths that lead out of the folder</source>
-        <translation>Pfade, die aus dem Ordner hinausführen</translation>
+        <source>paths outside the folder</source>
+        <translation>Pfade außerhalb des Ordners</translation>
     </message>
     <message>
         <source>points by {format}</source>
@@ -4544,23 +4544,23 @@
         <translation>Ringfinger</translation>
     </message>
     <message>
-        <source>ring finger end joint</source>
-        <translation>Ringfinger-Endgelenk</translation>
+        <source>ring finger DIP</source>
+        <translation>Ringfinger-DIP</translation>
     </message>
     <message>
-        <source>ring finger middle joint</source>
-        <translation>Ringfinger-Mittelgelenk</translation>
+        <source>ring finger PIP</source>
+        <translation>Ringfinger-PIP</translation>
     </message>
     <message>
-        <source>ring knuckle</source>
-        <translation>Ringfinger-Grundgelenk</translation>
+        <source>ring finger MCP</source>
+        <translation>Ringfinger-MCP</translation>
     </message>
     <message>
-        <source>ring tip</source>
+        <source>ring fingertip</source>
         <translation>Ringfingerspitze</translation>
     </message>
     <message>
-        <source>rows of different length, or no numbers</source>
+        <source>rows of different length, or not numbers</source>
         <translation>Zeilen verschiedener Länge, oder keine Zahlen</translation>
     </message>
     <message>
@@ -4572,40 +4572,40 @@
         <translation>straight_fingers ist nicht fünfmal true oder false, Daumen bis Kleinfinger</translation>
     </message>
     <message>
-        <source>the curves match by {match} at best: is it the same movement?</source>
-        <translation>die Kurven stimmen bestenfalls zu {match} überein: Ist es dieselbe Bewegung?</translation>
+        <source>the curves match by {match} at best. Check that it is the same movement</source>
+        <translation>die Kurven stimmen höchstens zu {match} überein. Prüfen Sie, ob es dieselbe Bewegung ist</translation>
     </message>
     <message>
-        <source>the curves run against each other, or the shift is beyond {most} s</source>
-        <translation>die Kurven laufen einander entgegen, oder die Verschiebung liegt jenseits von {most} s</translation>
+        <source>the curves are opposite, or the time shift is more than {most} s</source>
+        <translation>die Kurven sind gegenläufig, oder der Zeitversatz ist größer als {most} s</translation>
     </message>
     <message>
-        <source>the curves run against each other, or the shift is beyond {most} s: with the same sign they match best at {later} s ({match})</source>
-        <translation>die Kurven laufen einander entgegen, oder die Verschiebung liegt jenseits von {most} s: mit gleichem Vorzeichen passen sie am besten bei {later} s ({match})</translation>
+        <source>the curves are opposite, or the time shift is more than {most} s. With the same sign they match best at {later} s ({match})</source>
+        <translation>die Kurven sind gegenläufig, oder der Zeitversatz ist größer als {most} s. Mit gleichem Vorzeichen passen sie am besten bei {later} s ({match})</translation>
     </message>
     <message>
         <source>the file changes while it is read</source>
         <translation>die Datei ändert sich, während sie gelesen wird</translation>
     </message>
     <message>
-        <source>the focal length is known to {share} % only</source>
-        <translation>die Brennweite ist nur auf {share} % bekannt</translation>
+        <source>the focal length is known only to within {share} %</source>
+        <translation>die Brennweite ist nur auf {share} % genau bekannt</translation>
     </message>
     <message>
-        <source>the session holds no picture</source>
+        <source>the session contains no frames</source>
         <translation>die Sitzung enthält kein Bild</translation>
     </message>
     <message>
-        <source>the two have no time in common</source>
-        <translation>die beiden haben keine gemeinsame Zeit</translation>
+        <source>the two do not overlap in time</source>
+        <translation>die beiden überschneiden sich zeitlich nicht</translation>
     </message>
     <message>
-        <source>the wedge’s side with two discs here</source>
-        <translation>Keilseite mit zwei Punkten hier</translation>
+        <source>the wedge’s side with two markers here</source>
+        <translation>Keilseite mit zwei Markern hier</translation>
     </message>
     <message>
-        <source>there is no such file</source>
-        <translation>diese Datei gibt es nicht</translation>
+        <source>file not found</source>
+        <translation>Datei nicht gefunden</translation>
     </message>
     <message>
         <source>there is no such setting, in {file}</source>
@@ -4616,8 +4616,8 @@
         <translation>in CSV, JSON, C3D, TRC, MOT und BIDS</translation>
     </message>
     <message>
-        <source>{angle} at {time} s: the hand was not still, or not seen</source>
-        <translation>{angle} bei {time} s: Die Hand war nicht ruhig oder nicht zu sehen</translation>
+        <source>{angle} at {time} s: the hand was not still, or not visible</source>
+        <translation>{angle} bei {time} s: Die Hand war nicht ruhig oder nicht sichtbar</translation>
     </message>
     <message>
         <source>{angle}: not in the session</source>
@@ -4648,12 +4648,12 @@
         <translation>{found}, lässt sich nicht laden: {trouble}</translation>
     </message>
     <message>
-        <source>{free} GB free, about {minutes} minutes with pictures</source>
-        <translation>{free} GB frei, etwa {minutes} Minuten mit Bildern</translation>
+        <source>{free} GB free, about {minutes} minutes with video</source>
+        <translation>{free} GB frei, etwa {minutes} Minuten mit Video</translation>
     </message>
     <message>
-        <source>{movement}: the session has no range that way, and the list names no time</source>
-        <translation>{movement}: Die Sitzung hat dort keinen Umfang, und die Liste nennt keine Zeit</translation>
+        <source>{movement}: the session has no range in this direction, and the list gives no time</source>
+        <translation>{movement}: Die Sitzung hat in dieser Richtung kein Bewegungsausmaß, und die Liste nennt keine Zeit</translation>
     </message>
     <message>
         <source>{names}</source>
@@ -4685,7 +4685,7 @@
     </message>
     <message>
         <source>{width}x{height}, {fps} fps, {missing} missing, depth in {with_depth} of {count}</source>
-        <translation>{width}x{height}, {fps} Bilder/s, {missing} fehlen, Tiefe in {with_depth} von {count}</translation>
+        <translation>{width}x{height}, {fps} fps, {missing} fehlen, Tiefe in {with_depth} von {count}</translation>
     </message>
     <message>
         <source>Hidden joints do not count.</source>
@@ -4700,16 +4700,16 @@
         <translation>Daumen</translation>
     </message>
     <message>
-        <source>thumb base</source>
-        <translation>Sattelgelenk</translation>
+        <source>thumb CMC</source>
+        <translation>Daumen-CMC</translation>
     </message>
     <message>
-        <source>thumb end joint</source>
-        <translation>Daumen-Endgelenk</translation>
+        <source>thumb IP</source>
+        <translation>Daumen-IP</translation>
     </message>
     <message>
-        <source>thumb knuckle</source>
-        <translation>Daumen-Grundgelenk</translation>
+        <source>thumb MCP</source>
+        <translation>Daumen-MCP</translation>
     </message>
     <message>
         <source>thumb tip</source>
@@ -4724,28 +4724,28 @@
         <translation>Handgelenk</translation>
     </message>
     <message>
-        <source>{angle}: the reference moves {percent} % as far as Carpus: its unit may be another, or its angle</source>
-        <translation>{angle}: die Referenz bewegt sich {percent} % so weit wie Carpus: vielleicht hat sie eine andere Einheit oder ist ein anderer Winkel</translation>
+        <source>{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle</source>
+        <translation>{angle}: die Referenz bewegt sich {percent} % so weit wie Carpus. Vielleicht hat sie eine andere Einheit oder ist ein anderer Winkel</translation>
     </message>
     <message>
         <source>{bits} bits per colour, 8 are expected</source>
         <translation>{bits} Bit je Farbe, erwartet sind 8</translation>
     </message>
     <message>
-        <source>{calibration} has depth that no camera reads</source>
-        <translation>{calibration} hat Tiefe, die keine Kamera liest</translation>
+        <source>{calibration} has an impossible depth</source>
+        <translation>{calibration} hat eine unmögliche Tiefe</translation>
     </message>
     <message>
-        <source>{calibration} is not as Carpus writes it</source>
-        <translation>{calibration} ist nicht, wie Carpus es schreibt</translation>
+        <source>{calibration} is not in the format of Carpus</source>
+        <translation>{calibration} hat nicht das Format von Carpus</translation>
     </message>
     <message>
         <source>{capacity} rows waiting</source>
         <translation>{capacity} Zeilen warten</translation>
     </message>
     <message>
-        <source>{cause} is there twice</source>
-        <translation>{cause} ist zweimal da</translation>
+        <source>{cause} appears twice</source>
+        <translation>{cause} kommt zweimal vor</translation>
     </message>
     <message>
         <source>{count} files</source>
@@ -4776,16 +4776,16 @@
         <translation>{inside} ist ein Typ, erwartet sind Werte</translation>
     </message>
     <message>
-        <source>{inside} points out of its place</source>
-        <translation>{inside} zeigt nach außerhalb</translation>
+        <source>{inside} links outside the file</source>
+        <translation>{inside} verweist nach außerhalb der Datei</translation>
     </message>
     <message>
         <source>{key} has no data</source>
         <translation>{key} hat keine Daten</translation>
     </message>
     <message>
-        <source>{key} holds something that is not a number</source>
-        <translation>{key} enthält etwas, das keine Zahl ist</translation>
+        <source>{key} contains a value that is not a number</source>
+        <translation>{key} enthält einen Wert, der keine Zahl ist</translation>
     </message>
     <message>
         <source>{key} is neither true nor false</source>
@@ -4804,8 +4804,8 @@
         <translation>{markers} scheinen vertauscht.</translation>
     </message>
     <message>
-        <source>{name} changes on the way</source>
-        <translation>{name} ändert sich unterwegs</translation>
+        <source>{name} changes within the file</source>
+        <translation>{name} ändert sich innerhalb der Datei</translation>
     </message>
     <message>
         <source>{name} is {json}, two pixels expected</source>
@@ -4824,16 +4824,16 @@
         <translation>{one}; {other}</translation>
     </message>
     <message>
-        <source>{path} claims {claimed} bytes, and {stored} are there</source>
-        <translation>{path} gibt {claimed} Byte an, da sind {stored}</translation>
+        <source>{path} declares {claimed} bytes, {stored} are stored</source>
+        <translation>{path} gibt {claimed} Byte an, gespeichert sind {stored}</translation>
     </message>
     <message>
-        <source>{path} has the shape {shape}, {count} axes expected</source>
+        <source>{path} has shape {shape}, {count} axes expected</source>
         <translation>{path} hat die Form {shape}, erwartet sind {count} Achsen</translation>
     </message>
     <message>
-        <source>{path} is of the type {dtype}, {dtype2} expected</source>
-        <translation>{path} ist vom Typ {dtype}, erwartet ist {dtype2}</translation>
+        <source>{path} has type {dtype}, {dtype2} expected</source>
+        <translation>{path} hat den Typ {dtype}, erwartet ist {dtype2}</translation>
     </message>
     <message>
         <source>{path} is stored in pieces that are too large</source>
@@ -4844,8 +4844,8 @@
         <translation>{path} ist {dtype} {shape}, erwartet ist {dtype2} {expected}</translation>
     </message>
     <message>
-        <source>{place} keeps its values in another file</source>
-        <translation>{place} hat seine Werte in einer anderen Datei</translation>
+        <source>{place} stores its values in another file</source>
+        <translation>{place} speichert seine Werte in einer anderen Datei</translation>
     </message>
     <message>
         <source>{shape} x {shape2} pixels, {width} x {height} before</source>
@@ -4856,11 +4856,11 @@
         <translation>{timestamp_s} s nach {last_time_s} s</translation>
     </message>
     <message>
-        <source>{u}, {v} in a picture of {width_px} x {height_px} pixels</source>
+        <source>{u}, {v} in a frame of {width_px} x {height_px} pixels</source>
         <translation>{u}, {v} in einem Bild mit {width_px} x {height_px} Pixeln</translation>
     </message>
     <message>
-        <source>{value} bits, a depth picture of 16 bits is expected</source>
+        <source>{value} bits, a 16-bit depth image is expected</source>
         <translation>{value} Bit, erwartet ist ein Tiefenbild mit 16 Bit</translation>
     </message>
     <message>
@@ -4872,7 +4872,7 @@
         <translation>{value} ist nicht {wanted_words}, in {file}</translation>
     </message>
     <message>
-        <source>{value} picture {number}</source>
+        <source>{value} frame {number}</source>
         <translation>{value}, Bild {number}</translation>
     </message>
     <message>
@@ -4880,8 +4880,8 @@
         <translation>{what}, bei Byte {position}</translation>
     </message>
     <message>
-        <source>{wrong}, which a folder of pictures cannot be</source>
-        <translation>{wrong}, was ein Bilderordner nicht sein kann</translation>
+        <source>{wrong}, not possible for a folder of frames</source>
+        <translation>{wrong}, bei einem Bilderordner nicht möglich</translation>
     </message>
     <message>
         <source>The language can be changed when nothing is measured or worked on any more.</source>
@@ -4932,12 +4932,12 @@
         <translation>meinten Sie „{meant}“? Es gibt: {names}</translation>
     </message>
     <message>
-        <source>distortion_coefficients are no lens’s: points do not find back to their places</source>
-        <translation>distortion_coefficients gehören zu keinem Objektiv: Punkte finden nicht an ihren Platz zurück</translation>
+        <source>distortion_coefficients do not describe a lens: they cannot be inverted</source>
+        <translation>distortion_coefficients beschreiben kein Objektiv: sie sind nicht umkehrbar</translation>
     </message>
     <message>
-        <source>its head is damaged; pictures that are there: {count}</source>
-        <translation>ihr Kopf ist beschädigt; Bilder, die da sind: {count}</translation>
+        <source>damaged header, {count} frames present</source>
+        <translation>beschädigter Kopf, {count} Bilder vorhanden</translation>
     </message>
     <message>
         <source>there are none yet</source>
@@ -4948,23 +4948,23 @@
         <translation>es gibt: {names}</translation>
     </message>
     <message>
-        <source>Ask whoever looks after this computer. {how}</source>
-        <translation>Fragen Sie, wer diesen Computer betreut. {how}</translation>
+        <source>Ask your IT support. {how}</source>
+        <translation>Fragen Sie Ihren IT-Support. {how}</translation>
     </message>
     <message>
         <source>Disk encryption</source>
         <translation>Verschlüsselung des Datenträgers</translation>
     </message>
     <message>
-        <source>Linux encrypts a disk when it is set up (LUKS): choose it when the system is installed, or move the data folder to a disk that was set up so. Keep its passphrase away from this computer.</source>
-        <translation>Linux verschlüsselt einen Datenträger beim Einrichten (LUKS): Wählen Sie es bei der Installation des Systems, oder legen Sie den Datenordner auf einen Datenträger, der so eingerichtet wurde. Bewahren Sie die Passphrase nicht an diesem Computer auf.</translation>
+        <source>Linux encrypts a disk when it is set up (LUKS). Choose this when the system is installed, or move the data folder to an encrypted disk. Do not keep the passphrase with this computer.</source>
+        <translation>Linux verschlüsselt einen Datenträger beim Einrichten (LUKS). Wählen Sie es bei der Installation des Systems, oder legen Sie den Datenordner auf einen verschlüsselten Datenträger. Bewahren Sie die Passphrase nicht an diesem Computer auf.</translation>
     </message>
     <message>
-        <source>Switch it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control Panel. Keep the recovery key away from this computer.</source>
+        <source>Turn it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control Panel. Do not keep the recovery key with this computer.</source>
         <translation>In Windows einschalten: Einstellungen → Datenschutz und Sicherheit → Geräteverschlüsselung, oder BitLocker in der Systemsteuerung. Bewahren Sie den Wiederherstellungsschlüssel nicht an diesem Computer auf.</translation>
     </message>
     <message>
-        <source>Switch it on: System Settings → Privacy and Security → FileVault. Keep the recovery key away from this computer.</source>
+        <source>Turn it on: System Settings → Privacy and Security → FileVault. Do not keep the recovery key with this computer.</source>
         <translation>Einschalten: Systemeinstellungen → Datenschutz und Sicherheit → FileVault. Bewahren Sie den Wiederherstellungsschlüssel nicht an diesem Computer auf.</translation>
     </message>
     <message>
@@ -4976,16 +4976,16 @@
         <translation>Der Datenträger des Datenordners ist nicht verschlüsselt.</translation>
     </message>
     <message>
-        <source>Whether the disk of the data folder is encrypted is not known.</source>
-        <translation>Ob der Datenträger des Datenordners verschlüsselt ist, ist nicht bekannt.</translation>
+        <source>It is not known whether the disk of the data folder is encrypted.</source>
+        <translation>Es ist nicht bekannt, ob der Datenträger des Datenordners verschlüsselt ist.</translation>
     </message>
     <message>
-        <source>damaged: a blob is in no picture</source>
-        <translation>beschädigt: Ein Fleck liegt in keinem Bild</translation>
+        <source>damaged: a blue spot belongs to no frame</source>
+        <translation>beschädigt: Eine blaue Stelle gehört zu keinem Bild</translation>
     </message>
     <message>
-        <source>damaged: its calibration is not one of a hand</source>
-        <translation>beschädigt: Ihre Kalibrierung ist nicht die einer Hand</translation>
+        <source>damaged: its calibration does not describe a hand</source>
+        <translation>beschädigt: Die Kalibrierung beschreibt keine Hand</translation>
     </message>
     <message>
         <source>Names are right</source>
@@ -5032,8 +5032,8 @@
         <translation>ASSH, Summe der aktiven Flexion in der Faust</translation>
     </message>
     <message>
-        <source>The packed program does without {packages}; Carpus from its source can have it.</source>
-        <translation>Das gepackte Programm kommt ohne {packages} aus; Carpus aus den Quellen kann es haben.</translation>
+        <source>The packaged program does not include {packages}. Carpus installed from source can use it.</source>
+        <translation>Das gepackte Programm enthält {packages} nicht. Carpus aus den Quellen kann es verwenden.</translation>
     </message>
     <message>
         <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
@@ -5048,16 +5048,16 @@
         <translation>Erwachsene, Alter nicht angegeben</translation>
     </message>
     <message>
-        <source>it cannot be read as a table: {why}</source>
-        <translation>sie lässt sich nicht als Tabelle lesen: {why}</translation>
+        <source>not readable as a table: {why}</source>
+        <translation>nicht als Tabelle lesbar: {why}</translation>
     </message>
     <message>
         <source>not chosen yet</source>
         <translation>noch nicht gewählt</translation>
     </message>
     <message>
-        <source>not there now</source>
-        <translation>jetzt nicht da</translation>
+        <source>not available now</source>
+        <translation>zurzeit nicht verfügbar</translation>
     </message>
     <message>
         <source>not connected</source>
@@ -5108,52 +5108,52 @@
         <translation>Erinnerung nach {days} Tagen.</translation>
     </message>
     <message>
-        <source>only {time} s are in common: the shift of the clocks is not sure</source>
-        <translation>nur {time} s sind gemeinsam: die Verschiebung der Uhren ist nicht sicher</translation>
+        <source>only {time} s of overlap: the time shift is uncertain</source>
+        <translation>nur {time} s Überschneidung: der Zeitversatz ist unsicher</translation>
     </message>
     <message>
         <source>the curves and camera images, and correct single repetitions</source>
         <translation>Kurven und Kamerabilder ansehen, einzelne Wiederholungen korrigieren</translation>
     </message>
     <message>
-        <source>the best shift lies at the end of what was searched: it may be further</source>
-        <translation>die beste Verschiebung liegt am Rand des Abgesuchten: sie kann weiter weg liegen</translation>
+        <source>the best time shift is at the limit of the search range: it may be larger</source>
+        <translation>der beste Zeitversatz liegt am Rand des Suchbereichs: er kann größer sein</translation>
     </message>
     <message>
-        <source>the clocks drift: the reference&apos;s runs {percent} % against Carpus&apos;s, {seconds} s over {length} s, and the figures hold that error (lag {lag} s with drift {drift} %)</source>
-        <translation>die Uhren laufen auseinander: die der Referenz um {percent} % gegen die von Carpus, {seconds} s in {length} s, und die Werte enthalten diesen Fehler (Verschiebung {lag} s mit Drift {drift} %)</translation>
+        <source>the clocks drift: the reference by {percent} % relative to Carpus, {seconds} s over {length} s. The values contain this error (lag {lag} s with drift {drift} %)</source>
+        <translation>die Uhren laufen auseinander: die der Referenz um {percent} % gegenüber Carpus, {seconds} s in {length} s. Die Werte enthalten diesen Fehler (Zeitversatz {lag} s mit Drift {drift} %)</translation>
     </message>
     <message>
-        <source>the shift is not sure: taken is {taken} s ({match}); as well or nearly match {others}</source>
-        <translation>die Verschiebung ist nicht sicher: genommen wird {taken} s ({match}); gleich gut oder fast so gut passen {others}</translation>
+        <source>the time shift is uncertain: {taken} s is used ({match}). Equally or nearly as good: {others}</source>
+        <translation>der Zeitversatz ist unsicher: verwendet wird {taken} s ({match}). Gleich gut oder fast so gut: {others}</translation>
     </message>
     <message>
         <source>women and men together</source>
         <translation>Frauen und Männer zusammen</translation>
     </message>
     <message>
-        <source>{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement</source>
-        <translation>{angle}: läuft Carpus entgegen (r = {r}), also hat eines von beiden das entgegengesetzte Vorzeichen oder zeigt eine andere Bewegung</translation>
+        <source>{angle}: opposite to Carpus (r = {r}). One of the two has the opposite sign or shows another movement</source>
+        <translation>{angle}: entgegengesetzt zu Carpus (r = {r}). Eines von beiden hat das entgegengesetzte Vorzeichen oder zeigt eine andere Bewegung</translation>
     </message>
     <message>
-        <source>{people} people are too few for figures of all: three are needed</source>
-        <translation>{people} Personen sind zu wenige für Werte aller: drei sind nötig</translation>
+        <source>{people} people are too few for group values: three are needed</source>
+        <translation>{people} Personen sind zu wenige für Gruppenwerte: drei sind nötig</translation>
     </message>
     <message>
         <source>{people} people, {sessions} sessions, {kinds}</source>
         <translation>{people} Personen, {sessions} Sitzungen, {kinds}</translation>
     </message>
     <message>
-        <source>it holds a sign that cannot be seen</source>
+        <source>it contains an invisible character</source>
         <translation>er enthält ein unsichtbares Zeichen</translation>
     </message>
     <message>
-        <source>more than {count} signs</source>
+        <source>more than {count} characters</source>
         <translation>mehr als {count} Zeichen</translation>
     </message>
     <message>
-        <source>not in the folder of the sessions</source>
-        <translation>nicht im Ordner der Sitzungen</translation>
+        <source>not in the session folder</source>
+        <translation>nicht im Sitzungsordner</translation>
     </message>
     <message>
         <source>{count} per stroke, {seconds} s in all</source>
@@ -5420,19 +5420,19 @@
         <translation>Erneut prüfen: einmal in der Woche.</translation>
     </message>
     <message>
-        <source>both hands are in the reference, taken are {names}</source>
+        <source>the reference contains both hands: {names} are used</source>
         <translation>In der Referenz sind beide Hände; genommen werden {names}</translation>
     </message>
     <message>
-        <source>discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps</source>
-        <translation>Punkte und Marker bleiben {apart} mm auseinander, üblich sind bis zu {most}: andere Marker, eine andere Hand oder Sprünge</translation>
+        <source>the markers of the two are {apart} mm apart, up to {most} mm is expected: other markers, another hand, or jumps</source>
+        <translation>die Marker der beiden liegen {apart} mm auseinander, zu erwarten sind bis zu {most} mm: andere Marker, eine andere Hand oder Sprünge</translation>
     </message>
     <message>
-        <source>it has no marker {wanted}; it has {names}</source>
-        <translation>kein Marker {wanted}; vorhanden sind {names}</translation>
+        <source>no marker {wanted}, only {names}</source>
+        <translation>kein Marker {wanted}, nur {names}</translation>
     </message>
     <message>
-        <source>it has {several} for {wanted}: say which it is</source>
+        <source>{several} found for {wanted}: state which one applies</source>
         <translation>für {wanted} gibt es {several}: geben Sie an, welches gilt</translation>
     </message>
     <message>
@@ -5440,7 +5440,7 @@
         <translation>Zeile {line}: kein Winkel heißt {said}</translation>
     </message>
     <message>
-        <source>line {line}: “{cell}” is no reading</source>
+        <source>line {line}: “{cell}” is not a reading</source>
         <translation>Zeile {line}: „{cell}“ ist kein Messwert</translation>
     </message>
     <message>
@@ -5448,52 +5448,52 @@
         <translation>nichts</translation>
     </message>
     <message>
-        <source>rows with the time of the row before are left out ({count})</source>
-        <translation>Zeilen mit der Zeit der Zeile davor sind ausgelassen ({count})</translation>
+        <source>rows with the time of the previous row were excluded ({count})</source>
+        <translation>Zeilen mit der Zeit der vorigen Zeile wurden ausgeschlossen ({count})</translation>
     </message>
     <message>
-        <source>the cells of {name} are no times</source>
+        <source>the cells of {name} are not times</source>
         <translation>die Zellen von {name} sind keine Zeiten</translation>
     </message>
     <message>
-        <source>{names}: by their names of the other hand than the session</source>
-        <translation>{names}: dem Namen nach von der anderen Hand als die Sitzung</translation>
+        <source>{names}: their names belong to the other hand</source>
+        <translation>{names}: dem Namen nach von der anderen Hand</translation>
     </message>
     <message>
-        <source>{name}: cells that are no number are left out ({count}), the first is “{cell}” in line {line}</source>
-        <translation>{name}: Zellen, die keine Zahl sind, sind ausgelassen ({count}), die erste ist „{cell}“ in Zeile {line}</translation>
+        <source>{name}: cells that are not numbers were excluded ({count}), the first is “{cell}” in line {line}</source>
+        <translation>{name}: Zellen, die keine Zahl sind, wurden ausgeschlossen ({count}), die erste ist „{cell}“ in Zeile {line}</translation>
     </message>
     <message>
-        <source>{name}: taken as {unit}, since a row comes every {step}</source>
+        <source>{name}: read as {unit}, because there is a row every {step}</source>
         <translation>{name}: als {unit} gelesen, da alle {step} eine Zeile kommt</translation>
     </message>
     <message>
-        <source>it has no column of times; say which of {names} it is</source>
-        <translation>keine Spalte mit Zeiten; geben Sie an, welche von {names} es ist</translation>
+        <source>no time column: state which of {names} it is</source>
+        <translation>keine Zeitspalte; geben Sie an, welche von {names} es ist</translation>
     </message>
     <message>
-        <source>it has no column reading_deg; it has {names}</source>
-        <translation>keine Spalte reading_deg; vorhanden sind {names}</translation>
+        <source>no column reading_deg, only {names}</source>
+        <translation>keine Spalte reading_deg, nur {names}</translation>
     </message>
     <message>
-        <source>it has no column {wanted}; it has {names}</source>
-        <translation>keine Spalte {wanted}; vorhanden sind {names}</translation>
+        <source>no column {wanted}, only {names}</source>
+        <translation>keine Spalte {wanted}, nur {names}</translation>
     </message>
     <message>
-        <source>no angle of the session is in it; it has {there}</source>
-        <translation>kein Winkel der Sitzung ist darin; vorhanden sind {there}</translation>
+        <source>no angle of the session, only {there}</source>
+        <translation>kein Winkel der Sitzung, nur {there}</translation>
     </message>
     <message>
         <source>no angles by their names, or of the other hand</source>
         <translation>dem Namen nach keine Winkel oder von der anderen Hand</translation>
     </message>
     <message>
-        <source>no disc of the palm and no angle of the wrist or fingers is in it; it has {there}</source>
-        <translation>kein Punkt der Handfläche und kein Winkel von Handgelenk oder Fingern ist darin; vorhanden sind {there}</translation>
+        <source>no palm marker and no angle of the wrist or fingers, only {there}</source>
+        <translation>kein Marker der Hand und kein Winkel von Handgelenk oder Fingern, nur {there}</translation>
     </message>
     <message>
-        <source>three discs of the palm are needed; say which of {there} they are</source>
-        <translation>drei Punkte der Handfläche werden gebraucht; geben Sie an, welche von {there} es sind</translation>
+        <source>three palm markers are needed: state which of {there} they are</source>
+        <translation>drei Marker der Mittelhand werden gebraucht: geben Sie an, welche von {there} es sind</translation>
     </message>
     <message>
         <source>depth in millimetres, not 5000 per metre</source>
@@ -5509,7 +5509,7 @@
     </message>
     <message>
         <source>Rotation from the start</source>
-        <translation>Drehung seit dem Start</translation>
+        <translation>Rotation seit dem Start</translation>
     </message>
     <message>
         <source>rotation from the start; {within}</source>
@@ -5557,11 +5557,11 @@
     </message>
     <message>
         <source>Forearm rotation</source>
-        <translation>Unterarmdrehung</translation>
+        <translation>Unterarmrotation</translation>
     </message>
     <message>
-        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A target short of thumb up has a minus: supination −25°.</source>
-        <translation>Die Winkel zählen ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen verschwinden die Marker bei etwa 25° Pronation. Ein Ziel vor Daumen oben hat ein Minus: Supination −25°.</translation>
+        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A goal short of thumb up is negative: supination −25°.</source>
+        <translation>0° ist Daumen oben, die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Ziel vor Daumen oben ist negativ: Supination −25°.</translation>
     </message>
     <message>
         <source>Calibrate the camera again, or correct the file.</source>
@@ -5604,7 +5604,7 @@
         <translation>vorher {px} px</translation>
     </message>
     <message>
-        <source>Show it in other places, tilted other ways</source>
+        <source>Show the board in other places, at other tilts</source>
         <translation>Zeigen Sie die Tafel an anderen Orten, anders geneigt</translation>
     </message>
     <message>
@@ -5629,7 +5629,7 @@
     </message>
     <message>
         <source>Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten.</source>
-        <translation>Die Grundgelenke (MCP) bleiben gestreckt. Die PIP- und DIP-Gelenke zum Haken beugen, dann strecken.</translation>
+        <translation>Die MCP-Gelenke bleiben gestreckt. Die PIP- und DIP-Gelenke zum Haken beugen, dann strecken.</translation>
     </message>
     <message>
         <source>Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still.</source>
@@ -5652,8 +5652,8 @@
         <translation>Das passive Bewegungsausmaß übertrifft das aktive nicht um mehr als den Messfehler.</translation>
     </message>
     <message>
-        <source>another filter than Carpus’ own tracked it</source>
-        <translation>ein anderer Filter als der von Carpus hat sie verfolgt</translation>
+        <source>it was tracked with a filter other than that of Carpus</source>
+        <translation>sie wurde mit einem anderen Filter als dem von Carpus verfolgt</translation>
     </message>
     <message>
         <source>Record this exercise again.</source>
@@ -5668,20 +5668,20 @@
         <translation>kein Aufnahmejournal</translation>
     </message>
     <message>
-        <source>{place} is packed in a way that a session is not</source>
-        <translation>{place} ist auf eine Weise gepackt, wie es eine Sitzung nicht ist</translation>
+        <source>{place} uses an unsupported compression</source>
+        <translation>{place} verwendet eine nicht unterstützte Komprimierung</translation>
     </message>
     <message>
-        <source>what was written is not what is read</source>
-        <translation>was geschrieben wurde, wird anders gelesen</translation>
+        <source>the data read back differ from the data written</source>
+        <translation>die zurückgelesenen Daten weichen von den geschriebenen ab</translation>
     </message>
     <message>
         <source>no answer</source>
         <translation>keine Antwort</translation>
     </message>
     <message>
-        <source>none of the discs by their names, of the other hand, or never seen</source>
-        <translation>dem Namen nach keiner der Punkte, von der anderen Hand oder nie gesehen</translation>
+        <source>no markers by their names, of the other hand, or never visible</source>
+        <translation>dem Namen nach keine Marker, von der anderen Hand oder nie sichtbar</translation>
     </message>
     <message>
         <source>the hand left the camera’s view during the movement</source>
@@ -5692,8 +5692,8 @@
         <translation>Kompilierte Teile</translation>
     </message>
     <message>
-        <source>all there</source>
-        <translation>alle vorhanden</translation>
+        <source>complete</source>
+        <translation>vollständig</translation>
     </message>
     <message>
         <source>A Python package that this needs is not installed: {subject}.</source>
@@ -5996,10 +5996,6 @@
         <translation>Wenn das falsch ist, korrigieren Sie die Bildliste oder geben Sie die Einheit der Tiefe an.</translation>
     </message>
     <message>
-        <source>Install Carpus again.</source>
-        <translation>Installieren Sie Carpus noch einmal.</translation>
-    </message>
-    <message>
         <source>Installation</source>
         <translation>Installation</translation>
     </message>
@@ -6032,7 +6028,7 @@
         <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
     </message>
     <message>
-        <source>Measure at least 10 people twice within 14 days, with the markers placed anew each time.</source>
+        <source>Measure at least 10 people twice within 14 days, and replace the markers each time.</source>
         <translation>Messen Sie mindestens 10 Personen zweimal innerhalb von 14 Tagen, jedes Mal mit neu gesetzten Markern.</translation>
     </message>
     <message>
@@ -7666,8 +7662,8 @@
         <translation>Gemessen</translation>
     </message>
     <message>
-        <source>End joints of the fingers</source>
-        <translation>Endgelenke der Finger</translation>
+        <source>DIP joints of the fingers</source>
+        <translation>DIP-Gelenke der Finger</translation>
     </message>
     <message>
         <source>Adult</source>
@@ -7715,7 +7711,7 @@
     </message>
     <message>
         <source>Needed to see and correct markers later: {size} MB a minute, room for {time}.</source>
-        <translation>Nötig, um Marker später zu sehen und zu berichtigen: {size} MB je Minute, Platz für {time}.</translation>
+        <translation>Nötig, um Marker später zu sehen und zu korrigieren: {size} MB je Minute, Platz für {time}.</translation>
     </message>
     <message>
         <source>Target, {movement}</source>
@@ -7965,7 +7961,7 @@
     </message>
     <message>
         <source>Correct names</source>
-        <translation>Namen berichtigen</translation>
+        <translation>Bezeichnungen korrigieren</translation>
     </message>
     <message>
         <source>Start although &amp;doubtful</source>

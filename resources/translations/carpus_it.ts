@@ -420,11 +420,11 @@
         <translation>Inclinare la tavola: {side} più vicino</translation>
     </message>
     <message>
-        <source>Bring the board nearer</source>
+        <source>Move the board nearer</source>
         <translation>Avvicinare la tavola</translation>
     </message>
     <message>
-        <source>Take the board farther away</source>
+        <source>Move the board farther away</source>
         <translation>Allontanare la tavola</translation>
     </message>
     <message>
@@ -489,7 +489,7 @@
     </message>
     <message>
         <source>Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how.</source>
-        <translation>Nulla è cambiato. Attivare la registrazione profondità-colore della telecamera: “carpus doctor” dice come.</translation>
+        <translation>Nulla è cambiato. Attivare l’allineamento profondità-colore della telecamera: “carpus doctor” dice come.</translation>
     </message>
     <message>
         <source>The reprojection error is {error} pixels.</source>
@@ -764,8 +764,8 @@
         <translation>2. Base del pollice (CMC): sul bordo osseo, a un pollice dal marcatore del polso.</translation>
     </message>
     <message>
-        <source>3. MCP joints: on the back of the hand, just proximal to each knuckle.</source>
-        <translation>3. Articolazioni MCF: sul dorso della mano, subito prossimali a ogni nocca.</translation>
+        <source>3. MCP joints: on the back of the hand, just proximal to each MCP joint.</source>
+        <translation>3. Articolazioni MCF: sul dorso della mano, subito prossimali a ogni articolazione.</translation>
     </message>
     <message>
         <source>Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm.</source>
@@ -1224,8 +1224,8 @@
         <translation>Girare il dorso delle dita verso la telecamera</translation>
     </message>
     <message>
-        <source>All markers seen. End joints are not measured: they follow the middle joints.</source>
-        <translation>Visti tutti i marcatori. Le articolazioni distali non sono misurate: seguono quelle medie.</translation>
+        <source>All markers visible. DIP joints are not measured: they follow the PIP joints.</source>
+        <translation>Tutti i marcatori sono visibili. Le articolazioni IFD non si misurano: seguono le IFP.</translation>
     </message>
     <message>
         <source>All markers seen, every joint is measured.</source>
@@ -1300,16 +1300,16 @@
         <translation>Al centro del dorso del polso, nella piccola fossetta.</translation>
     </message>
     <message>
-        <source>At the root of the thumb, just past the hollow beside the wrist.</source>
-        <translation>Alla radice del pollice, subito dopo l’incavo accanto al polso.</translation>
+        <source>At the base of the thumb, just distal to the anatomical snuffbox.</source>
+        <translation>Alla base del pollice, subito distale alla tabacchiera anatomica.</translation>
     </message>
     <message>
-        <source>On the back of the hand, 3–5 mm behind the knuckle, towards the wrist.</source>
-        <translation>Sul dorso della mano, 3–5 mm dietro la nocca, verso il polso.</translation>
+        <source>On the back of the hand, 3–5 mm proximal to the MCP joint.</source>
+        <translation>Sul dorso della mano, 3–5 mm prossimale all’articolazione MCF.</translation>
     </message>
     <message>
-        <source>In the middle of the creases over the middle joint.</source>
-        <translation>Al centro delle pieghe sopra l’articolazione media.</translation>
+        <source>Centred on the creases over the PIP joint.</source>
+        <translation>Al centro delle pieghe sopra l’articolazione IFP.</translation>
     </message>
     <message>
         <source>In the middle of the creases over the end joint.</source>
@@ -1409,7 +1409,7 @@
     </message>
     <message>
         <source>Correct names</source>
-        <translation>Correggi i nomi</translation>
+        <translation>Correggi le etichette</translation>
     </message>
     <message>
         <source>Take that spot</source>
@@ -2048,8 +2048,8 @@
         <translation>Telecamera</translation>
     </message>
     <message>
-        <source>Pictures</source>
-        <translation>Immagini</translation>
+        <source>Frames</source>
+        <translation>Fotogrammi</translation>
     </message>
     <message>
         <source>ext.</source>
@@ -2100,7 +2100,7 @@
         <translation>Fluidità (SPARC)</translation>
     </message>
     <message>
-        <source>Widest opening, thumb–index</source>
+        <source>Maximum grip aperture, thumb–index</source>
         <translation>Apertura massima pollice–indice</translation>
     </message>
     <message>
@@ -2208,7 +2208,7 @@
         <translation>Raggiungere e afferrare</translation>
     </message>
     <message>
-        <source>Thumb to the finger tips</source>
+        <source>Thumb to the fingertips</source>
         <translation>Pollice alle punte delle dita</translation>
     </message>
     <message>
@@ -3112,8 +3112,8 @@
         <translation>Divaricare bene le dita, poi chiuderle.</translation>
     </message>
     <message>
-        <source>Touch each fingertip with the thumb in turn, opening it wide in between.</source>
-        <translation>Toccare con il pollice la punta di un dito dopo l’altro, aprendolo bene ogni volta.</translation>
+        <source>Touch each fingertip with the thumb in turn. Abduct the thumb fully in between.</source>
+        <translation>Toccare con il pollice la punta di un dito dopo l’altro, abducendolo del tutto ogni volta.</translation>
     </message>
     <message>
         <source>Reach, take the cup, lift it a little, put it back, return.</source>
@@ -3152,24 +3152,24 @@
         <translation>Avambraccio sul cuneo, lato del pollice un poco in su, dita rilassate.</translation>
     </message>
     <message>
-        <source>Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm.</source>
-        <translation>Mano al suo posto sul bordo, un bicchiere di 5–7 cm a 20–30 cm.</translation>
+        <source>Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
+        <translation>Mano al suo posto sul bordo del tavolo. Bicchiere largo 5–7 cm, a 20–30 cm.</translation>
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
         <translation>Mano davanti alla telecamera, dorso in su, dita dritte.</translation>
     </message>
     <message>
-        <source>At the end of a fist the middle and end joints go out of the camera&apos;s sight: repetitions are counted all the same, and those ranges are given as “at least”. To see more, turn the thumb side up.</source>
-        <translation>Alla fine del pugno le articolazioni medie e distali escono dalla vista della telecamera: le ripetizioni si contano comunque, e quelle escursioni sono date come “almeno”. Per vedere di più, girare in su il lato del pollice.</translation>
+        <source>At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these ranges are minimum values (≥). To see more, turn the thumb side up.</source>
+        <translation>Alla fine del pugno le articolazioni IFP e IFD sono nascoste. Le ripetizioni si contano comunque, e queste escursioni sono valori minimi (≥). Per vedere di più, girare in su il lato del pollice.</translation>
     </message>
     <message>
-        <source>About half-way the middle joints go out of the camera&apos;s sight: repetitions are counted all the same, and their range is given as “at least”. To see more, raise the wrist or turn the thumb side up.</source>
-        <translation>Circa a metà le articolazioni medie escono dalla vista della telecamera: le ripetizioni si contano comunque, e la loro escursione è data come “almeno”. Per vedere di più, alzare il polso o girare in su il lato del pollice.</translation>
+        <source>About half-way the PIP joints are occluded. Repetitions are still counted, and their range is a minimum value (≥). To see more, raise the wrist or turn the thumb side up.</source>
+        <translation>Circa a metà le articolazioni IFP sono nascoste. Le ripetizioni si contano comunque, e la loro escursione è un valore minimo (≥). Per vedere di più, alzare il polso o girare in su il lato del pollice.</translation>
     </message>
     <message>
-        <source>Under the palm the thumb&apos;s tip goes out of the camera&apos;s sight: what is trained here is its lift away from the palm, which stays in view.</source>
-        <translation>Sotto il palmo la punta del pollice esce dalla vista della telecamera: qui si esercita il suo sollevamento dal palmo, che resta visibile.</translation>
+        <source>Under the palm the thumb tip is occluded. This exercise trains palmar abduction of the thumb, which stays visible.</source>
+        <translation>Sotto il palmo la punta del pollice è nascosta. Qui si esercita l’abduzione palmare del pollice, che resta visibile.</translation>
     </message>
     <message>
         <source>Legal notice, in its English wording:</source>
@@ -3400,7 +3400,7 @@
         <translation>Un altro punto blu corrisponde meglio a: {markers}.</translation>
     </message>
     <message>
-        <source>Another blue spot lies close to the {markers}: it may be the disc.</source>
+        <source>Another blue spot is close to the {markers}: it may be the marker.</source>
         <translation>Un altro punto blu è molto vicino a: {markers}. Potrebbe essere il marcatore.</translation>
     </message>
     <message>
@@ -3408,7 +3408,7 @@
         <translation>Come root, scrivere in {file}: {rule}. Eseguire: udevadm control --reload. Poi ricollegare la telecamera.</translation>
     </message>
     <message>
-        <source>Bring the firmware up to date with the maker&apos;s RealSense Viewer.</source>
+        <source>Update the firmware with the manufacturer’s RealSense Viewer.</source>
         <translation>Aggiornare il firmware con RealSense Viewer del produttore.</translation>
     </message>
     <message>
@@ -3420,20 +3420,20 @@
         <translation>Carpus non può scrivere in {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Check that a disc was clicked there, and not another blue spot.</source>
-        <translation>Controllare che il clic sia su un dischetto, e non su un altro punto blu.</translation>
+        <source>Check that a marker was clicked there, and not another blue spot.</source>
+        <translation>Controllare che il clic sia su un marcatore, e non su un altro punto blu.</translation>
     </message>
     <message>
-        <source>Check that every marker is clicked under its own name.</source>
-        <translation>Controllare che ogni marcatore sia indicato con il suo nome.</translation>
+        <source>Check that every marker is clicked under its own label.</source>
+        <translation>Controllare che ogni marcatore sia indicato con la sua etichetta.</translation>
     </message>
     <message>
         <source>Check the name and the folder.</source>
         <translation>Controllare il nome e la cartella.</translation>
     </message>
     <message>
-        <source>Check the patient, the side, and that every marker is clicked under its own name.</source>
-        <translation>Controllare il paziente, il lato, e che ogni marcatore sia indicato con il suo nome.</translation>
+        <source>Check the patient, the side, and that every marker is clicked under its own label.</source>
+        <translation>Controllare il paziente, il lato, e che ogni marcatore sia indicato con la sua etichetta.</translation>
     </message>
     <message>
         <source>Choose a folder on another disk.</source>
@@ -3452,15 +3452,15 @@
         <translation>Scegliere l’altro lato, o rifare i clic sui marcatori.</translation>
     </message>
     <message>
-        <source>Click all markers again, each under its own name.</source>
-        <translation>Rifare i clic su tutti i marcatori, ognuno con il suo nome.</translation>
+        <source>Click all markers again, each under its own label.</source>
+        <translation>Rifare i clic su tutti i marcatori, ognuno con la sua etichetta.</translation>
     </message>
     <message>
         <source>Click each of the two on its own marker.</source>
         <translation>Fare clic su ognuno dei due nel suo marcatore.</translation>
     </message>
     <message>
-        <source>Click it again in its middle, and keep the hand still.</source>
+        <source>Click it again in its centre, and keep the hand still.</source>
         <translation>Rifare il clic al suo centro, e tenere ferma la mano.</translation>
     </message>
     <message>
@@ -3468,8 +3468,8 @@
         <translation>Fare clic più vicino al marcatore, o controllare la luce.</translation>
     </message>
     <message>
-        <source>Click the {markers} again in its middle, or cover the other spot.</source>
-        <translation>Rifare il clic al centro ({markers}), o coprire l&apos;altro punto.</translation>
+        <source>Click the {markers} again in its centre, or cover the other spot.</source>
+        <translation>Rifare il clic al centro ({markers}), o coprire l’altro punto.</translation>
     </message>
     <message>
         <source>Clock</source>
@@ -3484,16 +3484,16 @@
         <translation>Chiudere l’altro programma, poi riprovare.</translation>
     </message>
     <message>
-        <source>Cover the spot with the question mark, or give it its name.</source>
-        <translation>Coprire il punto con il punto interrogativo, o dargli il suo nome.</translation>
+        <source>Cover the spot with the question mark, or give it its label.</source>
+        <translation>Coprire il punto con il punto interrogativo, o dargli la sua etichetta.</translation>
     </message>
     <message>
         <source>Data folder</source>
         <translation>Cartella dei dati</translation>
     </message>
     <message>
-        <source>Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good).</source>
-        <translation>Profondità e colore non combaciano: {markers} ({value} {unit}, fino a {limit} è buono).</translation>
+        <source>Depth and colour are not aligned at the {markers} ({value} {unit}, up to {limit} is good).</source>
+        <translation>Profondità e colore non sono allineati: {markers} ({value} {unit}, fino a {limit} va bene).</translation>
     </message>
     <message>
         <source>Disk</source>
@@ -3524,15 +3524,15 @@
         <translation>Liberare spazio sul disco di {folder}.</translation>
     </message>
     <message>
-        <source>Give yourself the right to write there, or choose another folder in the settings.</source>
-        <translation>Concedersi il diritto di scrivere lì, o scegliere un’altra cartella nelle impostazioni.</translation>
+        <source>Allow writing there, or choose another folder in the settings.</source>
+        <translation>Permettere la scrittura lì, o scegliere un’altra cartella nelle impostazioni.</translation>
     </message>
     <message>
         <source>Install Carpus again: part of it is missing.</source>
         <translation>Installare di nuovo Carpus: ne manca una parte.</translation>
     </message>
     <message>
-        <source>Install OpenNI2 from the camera&apos;s maker, then start Carpus again.</source>
+        <source>Install OpenNI2 from the camera’s manufacturer, then restart Carpus.</source>
         <translation>Installare OpenNI2 del produttore della telecamera, poi riavviare Carpus.</translation>
     </message>
     <message>
@@ -3544,16 +3544,16 @@
         <translation>Installarlo di nuovo.</translation>
     </message>
     <message>
-        <source>Install it, and what it names, again.</source>
-        <translation>Installarlo di nuovo, con ciò che nomina.</translation>
+        <source>Reinstall it, and what it names.</source>
+        <translation>Reinstallarlo, insieme a ciò che nomina.</translation>
     </message>
     <message>
         <source>Install the camera rights named above and plug the camera in again.</source>
         <translation>Installare i permessi della telecamera nominati sopra e ricollegare la telecamera.</translation>
     </message>
     <message>
-        <source>Install the packages that bring these libraries.</source>
-        <translation>Installare i pacchetti che portano queste librerie.</translation>
+        <source>Install the packages that contain these libraries.</source>
+        <translation>Installare i pacchetti che contengono queste librerie.</translation>
     </message>
     <message>
         <source>It is left to that program.</source>
@@ -3564,7 +3564,7 @@
         <translation>Richiede una porta USB 2; alcune porte USB 3 rifiutano telecamere con firmware vecchio.</translation>
     </message>
     <message>
-        <source>Keep the hand still and take the first picture again.</source>
+        <source>Keep the hand still and take the first image again.</source>
         <translation>Tenere ferma la mano e rifare la prima immagine.</translation>
     </message>
     <message>
@@ -3572,19 +3572,19 @@
         <translation>Tenere ferma la mano per mezzo secondo.</translation>
     </message>
     <message>
-        <source>Look at the lines on the picture, and give the marker its right name.</source>
-        <translation>Guardare le linee nell’immagine, e dare al marcatore il nome giusto.</translation>
+        <source>Check the lines on the image, and give the marker its correct label.</source>
+        <translation>Controllare le linee nell’immagine, e dare al marcatore l’etichetta giusta.</translation>
     </message>
     <message>
         <source>Mirror</source>
         <translation>Specchio</translation>
     </message>
     <message>
-        <source>Move the camera further from the hand.</source>
+        <source>Move the camera farther from the hand.</source>
         <translation>Allontanare la telecamera dalla mano.</translation>
     </message>
     <message>
-        <source>Move the hand a little, and keep sunlight and shine off the marker.</source>
+        <source>Move the hand a little, and keep sunlight and reflections off the marker.</source>
         <translation>Spostare un poco la mano, e tenere sole e riflessi lontani dal marcatore.</translation>
     </message>
     <message>
@@ -3596,8 +3596,8 @@
         <translation>Nessun marcatore blu in questo punto: {markers}.</translation>
     </message>
     <message>
-        <source>No hand has this shape: the {markers} does not lie where the other discs expect it.</source>
-        <translation>Nessuna mano ha questa forma: un dischetto non è dove lo vogliono gli altri ({markers}).</translation>
+        <source>No hand has this shape: the {markers} does not fit the other markers.</source>
+        <translation>Nessuna mano ha questa forma: un marcatore non è compatibile con gli altri ({markers}).</translation>
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
@@ -3608,7 +3608,7 @@
         <translation>OpenNI2</translation>
     </message>
     <message>
-        <source>OpenNI2 ends when it is asked for its version</source>
+        <source>OpenNI2 stops when its version is queried</source>
         <translation>OpenNI2 si chiude quando si chiede la versione</translation>
     </message>
     <message>
@@ -3620,8 +3620,8 @@
         <translation>Driver Orbbec</translation>
     </message>
     <message>
-        <source>Others on this computer can look into it. In its properties, take away every right of the group and of others; or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Altri su questo computer possono vedervi dentro. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri; oppure eseguire: chmod 700 &apos;{folder}&apos;</translation>
+        <source>Others on this computer can read it. In its properties, remove all rights of the group and of others, or run: chmod 700 &apos;{folder}&apos;</source>
+        <translation>Altri su questo computer possono leggerla. Nelle sue proprietà togliere ogni diritto al gruppo e agli altri, oppure eseguire: chmod 700 &apos;{folder}&apos;</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -3640,11 +3640,11 @@
         <translation>Ricollegare la telecamera, a un’altra porta, senza hub.</translation>
     </message>
     <message>
-        <source>Plug the camera in again; if it stays, times and speeds of this camera are not to be trusted.</source>
-        <translation>Ricollegare la telecamera; se resta così, tempi e velocità di questa telecamera non sono affidabili.</translation>
+        <source>Plug the camera in again. If this persists, times and speeds of this camera are not reliable.</source>
+        <translation>Ricollegare la telecamera. Se il problema resta, tempi e velocità di questa telecamera non sono affidabili.</translation>
     </message>
     <message>
-        <source>Plug the camera in, at best straight into the computer. {port}</source>
+        <source>Plug the camera in, preferably directly into the computer. {port}</source>
         <translation>Collegare la telecamera, meglio se direttamente al computer. {port}</translation>
     </message>
     <message>
@@ -3669,15 +3669,15 @@
     </message>
     <message>
         <source>Registration</source>
-        <translation>Registrazione profondità-colore</translation>
+        <translation>Allineamento profondità-colore</translation>
     </message>
     <message>
         <source>Run “{command}”.</source>
         <translation>Eseguire «{command}».</translation>
     </message>
     <message>
-        <source>Run: installer/setup.sh run. Or: install the packages that bring these libraries.</source>
-        <translation>Eseguire: installer/setup.sh run. Oppure: installare i pacchetti che portano queste librerie.</translation>
+        <source>Run: installer/setup.sh run. Or: install the packages that contain these libraries.</source>
+        <translation>Eseguire: installer/setup.sh run. Oppure: installare i pacchetti che contengono queste librerie.</translation>
     </message>
     <message>
         <source>Run: sudo apt-get install libopenni2-0</source>
@@ -3688,16 +3688,16 @@
         <translation>Avviare la finestra da un desktop. I comandi per i file funzionano senza schermo.</translation>
     </message>
     <message>
-        <source>Swap the two names, or click both markers again.</source>
-        <translation>Scambiare i due nomi, o rifare i clic sui due marcatori.</translation>
+        <source>Swap the two labels, or click both markers again.</source>
+        <translation>Scambiare le due etichette, o rifare i clic sui due marcatori.</translation>
     </message>
     <message>
-        <source>Switch on registration in the camera, or track without depth.</source>
-        <translation>Attivare la registrazione profondità-colore della telecamera, o tracciare senza profondità.</translation>
+        <source>Turn on depth registration in the camera settings, or track without depth.</source>
+        <translation>Attivare l’allineamento profondità-colore nelle impostazioni della telecamera, o tracciare senza profondità.</translation>
     </message>
     <message>
-        <source>Take the spot with the question mark, if it is the disc.</source>
-        <translation>Prendere il punto con il punto interrogativo, se è il dischetto.</translation>
+        <source>Choose the spot with the question mark, if it is the marker.</source>
+        <translation>Scegliere il punto con il punto interrogativo, se è il marcatore.</translation>
     </message>
     <message>
         <source>The PIN cannot be checked: {subject} is missing on this computer ({detail}).</source>
@@ -3728,11 +3728,11 @@
         <translation>tavola ChArUco {columns} x {rows}, quadrati di {size} mm</translation>
     </message>
     <message>
-        <source>Install Carpus anew.</source>
+        <source>Install Carpus again.</source>
         <translation>Installare di nuovo Carpus.</translation>
     </message>
     <message>
-        <source>Install the package {package}, which comes beside that of Carpus.</source>
+        <source>Install the package {package}, which is next to the Carpus package.</source>
         <translation>Installare il pacchetto {package}, che si trova accanto a quello di Carpus.</translation>
     </message>
     <message>
@@ -3740,8 +3740,8 @@
         <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
     </message>
     <message>
-        <source>The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).</source>
-        <translation>Telecamera fuori limite: {what} (i limiti sono {most_angle}° e {most_length} mm, tutte le lunghezze {most_share} %).</translation>
+        <source>Camera out of tolerance: {what} (limits: {most_angle}°, {most_length} mm, all lengths {most_share} %).</source>
+        <translation>Telecamera fuori tolleranza: {what} (limiti: {most_angle}°, {most_length} mm, tutte le lunghezze {most_share} %).</translation>
     </message>
     <message>
         <source>The camera measures no depth at a marker: {subject}.</source>
@@ -3752,8 +3752,8 @@
         <translation>La telecamera non misura la profondità di: {markers}.</translation>
     </message>
     <message>
-        <source>The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm.</source>
-        <translation>La telecamera misura bene: scarto massimo {angle}° e {length} mm; i limiti sono {most_angle}° e {most_length} mm.</translation>
+        <source>Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and {most_length} mm).</source>
+        <translation>Telecamera entro la tolleranza: scarto massimo {angle}° e {length} mm (limiti: {most_angle}° e {most_length} mm).</translation>
     </message>
     <message>
         <source>The clicks for the {markers} are on one marker.</source>
@@ -3769,18 +3769,18 @@
     </message>
     <message>
         <source>The hand is tilted {value}° to the camera (up to {limit}° is good).</source>
-        <translation>La mano è inclinata di {value}° rispetto alla telecamera (fino a {limit}° è buono).</translation>
+        <translation>La mano è inclinata di {value}° rispetto alla telecamera (fino a {limit}° va bene).</translation>
     </message>
     <message>
         <source>The hand is {value} m from the camera ({limit} m or more is good).</source>
-        <translation>La mano è a {value} m dalla telecamera ({limit} m o più è buono).</translation>
+        <translation>La mano è a {value} m dalla telecamera ({limit} m o più va bene).</translation>
     </message>
     <message>
-        <source>The hand measures {value} mm ({limit} mm is the limit).</source>
+        <source>The hand measures {value} mm (the limit is {limit} mm).</source>
         <translation>La mano misura {value} mm (il limite è {limit} mm).</translation>
     </message>
     <message>
-        <source>The hand measures {value} mm, and {limit} mm last time.</source>
+        <source>The hand measures {value} mm. Last time it measured {limit} mm.</source>
         <translation>La mano misura {value} mm, l’ultima volta {limit} mm.</translation>
     </message>
     <message>
@@ -3788,12 +3788,12 @@
         <translation>La mano si è mossa nel primo mezzo secondo.</translation>
     </message>
     <message>
-        <source>The hand was still for {value} pictures only ({limit} or more are good).</source>
-        <translation>La mano è stata ferma solo per {value} immagini ({limit} o più è buono).</translation>
+        <source>The hand was still for {value} frames only ({limit} or more are good).</source>
+        <translation>La mano è stata ferma solo per {value} fotogrammi ({limit} o più va bene).</translation>
     </message>
     <message>
-        <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
-        <translation>Marcatore a {value} mm dal suo posto: {markers} (fino a {limit} mm è buono).</translation>
+        <source>The {markers} marker is {value} mm from its expected position (up to {limit} mm is good).</source>
+        <translation>Marcatore a {value} mm dalla posizione attesa: {markers} (fino a {limit} mm è buono).</translation>
     </message>
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
@@ -3804,8 +3804,8 @@
         <translation>Il nome {subject} appartiene a un altro paziente.</translation>
     </message>
     <message>
-        <source>The names look shifted: the marker clicked as {first} is the {second}.</source>
-        <translation>I nomi sembrano spostati: il marcatore indicato come {first} è in realtà {second}.</translation>
+        <source>The labels look shifted: the marker clicked as {first} is the {second}.</source>
+        <translation>Le etichette sembrano spostate: il marcatore indicato come {first} è in realtà {second}.</translation>
     </message>
     <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
@@ -3840,16 +3840,16 @@
         <translation>La cartella {subject} non esiste.</translation>
     </message>
     <message>
-        <source>There is one more blue spot on the hand than there are names.</source>
-        <translation>Sulla mano c’è un punto blu in più rispetto ai nomi.</translation>
+        <source>There is one more blue spot on the hand than there are labels.</source>
+        <translation>Sulla mano c’è un punto blu in più rispetto alle etichette.</translation>
     </message>
     <message>
-        <source>This camera does not lay depth on colour by itself; depths will be read beside the markers.</source>
-        <translation>Questa telecamera non sovrappone da sola la profondità al colore; le profondità si leggeranno accanto ai marcatori.</translation>
+        <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
+        <translation>Questa telecamera non allinea la profondità al colore. Le profondità si leggeranno accanto ai marcatori.</translation>
     </message>
     <message>
-        <source>This camera does not tell when it took a picture; its times are those of arrival: speeds are rough.</source>
-        <translation>Questa telecamera non dice quando ha scattato un’immagine; i suoi tempi sono quelli d’arrivo: le velocità sono approssimative.</translation>
+        <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
+        <translation>Questa telecamera non invia i tempi di ripresa. Valgono i tempi d’arrivo, quindi le velocità sono approssimative.</translation>
     </message>
     <message>
         <source>This line is 100 mm long. If it is not,</source>
@@ -3860,8 +3860,8 @@
         <translation>Questa sembra l’altra mano.</translation>
     </message>
     <message>
-        <source>This port is slow for it. {port}</source>
-        <translation>Questa porta è lenta per lei. {port}</translation>
+        <source>This port is slow for this camera. {port}</source>
+        <translation>Questa porta è lenta per questa telecamera. {port}</translation>
     </message>
     <message>
         <source>This port is too slow. {port}</source>
@@ -3888,8 +3888,8 @@
         <translation>Usare una telecamera con colore e profondità, come la Xtion.</translation>
     </message>
     <message>
-        <source>Use another USB port, without a hub and without other cameras on it; end other heavy programs.</source>
-        <translation>Usare un’altra porta USB, senza hub e senza altre telecamere; chiudere gli altri programmi pesanti.</translation>
+        <source>Use another USB port, without a hub or other cameras. Close other demanding programs.</source>
+        <translation>Usare un’altra porta USB, senza hub e senza altre telecamere. Chiudere gli altri programmi pesanti.</translation>
     </message>
     <message>
         <source>Use wrist6 or hand21.</source>
@@ -3904,11 +3904,11 @@
         <translation>Finestra</translation>
     </message>
     <message>
-        <source>Wrist, all ways</source>
+        <source>Wrist, all movements</source>
         <translation>Polso, tutti i movimenti</translation>
     </message>
     <message>
-        <source>You may not open {node}. Install the camera rights named above and plug it in again.</source>
+        <source>You have no permission to open {node}. Install the camera rights named above, then plug the camera in again.</source>
         <translation>Manca il permesso di aprire {node}. Installare i permessi della telecamera nominati sopra e ricollegarla.</translation>
     </message>
     <message>
@@ -3916,15 +3916,15 @@
         <translation>una cartella</translation>
     </message>
     <message>
-        <source>a marker was put beside the picture</source>
+        <source>a marker was placed outside the image</source>
         <translation>un marcatore è fuori dall’immagine</translation>
     </message>
     <message>
-        <source>a name that is no text</source>
+        <source>a name that is not text</source>
         <translation>un nome che non è un testo</translation>
     </message>
     <message>
-        <source>a text with a character that is none, in {file}</source>
+        <source>a text with an invalid character, in {file}</source>
         <translation>un testo con un carattere non valido, in {file}</translation>
     </message>
     <message>
@@ -3936,16 +3936,16 @@
         <translation>tutte le lunghezze sono minori del {share} %, la peggiore di {length} mm</translation>
     </message>
     <message>
-        <source>all six discs in {count} of {looked} pictures</source>
-        <translation>tutti i sei dischetti in {count} immagini su {looked}</translation>
+        <source>all six markers in {count} of {looked} frames</source>
+        <translation>tutti i sei marcatori in {count} fotogrammi su {looked}</translation>
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
         <translation>un file HDF5, ma non una seduta</translation>
     </message>
     <message>
-        <source>angles are {angle}° off</source>
-        <translation>gli angoli sono sbagliati di {angle}°</translation>
+        <source>angles deviate by {angle}°</source>
+        <translation>gli angoli si scostano di {angle}°</translation>
     </message>
     <message>
         <source>angles by table</source>
@@ -3956,12 +3956,12 @@
         <translation>angoli da {format}</translation>
     </message>
     <message>
-        <source>another computer is bringing what it has</source>
-        <translation>un altro computer sta portando ciò che ha</translation>
+        <source>another computer is sending its data</source>
+        <translation>un altro computer sta inviando i suoi dati</translation>
     </message>
     <message>
-        <source>bytes that follow its end: {count}</source>
-        <translation>byte che seguono la sua fine: {count}</translation>
+        <source>{count} bytes after its end</source>
+        <translation>{count} byte dopo la fine</translation>
     </message>
     <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
@@ -3988,23 +3988,23 @@
         <translation>colore come {name}</translation>
     </message>
     <message>
-        <source>colour picture {row}</source>
-        <translation>immagine a colori {row}</translation>
+        <source>colour frame {row}</source>
+        <translation>fotogramma a colori {row}</translation>
     </message>
     <message>
         <source>columns</source>
         <translation>colonne</translation>
     </message>
     <message>
-        <source>corners lie {error_px} px off, at most {most_px} are fair</source>
-        <translation>gli angoli sono a {error_px} px dal posto giusto, accettabili al massimo {most_px}</translation>
+        <source>reprojection error {error_px} px, at most {most_px} px accepted</source>
+        <translation>errore di riproiezione {error_px} px, al massimo {most_px} px accettabili</translation>
     </message>
     <message>
-        <source>cropped pictures</source>
-        <translation>immagini ritagliate</translation>
+        <source>cropped frames</source>
+        <translation>fotogrammi ritagliati</translation>
     </message>
     <message>
-        <source>cut off or altered</source>
+        <source>truncated or altered</source>
         <translation>troncato o alterato</translation>
     </message>
     <message>
@@ -4012,20 +4012,20 @@
         <translation>danneggiato</translation>
     </message>
     <message>
-        <source>damaged, or no C3D</source>
-        <translation>danneggiato, o non un C3D</translation>
+        <source>damaged, or not C3D</source>
+        <translation>danneggiato, o non C3D</translation>
     </message>
     <message>
-        <source>damaged: a frame has a status that there is not</source>
-        <translation>danneggiato: un fotogramma ha uno stato che non esiste</translation>
+        <source>damaged: unknown frame status</source>
+        <translation>danneggiato: stato di un fotogramma sconosciuto</translation>
     </message>
     <message>
-        <source>damaged: a frame has no possible time</source>
-        <translation>danneggiato: un fotogramma non ha un tempo possibile</translation>
+        <source>damaged: impossible frame time</source>
+        <translation>danneggiato: tempo di un fotogramma impossibile</translation>
     </message>
     <message>
-        <source>damaged: a standard deviation is below zero</source>
-        <translation>danneggiato: una deviazione standard è negativa</translation>
+        <source>damaged: negative standard deviation</source>
+        <translation>danneggiato: deviazione standard negativa</translation>
     </message>
     <message>
         <source>damaged: an event has no time</source>
@@ -4036,51 +4036,51 @@
         <translation>danneggiato: sensore di profondità, {cause}</translation>
     </message>
     <message>
-        <source>damaged: it asks for more memory than a session needs</source>
+        <source>damaged: more memory needed than a session can use</source>
         <translation>danneggiato: chiede più memoria di quanta ne serva a una seduta</translation>
     </message>
     <message>
-        <source>damaged: it cannot be read to its end</source>
-        <translation>danneggiato: non si può leggere fino alla fine</translation>
+        <source>damaged: not readable to the end</source>
+        <translation>danneggiato: non leggibile fino alla fine</translation>
     </message>
     <message>
-        <source>damaged: its parameters are no settings</source>
-        <translation>danneggiato: i suoi parametri non sono impostazioni</translation>
+        <source>damaged: invalid settings</source>
+        <translation>danneggiato: impostazioni non valide</translation>
     </message>
     <message>
-        <source>damaged: its {name} is no such thing</source>
-        <translation>danneggiato: il suo {name} non è ciò che deve essere</translation>
+        <source>damaged: invalid {name}</source>
+        <translation>danneggiato: {name} non valido</translation>
     </message>
     <message>
         <source>damaged: no session_id</source>
         <translation>danneggiato: manca session_id</translation>
     </message>
     <message>
-        <source>damaged: reading it does not end</source>
-        <translation>danneggiato: la lettura non finisce mai</translation>
+        <source>damaged: reading does not finish</source>
+        <translation>danneggiato: la lettura non termina</translation>
     </message>
     <message>
-        <source>damaged: the camera&apos;s figures are not a camera&apos;s</source>
-        <translation>danneggiato: i valori della telecamera non sono di una telecamera</translation>
+        <source>damaged: impossible camera values</source>
+        <translation>danneggiato: valori della telecamera impossibili</translation>
     </message>
     <message>
-        <source>damaged: the camera&apos;s figures are not known</source>
-        <translation>danneggiato: i valori della telecamera non sono noti</translation>
+        <source>damaged: unknown camera values</source>
+        <translation>danneggiato: valori della telecamera sconosciuti</translation>
     </message>
     <message>
-        <source>damaged: the time of frame {number} is not after the one before</source>
-        <translation>danneggiato: il tempo del fotogramma {number} non segue quello precedente</translation>
+        <source>damaged: frame {number} is not later than the previous one</source>
+        <translation>danneggiato: il fotogramma {number} non è successivo al precedente</translation>
     </message>
     <message>
-        <source>damaged: the times of its frames are no session&apos;s</source>
-        <translation>danneggiato: i tempi dei fotogrammi non sono di una seduta</translation>
+        <source>damaged: implausible frame times</source>
+        <translation>danneggiato: tempi dei fotogrammi non plausibili</translation>
     </message>
     <message>
-        <source>damaged: what was read of it makes no sense</source>
-        <translation>danneggiato: ciò che se ne legge non ha senso</translation>
+        <source>damaged: its content is implausible</source>
+        <translation>danneggiato: contenuto non plausibile</translation>
     </message>
     <message>
-        <source>damaged: {path} does not fit {path2}</source>
+        <source>damaged: {path} does not match {path2}</source>
         <translation>danneggiato: {path} non corrisponde a {path2}</translation>
     </message>
     <message>
@@ -4088,20 +4088,20 @@
         <translation>danneggiato: {value}</translation>
     </message>
     <message>
-        <source>damaged: {what} is beyond all measure</source>
-        <translation>danneggiato: {what} è oltre ogni misura</translation>
+        <source>damaged: {what} out of range</source>
+        <translation>danneggiato: {what} fuori intervallo</translation>
     </message>
     <message>
         <source>depth as {name}</source>
         <translation>profondità come {name}</translation>
     </message>
     <message>
-        <source>depth does not lie on colour</source>
-        <translation>la profondità non combacia con il colore</translation>
+        <source>depth and colour are not aligned</source>
+        <translation>profondità e colore non sono allineati</translation>
     </message>
     <message>
-        <source>depth lies on colour, {registered}</source>
-        <translation>la profondità combacia con il colore, {registered}</translation>
+        <source>depth and colour are aligned, {registered}</source>
+        <translation>profondità e colore sono allineati, {registered}</translation>
     </message>
     <message>
         <source>distortion {model} with {count} coefficients</source>
@@ -4124,8 +4124,8 @@
         <translation>base: incollare sul cartoncino</translation>
     </message>
     <message>
-        <source>for {width_px} x {height_px} pixels, pictures have {size}</source>
-        <translation>per {width_px} x {height_px} pixel, le immagini hanno {size}</translation>
+        <source>for {width_px} x {height_px} pixels, the frames have {size}</source>
+        <translation>per {width_px} x {height_px} pixel, i fotogrammi hanno {size}</translation>
     </message>
     <message>
         <source>format version {version}, this Carpus reads up to {format_version}</source>
@@ -4140,8 +4140,8 @@
         <translation>nel corso delle settimane, a confronto con l’errore di misura (MDC95)</translation>
     </message>
     <message>
-        <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
-        <translation>fx {fx} e fy {fy} non sono di una telecamera con immagini larghe {width} pixel</translation>
+        <source>fx {fx} and fy {fy} do not fit a frame width of {width} pixels</source>
+        <translation>fx {fx} e fy {fy} non sono compatibili con fotogrammi larghi {width} pixel</translation>
     </message>
     <message>
         <source>glue under the low edge</source>
@@ -4152,12 +4152,12 @@
         <translation>elenco del goniometro</translation>
     </message>
     <message>
-        <source>grey, a colour picture is expected</source>
+        <source>grey, a colour image is expected</source>
         <translation>grigio, attesa un’immagine a colori</translation>
     </message>
     <message>
-        <source>groups within groups without end at {place}</source>
-        <translation>gruppi dentro gruppi senza fine in {place}</translation>
+        <source>endlessly nested groups at {place}</source>
+        <translation>gruppi annidati senza fine in {place}</translation>
     </message>
     <message>
         <source>hand</source>
@@ -4172,87 +4172,87 @@
         <translation>hand {hand}</translation>
     </message>
     <message>
-        <source>in colour, a depth picture of 16 bits is expected</source>
+        <source>in colour, a 16-bit depth image is expected</source>
         <translation>a colori, attesa un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
-        <source>in none of the pictures</source>
+        <source>in none of the images</source>
         <translation>in nessuna delle immagini</translation>
     </message>
     <message>
-        <source>in the data folder, or around it</source>
-        <translation>nella cartella dei dati, o intorno a essa</translation>
+        <source>inside the data folder, or containing it</source>
+        <translation>dentro la cartella dei dati, o la contiene</translation>
     </message>
     <message>
         <source>index finger</source>
         <translation>indice</translation>
     </message>
     <message>
-        <source>index finger end joint</source>
-        <translation>articolazione distale dell’indice</translation>
+        <source>index DIP</source>
+        <translation>IFD dell’indice</translation>
     </message>
     <message>
-        <source>index finger middle joint</source>
-        <translation>articolazione media dell’indice</translation>
+        <source>index PIP</source>
+        <translation>IFP dell’indice</translation>
     </message>
     <message>
-        <source>index knuckle</source>
-        <translation>nocca dell’indice</translation>
+        <source>index MCP</source>
+        <translation>MCF dell’indice</translation>
     </message>
     <message>
-        <source>index tip</source>
+        <source>index fingertip</source>
         <translation>punta dell’indice</translation>
     </message>
     <message>
-        <source>it cannot be read as JSON; the usual limits hold</source>
-        <translation>non si può leggere come JSON; valgono i limiti usuali</translation>
+        <source>not readable as JSON, so the default limits apply</source>
+        <translation>non leggibile come JSON; valgono i limiti predefiniti</translation>
     </message>
     <message>
-        <source>it claims more values than the file can hold</source>
-        <translation>dichiara più valori di quanti il file possa contenere</translation>
+        <source>more values declared than the file can hold</source>
+        <translation>più valori dichiarati di quanti il file possa contenere</translation>
     </message>
     <message>
-        <source>it does not hold limits; the usual ones hold</source>
-        <translation>non contiene limiti; valgono quelli usuali</translation>
+        <source>no limits in it, so the default limits apply</source>
+        <translation>non contiene limiti; valgono quelli predefiniti</translation>
     </message>
     <message>
         <source>it has no marker {name}</source>
         <translation>non ha alcun marcatore {name}</translation>
     </message>
     <message>
-        <source>it has no picture {number}</source>
-        <translation>non ha alcuna immagine {number}</translation>
+        <source>it has no frame {number}</source>
+        <translation>non ha il fotogramma {number}</translation>
     </message>
     <message>
-        <source>it holds no frame</source>
-        <translation>non contiene fotogrammi</translation>
+        <source>no frames</source>
+        <translation>nessun fotogramma</translation>
     </message>
     <message>
-        <source>it holds no points</source>
-        <translation>non contiene punti</translation>
+        <source>no points</source>
+        <translation>nessun punto</translation>
     </message>
     <message>
-        <source>it holds no points, or says no rate</source>
-        <translation>non contiene punti, o non indica la frequenza</translation>
+        <source>no points, or no rate stated</source>
+        <translation>nessun punto, o frequenza non indicata</translation>
     </message>
     <message>
-        <source>it holds no reading</source>
-        <translation>non contiene letture</translation>
+        <source>no readings</source>
+        <translation>nessuna misura</translation>
     </message>
     <message>
-        <source>it holds no table</source>
-        <translation>non contiene una tabella</translation>
+        <source>no table</source>
+        <translation>nessuna tabella</translation>
     </message>
     <message>
-        <source>it stored no blue spots</source>
+        <source>it contains no stored blue spots</source>
         <translation>non ha salvato punti blu</translation>
     </message>
     <message>
-        <source>its columns are not what its names say</source>
-        <translation>le sue colonne non sono ciò che dicono i nomi</translation>
+        <source>columns do not match their names</source>
+        <translation>le colonne non corrispondono ai nomi</translation>
     </message>
     <message>
-        <source>its folder cannot be written</source>
+        <source>its folder is not writable</source>
         <translation>nella sua cartella non si può scrivere</translation>
     </message>
     <message>
@@ -4260,20 +4260,20 @@
         <translation>il suo processo è terminato</translation>
     </message>
     <message>
-        <source>its side with one disc here</source>
-        <translation>qui il lato con un dischetto</translation>
+        <source>its side with one marker here</source>
+        <translation>qui il lato con un marcatore</translation>
     </message>
     <message>
-        <source>its times do not rise</source>
-        <translation>i suoi tempi non sono crescenti</translation>
+        <source>times out of order</source>
+        <translation>tempi non crescenti</translation>
     </message>
     <message>
-        <source>its times span more than a day: damaged, or a clock jumped</source>
-        <translation>i suoi tempi coprono più di un giorno: danneggiata, oppure un orologio è saltato</translation>
+        <source>times span more than a day: damaged, or a clock jumped</source>
+        <translation>i tempi coprono più di un giorno: danneggiata, oppure un orologio è saltato</translation>
     </message>
     <message>
-        <source>its unit is {unit}</source>
-        <translation>la sua unità è {unit}</translation>
+        <source>unit {unit}</source>
+        <translation>unità {unit}</translation>
     </message>
     <message>
         <source>larger than 1 GB</source>
@@ -4284,8 +4284,8 @@
         <translation>più grande di 2 GB</translation>
     </message>
     <message>
-        <source>less than {least_overlap_s} s in common, or nothing moves</source>
-        <translation>meno di {least_overlap_s} s in comune, o nulla si muove</translation>
+        <source>less than {least_overlap_s} s of overlap, or no movement</source>
+        <translation>meno di {least_overlap_s} s di sovrapposizione, o nessun movimento</translation>
     </message>
     <message>
         <source>line {number} is not a time and a file name: {content}</source>
@@ -4304,24 +4304,24 @@
         <translation>mignolo</translation>
     </message>
     <message>
-        <source>little finger end joint</source>
-        <translation>articolazione distale del mignolo</translation>
+        <source>little finger DIP</source>
+        <translation>IFD del mignolo</translation>
     </message>
     <message>
-        <source>little finger middle joint</source>
-        <translation>articolazione media del mignolo</translation>
+        <source>little finger PIP</source>
+        <translation>IFP del mignolo</translation>
     </message>
     <message>
-        <source>little knuckle</source>
-        <translation>nocca del mignolo</translation>
+        <source>little finger MCP</source>
+        <translation>MCF del mignolo</translation>
     </message>
     <message>
-        <source>little tip</source>
+        <source>little fingertip</source>
         <translation>punta del mignolo</translation>
     </message>
     <message>
-        <source>made by an unknown processor {processor}</source>
-        <translation>fatto da un processore sconosciuto {processor}</translation>
+        <source>unknown processor type {processor}</source>
+        <translation>tipo di processore sconosciuto {processor}</translation>
     </message>
     <message>
         <source>marker protocol {subject}</source>
@@ -4336,24 +4336,24 @@
         <translation>medio</translation>
     </message>
     <message>
-        <source>middle finger end joint</source>
-        <translation>articolazione distale del medio</translation>
+        <source>middle finger DIP</source>
+        <translation>IFD del medio</translation>
     </message>
     <message>
-        <source>middle finger middle joint</source>
-        <translation>articolazione media del medio</translation>
+        <source>middle finger PIP</source>
+        <translation>IFP del medio</translation>
     </message>
     <message>
-        <source>middle knuckle</source>
-        <translation>nocca del medio</translation>
+        <source>middle finger MCP</source>
+        <translation>MCF del medio</translation>
     </message>
     <message>
-        <source>middle tip</source>
+        <source>middle fingertip</source>
         <translation>punta del medio</translation>
     </message>
     <message>
-        <source>missing, and pictures of {size} have no default camera</source>
-        <translation>manca, e immagini di {size} non hanno una telecamera predefinita</translation>
+        <source>missing, and there is no default camera for frames of {size}</source>
+        <translation>manca, e per fotogrammi di {size} non c’è una telecamera predefinita</translation>
     </message>
     <message>
         <source>missing, {place}</source>
@@ -4380,16 +4380,16 @@
         <translation>più di {most_objects} parti in {value}</translation>
     </message>
     <message>
-        <source>much too long for a camera calibration</source>
+        <source>too long for a camera calibration</source>
         <translation>troppo lungo per una calibrazione della telecamera</translation>
     </message>
     <message>
-        <source>much too long for clicks</source>
-        <translation>troppo lungo per dei clic</translation>
+        <source>too long for a file of clicks</source>
+        <translation>troppo lungo per un file di clic</translation>
     </message>
     <message>
-        <source>no MOT: it has no end of its header</source>
-        <translation>non è un MOT: manca la fine dell’intestazione</translation>
+        <source>not MOT: the header has no end</source>
+        <translation>non MOT: manca la fine dell’intestazione</translation>
     </message>
     <message>
         <source>no answer for {patience_s} s</source>
@@ -4400,39 +4400,39 @@
         <translation>manca l’attributo {name}</translation>
     </message>
     <message>
-        <source>no colour pictures</source>
-        <translation>nessuna immagine a colori</translation>
+        <source>no colour frames</source>
+        <translation>nessun fotogramma a colori</translation>
     </message>
     <message>
         <source>no dataset {path}</source>
         <translation>manca l’insieme di dati {path}</translation>
     </message>
     <message>
-        <source>no depth picture within {pairing_limit_s} ms of a colour picture</source>
-        <translation>nessuna immagine di profondità entro {pairing_limit_s} ms da una a colori</translation>
+        <source>no depth frame within {pairing_limit_s} ms of a colour frame</source>
+        <translation>nessun fotogramma di profondità entro {pairing_limit_s} ms da uno a colori</translation>
     </message>
     <message>
-        <source>no intrinsics for pictures of {size}</source>
-        <translation>nessun valore interno della telecamera per immagini di {size}</translation>
+        <source>no intrinsics for frames of {size}</source>
+        <translation>nessun valore interno della telecamera per fotogrammi di {size}</translation>
     </message>
     <message>
         <source>no markers</source>
         <translation>nessun marcatore</translation>
     </message>
     <message>
-        <source>no picture in {color_list}</source>
-        <translation>nessuna immagine in {color_list}</translation>
+        <source>no frame in {color_list}</source>
+        <translation>nessun fotogramma in {color_list}</translation>
     </message>
     <message>
-        <source>no picture in {depth_list}</source>
-        <translation>nessuna immagine in {depth_list}</translation>
+        <source>no frame in {depth_list}</source>
+        <translation>nessun fotogramma in {depth_list}</translation>
     </message>
     <message>
         <source>no reader for {value}</source>
         <translation>nessun lettore per {value}</translation>
     </message>
     <message>
-        <source>no reading can be used</source>
+        <source>no usable reading</source>
         <translation>nessuna lettura utilizzabile</translation>
     </message>
     <message>
@@ -4440,7 +4440,7 @@
         <translation>nessuna registrazione in un formato noto a Carpus</translation>
     </message>
     <message>
-        <source>no room for another {length} MB</source>
+        <source>no space for another {length} MB</source>
         <translation>non c’è spazio per altri {length} MB</translation>
     </message>
     <message>
@@ -4448,7 +4448,7 @@
         <translation>nessuna regola udev per la telecamera</translation>
     </message>
     <message>
-        <source>none of the program&apos;s own</source>
+        <source>none of the program’s own</source>
         <translation>nessuno di quelli del programma</translation>
     </message>
     <message>
@@ -4472,7 +4472,7 @@
         <translation>non YAML</translation>
     </message>
     <message>
-        <source>not a back-up</source>
+        <source>not a backup</source>
         <translation>non una copia di sicurezza</translation>
     </message>
     <message>
@@ -4484,7 +4484,7 @@
         <translation>non una cartella</translation>
     </message>
     <message>
-        <source>not a picture</source>
+        <source>not an image</source>
         <translation>non un’immagine</translation>
     </message>
     <message>
@@ -4508,11 +4508,11 @@
         <translation>non un oggetto con hand, protocol e markers</translation>
     </message>
     <message>
-        <source>not in the figures of all: {people}, with fewer than {fewest} pairs</source>
-        <translation>non nei valori di tutti: {people}, con meno di {fewest} coppie</translation>
+        <source>excluded from the group values: {people}, fewer than {fewest} pairs</source>
+        <translation>esclusi dai valori di gruppo: {people}, meno di {fewest} coppie</translation>
     </message>
     <message>
-        <source>not in the list of patients</source>
+        <source>not in the patient list</source>
         <translation>non nell’elenco dei pazienti</translation>
     </message>
     <message>
@@ -4528,8 +4528,8 @@
         <translation>acceso, rigirato da Carpus</translation>
     </message>
     <message>
-        <source>paths that lead out of the folder</source>
-        <translation>percorsi che portano fuori dalla cartella</translation>
+        <source>paths outside the folder</source>
+        <translation>percorsi fuori dalla cartella</translation>
     </message>
     <message>
         <source>points by {format}</source>
@@ -4544,23 +4544,23 @@
         <translation>anulare</translation>
     </message>
     <message>
-        <source>ring finger end joint</source>
-        <translation>articolazione distale dell’anulare</translation>
+        <source>ring finger DIP</source>
+        <translation>IFD dell’anulare</translation>
     </message>
     <message>
-        <source>ring finger middle joint</source>
-        <translation>articolazione media dell’anulare</translation>
+        <source>ring finger PIP</source>
+        <translation>IFP dell’anulare</translation>
     </message>
     <message>
-        <source>ring knuckle</source>
-        <translation>nocca dell’anulare</translation>
+        <source>ring finger MCP</source>
+        <translation>MCF dell’anulare</translation>
     </message>
     <message>
-        <source>ring tip</source>
+        <source>ring fingertip</source>
         <translation>punta dell’anulare</translation>
     </message>
     <message>
-        <source>rows of different length, or no numbers</source>
+        <source>rows of different length, or not numbers</source>
         <translation>righe di lunghezza diversa, o non numeri</translation>
     </message>
     <message>
@@ -4572,40 +4572,40 @@
         <translation>straight_fingers non è cinque volte true o false, dal pollice al mignolo</translation>
     </message>
     <message>
-        <source>the curves match by {match} at best: is it the same movement?</source>
-        <translation>le curve concordano al massimo per {match}: è lo stesso movimento?</translation>
+        <source>the curves match by {match} at best. Check that it is the same movement</source>
+        <translation>le curve concordano al massimo per {match}. Controllare che sia lo stesso movimento</translation>
     </message>
     <message>
-        <source>the curves run against each other, or the shift is beyond {most} s</source>
-        <translation>le curve vanno una contro l’altra, o lo sfasamento è oltre {most} s</translation>
+        <source>the curves are opposite, or the time shift is more than {most} s</source>
+        <translation>le curve sono opposte, o lo sfasamento supera {most} s</translation>
     </message>
     <message>
-        <source>the curves run against each other, or the shift is beyond {most} s: with the same sign they match best at {later} s ({match})</source>
-        <translation>le curve vanno una contro l’altra, o lo sfasamento è oltre {most} s: con lo stesso segno corrispondono meglio a {later} s ({match})</translation>
+        <source>the curves are opposite, or the time shift is more than {most} s. With the same sign they match best at {later} s ({match})</source>
+        <translation>le curve sono opposte, o lo sfasamento supera {most} s. Con lo stesso segno concordano meglio a {later} s ({match})</translation>
     </message>
     <message>
         <source>the file changes while it is read</source>
         <translation>il file cambia mentre viene letto</translation>
     </message>
     <message>
-        <source>the focal length is known to {share} % only</source>
-        <translation>la distanza focale è nota solo al {share} %</translation>
+        <source>the focal length is known only to within {share} %</source>
+        <translation>la distanza focale è nota solo entro il {share} %</translation>
     </message>
     <message>
-        <source>the session holds no picture</source>
-        <translation>la seduta non contiene immagini</translation>
+        <source>the session contains no frames</source>
+        <translation>la seduta non contiene fotogrammi</translation>
     </message>
     <message>
-        <source>the two have no time in common</source>
-        <translation>le due non hanno tempo in comune</translation>
+        <source>the two do not overlap in time</source>
+        <translation>le due non si sovrappongono nel tempo</translation>
     </message>
     <message>
-        <source>the wedge’s side with two discs here</source>
-        <translation>qui il lato del cuneo con due dischetti</translation>
+        <source>the wedge’s side with two markers here</source>
+        <translation>qui il lato del cuneo con due marcatori</translation>
     </message>
     <message>
-        <source>there is no such file</source>
-        <translation>quel file non esiste</translation>
+        <source>file not found</source>
+        <translation>file non trovato</translation>
     </message>
     <message>
         <source>there is no such setting, in {file}</source>
@@ -4616,8 +4616,8 @@
         <translation>in CSV, JSON, C3D, TRC, MOT e BIDS</translation>
     </message>
     <message>
-        <source>{angle} at {time} s: the hand was not still, or not seen</source>
-        <translation>{angle} a {time} s: la mano non era ferma, o non era vista</translation>
+        <source>{angle} at {time} s: the hand was not still, or not visible</source>
+        <translation>{angle} a {time} s: la mano non era ferma, o non era visibile</translation>
     </message>
     <message>
         <source>{angle}: not in the session</source>
@@ -4648,12 +4648,12 @@
         <translation>{found}, non si può caricare: {trouble}</translation>
     </message>
     <message>
-        <source>{free} GB free, about {minutes} minutes with pictures</source>
-        <translation>{free} GB liberi, circa {minutes} minuti con immagini</translation>
+        <source>{free} GB free, about {minutes} minutes with video</source>
+        <translation>{free} GB liberi, circa {minutes} minuti con video</translation>
     </message>
     <message>
-        <source>{movement}: the session has no range that way, and the list names no time</source>
-        <translation>{movement}: la seduta non ha escursione in quel verso, e l’elenco non indica il tempo</translation>
+        <source>{movement}: the session has no range in this direction, and the list gives no time</source>
+        <translation>{movement}: la seduta non ha escursione in questa direzione, e l’elenco non indica il tempo</translation>
     </message>
     <message>
         <source>{names}</source>
@@ -4700,16 +4700,16 @@
         <translation>pollice</translation>
     </message>
     <message>
-        <source>thumb base</source>
-        <translation>base del pollice</translation>
+        <source>thumb CMC</source>
+        <translation>CMC del pollice</translation>
     </message>
     <message>
-        <source>thumb end joint</source>
-        <translation>articolazione distale del pollice</translation>
+        <source>thumb IP</source>
+        <translation>IF del pollice</translation>
     </message>
     <message>
-        <source>thumb knuckle</source>
-        <translation>nocca del pollice</translation>
+        <source>thumb MCP</source>
+        <translation>MCF del pollice</translation>
     </message>
     <message>
         <source>thumb tip</source>
@@ -4724,28 +4724,28 @@
         <translation>polso</translation>
     </message>
     <message>
-        <source>{angle}: the reference moves {percent} % as far as Carpus: its unit may be another, or its angle</source>
-        <translation>{angle}: il riferimento si muove del {percent} % rispetto a Carpus: forse ha un’altra unità o è un altro angolo</translation>
+        <source>{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle</source>
+        <translation>{angle}: il riferimento si muove del {percent} % rispetto a Carpus. Forse ha un’altra unità o è un altro angolo</translation>
     </message>
     <message>
         <source>{bits} bits per colour, 8 are expected</source>
         <translation>{bits} bit per colore, attesi 8</translation>
     </message>
     <message>
-        <source>{calibration} has depth that no camera reads</source>
-        <translation>{calibration} ha una profondità che nessuna telecamera legge</translation>
+        <source>{calibration} has an impossible depth</source>
+        <translation>{calibration} ha una profondità impossibile</translation>
     </message>
     <message>
-        <source>{calibration} is not as Carpus writes it</source>
-        <translation>{calibration} non è come la scrive Carpus</translation>
+        <source>{calibration} is not in the format of Carpus</source>
+        <translation>{calibration} non è nel formato di Carpus</translation>
     </message>
     <message>
         <source>{capacity} rows waiting</source>
         <translation>{capacity} righe in attesa</translation>
     </message>
     <message>
-        <source>{cause} is there twice</source>
-        <translation>{cause} c’è due volte</translation>
+        <source>{cause} appears twice</source>
+        <translation>{cause} compare due volte</translation>
     </message>
     <message>
         <source>{count} files</source>
@@ -4776,16 +4776,16 @@
         <translation>{inside} è un tipo, attesi valori</translation>
     </message>
     <message>
-        <source>{inside} points out of its place</source>
-        <translation>{inside} punta fuori dal suo posto</translation>
+        <source>{inside} links outside the file</source>
+        <translation>{inside} rimanda fuori dal file</translation>
     </message>
     <message>
         <source>{key} has no data</source>
         <translation>{key} non ha dati</translation>
     </message>
     <message>
-        <source>{key} holds something that is not a number</source>
-        <translation>{key} contiene qualcosa che non è un numero</translation>
+        <source>{key} contains a value that is not a number</source>
+        <translation>{key} contiene un valore che non è un numero</translation>
     </message>
     <message>
         <source>{key} is neither true nor false</source>
@@ -4804,8 +4804,8 @@
         <translation>Sembrano scambiati: {markers}.</translation>
     </message>
     <message>
-        <source>{name} changes on the way</source>
-        <translation>{name} cambia lungo il file</translation>
+        <source>{name} changes within the file</source>
+        <translation>{name} cambia all’interno del file</translation>
     </message>
     <message>
         <source>{name} is {json}, two pixels expected</source>
@@ -4824,15 +4824,15 @@
         <translation>{one}; {other}</translation>
     </message>
     <message>
-        <source>{path} claims {claimed} bytes, and {stored} are there</source>
-        <translation>{path} dichiara {claimed} byte, ce ne sono {stored}</translation>
+        <source>{path} declares {claimed} bytes, {stored} are stored</source>
+        <translation>{path} dichiara {claimed} byte, ne sono salvati {stored}</translation>
     </message>
     <message>
-        <source>{path} has the shape {shape}, {count} axes expected</source>
+        <source>{path} has shape {shape}, {count} axes expected</source>
         <translation>{path} ha la forma {shape}, attesi {count} assi</translation>
     </message>
     <message>
-        <source>{path} is of the type {dtype}, {dtype2} expected</source>
+        <source>{path} has type {dtype}, {dtype2} expected</source>
         <translation>{path} è del tipo {dtype}, atteso {dtype2}</translation>
     </message>
     <message>
@@ -4844,8 +4844,8 @@
         <translation>{path} è {dtype} {shape}, atteso {dtype2} {expected}</translation>
     </message>
     <message>
-        <source>{place} keeps its values in another file</source>
-        <translation>{place} tiene i suoi valori in un altro file</translation>
+        <source>{place} stores its values in another file</source>
+        <translation>{place} salva i suoi valori in un altro file</translation>
     </message>
     <message>
         <source>{shape} x {shape2} pixels, {width} x {height} before</source>
@@ -4856,11 +4856,11 @@
         <translation>{timestamp_s} s dopo {last_time_s} s</translation>
     </message>
     <message>
-        <source>{u}, {v} in a picture of {width_px} x {height_px} pixels</source>
-        <translation>{u}, {v} in un’immagine di {width_px} x {height_px} pixel</translation>
+        <source>{u}, {v} in a frame of {width_px} x {height_px} pixels</source>
+        <translation>{u}, {v} in un fotogramma di {width_px} x {height_px} pixel</translation>
     </message>
     <message>
-        <source>{value} bits, a depth picture of 16 bits is expected</source>
+        <source>{value} bits, a 16-bit depth image is expected</source>
         <translation>{value} bit, attesa un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
@@ -4872,16 +4872,16 @@
         <translation>{value} non è {wanted_words}, in {file}</translation>
     </message>
     <message>
-        <source>{value} picture {number}</source>
-        <translation>{value}, immagine {number}</translation>
+        <source>{value} frame {number}</source>
+        <translation>{value}, fotogramma {number}</translation>
     </message>
     <message>
         <source>{what}, at byte {position}</source>
         <translation>{what}, al byte {position}</translation>
     </message>
     <message>
-        <source>{wrong}, which a folder of pictures cannot be</source>
-        <translation>{wrong}, cosa che una cartella di immagini non può essere</translation>
+        <source>{wrong}, not possible for a folder of frames</source>
+        <translation>{wrong}, non possibile per una cartella di fotogrammi</translation>
     </message>
     <message>
         <source>The language can be changed when nothing is measured or worked on any more.</source>
@@ -4932,12 +4932,12 @@
         <translation>si intendeva “{meant}”? Ci sono: {names}</translation>
     </message>
     <message>
-        <source>distortion_coefficients are no lens’s: points do not find back to their places</source>
-        <translation>distortion_coefficients non è di alcun obiettivo: i punti non ritrovano il loro posto</translation>
+        <source>distortion_coefficients do not describe a lens: they cannot be inverted</source>
+        <translation>distortion_coefficients non descrive un obiettivo: non è invertibile</translation>
     </message>
     <message>
-        <source>its head is damaged; pictures that are there: {count}</source>
-        <translation>la sua intestazione è danneggiata; immagini presenti: {count}</translation>
+        <source>damaged header, {count} frames present</source>
+        <translation>intestazione danneggiata, {count} fotogrammi presenti</translation>
     </message>
     <message>
         <source>there are none yet</source>
@@ -4948,24 +4948,24 @@
         <translation>ci sono: {names}</translation>
     </message>
     <message>
-        <source>Ask whoever looks after this computer. {how}</source>
-        <translation>Chieda a chi si occupa di questo computer. {how}</translation>
+        <source>Ask your IT support. {how}</source>
+        <translation>Chiedere all’assistenza informatica. {how}</translation>
     </message>
     <message>
         <source>Disk encryption</source>
         <translation>Cifratura del disco</translation>
     </message>
     <message>
-        <source>Linux encrypts a disk when it is set up (LUKS): choose it when the system is installed, or move the data folder to a disk that was set up so. Keep its passphrase away from this computer.</source>
-        <translation>Linux cifra un disco quando viene preparato (LUKS): lo scelga all’installazione del sistema, o sposti la cartella dei dati su un disco preparato così. Conservi la passphrase lontano da questo computer.</translation>
+        <source>Linux encrypts a disk when it is set up (LUKS). Choose this when the system is installed, or move the data folder to an encrypted disk. Do not keep the passphrase with this computer.</source>
+        <translation>Linux cifra un disco quando viene preparato (LUKS). Sceglierlo all’installazione del sistema, o spostare la cartella dei dati su un disco cifrato. Non conservare la passphrase con questo computer.</translation>
     </message>
     <message>
-        <source>Switch it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control Panel. Keep the recovery key away from this computer.</source>
-        <translation>Si attiva in Windows: Impostazioni → Privacy e sicurezza → Crittografia del dispositivo, o BitLocker nel Pannello di controllo. Conservi la chiave di ripristino lontano da questo computer.</translation>
+        <source>Turn it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control Panel. Do not keep the recovery key with this computer.</source>
+        <translation>Si attiva in Windows: Impostazioni → Privacy e sicurezza → Crittografia del dispositivo, o BitLocker nel Pannello di controllo. Non conservare la chiave di ripristino con questo computer.</translation>
     </message>
     <message>
-        <source>Switch it on: System Settings → Privacy and Security → FileVault. Keep the recovery key away from this computer.</source>
-        <translation>Si attiva in Impostazioni di Sistema → Privacy e sicurezza → FileVault. Conservi la chiave di recupero lontano da questo computer.</translation>
+        <source>Turn it on: System Settings → Privacy and Security → FileVault. Do not keep the recovery key with this computer.</source>
+        <translation>Si attiva in Impostazioni di Sistema → Privacy e sicurezza → FileVault. Non conservare la chiave di recupero con questo computer.</translation>
     </message>
     <message>
         <source>The disk of the data folder is encrypted by the system.</source>
@@ -4976,16 +4976,16 @@
         <translation>Il disco della cartella dei dati non è cifrato.</translation>
     </message>
     <message>
-        <source>Whether the disk of the data folder is encrypted is not known.</source>
+        <source>It is not known whether the disk of the data folder is encrypted.</source>
         <translation>Non si sa se il disco della cartella dei dati sia cifrato.</translation>
     </message>
     <message>
-        <source>damaged: a blob is in no picture</source>
-        <translation>danneggiata: una macchia non è in alcuna immagine</translation>
+        <source>damaged: a blue spot belongs to no frame</source>
+        <translation>danneggiata: un punto blu non appartiene ad alcun fotogramma</translation>
     </message>
     <message>
-        <source>damaged: its calibration is not one of a hand</source>
-        <translation>danneggiata: la sua calibrazione non è quella di una mano</translation>
+        <source>damaged: its calibration does not describe a hand</source>
+        <translation>danneggiata: la calibrazione non descrive una mano</translation>
     </message>
     <message>
         <source>Names are right</source>
@@ -5032,8 +5032,8 @@
         <translation>ASSH, somma della flessione attiva nel pugno</translation>
     </message>
     <message>
-        <source>The packed program does without {packages}; Carpus from its source can have it.</source>
-        <translation>Il programma impacchettato fa a meno di {packages}; Carpus dai sorgenti può averlo.</translation>
+        <source>The packaged program does not include {packages}. Carpus installed from source can use it.</source>
+        <translation>Il programma impacchettato non include {packages}. Carpus installato dai sorgenti può usarlo.</translation>
     </message>
     <message>
         <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
@@ -5048,16 +5048,16 @@
         <translation>adulti, età non indicata</translation>
     </message>
     <message>
-        <source>it cannot be read as a table: {why}</source>
-        <translation>non si legge come tabella: {why}</translation>
+        <source>not readable as a table: {why}</source>
+        <translation>non leggibile come tabella: {why}</translation>
     </message>
     <message>
         <source>not chosen yet</source>
         <translation>non ancora scelta</translation>
     </message>
     <message>
-        <source>not there now</source>
-        <translation>ora non c’è</translation>
+        <source>not available now</source>
+        <translation>ora non disponibile</translation>
     </message>
     <message>
         <source>not connected</source>
@@ -5108,51 +5108,51 @@
         <translation>Promemoria dopo {days} giorni.</translation>
     </message>
     <message>
-        <source>only {time} s are in common: the shift of the clocks is not sure</source>
-        <translation>solo {time} s in comune: lo sfasamento degli orologi non è sicuro</translation>
+        <source>only {time} s of overlap: the time shift is uncertain</source>
+        <translation>solo {time} s di sovrapposizione: lo sfasamento è incerto</translation>
     </message>
     <message>
         <source>the curves and camera images, and correct single repetitions</source>
         <translation>le curve e le immagini, correggendo singole ripetizioni</translation>
     </message>
     <message>
-        <source>the best shift lies at the end of what was searched: it may be further</source>
-        <translation>lo sfasamento migliore è al limite della ricerca: può essere oltre</translation>
+        <source>the best time shift is at the limit of the search range: it may be larger</source>
+        <translation>lo sfasamento migliore è al limite della ricerca: può essere maggiore</translation>
     </message>
     <message>
-        <source>the clocks drift: the reference&apos;s runs {percent} % against Carpus&apos;s, {seconds} s over {length} s, and the figures hold that error (lag {lag} s with drift {drift} %)</source>
-        <translation>gli orologi si allontanano: quello del riferimento di {percent} % rispetto a Carpus, {seconds} s in {length} s, e i valori contengono questo errore (sfasamento {lag} s con deriva {drift} %)</translation>
+        <source>the clocks drift: the reference by {percent} % relative to Carpus, {seconds} s over {length} s. The values contain this error (lag {lag} s with drift {drift} %)</source>
+        <translation>gli orologi divergono: quello del riferimento del {percent} % rispetto a Carpus, {seconds} s in {length} s. I valori contengono questo errore (sfasamento {lag} s con deriva {drift} %)</translation>
     </message>
     <message>
-        <source>the shift is not sure: taken is {taken} s ({match}); as well or nearly match {others}</source>
-        <translation>lo sfasamento non è sicuro: è preso {taken} s ({match}); altrettanto o quasi corrispondono {others}</translation>
+        <source>the time shift is uncertain: {taken} s is used ({match}). Equally or nearly as good: {others}</source>
+        <translation>lo sfasamento è incerto: si usa {taken} s ({match}). Altrettanto o quasi validi: {others}</translation>
     </message>
     <message>
         <source>women and men together</source>
         <translation>donne e uomini insieme</translation>
     </message>
     <message>
-        <source>{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement</source>
-        <translation>{angle}: va contro Carpus (r = {r}), quindi uno dei due ha il segno opposto o è un altro movimento</translation>
+        <source>{angle}: opposite to Carpus (r = {r}). One of the two has the opposite sign or shows another movement</source>
+        <translation>{angle}: opposto a Carpus (r = {r}). Uno dei due ha il segno opposto o mostra un altro movimento</translation>
     </message>
     <message>
-        <source>{people} people are too few for figures of all: three are needed</source>
-        <translation>{people} persone sono troppo poche per valori di tutti: ne servono tre</translation>
+        <source>{people} people are too few for group values: three are needed</source>
+        <translation>{people} persone sono troppo poche per valori di gruppo: ne servono tre</translation>
     </message>
     <message>
         <source>{people} people, {sessions} sessions, {kinds}</source>
         <translation>{people} persone, {sessions} sedute, {kinds}</translation>
     </message>
     <message>
-        <source>it holds a sign that cannot be seen</source>
-        <translation>contiene un segno invisibile</translation>
+        <source>it contains an invisible character</source>
+        <translation>contiene un carattere invisibile</translation>
     </message>
     <message>
-        <source>more than {count} signs</source>
-        <translation>più di {count} segni</translation>
+        <source>more than {count} characters</source>
+        <translation>più di {count} caratteri</translation>
     </message>
     <message>
-        <source>not in the folder of the sessions</source>
+        <source>not in the session folder</source>
         <translation>non nella cartella delle sedute</translation>
     </message>
     <message>
@@ -5420,19 +5420,19 @@
         <translation>Controllarla di nuovo: una volta alla settimana.</translation>
     </message>
     <message>
-        <source>both hands are in the reference, taken are {names}</source>
+        <source>the reference contains both hands: {names} are used</source>
         <translation>Il riferimento contiene entrambe le mani; si usano {names}</translation>
     </message>
     <message>
-        <source>discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps</source>
-        <translation>Dischi e marcatori restano a {apart} mm di distanza, di solito al massimo {most}: altri marcatori, un’altra mano o salti</translation>
+        <source>the markers of the two are {apart} mm apart, up to {most} mm is expected: other markers, another hand, or jumps</source>
+        <translation>i marcatori dei due distano {apart} mm, attesi al massimo {most} mm: altri marcatori, un’altra mano o salti</translation>
     </message>
     <message>
-        <source>it has no marker {wanted}; it has {names}</source>
-        <translation>nessun marcatore {wanted}; ci sono {names}</translation>
+        <source>no marker {wanted}, only {names}</source>
+        <translation>nessun marcatore {wanted}, solo {names}</translation>
     </message>
     <message>
-        <source>it has {several} for {wanted}: say which it is</source>
+        <source>{several} found for {wanted}: state which one applies</source>
         <translation>per {wanted} ci sono {several}: indicare quale vale</translation>
     </message>
     <message>
@@ -5440,7 +5440,7 @@
         <translation>riga {line}: nessun angolo si chiama {said}</translation>
     </message>
     <message>
-        <source>line {line}: “{cell}” is no reading</source>
+        <source>line {line}: “{cell}” is not a reading</source>
         <translation>riga {line}: «{cell}» non è una misura</translation>
     </message>
     <message>
@@ -5448,52 +5448,52 @@
         <translation>nulla</translation>
     </message>
     <message>
-        <source>rows with the time of the row before are left out ({count})</source>
+        <source>rows with the time of the previous row were excluded ({count})</source>
         <translation>righe con il tempo della riga precedente escluse ({count})</translation>
     </message>
     <message>
-        <source>the cells of {name} are no times</source>
+        <source>the cells of {name} are not times</source>
         <translation>le celle di {name} non sono tempi</translation>
     </message>
     <message>
-        <source>{names}: by their names of the other hand than the session</source>
-        <translation>{names}: dal nome sono dell’altra mano rispetto alla seduta</translation>
+        <source>{names}: their names belong to the other hand</source>
+        <translation>{names}: dal nome sono dell’altra mano</translation>
     </message>
     <message>
-        <source>{name}: cells that are no number are left out ({count}), the first is “{cell}” in line {line}</source>
+        <source>{name}: cells that are not numbers were excluded ({count}), the first is “{cell}” in line {line}</source>
         <translation>{name}: celle che non sono numeri escluse ({count}), la prima è «{cell}» alla riga {line}</translation>
     </message>
     <message>
-        <source>{name}: taken as {unit}, since a row comes every {step}</source>
+        <source>{name}: read as {unit}, because there is a row every {step}</source>
         <translation>{name}: letto in {unit}, poiché c’è una riga ogni {step}</translation>
     </message>
     <message>
-        <source>it has no column of times; say which of {names} it is</source>
+        <source>no time column: state which of {names} it is</source>
         <translation>nessuna colonna dei tempi; indicare quale è tra {names}</translation>
     </message>
     <message>
-        <source>it has no column reading_deg; it has {names}</source>
-        <translation>nessuna colonna reading_deg; ci sono {names}</translation>
+        <source>no column reading_deg, only {names}</source>
+        <translation>nessuna colonna reading_deg, solo {names}</translation>
     </message>
     <message>
-        <source>it has no column {wanted}; it has {names}</source>
-        <translation>nessuna colonna {wanted}; ci sono {names}</translation>
+        <source>no column {wanted}, only {names}</source>
+        <translation>nessuna colonna {wanted}, solo {names}</translation>
     </message>
     <message>
-        <source>no angle of the session is in it; it has {there}</source>
-        <translation>non contiene alcun angolo della seduta; ci sono {there}</translation>
+        <source>no angle of the session, only {there}</source>
+        <translation>nessun angolo della seduta, solo {there}</translation>
     </message>
     <message>
         <source>no angles by their names, or of the other hand</source>
         <translation>dal nome non sono angoli, o sono dell’altra mano</translation>
     </message>
     <message>
-        <source>no disc of the palm and no angle of the wrist or fingers is in it; it has {there}</source>
-        <translation>non contiene dischi del palmo né angoli di polso o dita; ci sono {there}</translation>
+        <source>no palm marker and no angle of the wrist or fingers, only {there}</source>
+        <translation>nessun marcatore del palmo e nessun angolo di polso o dita, solo {there}</translation>
     </message>
     <message>
-        <source>three discs of the palm are needed; say which of {there} they are</source>
-        <translation>servono tre dischi del palmo; indicare quali sono tra {there}</translation>
+        <source>three palm markers are needed: state which of {there} they are</source>
+        <translation>servono tre marcatori del palmo: indicare quali sono tra {there}</translation>
     </message>
     <message>
         <source>depth in millimetres, not 5000 per metre</source>
@@ -5560,8 +5560,8 @@
         <translation>Rotazione dell’avambraccio</translation>
     </message>
     <message>
-        <source>Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers go out of sight at about 25° of pronation. A target short of thumb up has a minus: supination −25°.</source>
-        <translation>Gli angoli si contano dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori escono di vista a circa 25° di pronazione. Un obiettivo prima del pollice in alto ha il meno: supinazione −25°.</translation>
+        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A goal short of thumb up is negative: supination −25°.</source>
+        <translation>0° è il pollice in alto, il palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori sono nascosti sotto circa 25° di pronazione. Un obiettivo prima del pollice in alto è negativo: supinazione −25°.</translation>
     </message>
     <message>
         <source>Calibrate the camera again, or correct the file.</source>
@@ -5604,7 +5604,7 @@
         <translation>prima {px} px</translation>
     </message>
     <message>
-        <source>Show it in other places, tilted other ways</source>
+        <source>Show the board in other places, at other tilts</source>
         <translation>Mostrare la tavola in altri punti, inclinata in altro modo</translation>
     </message>
     <message>
@@ -5629,7 +5629,7 @@
     </message>
     <message>
         <source>Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten.</source>
-        <translation>Tenere distese le articolazioni MCP. Piegare le PIP e le DIP a uncino, poi distenderle.</translation>
+        <translation>Tenere distese le articolazioni MCF. Piegare le IFP e le IFD a uncino, poi distenderle.</translation>
     </message>
     <message>
         <source>Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still.</source>
@@ -5652,7 +5652,7 @@
         <translation>L’escursione passiva non supera quella attiva oltre l’errore di misura.</translation>
     </message>
     <message>
-        <source>another filter than Carpus’ own tracked it</source>
+        <source>it was tracked with a filter other than that of Carpus</source>
         <translation>è stata tracciata con un filtro diverso da quello di Carpus</translation>
     </message>
     <message>
@@ -5668,20 +5668,20 @@
         <translation>non è un giornale di registrazione</translation>
     </message>
     <message>
-        <source>{place} is packed in a way that a session is not</source>
-        <translation>{place} è compresso in un modo che una seduta non usa</translation>
+        <source>{place} uses an unsupported compression</source>
+        <translation>{place} usa una compressione non supportata</translation>
     </message>
     <message>
-        <source>what was written is not what is read</source>
-        <translation>ciò che è stato scritto non è ciò che viene letto</translation>
+        <source>the data read back differ from the data written</source>
+        <translation>i dati riletti sono diversi da quelli scritti</translation>
     </message>
     <message>
         <source>no answer</source>
         <translation>nessuna risposta</translation>
     </message>
     <message>
-        <source>none of the discs by their names, of the other hand, or never seen</source>
-        <translation>dal nome non sono dischi, sono dell’altra mano o non si vedono mai</translation>
+        <source>no markers by their names, of the other hand, or never visible</source>
+        <translation>dal nome non sono marcatori, sono dell’altra mano o non sono mai visibili</translation>
     </message>
     <message>
         <source>the hand left the camera’s view during the movement</source>
@@ -5692,8 +5692,8 @@
         <translation>Parti compilate</translation>
     </message>
     <message>
-        <source>all there</source>
-        <translation>tutte presenti</translation>
+        <source>complete</source>
+        <translation>complete</translation>
     </message>
     <message>
         <source>A Python package that this needs is not installed: {subject}.</source>
@@ -5996,10 +5996,6 @@
         <translation>Se non è così, correggere l’elenco dei fotogrammi o indicare l’unità della profondità.</translation>
     </message>
     <message>
-        <source>Install Carpus again.</source>
-        <translation>Installare di nuovo Carpus.</translation>
-    </message>
-    <message>
         <source>Installation</source>
         <translation>Installazione</translation>
     </message>
@@ -6032,7 +6028,7 @@
         <translation>Appoggiarla piana sotto la telecamera, tutta nell’immagine, a circa 60 cm, con buona luce.</translation>
     </message>
     <message>
-        <source>Measure at least 10 people twice within 14 days, with the markers placed anew each time.</source>
+        <source>Measure at least 10 people twice within 14 days, and replace the markers each time.</source>
         <translation>Misurare almeno 10 persone due volte entro 14 giorni, riposizionando ogni volta i marcatori.</translation>
     </message>
     <message>
@@ -6627,7 +6623,7 @@
     </message>
     <message>
         <source>Backs up the whole data folder: patients, sessions, images and log. You can measure meanwhile.</source>
-        <translation>Copia tutta la cartella dei dati: pazienti, sedute, immagini e registro. Intanto si può misurare.</translation>
+        <translation>Copia tutta la cartella dei dati: pazienti, sedute, immagini e registro. Nel frattempo si può misurare.</translation>
     </message>
     <message>
         <source>then verified</source>
@@ -7666,8 +7662,8 @@
         <translation>Misurate</translation>
     </message>
     <message>
-        <source>End joints of the fingers</source>
-        <translation>Articolazioni distali delle dita</translation>
+        <source>DIP joints of the fingers</source>
+        <translation>Articolazioni IFD delle dita</translation>
     </message>
     <message>
         <source>Adult</source>
@@ -7965,7 +7961,7 @@
     </message>
     <message>
         <source>Correct names</source>
-        <translation>Correggi i nomi</translation>
+        <translation>Correggi le etichette</translation>
     </message>
     <message>
         <source>Start although &amp;doubtful</source>
@@ -8233,7 +8229,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Ferma e rivedi</translation>
+        <translation>Interrompi e rivedi</translation>
     </message>
     <message>
         <source>Choose another source</source>
@@ -8261,7 +8257,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Stop recording?</source>
-        <translation>Fermare la registrazione?</translation>
+        <translation>Interrompere la registrazione?</translation>
     </message>
     <message>
         <source>Go on measuring, or stop: the session is saved and opens in the review.</source>
@@ -8269,7 +8265,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Stop, save and close</source>
-        <translation>Ferma, salva e chiudi</translation>
+        <translation>Interrompi, salva e chiudi</translation>
     </message>
     <message>
         <source>A recording is running.</source>
@@ -8962,7 +8958,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Stopped for pain</source>
-        <translation>Fermata per dolore</translation>
+        <translation>Interrotta per dolore</translation>
     </message>
     <message>
         <source>Strap loosened</source>
@@ -9465,7 +9461,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation>Ferma</translation>
+        <translation>Interrompi</translation>
     </message>
     <message>
         <source>Play</source>
@@ -9925,11 +9921,11 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Stop and go on</source>
-        <translation>Ferma e continua</translation>
+        <translation>Interrompi e continua</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Ferma e rivedi</translation>
+        <translation>Interrompi e rivedi</translation>
     </message>
     <message>
         <source>Starts in {seconds}: not yet</source>
@@ -10971,7 +10967,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>How far it is, and Stop</source>
-        <translation>Avanzamento, e Ferma</translation>
+        <translation>Avanzamento, e Interrompi</translation>
     </message>
     <message>
         <source>New result: choose</source>

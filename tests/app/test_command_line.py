@@ -317,7 +317,7 @@ def test_depth_beside_colour_is_told_also_where_a_marker_has_none(
         depth[v - 9 : v + 10, u - 9 : u + 10] = 0
         cv2.imwrite(str(copy / "depth" / path.name), depth)
     code, said = tracked(command, copy, tmp_path / "s.h5")
-    assert (code, "Depth and colour do not lie on each other" in said) == (1, True)
+    assert (code, "Depth and colour are not aligned" in said) == (1, True)
     assert said.count("measures no depth") == 1
     assert not (tmp_path / "s.h5").exists()
 

@@ -441,7 +441,7 @@ def test_listed_result_is_never_deleted_nor_hides_pending(kept: Kept, monkeypatc
         raise OSError(errno.ENOSPC, "No space left on device")
 
     def slow(path: Path) -> None:
-        raise SessionUnreadable(path, "damaged: reading it does not end")
+        raise SessionUnreadable(path, "damaged: reading does not finish")
 
     killed_once_listed(kept, monkeypatch, trial)
     with pytest.raises(ConcurrentChange):

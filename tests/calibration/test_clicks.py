@@ -112,7 +112,7 @@ BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
     "hundreds of digits": (markers(MCP2=[10**400, 210]), ClicksUnreadable, "MCP2"),
     "true": (markers(MCP2=[True, 210]), ClicksUnreadable, "MCP2"),
     "three numbers": (markers(MCP2=[1, 2, 3]), ClicksUnreadable, "MCP2"),
-    "marker twice": (json.dumps(GOOD).replace('"CMC1"', '"WRIST"'), ClicksUnreadable, "WRIST is there twice"),
+    "marker twice": (json.dumps(GOOD).replace('"CMC1"', '"WRIST"'), ClicksUnreadable, "WRIST appears twice"),
     "left of the picture": (markers(MCP2=[-3, 210]), ClickOutsideImage, "-3, 210"),
     "right of the picture": (markers(MCP2=[640, 210]), ClickOutsideImage, "640 x 480"),
     "under the picture": (markers(MCP2=[300, 1e6]), ClickOutsideImage, "1e+06"),
@@ -132,7 +132,7 @@ def test_read_clicks_invalid_file_is_refused_with_reason(tmp_path: Path, case: s
 def test_read_clicks_missing_or_binary_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ClicksUnreadable) as caught:
         read_clicks(tmp_path / "nowhere.json")
-    assert caught.value.detail == "there is no such file"
+    assert caught.value.detail == "file not found"
     (tmp_path / "binary.json").write_bytes(b"\xff\xfe\x00\x01")
     with pytest.raises(ClicksUnreadable):
         read_clicks(tmp_path / "binary.json")

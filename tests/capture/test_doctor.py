@@ -26,13 +26,13 @@ def test_examine_with_dummy_camera_checks_everything(tmp_path: Path) -> None:
     findings = {finding.name: finding for finding in found}
     assert list(findings) == [
         "Python", "Packages", "Compiled parts", "Window", "Fonts", "Data folder", "Disk", "Disk encryption",
-        "Driver", "RealSense driver", "Orbbec driver", "Camera rights, Asus Xtion", "Camera", "Pictures",
+        "Driver", "RealSense driver", "Orbbec driver", "Camera rights, Asus Xtion", "Camera", "Frames",
         "Registration", "Mirror", "Clock",
     ]  # fmt: skip
     for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera rights, Asus Xtion"):
         assert findings[name].state == "good", findings[name]
     assert "OpenNI2 2.2" in findings["Driver"].observation
-    assert "320x240" in findings["Pictures"].observation
+    assert "320x240" in findings["Frames"].observation
     assert not (tmp_path / "data").exists()
 
 
@@ -41,7 +41,7 @@ def test_examine_without_camera_gives_remedies(tmp_path: Path) -> None:
     for finding in findings:
         assert (finding.state == "good") == (finding.remedy == ""), finding
         assert finding.observation
-    assert "Pictures" not in [finding.name for finding in findings]
+    assert "Frames" not in [finding.name for finding in findings]
 
 
 def test_check_python_old_version_is_bad() -> None:
@@ -84,7 +84,7 @@ def test_check_data_folder_unwritable_is_bad(tmp_path: Path) -> None:
 def test_check_disk_space_low_warns(tmp_path: Path) -> None:
     assert doctor.check_disk_space(tmp_path, 1_000_000_000).state == "warning"
     finding = doctor.check_disk_space(tmp_path, 60_000_000_000)
-    assert (finding.state, finding.observation) == ("good", "60.0 GB free, about 545 minutes with pictures")
+    assert (finding.state, finding.observation) == ("good", "60.0 GB free, about 545 minutes with video")
 
 
 def test_check_driver_missing_library_is_bad(monkeypatch: pytest.MonkeyPatch) -> None:

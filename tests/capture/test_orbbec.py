@@ -100,8 +100,8 @@ def test_orbbec_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     opened = partial(open_orbbec, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
     monkeypatch.setattr(orbbec, "KIND", replace(orbbec.KIND, open=opened))
     findings = {each.name: each for each in check_open_camera("orbbec", 0.5)}
-    assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
-    assert findings["Registration"].observation == "depth lies on colour, by the library"
+    assert list(findings) == ["Frames", "Registration", "Mirror", "Clock", "Firmware", "USB"]
+    assert findings["Registration"].observation == "depth and colour are aligned, by the library"
     assert (findings["Firmware"].state, findings["USB"].state) == ("good", "good")
 
 

@@ -217,8 +217,8 @@ def test_realsense_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.Monke
     opened = partial(open_realsense, context=partial(realsense_stand_in.plugged_in, tmp_path))
     monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, open=opened))
     findings = {each.name: each for each in check_open_camera("realsense", 0.5)}
-    assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
-    assert findings["Registration"].observation == "depth lies on colour, by the library"
+    assert list(findings) == ["Frames", "Registration", "Mirror", "Clock", "Firmware", "USB"]
+    assert findings["Registration"].observation == "depth and colour are aligned, by the library"
     assert findings["Firmware"].state == "warning"
     assert findings["USB"].state == "good"
 

@@ -154,5 +154,5 @@ def test_look_opens_nothing_makes_no_folder_and_calls_no_drivers_own_code_in_win
     findings = {finding.name: finding for finding in examine_at_start(folder)}
     assert not folder.exists()
     assert all(finding.remedy for finding in findings.values() if finding.state != "good")
-    assert "Pictures" not in findings
+    assert "Frames" not in findings
     assert findings["Data folder"].state == findings["Driver"].state == "good"

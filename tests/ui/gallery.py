@@ -146,13 +146,13 @@ OLD_BACKUP = BackupFacts(
     "/media/clinic-disk/carpus-backup", "good", "412 GB free", True,
 )  # fmt: skip
 CHECKS = (
-    Check("Camera", "warning", "none plugged in", "Plug the camera in, at best straight into the computer. It needs a "
-          "USB 2 port; some USB 3 ports refuse cameras with old firmware."),
+    Check("Camera", "warning", "none plugged in", "Plug the camera in, preferably directly into the computer. It needs "
+          "a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
     Check("Camera driver", "bad", "libOpenNI2.so.0: cannot open shared object file: No such file or directory",
           "Needed for live cameras. Run: sudo apt-get install libopenni2-0"),
     Check("Camera rights", "good", "/lib/udev/rules.d/60-libopenni2-0.rules"),
     Check("Data folder", "good", "/home/clinic/.local/share/carpus, made at the first recording"),
-    Check("Disk", "good", "212.4 GB free, about 1931 minutes with pictures"),
+    Check("Disk", "good", "212.4 GB free, about 1931 minutes with video"),
     Check("Fonts", "good", "6 faces"),
     Check("Screen", "good", "1920 × 1053 for windows"),
 )  # fmt: skip

@@ -86,7 +86,7 @@ def test_correction_swapped_labels_are_reported_and_enter_swaps_them_back(
     before = screen.edits.original_px(ROW).copy()
     drag(qtbot, screen, before[2], before[4])
     np.testing.assert_allclose(screen.edits.current_px(ROW)[[2, 4]], before[[4, 2]])
-    assert screen.title.text() == "“Index knuckle” and “Ring knuckle” appear swapped"
+    assert screen.title.text() == "“Index MCP” and “Ring finger MCP” appear swapped"
     assert screen.anyway_button.isVisible()
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert asked == []
@@ -101,7 +101,7 @@ def test_correction_label_far_from_expected_position_is_reported(
     qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
 ) -> None:
     drag(qtbot, screen, screen.edits.original_px(ROW)[5], np.array([600.0, 60.0]))
-    assert screen.title.text() == "“Little knuckle” cannot be there"
+    assert screen.title.text() == "“Little finger MCP” cannot be there"
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert corrections(screen) == ()
     assert asked == []

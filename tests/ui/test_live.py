@@ -260,7 +260,7 @@ def test_blob_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden()
     assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", True, True)
     np.testing.assert_allclose(doubt.other_px, beside)
     assert question_light(doubt).state == "Another blue spot is here"
-    assert "middle knuckle" in question_light(doubt).remedy
+    assert "middle finger MCP" in question_light(doubt).remedy
     far = replace(spots, pixel=np.vstack((spots.pixel[:-1], beside + 80.0)))
     assert find_doubt(replace(hidden, detections=far), MARKERS, camera) is None
     questioned = replace(frame, doubted=np.arange(6) == 3, status=TrackStatus.DOUBTFUL)
@@ -283,10 +283,10 @@ def test_question_about_blob_is_answered_while_measuring_continues(qtbot: QtBot,
         tried.run(0.1)
         if screen.question.isVisible():
             break
-    assert screen.question.words.text() == "Is this blue spot the middle knuckle?"
+    assert screen.question.words.text() == "Is this blue spot the middle finger MCP?"
     assert [button.text() for button in screen.question.buttons.values() if button.isVisible()] == ["Yes", "No"]
     assert screen.controls.light_view.status_light == StatusLight(
-        "warn", "Another blue spot is here", "Is it the middle knuckle?"
+        "warn", "Another blue spot is here", "Is it the middle finger MCP?"
     )
     tried.press(Qt.Key.Key_F2)
     assert not measuring.answers, "a key that was meant for something else a moment ago"
@@ -418,7 +418,7 @@ def test_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_does_a
 def test_light_names_one_hidden_marker_and_its_remedy() -> None:
     frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
     lamp = wrist_light(frame, MARKERS, False)
-    assert lamp.state == "Thumb base hidden"
+    assert lamp.state == "Thumb CMC hidden"
     assert lamp.remedy == "Turn the thumb side up"
     assert wrist_light(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
     assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Arm moved"

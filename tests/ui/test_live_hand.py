@@ -215,11 +215,11 @@ def test_wrist_keeps_its_own_screen(live: Live) -> None:
     ("hidden", "state", "remedy"),
     [
         ((), "Tracking well", "All 21 markers seen"),
-        (("TIP4",), "Ring tip hidden", "Raise the hand"),
+        (("TIP4",), "Ring fingertip hidden", "Raise the hand"),
         (("MCP1", "IP1", "TIP1"), "Thumb occluded", "Turn the thumb side up"),
         (("DIP2", "TIP2"), "Index finger hidden", "Turn the back of the fingers to the camera"),
         (("TIP2", "TIP3", "DIP3"), "Finger ends hidden", "Turn the back of the fingers to the camera"),
-        (("MCP5",), "Little knuckle hidden", "Turn the little-finger side up"),
+        (("MCP5",), "Little finger MCP hidden", "Turn the little-finger side up"),
         (("WRIST", "CMC1", "MCP2", "MCP3"), "Too few markers seen", "Turn the back of the hand to the camera"),
     ],
 )
@@ -233,10 +233,10 @@ def test_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], stat
 def test_map_says_it_in_one_sentence() -> None:
     seen = dict.fromkeys(MARKERS, "seen")
     assert hand_map_words(seen) == "All markers seen, every joint is measured."  # type: ignore[arg-type]
-    assert "follow the middle joints" in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
+    assert "follow the PIP joints" in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
     assert "every joint is measured" not in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
     sentence = hand_map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
-    assert sentence == "Ring tip hidden: raise the hand. Hidden joints do not count."
+    assert sentence == "Ring fingertip hidden: raise the hand. Hidden joints do not count."
     assert "now and then" in hand_map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
 
 

@@ -154,7 +154,12 @@ def test_review_of_reach_has_its_values_and_ways_of_joints(review: Reviewing) ->
     store.sessions = {"hand-7": made}
     screen = review(store, "hand-7")
     names = {cell.text for row in screen.card.tables.task_table.rows for cell in row}
-    for name in ("Movement time, out", "Peak speed, back", "Path length ratio, out", "Widest opening, thumb–index"):
+    for name in (
+        "Movement time, out",
+        "Peak speed, back",
+        "Path length ratio, out",
+        "Maximum grip aperture, thumb–index",
+    ):
         assert name in names
     assert screen.card.tables.task_table.isVisibleTo(screen)
     screen.player.view.setCurrentIndex(screen.player.view.findData("path"))

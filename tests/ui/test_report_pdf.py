@@ -156,7 +156,7 @@ def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_noth
     path = write_session_report(made, tmp_path / "x.pdf", choices=choices, pseudonym=pseudonym)
     assert pages_of(path) == 2
     words = words_of(path)
-    assert words.count("off its place") == len(markers)
+    assert words.count("from its expected position") == len(markers)
     for kept in (pseudonym, LEGAL_SENTENCE, f"Session {stored.header.session_id[:8]}"):
         assert kept in words
     left, _, right, foot = reach_of(path)
@@ -257,7 +257,7 @@ def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path)
     findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in names)
     history = [replace(figures, findings=findings) for figures in FakeSessions().history("linden")]
     path = write_progress_report(history, tmp_path / "p.pdf")
-    assert "off its place" in words_of(path)
+    assert "from its expected position" in words_of(path)
     boxes = tool("pdftotext", "-bbox", str(path), "-")
     places = [
         (word, float(top), float(low)) for top, low, word in re.findall(r'yMin="(.*?)".*?yMax="(.*?)">(.*?)<', boxes)

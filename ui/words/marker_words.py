@@ -8,7 +8,7 @@ from carpus.ui.kit.translate import tr, translate_phrase
 
 
 def marker_title(marker: str) -> str:
-    """Return the name of a marker as a title, such as ``Thumb base`` for CMC1."""
+    """Return the name of a marker as a title, such as ``Thumb CMC`` for CMC1."""
     name = fault_text.marker_name(marker, translate_phrase)
     return name[:1].upper() + name[1:]
 
@@ -46,10 +46,10 @@ def marker_placement(marker: str) -> str:
     if marker == "WRIST":
         return tr("In the middle of the back of the wrist, in the small dimple.")
     if marker == "CMC1":
-        return tr("At the root of the thumb, just past the hollow beside the wrist.")
+        return tr("At the base of the thumb, just distal to the anatomical snuffbox.")
     return {
-        "MCP": tr("On the back of the hand, 3–5 mm behind the knuckle, towards the wrist."),
-        "PIP": tr("In the middle of the creases over the middle joint."),
+        "MCP": tr("On the back of the hand, 3–5 mm proximal to the MCP joint."),
+        "PIP": tr("Centred on the creases over the PIP joint."),
         "DIP": tr("In the middle of the creases over the end joint."),
         "IP": tr("In the middle of the creases over the end joint."),
         "TIP": tr("On the nail, in its middle."),

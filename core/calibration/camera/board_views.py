@@ -96,8 +96,8 @@ class ViewCoverage:
             return phrase("Tilt the board: {side} nearer", side=side_name(side))
         if not self.is_near_and_far:
             near = self.nearest_m <= NEAR_BOARD_M or self.nearest_m * MIN_DISTANCE_RATIO < FAR_BOARD_M
-            return phrase("Take the board farther away") if near else phrase("Bring the board nearer")
-        return phrase("Show it in other places, tilted other ways") if self.view_count < wanted_views else None
+            return phrase("Move the board farther away") if near else phrase("Move the board nearer")
+        return phrase("Show the board in other places, at other tilts") if self.view_count < wanted_views else None
 
 
 def side_name(side: TiltSide) -> Phrase:

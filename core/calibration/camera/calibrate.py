@@ -207,7 +207,7 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
     :class:`BoardUnfit` if the corners are not those of a flat board.
     """
     if not views:
-        raise BoardNotVisible(subject, phrase("in none of the pictures"))
+        raise BoardNotVisible(subject, phrase("in none of the images"))
     missing = assess_views(views, width_px, height_px).missing_text
     if missing:
         raise BoardViewsTooSimilar(subject, missing)
@@ -218,10 +218,10 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
         fit, _ = _fit_intrinsics(views, kept, width_px, height_px)
     if fit.reprojection_error_px > MAX_ERROR_PX or not math.isfinite(fit.reprojection_error_px):
         sizes = {"error_px": format_rounded(fit.reprojection_error_px, 1), "most_px": f"{MAX_ERROR_PX:g}"}
-        raise BoardUnfit(subject, phrase("corners lie {error_px} px off, at most {most_px} are fair", **sizes))
+        raise BoardUnfit(subject, phrase("reprojection error {error_px} px, at most {most_px} px accepted", **sizes))
     if fit.focal_sd_px > MAX_FOCAL_SD_SHARE * fit.camera.fx_px:
         share = format_rounded(100.0 * fit.focal_sd_px / fit.camera.fx_px, 1)
-        raise BoardViewsTooSimilar(subject, phrase("the focal length is known to {share} % only", share=share))
+        raise BoardViewsTooSimilar(subject, phrase("the focal length is known only to within {share} %", share=share))
     return fit
 
 
@@ -300,6 +300,8 @@ def format_calibration(calibration: CameraCalibration) -> list[str]:
     shift = shift if math.isfinite(depth.offset_sd_m) else "no sure shift"
     scale = f"{100.0 * (depth.scale - 1.0):+.2f} ± {format_rounded(100.0 * depth.scale_sd, 2)} %"
     distance_px = float((depth.registration_error_px**2).sum() ** 0.5)
-    judged = f"good: below {MAX_REGISTRATION_ERROR_PX:g} px" if depth.is_registered else "depth does not lie on colour"
+    judged = (
+        f"good: below {MAX_REGISTRATION_ERROR_PX:g} px" if depth.is_registered else "depth and colour are not aligned"
+    )
     error = f"{format_rounded(distance_px, 1)} ± {format_rounded(depth.registration_sd_px, 1)} px"
     return [*out, f"{depth.sentence()} Scale {scale}, {shift}", f"Colour and depth: {error} apart ({judged})"]

@@ -122,8 +122,8 @@ def card_sheet(paper: Paper) -> PrintedSheet:
     texts = [
         SheetText(phrase("Carpus check card"), 20.0, 20.0, 14.0, bold=True),
         *(SheetText(step, 20.0, 28.0 + 5.0 * k) for k, step in enumerate(steps)),
-        SheetText(phrase("the wedge’s side with two discs here"), left + 1.0, top + 5.0, 7.0),
-        SheetText(phrase("its side with one disc here"), left + 4.0, bottom - 2.5, 7.0),
+        SheetText(phrase("the wedge’s side with two markers here"), left + 1.0, top + 5.0, 7.0),
+        SheetText(phrase("its side with one marker here"), left + 4.0, bottom - 2.5, 7.0),
     ]
     return PrintedSheet(width_mm, height_mm, (*discs, *foot, *texts, *ruler_items(20.0, height_mm - 14.0)))
 
@@ -220,13 +220,13 @@ def verdict_sentence(reading: CardReading) -> Phrase:
     }
     if reading.is_within_tolerance:
         return phrase(
-            "The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and "
-            "{most_length} mm.",
+            "Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and "
+            "{most_length} mm).",
             angle=angle,
             length=length,
             **limits,
         )
-    angles = phrase("angles are {angle}° off", angle=angle)
+    angles = phrase("angles deviate by {angle}°", angle=angle)
     share = 100.0 * (reading.scale - 1.0)
     off = {"share": format_rounded(abs(share), 1), "length": length}
     lengths = phrase("all lengths are {share} % too short, the worst by {length} mm", **off)
@@ -236,7 +236,7 @@ def verdict_sentence(reading: CardReading) -> Phrase:
     if not reading.has_valid_lengths and not reading.has_valid_angles:
         what = phrase("{one}; {other}", one=lengths, other=angles)
     return phrase(
-        "The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).",
+        "Camera out of tolerance: {what} (limits: {most_angle}°, {most_length} mm, all lengths {most_share} %).",
         what=what,
         most_share=format_rounded(100.0 * MAX_SCALE_ERROR, 1),
         **limits,

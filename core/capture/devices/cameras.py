@@ -46,7 +46,7 @@ def check_library(
         name,
         "bad",
         phrase("{found}, cannot be loaded: {trouble}", found=found, load_error=load_error),
-        phrase("Install it, and what it names, again."),
+        phrase("Reinstall it, and what it names."),
     )
 
 
@@ -72,7 +72,7 @@ def check_firmware_and_usb(settings: Mapping[str, str]) -> Sequence[Finding]:
     firmware, wanted, usb = (settings.get(key, "") for key in ("firmware", "firmware_wanted", "usb"))
     if firmware and wanted and _parse_version(firmware) < _parse_version(wanted):
         found = phrase("{firmware}, the library asks for {wanted}", firmware=firmware, wanted=wanted)
-        remedy = phrase("Bring the firmware up to date with the maker's RealSense Viewer.")
+        remedy = phrase("Update the firmware with the manufacturer’s RealSense Viewer.")
         findings.append(Finding(phrase("Firmware"), "warning", found, remedy))
     elif firmware:
         findings.append(Finding(phrase("Firmware"), "good", firmware))

@@ -254,7 +254,7 @@ def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding
         remedy = (
             phrase("Run: sudo apt-get install libopenni2-0")
             if sys.platform.startswith("linux")
-            else phrase("Install OpenNI2 from the camera's maker, then start Carpus again.")
+            else phrase("Install OpenNI2 from the camera’s manufacturer, then restart Carpus.")
         )
         return Finding(
             phrase("Driver"),
@@ -270,7 +270,7 @@ def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding
         return Finding(
             phrase("Driver"),
             "bad",
-            phrase("OpenNI2 ends when it is asked for its version"),
+            phrase("OpenNI2 stops when its version is queried"),
             phrase("Install it again."),
         )
     return Finding(phrase("Driver"), "good", phrase("OpenNI2 {value}", value=version))

@@ -131,7 +131,7 @@ def choose_recording_streams(rs: Any, playback: Any) -> RealsenseStreams:
     colors = [pair for pair in offered if _is_color(rs, pair[1])]
     readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
     if not readable:
-        form = f"colour as {colors[0][1].format().name}" if colors else "no colour pictures"
+        form = f"colour as {colors[0][1].format().name}" if colors else "no colour frames"
         raise CaptureFailed(CameraUnsuited, form)
     depths = [pair for pair in offered if _is_depth(rs, pair[1])]
     return _group_by_sensor([readable[0], *depths[:1]])

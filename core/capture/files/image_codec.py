@@ -150,7 +150,7 @@ class TiledImage(Generic[AnyImage]):
         place[:] = tile
 
     def _decode_error(self) -> RecordingUnreadable:
-        return RecordingUnreadable(self._path, phrase("not a picture"))
+        return RecordingUnreadable(self._path, phrase("not an image"))
 
 
 _PNG_START = b"\x89PNG\r\n\x1a\n"
@@ -163,7 +163,7 @@ def read_color(path: Path) -> ByteImage:
     if data.startswith(_PNG_START):
         bits, color_type = data[24], data[25]
         if color_type in _GREY_TYPES:
-            raise FrameDamaged(path, phrase("grey, a colour picture is expected"))
+            raise FrameDamaged(path, phrase("grey, a colour image is expected"))
         if bits > 8:
             raise FrameDamaged(path, phrase("{bits} bits per colour, 8 are expected", bits=bits))
     return _decode_or_raise(path, data, cv2.IMREAD_COLOR_RGB)
@@ -173,10 +173,10 @@ def read_depth(path: Path) -> DepthImage:
     """Read a depth image (H, W) uint16, read-only."""
     depth = _decode_or_raise(path, _read_checked_bytes(path), cv2.IMREAD_UNCHANGED)
     if depth.ndim != 2:
-        raise FrameDamaged(path, phrase("in colour, a depth picture of 16 bits is expected"))
+        raise FrameDamaged(path, phrase("in colour, a 16-bit depth image is expected"))
     if depth.dtype != np.uint16:
         raise FrameDamaged(
-            path, phrase("{value} bits, a depth picture of 16 bits is expected", value=8 * depth.dtype.itemsize)
+            path, phrase("{value} bits, a 16-bit depth image is expected", value=8 * depth.dtype.itemsize)
         )
     return depth
 
@@ -195,7 +195,7 @@ def _read_checked_bytes(path: Path) -> bytes:
     if not data:
         raise FrameDamaged(path, phrase("empty file"))
     if data.startswith(_PNG_START) and not _is_png_complete(data):
-        raise FrameDamaged(path, phrase("cut off or altered"))
+        raise FrameDamaged(path, phrase("truncated or altered"))
     return data
 
 
@@ -216,5 +216,5 @@ def _is_png_complete(data: bytes) -> bool:
 def _decode_or_raise(path: Path, data: bytes, flags: int) -> NDArray[Any]:
     picture = _decode(data, flags)
     if picture is None:
-        raise FrameDamaged(path, phrase("not a picture"))
+        raise FrameDamaged(path, phrase("not an image"))
     return picture

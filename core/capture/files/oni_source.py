@@ -250,7 +250,7 @@ class _ContentsReader:
         if len(data) != size:
             raise self._damage_error(f"property {name} of the wrong size", record.position)
         if node.images and name in _CONSTANT_PROPERTIES and node.properties.get(name) != data:
-            raise RecordingUnsupported(self._path, phrase("{name} changes on the way", name=name))
+            raise RecordingUnsupported(self._path, phrase("{name} changes within the file", name=name))
         node.properties[name] = data
 
     def _index_image(self, node: _Node, record: _Record) -> None:
@@ -262,7 +262,7 @@ class _ContentsReader:
             raise self._damage_error("a picture later than the recording's end", record.position)
         if time_us <= last_us:
             raise TimesUnordered(
-                self._path, phrase("{value} picture {number}", value=node.kind.name.lower(), number=number)
+                self._path, phrase("{value} frame {number}", value=node.kind.name.lower(), number=number)
             )
         position = record.position + self._header.size + len(record.fields)
         node.images.append((number, time_us, position, record.payload_size))
@@ -273,7 +273,7 @@ class _ContentsReader:
             for kind in (NodeType.IMAGE, NodeType.DEPTH)
         )
         if not images:
-            raise RecordingUnsupported(self._path, phrase("no colour pictures"))
+            raise RecordingUnsupported(self._path, phrase("no colour frames"))
         if len(images) > 1 or len(depths) > 1:
             raise RecordingUnsupported(self._path, phrase("more than one camera"))
         if not images[0].images:
@@ -291,7 +291,7 @@ class _ContentsReader:
         if not (1 <= width <= MAX_WIDTH_PX and 1 <= height <= MAX_HEIGHT_PX and 1 <= fps <= MAX_FPS):
             raise self._damage_error(f"pictures of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
         if any(properties.get(oni.CROPPING, b"")[:4]):
-            raise RecordingUnsupported(self._path, phrase("cropped pictures"))
+            raise RecordingUnsupported(self._path, phrase("cropped frames"))
         if pixel_format not in _FORMATS[node.kind]:
             name = next((each.name for each in PixelFormat if each == pixel_format), str(pixel_format))
             is_depth = node.kind == NodeType.DEPTH
@@ -411,7 +411,7 @@ class OniSource:
                     f"for pictures of {camera_info.camera.width_px}x{camera_info.camera.height_px}, these are {size}"
                 )
                 raise CameraFileUnreadable(sidecar_path(self._path), detail)
-            raise RecordingUnsupported(self._path, phrase("no intrinsics for pictures of {size}", size=size))
+            raise RecordingUnsupported(self._path, phrase("no intrinsics for frames of {size}", size=size))
         settings = {"format": f".oni {contents.version}", "color": _format_stream(contents, "color")}
         if contents.depth is not None:
             settings["depth"] = _format_stream(contents, "depth")

@@ -257,7 +257,7 @@ class RawRecording:
                 str(content.get("recorded", "")),
             )
         except (KeyError, TypeError, ValueError, AttributeError, OverflowError, RecursionError) as cause:
-            detail = phrase("its head is damaged; pictures that are there: {count}", count=len(self._entries))
+            detail = phrase("damaged header, {count} frames present", count=len(self._entries))
             raise RecordingUnreadable(path, detail) from cause
 
     @property
@@ -302,7 +302,7 @@ class RawRecording:
                 DamagedFramesExcluded(self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count))
             )
         if self._surplus_bytes:
-            detail = phrase("bytes that follow its end: {count}", count=self._surplus_bytes)
+            detail = phrase("{count} bytes after its end", count=self._surplus_bytes)
             self._notice(RecordingDamaged(self._path, detail))
 
     def load_color(self, timestamp_s: float) -> ByteImage | None:

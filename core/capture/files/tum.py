@@ -106,11 +106,11 @@ class TumFolder:
         self._folder, self._skip_damaged, self._notice = folder, skip_damaged, notice
         color, color_gone = _check_files(_read_list(folder / COLOR_LIST, notice), skip_damaged, first=True)
         if not color:
-            raise RecordingEmpty(folder, phrase("no picture in {color_list}", color_list=COLOR_LIST))
+            raise RecordingEmpty(folder, phrase("no frame in {color_list}", color_list=COLOR_LIST))
         depth_list = folder / DEPTH_LIST
         depth_entries = _read_list(depth_list, notice) if depth_list.exists() else []
         if requires_depth and not depth_entries:
-            missing = phrase("no picture in {depth_list}", depth_list=DEPTH_LIST)
+            missing = phrase("no frame in {depth_list}", depth_list=DEPTH_LIST)
             raise DepthMissing(folder, missing if depth_list.exists() else f"no {DEPTH_LIST}")
         depth, depth_gone = _check_files(depth_entries, skip_damaged, first=False)
         if color_gone or depth_gone:
@@ -121,7 +121,7 @@ class TumFolder:
             limit = f"{PAIRING_LIMIT_S * 1000.0:.0f}"
             raise DepthMissing(
                 folder,
-                phrase("no depth picture within {pairing_limit_s} ms of a colour picture", pairing_limit_s=limit),
+                phrase("no depth frame within {pairing_limit_s} ms of a colour frame", pairing_limit_s=limit),
             )
         self.stored_frames = tuple(
             StoredFrame(time_s, path, None if index is None else depth[index][1], dropped)
@@ -382,7 +382,7 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
         camera = rescale_camera(DEFAULT_CAMERA, (width_px, height_px))
         if camera is None:
             raise CameraFileUnreadable(
-                path, phrase("missing, and pictures of {size} have no default camera", size=size)
+                path, phrase("missing, and there is no default camera for frames of {size}", size=size)
             )
         return CameraInfo(camera)
     info = read_camera_info(path)
@@ -391,7 +391,7 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
         raise CameraFileUnreadable(
             path,
             phrase(
-                "for {width_px} x {height_px} pixels, pictures have {size}",
+                "for {width_px} x {height_px} pixels, the frames have {size}",
                 width_px=camera.width_px,
                 height_px=camera.height_px,
                 size=size,
@@ -399,7 +399,7 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
         )
     if info.mirrored or info.registered is False:
         wrong = "mirrored: true" if info.mirrored else "registered: false"
-        raise CameraFileUnreadable(path, phrase("{wrong}, which a folder of pictures cannot be", wrong=wrong))
+        raise CameraFileUnreadable(path, phrase("{wrong}, not possible for a folder of frames", wrong=wrong))
     return info
 
 

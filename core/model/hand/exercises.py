@@ -133,8 +133,8 @@ EXERCISES = (
         instruction=phrase("Turn the palm up as far as the markers stay visible, then back."),
         position=phrase("Elbow at the side, forearm free, palm down under the camera."),
         visibility_note=phrase(
-            "Angles are counted from thumb up: palm flat on the table is 90° pronation. Seen from above, the markers "
-            "go out of sight at about 25° of pronation. A target short of thumb up has a minus: supination −25°."
+            "0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded "
+            "below about 25° of pronation. A goal short of thumb up is negative: supination −25°."
         ),
         adult_cues=(phrase("Turn your palm up"), phrase("Turn your palm down")),
         child_cues=(phrase("Turn up"), phrase("Turn down")),
@@ -146,9 +146,8 @@ EXERCISES = (
         instruction=phrase("Close all fingers into a full fist, then open flat."),
         position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
         visibility_note=phrase(
-            "At the end of a fist the middle and end joints go out of the camera's sight: repetitions are "
-            "counted all the same, and those ranges are given as “at least”. To see more, turn the thumb side "
-            "up."
+            "At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these "
+            "ranges are minimum values (≥). To see more, turn the thumb side up."
         ),
         adult_cues=(phrase("Close your hand to a fist"),) * 2, child_cues=(phrase("Close"),) * 2,
         return_cue=phrase("Open your hand"), simulated_motion="fist",
@@ -160,9 +159,8 @@ EXERCISES = (
         instruction=phrase("Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten."),
         position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
         visibility_note=phrase(
-            "About half-way the middle joints go out of the camera's sight: repetitions are counted all the "
-            "same, and their range is given as “at least”. To see more, raise the wrist or turn the thumb side "
-            "up."
+            "About half-way the PIP joints are occluded. Repetitions are still counted, and their range is a "
+            "minimum value (≥). To see more, raise the wrist or turn the thumb side up."
         ),
         adult_cues=(phrase("Bend your fingers to a hook"),) * 2, child_cues=(phrase("Hook"),) * 2,
         return_cue=phrase("Straighten your fingers"), simulated_motion="hook",
@@ -183,23 +181,23 @@ EXERCISES = (
     Exercise(
         "THUMB_OPP", None, 10, math.nan, False, DIGITS, "CMC1_abduction",
         name=phrase("Thumb opposition"),
-        instruction=phrase("Touch each fingertip with the thumb in turn, opening it wide in between."),
+        instruction=phrase("Touch each fingertip with the thumb in turn. Abduct the thumb fully in between."),
         position=phrase("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
         visibility_note=phrase(
-            "Under the palm the thumb's tip goes out of the camera's sight: what is trained here is its lift "
-            "away from the palm, which stays in view."
+            "Under the palm the thumb tip is occluded. This exercise trains palmar abduction of the thumb, which "
+            "stays visible."
         ),
         adult_cues=(phrase("Open your thumb wide"),) * 2, child_cues=(phrase("Thumb wide"),) * 2,
         return_cue=phrase("Touch the next fingertip"), simulated_motion="opposition",
         has_total_motion=False,
-        task_measures=("touches", "thumb beside"), task_title=phrase("Thumb to the finger tips"),
+        task_measures=("touches", "thumb beside"), task_title=phrase("Thumb to the fingertips"),
         is_task=True,
     ),
     Exercise(
         "REACH_GRASP", None, 5, math.nan, False, DIGITS,
         name=phrase("Reach and grasp"),
         instruction=phrase("Reach, take the cup, lift it a little, put it back, return."),
-        position=phrase("Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm."),
+        position=phrase("Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away."),
         adult_cues=(phrase("Take the cup, lift it a little, put it back"),) * 2,
         child_cues=(phrase("Take the cup"),) * 2,
         simulated_motion="reach_grasp",

@@ -120,7 +120,7 @@ def compare_session(
     :class:`ReferenceUnsuited`.
     """
     if not len(session):
-        raise ReferenceUnsuited(reference.path, phrase("the session holds no picture"))
+        raise ReferenceUnsuited(reference.path, phrase("the session contains no frames"))
     if not (len(reference.time_s) or reference.readings):
         raise _overlap_error(reference)
     motion = motion_estimate(session) if smoothed else session.motion
@@ -156,7 +156,7 @@ def compare_session(
         else:
             pairs.append(pair)
     if not pairs:
-        raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
+        raise ReferenceUnsuited(reference.path, phrase("the two do not overlap in time"))
     overlap_s = max(float(one.time_s[-1] - one.time_s[0]) for one in pairs)
     rate_hz = 1.0 / float(np.median(np.diff(reference_s))) if len(reference_s) > 1 else math.nan
     remarks = (*reference.remarks, *_alignment_remarks(alignment), *comparison_remarks(pairs, shift, overlap_s))
@@ -216,7 +216,7 @@ def _estimate_shift(
 
 
 def _overlap_error(reference: Reference) -> ReferenceUnsuited:
-    reason = phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{MIN_OVERLAP_S:g}")
+    reason = phrase("less than {least_overlap_s} s of overlap, or no movement", least_overlap_s=f"{MIN_OVERLAP_S:g}")
     return ReferenceUnsuited(reference.path, reason)
 
 
@@ -229,7 +229,9 @@ def _check_match(reference: Reference, curves: AlignmentCurves, shift: ClockShif
         cleared = ClockShift(shift.drift_free_lag_s, math.nan, drift=shift.drift + shift.residual_drift)
         match = max(match, abs(curves.match(cleared)))
     if not match >= MIN_MATCH:
-        words = phrase("the curves match by {match} at best: is it the same movement?", match=format_rounded(match, 2))
+        words = phrase(
+            "the curves match by {match} at best. Check that it is the same movement", match=format_rounded(match, 2)
+        )
         raise ReferenceUnsuited(reference.path, words)
 
 
@@ -239,7 +241,7 @@ def comparison_remarks(
     """Return what to check before the values are believed."""
     out: list[str] = [
         phrase(
-            "{angle}: runs against Carpus (r = {r}), so one of the two has the opposite sign or is of another movement",
+            "{angle}: opposite to Carpus (r = {r}). One of the two has the opposite sign or shows another movement",
             angle=one.name,
             r=format_rounded(one.agreement_deg.correlation, 3),
         )
@@ -248,7 +250,7 @@ def comparison_remarks(
     ]
     out += [
         phrase(
-            "{angle}: the reference moves {percent} % as far as Carpus: its unit may be another, or its angle",
+            "{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle",
             angle=one.name,
             percent=f"{100.0 * share:.3g}",
         )
@@ -263,7 +265,8 @@ def _alignment_remarks(alignment: Alignment | None) -> list[str]:
         return []
     return [
         phrase(
-            "discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps",
+            "the markers of the two are {apart} mm apart, up to {most} mm is expected: "
+            "other markers, another hand, or jumps",
             apart=format_rounded(1e3 * alignment.residual_m, 1),
             most=format_rounded(1e3 * MAX_RESIDUAL_M),
         )
@@ -274,13 +277,13 @@ def _clock_remarks(shift: ClockShift, overlap_s: float) -> list[str]:
     out: list[str] = []
     if overlap_s < MIN_SAFE_OVERLAP_S:
         time = format_rounded(overlap_s, 1)
-        out.append(phrase("only {time} s are in common: the shift of the clocks is not sure", time=time))
+        out.append(phrase("only {time} s of overlap: the time shift is uncertain", time=time))
     if shift.match < 0.0 and math.isfinite(shift.max_shift_s):
         out.append(
-            phrase("the curves run against each other, or the shift is beyond {most} s", most=f"{shift.max_shift_s:g}")
+            phrase("the curves are opposite, or the time shift is more than {most} s", most=f"{shift.max_shift_s:g}")
             if shift.same_sign_shift is None
             else phrase(
-                "the curves run against each other, or the shift is beyond {most} s: with the same sign they match "
+                "the curves are opposite, or the time shift is more than {most} s. With the same sign they match "
                 "best at {later} s ({match})",
                 most=f"{shift.max_shift_s:g}",
                 later=f"{shift.same_sign_shift[0]:+.2f}",
@@ -290,19 +293,19 @@ def _clock_remarks(shift: ClockShift, overlap_s: float) -> list[str]:
     if shift.rivals:
         others = ", ".join(f"{later_s:+.2f} s ({format_rounded(match, 3)})" for later_s, match in shift.rivals)
         words = phrase(
-            "the shift is not sure: taken is {taken} s ({match}); as well or nearly match {others}",
+            "the time shift is uncertain: {taken} s is used ({match}). Equally or nearly as good: {others}",
             taken=f"{shift.lag_s:+.2f}",
             match=format_rounded(shift.match, 3),
             others=others,
         )
         out.append(f"{words} …" if shift.has_more_rivals else words)
     if shift.is_at_search_limit:
-        out.append(phrase("the best shift lies at the end of what was searched: it may be further"))
+        out.append(phrase("the best time shift is at the limit of the search range: it may be larger"))
     if math.isfinite(shift.residual_drift):
         percent, found_s = 100.0 * shift.residual_drift, shift.residual_drift * overlap_s
         words = phrase(
-            "the clocks drift: the reference's runs {percent} % against Carpus's, {seconds} s over {length} s, and the "
-            "figures hold that error (lag {lag} s with drift {drift} %)",
+            "the clocks drift: the reference by {percent} % relative to Carpus, {seconds} s over {length} s. The "
+            "values contain this error (lag {lag} s with drift {drift} %)",
             percent=f"{percent:+.2f}",
             seconds=f"{found_s:+.2f}",
             length=format_rounded(overlap_s),
@@ -342,11 +345,9 @@ def _angle_curves(
     names = [name for name in reference.angles_rad if name in session_angles]
     if not names:
         there = list_names(reference.names)
-        reason = phrase(
-            "no disc of the palm and no angle of the wrist or fingers is in it; it has {there}", there=there
-        )
+        reason = phrase("no palm marker and no angle of the wrist or fingers, only {there}", there=there)
         if reference.angles_rad:
-            reason = phrase("no angle of the session is in it; it has {there}", there=there)
+            reason = phrase("no angle of the session, only {there}", there=there)
         raise ReferenceUnsuited(reference.path, reason)
     names = [name for name in names if np.fmax.reduce(session_angles[name]) > np.fmin.reduce(session_angles[name])]
     theirs_s = _reference_times_s(reference, session)
@@ -386,7 +387,7 @@ def _common_markers(reference: Reference) -> list[str]:
     names = [name for name in PALM_MARKERS if name in reference.points_m]
     if len(names) < 3:
         there = list_names(reference.names)
-        words = phrase("three discs of the palm are needed; say which of {there} they are", there=there)
+        words = phrase("three palm markers are needed: state which of {there} they are", there=there)
         raise ReferenceUnsuited(reference.path, words)
     return names
 
@@ -408,7 +409,7 @@ def _angles_from_points(
     both = np.isfinite(there).all(axis=(1, 2)) & np.isfinite(measured).all(axis=(1, 2))
     both &= np.asarray(session.status) == TrackStatus.TRACKED
     if both.sum() < MIN_PAIRS:
-        raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
+        raise ReferenceUnsuited(reference.path, phrase("the two do not overlap in time"))
     turn, move = so3.fit_rigid_transform(there[both].reshape(-1, 3), measured[both].reshape(-1, 3))
     off = there[both] @ turn.T + move - measured[both]
     known = np.isfinite(reference_values).all(axis=(1, 2))
@@ -458,14 +459,14 @@ def _compare_readings(
             if len(values) < MIN_PAIRS or float(np.ptp(values)) > 2.0 * MAX_STILL_RAD:
                 facts = {"angle": reading.angle, "time": f"{reading.time_s:g}"}
                 excluded_count += 1
-                unused.append(phrase("{angle} at {time} s: the hand was not still, or not seen", **facts))
+                unused.append(phrase("{angle} at {time} s: the hand was not still, or not visible", **facts))
                 continue
             measured = float(values.mean())
         else:
             measured = _range_end(figures, reading.angle, reading.movement)
             if not math.isfinite(measured):
                 words = phrase(
-                    "{movement}: the session has no range that way, and the list names no time",
+                    "{movement}: the session has no range in this direction, and the list gives no time",
                     movement=reading.movement,
                 )
                 excluded_count += 1
@@ -479,7 +480,7 @@ def _compare_readings(
             figures_deg = compute_agreement(np.degrees(measured_rad), np.degrees(reference_rad), waveform=False)
             pairs.append(AnglePairs(name, t, measured_rad, reference_rad, figures_deg))
     if not pairs:
-        raise ReferenceUnsuited(reference.path, unused[-1] if unused else phrase("no reading can be used"))
+        raise ReferenceUnsuited(reference.path, unused[-1] if unused else phrase("no usable reading"))
     count = len(reference.readings)
     return Comparison(
         reference.kind, tuple(pairs), None, None, count, excluded_count, math.nan, math.nan, tuple(unused),

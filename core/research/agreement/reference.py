@@ -148,10 +148,10 @@ def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side
             taken[name] = _select_hand(path, wanted, found, track.names, hand)
         elif name in markers:
             facts = {"wanted": markers[name], "names": list_names(track.names)}
-            raise ReferenceUnreadable(path, phrase("it has no marker {wanted}; it has {names}", **facts))
+            raise ReferenceUnreadable(path, phrase("no marker {wanted}, only {names}", **facts))
     taken = {name: k for name, k in taken.items() if np.isfinite(track.position_m[:, k]).any()}
     others = [name for k, name in enumerate(track.names) if k not in taken.values()]
-    reason = phrase("none of the discs by their names, of the other hand, or never seen")
+    reason = phrase("no markers by their names, of the other hand, or never visible")
     unused = _list_unused(phrase("markers"), others, reason)
     return Reference(
         path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s,
@@ -167,7 +167,7 @@ def _select_hand(path: Path, wanted: str, candidates: Sequence[int], names: Sequ
     of_hand = [k for k in candidates if _parse_side(names[k]) == hand]
     if hand is None or len(of_hand) != 1:
         facts = {"several": list_names([names[k] for k in candidates]), "wanted": wanted}
-        raise ReferenceUnreadable(path, phrase("it has {several} for {wanted}: say which it is", **facts))
+        raise ReferenceUnreadable(path, phrase("{several} found for {wanted}: state which one applies", **facts))
     return of_hand[0]
 
 
@@ -180,9 +180,9 @@ def _hand_remarks(used_names: Sequence[str], names: Sequence[str], hand: Side | 
     """Return a remark if the names tell which hand was used, or that it is the other one."""
     others = [name for name in used_names if hand is not None and _parse_side(name) not in (None, hand)]
     if others:
-        return (phrase("{names}: by their names of the other hand than the session", names=list_names(others)),)
+        return (phrase("{names}: their names belong to the other hand", names=list_names(others)),)
     if hand is not None and any(map(_parse_side, used_names)) and {"left", "right"} <= set(map(_parse_side, names)):
-        return (phrase("both hands are in the reference, taken are {names}", names=list_names(used_names)),)
+        return (phrase("the reference contains both hands: {names} are used", names=list_names(used_names)),)
     return ()
 
 
@@ -211,7 +211,7 @@ def _from_angles(
             candidates = candidates or [one for one in names if split_unit(one)[0].lower() == wanted.lower()]
             if not candidates:
                 facts = {"wanted": wanted, "names": list_names(names)}
-                raise ReferenceUnreadable(path, phrase("it has no column {wanted}; it has {names}", **facts))
+                raise ReferenceUnreadable(path, phrase("no column {wanted}, only {names}", **facts))
         else:
             candidates = _find_columns(name, names)
         if candidates:
@@ -255,15 +255,17 @@ def _from_table(path: Path, columns: Mapping[str, str], radians: bool | None, ha
     time_name = next((name for name in table.names if time_name in (name, split_unit(name)[0])), time_name)
     if time_name not in table.names:
         listed = list_names(table.names)
-        raise ReferenceUnreadable(path, phrase("it has no column of times; say which of {names} it is", names=listed))
+        raise ReferenceUnreadable(path, phrase("no time column: state which of {names} it is", names=listed))
     time_s, remarks = _parse_times(path, time_name, table.column(time_name))
     # A row with the time of the row before is excluded.
     known = np.flatnonzero(np.isfinite(time_s))
     rises = np.append(True, np.diff(time_s[known]) > 0.0) if len(known) else np.empty(0, bool)
     if len(known) < 2 or (np.diff(time_s[known]) < 0.0).any():
-        raise ReferenceUnreadable(path, phrase("its times do not rise"))
+        raise ReferenceUnreadable(path, phrase("times out of order"))
     if not rises.all():
-        remarks.append(phrase("rows with the time of the row before are left out ({count})", count=int((~rises).sum())))
+        remarks.append(
+            phrase("rows with the time of the previous row were excluded ({count})", count=int((~rises).sum()))
+        )
     known = known[rises]
     values = {}
     for name in table.names:
@@ -292,7 +294,7 @@ def _number_remark(name: str, cells: Sequence[str], line: Sequence[int]) -> str:
     if not bad:
         return ""
     return phrase(
-        "{name}: cells that are no number are left out ({count}), the first is “{cell}” in line {line}",
+        "{name}: cells that are not numbers were excluded ({count}), the first is “{cell}” in line {line}",
         name=name, count=len(bad), cell=bad[0][1][:20], line=bad[0][0],
     )  # fmt: skip
 
@@ -303,7 +305,7 @@ def _parse_times(path: Path, name: str, cells: Sequence[str]) -> tuple[FloatArra
     time_s, base = np.array(times), split_unit(name)
     known = time_s[np.isfinite(time_s)]
     if len(known) < len(cells) / 2:
-        raise ReferenceUnreadable(path, phrase("the cells of {name} are no times", name=name))
+        raise ReferenceUnreadable(path, phrase("the cells of {name} are not times", name=name))
     if are_clocks:
         return time_s, []
     unit = base[1] or base[0].lower().rpartition("_")[2]
@@ -313,7 +315,7 @@ def _parse_times(path: Path, name: str, cells: Sequence[str]) -> tuple[FloatArra
     for least, scale, named in TIME_UNITS_BY_STEP:
         if step >= least:
             facts = {"name": name, "unit": named, "step": f"{step:g}"}
-            return time_s * scale, [phrase("{name}: taken as {unit}, since a row comes every {step}", **facts)]
+            return time_s * scale, [phrase("{name}: read as {unit}, because there is a row every {step}", **facts)]
     return time_s, []
 
 
@@ -325,7 +327,7 @@ def _from_readings(path: Path, table: TextTable) -> Reference:
     time_name = _find_time_column(table)
     if not value_name:
         listed = list_names(table.names)
-        raise ReferenceUnreadable(path, phrase("it has no column reading_deg; it has {names}", names=listed))
+        raise ReferenceUnreadable(path, phrase("no column reading_deg, only {names}", names=listed))
     times_s = parse_times(table.column(time_name))[0] if time_name else [math.nan] * len(table.rows)
     scale = SECONDS.get(split_unit(time_name)[1] or time_name.lower().rpartition("_")[2], 1.0)
     readings, unused = [], []
@@ -339,7 +341,7 @@ def _from_readings(path: Path, table: TextTable) -> Reference:
             name, sign = MOVEMENTS[movement]
         if not name or not math.isfinite(value):
             unused.append(
-                phrase("line {line}: “{cell}” is no reading", line=line, cell=row[value_name])
+                phrase("line {line}: “{cell}” is not a reading", line=line, cell=row[value_name])
                 if name
                 else phrase("line {line}: no angle is called {said}", line=line, said=text or phrase("nothing"))
             )
@@ -349,5 +351,5 @@ def _from_readings(path: Path, table: TextTable) -> Reference:
             value_rad = float(pronosupination_from_palm_down(np.array(value_rad)))
         readings.append(GoniometerReading(name, movement, value_rad, scale * times_s[k]))
     if not readings:
-        raise ReferenceUnreadable(path, phrase("it holds no reading"))
+        raise ReferenceUnreadable(path, phrase("no readings"))
     return Reference(path, phrase("goniometer list"), readings=tuple(readings), unused=tuple(unused))

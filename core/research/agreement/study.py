@@ -112,7 +112,7 @@ def read_study_table(path: Path, parse_mapping: Callable[[str], Mapping[str, str
     try:
         return tuple(_parse_row(path, table.row(k), parse_mapping) for k in range(len(table.rows)))
     except ValueError as cause:
-        raise ReferenceUnreadable(path, phrase("it cannot be read as a table: {why}", why=str(cause))) from cause
+        raise ReferenceUnreadable(path, phrase("not readable as a table: {why}", why=str(cause))) from cause
 
 
 def _parse_row(path: Path, cells: Mapping[str, str], parse_mapping: Callable[[str], Mapping[str, str]]) -> StudyRow:
@@ -204,10 +204,10 @@ def _pooling_remarks(pooled: PooledAngle) -> list[str]:
     out = []
     if pooled.excluded_people:
         facts = {"people": ", ".join(pooled.excluded_people), "fewest": str(pooled.min_pairs)}
-        out.append(phrase("not in the figures of all: {people}, with fewer than {fewest} pairs", **facts))
+        out.append(phrase("excluded from the group values: {people}, fewer than {fewest} pairs", **facts))
     if not math.isfinite(pooled.pairs.agreement_deg.bias):
         people = pooled.variance.people
-        out.append(phrase("{people} people are too few for figures of all: three are needed", people=people))
+        out.append(phrase("{people} people are too few for group values: three are needed", people=people))
     return [str(words) for words in out]
 
 

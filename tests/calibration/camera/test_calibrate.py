@@ -176,9 +176,11 @@ def test_next_instruction_names_what_is_missing(gathered: ViewCollector) -> None
         replace(whole, sides=assess_views(upright, 640, 480).sides).next_instruction(asked)
         == "Tilt the board: left edge nearer"
     )
-    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_instruction(asked) == "Take the board farther away"
-    assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_instruction(asked) == "Bring the board nearer"
-    assert replace(whole, view_count=asked - 1).next_instruction(asked) == "Show it in other places, tilted other ways"
+    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_instruction(asked) == "Move the board farther away"
+    assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_instruction(asked) == "Move the board nearer"
+    assert (
+        replace(whole, view_count=asked - 1).next_instruction(asked) == "Show the board in other places, at other tilts"
+    )
     assert replace(whole, view_count=asked).next_instruction(asked) is None
 
 

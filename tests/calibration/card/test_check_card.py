@@ -135,9 +135,9 @@ def test_card_sheets_fit_the_paper_and_fold(paper: Paper) -> None:
 
 def test_verdict_sentence_out_of_tolerance_names_the_error() -> None:
     said = verdict_sentence(check(0).reading)
-    assert said == "The camera measures right: 0.6° and 0.8 mm off at most; the limits are 2.0° and 2.5 mm."
+    assert said == "Camera within tolerance: at most 0.6° and 0.8 mm off (limits: 2.0° and 2.5 mm)."
     assert "all lengths are 2.0 % too long" in verdict_sentence(check(0, length=2.4, scale=1.02).reading)
-    assert "angles are 2.4° off" in verdict_sentence(check(0, angle=2.4).reading)
+    assert "angles deviate by 2.4°" in verdict_sentence(check(0, angle=2.4).reading)
 
 
 LINE_OF_0_2_0 = (
@@ -213,7 +213,7 @@ def test_check_card_command_prints_measures_and_saves(
         capsys.readouterr()
         assert main(["check-card", str(path)]) == int(share != 1.0)
         said = capsys.readouterr()
-        assert ("measures right" in said.out) == (share == 1.0)
+        assert ("within tolerance" in said.out) == (share == 1.0)
         assert ("calibrate the camera" in said.err) == (share != 1.0)
     kept = read_checks(checks_path(load_settings().data_folder, "77"))
     assert [one.reading.has_valid_lengths for one in kept] == [True, True, False]

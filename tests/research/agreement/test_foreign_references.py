@@ -69,20 +69,20 @@ def test_reference_non_numeric_cells_are_remarked(tmp_path: Path) -> None:
     text[3], text[5], text[7] = "0.0667,#DIV/0!", "0.1333,", "0.2000,fell"
     found = read_text(tmp_path, "\n".join(text))
     assert np.isnan(found.angles_rad["flexion"]).nonzero()[0].tolist() == [2, 4, 6]
-    assert found.remarks == ("flexion: cells that are no number are left out (2), the first is “#DIV/0!” in line 4",)
+    assert found.remarks == ("flexion: cells that are not numbers were excluded (2), the first is “#DIV/0!” in line 4",)
 
 
 def test_reference_row_with_equal_time_is_excluded(tmp_path: Path) -> None:
     text = TABLES["plain"].splitlines()
     found = read_text(tmp_path, "\n".join([*text[:4], text[3], *text[4:]]))
     assert len(found.time_s) == len(TIME_S)
-    assert "left out (1)" in found.remarks[0]
+    assert "excluded (1)" in found.remarks[0]
 
 
 @pytest.mark.parametrize(
     ("head", "told"),
     [
-        ("time,flexion,flexion", "flexion #1, flexion #2 for flexion"),
+        ("time,flexion,flexion", "flexion #1, flexion #2 found for flexion"),
         ("time,flexion (left),Flexion", "flexion (left), Flexion"),
         ("when,flexion,other", "which of when, flexion, other"),
     ],
@@ -144,14 +144,14 @@ def test_reference_points_of_two_hands_with_zero_gaps_are_read(tmp_path: Path) -
     assert compared.alignment is not None
     assert compared.alignment.residual_m < 1e-4
     assert "R:WRIST" in compared.remarks[0]
-    with pytest.raises(ReferenceUnreadable, match="R:WRIST, L:WRIST for WRIST"):
+    with pytest.raises(ReferenceUnreadable, match="R:WRIST, L:WRIST found for WRIST"):
         read_reference(path)
     both["R:MCP3"][:] = 0.0
     never = read_reference(write_trc(tmp_path / "never.trc", time_s, both), hand="right")
     assert set(PALM_MARKERS) - set(never.points_m) == {"MCP3"}
     chosen = read_reference(path, markers={name: f"L:{name}" for name in PALM_MARKERS})
     assert chosen.points_m["WRIST"] == pytest.approx(both["L:WRIST"] / 1e3, nan_ok=True)
-    with pytest.raises(ReferenceUnreadable, match="no marker R:PALM; it has R:WRIST"):
+    with pytest.raises(ReferenceUnreadable, match="no marker R:PALM, only R:WRIST"):
         read_reference(path, markers={"WRIST": "R:PALM"})
 
 
@@ -178,7 +178,7 @@ def test_compare_one_or_two_readings_print_pairs(count: int, tmp_path: Path) -> 
 
 
 def test_reference_without_angles_lists_its_columns(tmp_path: Path) -> None:
-    with pytest.raises(ReferenceUnsuited, match="it has Knie, Hüfte"):
+    with pytest.raises(ReferenceUnsuited, match="only Knie, Hüfte"):
         compare_session(session(), read_text(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
 
 

@@ -59,7 +59,7 @@ def _paint_marker_card(painter: QPainter) -> None:
     lines = (
         tr("1. Wrist: middle of the dorsal side, over the crease of the extended wrist."),
         tr("2. Thumb base (CMC): on the bony edge, one thumb’s width from the wrist marker."),
-        tr("3. MCP joints: on the back of the hand, just proximal to each knuckle."),
+        tr("3. MCP joints: on the back of the hand, just proximal to each MCP joint."),
         tr("Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm."),
     )
     y = _paint_lines(painter, y, lines)

@@ -151,7 +151,7 @@ def hand_map_words(visibility: Mapping[str, MarkerVisibility], *, dip_inferred: 
     partly = [name for name, state in visibility.items() if state == "partly"]
     if not hidden and not partly:
         if dip_inferred:
-            return tr("All markers seen. End joints are not measured: they follow the middle joints.")
+            return tr("All markers visible. DIP joints are not measured: they follow the PIP joints.")
         return tr("All markers seen, every joint is measured.")
     poor = hidden or partly
     words = occlusion_words(poor) if hidden else _partly_words(poor)

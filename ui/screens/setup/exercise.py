@@ -98,7 +98,7 @@ class ExerciseScreen(QWidget):
                 continues_row=True,
             ),
             Field(
-                "is_dip_free", self.tr("End joints of the fingers"),
+                "is_dip_free", self.tr("DIP joints of the fingers"),
                 ChoiceRow(theme, [(False, self.tr("Inferred")), (True, self.tr("Measured"))]),
             ),
             Field(
