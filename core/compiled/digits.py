@@ -231,7 +231,7 @@ def compute_digit_transition(motion: Any, dt_s: float, scale2: Array, forgetting
     return forward, noise
 
 
-def spread_points(
+def compute_digit_sigma_points(
     mean: Array, covariance: Array, root_m: Array, scale: float
 ) -> tuple[Array, Array, Array, Array, Array]:
     """

@@ -39,7 +39,7 @@ from carpus.core.tracking.smoother.palm_smoother import FilterStep
 from carpus.core.tracking.smoother.smoother_record import FilterSteps, SmootherModel, SmootherRecord
 
 
-class OutputRowBuilder:
+class TrackedFrameBuilder:
     """Builds each frame's result.
 
     Stores the share of direct measurements over the last second and the consistency test.
@@ -65,7 +65,7 @@ class OutputRowBuilder:
     def reset_consistency(self) -> None:
         self._consistency.reset()
 
-    def build_row(
+    def build_frame(
         self,
         index: int,
         status: TrackStatus,
@@ -132,7 +132,7 @@ class OutputRowBuilder:
             doubted=doubt.doubted,
         )
 
-    def build_lost_row(
+    def build_lost_frame(
         self, index: int, timestamp_s: float, detections: Detections, dropped_before: int
     ) -> TrackedFrame:
         """Return the result of a frame in which the hand is lost."""
@@ -171,7 +171,7 @@ class Tracker:
         self._manager = TrackManager(MIN_FOUND_MARKERS, settings.lost_after_s, has_digits=protocol.has_fingers)
         self._labels = OperatorLabels(self.markers)
         model = None if self._filter.fingers is None else self._filter.fingers.model
-        self._row_builder = OutputRowBuilder(protocol, self._filter.order, model, self._filter.readout, settings)
+        self._frame_builder = TrackedFrameBuilder(protocol, self._filter.order, model, self._filter.readout, settings)
         palm = palm_calibration(calibration)
         self.record = SmootherRecord(
             SmootherModel(
@@ -179,7 +179,7 @@ class Tracker:
                 self._filter.view,
                 model,
                 lambda: Readout(palm, camera, settings.marker_radius_m),
-                self._row_builder.lost_state,
+                self._frame_builder.lost_state,
             )
         )
 
@@ -187,12 +187,12 @@ class Tracker:
         """Start (again) from the calibrated pose, the hand at rest, at that time or the next frame."""
         self._filter.begin_at_neutral()
         self._manager.begin_at_neutral(at_s)
-        self._row_builder.reset_consistency()
+        self._frame_builder.reset_consistency()
 
     def drop_track(self, after_s: float) -> None:
         """Drop the track after a wrong association; learnt anatomy is kept."""
         self._drop_track(after_s)
-        self._row_builder.reset_consistency()
+        self._frame_builder.reset_consistency()
 
     @property
     def is_lost(self) -> bool:
@@ -254,7 +254,7 @@ class Tracker:
         scan = self._filter.build_scan(predicted, ideal, timestamp_s, dt_s)
         if label is not None:
             self._labels.mark_applied(label)
-            self._row_builder.reset_consistency()
+            self._frame_builder.reset_consistency()
             placed = self._filter.place_marker(label, predicted, scan)
             if placed is not None:
                 predicted, is_linked = placed, False
@@ -281,7 +281,7 @@ class Tracker:
         if self._keep_history:
             self.record.append(*steps)
         joints = self._filter.read_joints(posterior)
-        return self._row_builder.build_row(index, status, posterior, scan, joints, detections, dropped_before)
+        return self._frame_builder.build_frame(index, status, posterior, scan, joints, detections, dropped_before)
 
     def _reacquire(self, posterior: Posterior, scan: Scan) -> Posterior | None:
         """Return the update from a palm found without a prediction; None where that is no better.
@@ -324,7 +324,7 @@ class Tracker:
         self._drop_track(timestamp_s)
         if self._keep_history:
             self.record.append(FilterStep(timestamp_s, None, self._filter.motion.initial_probability, False), None)
-        return self._row_builder.build_lost_row(index, timestamp_s, detections, dropped_before)
+        return self._frame_builder.build_lost_frame(index, timestamp_s, detections, dropped_before)
 
     def _predict_pixels(self, timestamp_s: float) -> FloatArray:
         """Return where the markers should be in the image (M, 2), NaN while the hand is lost."""

@@ -106,7 +106,7 @@ HANDS = [("right", 0, False), ("right", 1, False), ("left", 1, False), ("right",
 def test_points_and_their_images_are_the_oracles(which: tuple[str, int, bool]) -> None:
     it = hand(*which)
     points = it.points()
-    assert_same(points, oracle.spread_points(it.mean, it.covariance, it.root_m, UnscentedParameters()))
+    assert_same(points, oracle.compute_digit_sigma_points(it.mean, it.covariance, it.root_m, UnscentedParameters()))
     linearised = it.linearised()
     assert_same(linearised, seen_oracle.linearise_images(points, it.base.view, UnscentedParameters()))
     tilted = digit_images.compute_tilts(points.normal, it.covariance, linearised, it.base.view)
@@ -211,7 +211,7 @@ def test_arrays_stored_otherwise_give_the_same(layout: Laid) -> None:
     steps: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
         (compiled.place_digits, (pose, it.root_m)),
         (compiled.place_discs, (pose[1:3, None], it.root_m[1:3], [1, 2])),
-        (compiled.spread_points, (it.mean, it.covariance, it.root_m, weights.scale)),
+        (compiled.compute_digit_sigma_points, (it.mean, it.covariance, it.root_m, weights.scale)),
         (digit_images.linearise_images, (points, it.base.view, weights)),
         (digit_images.project_discs, (points, it.base.view, weights.scale)),
         (digit_images.propagate_palm_error, (linearised, it.base)),
@@ -231,7 +231,7 @@ def test_unknown_digit_leaves_others_known() -> None:
     linearised = linearise_digits(points, it.base.view, UnscentedParameters())
     for found, whole in ((points, it.points()), (linearised, it.linearised())):
         assert_same(laid_out(found, lambda one: one[others]), laid_out(whole, lambda one: one[others]), 0.0)
-    expected = oracle.spread_points(mean, it.covariance, it.root_m, UnscentedParameters())
+    expected = oracle.compute_digit_sigma_points(mean, it.covariance, it.root_m, UnscentedParameters())
     assert_same((points.disc_m, points.normal), (expected.disc_m, expected.normal))
     assert_same(linearised.value, seen_oracle.linearise_images(expected, it.base.view, UnscentedParameters()).value)
     of = points.normal, it.covariance, linearised, it.base.view
@@ -258,9 +258,9 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
         (compiled.place_digits, (it.mean, it.root_m)),
         (compiled.place_digits, (pose, it.root_m[:4])),
         (compiled.place_discs, (pose[1:3, None], it.root_m[1:3], [1])),
-        (compiled.spread_points, (pose, it.covariance, it.root_m, 1.0)),
-        (compiled.spread_points, (it.mean, it.covariance[:, :20], it.root_m, 1.0)),
-        (compiled.spread_points, (it.mean.astype(np.float32), it.covariance, it.root_m, 1.0)),
+        (compiled.compute_digit_sigma_points, (pose, it.covariance, it.root_m, 1.0)),
+        (compiled.compute_digit_sigma_points, (it.mean, it.covariance[:, :20], it.root_m, 1.0)),
+        (compiled.compute_digit_sigma_points, (it.mean.astype(np.float32), it.covariance, it.root_m, 1.0)),
         (digit_images.linearise_images, (replace(points, along=points.along[..., :9]), view, weights)),
         (digit_images.linearise_images, (points, replace(view, rotation=view.rotation[:2]), weights)),
         (digit_images.project_discs, (replace(points, disc_m=points.disc_m[:, :12]), view, 1.0)),

@@ -30,7 +30,7 @@ from carpus.core.model.hand.protocols import SITES, joint_angle_names, markers_a
 from carpus.core.model.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
 from carpus.core.research.papers.hand_model import PaperSettings, measure_hand
 from carpus.core.tracking.filter.readout import build_lost_frame, nan_kinematics
-from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights, sigma_offsets
+from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_sigma_offsets, compute_weights
 
 # States (P, n) after a step from states (P, n) and noises (P, k).
 StateTransition = Callable[[FloatArray, FloatArray], FloatArray]
@@ -88,7 +88,7 @@ def predict_state(
     weights = compute_weights(n + k, spread)
     both = np.zeros((n + k, n + k))
     both[:n, :n], both[n:, n:] = state.covariance, noise_covariance
-    offsets = sigma_offsets(both, weights.scale)
+    offsets = compute_sigma_offsets(both, weights.scale)
     points = motion(state.mean + offsets[:, :n], offsets[:, n:])
     mean = weights.mean @ points
     deviation = points - mean

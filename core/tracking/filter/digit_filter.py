@@ -99,7 +99,7 @@ def draw_sigma_points(
     mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
 ) -> DigitSigmaPoints:
     """Draw sigma points of states (5, n), on the discs ``root_disc_m`` (5, 3) under which they begin."""
-    found = digits.spread_points(mean, covariance, root_disc_m, digit_sigma_weights(spread).scale)
+    found = digits.compute_digit_sigma_points(mean, covariance, root_disc_m, digit_sigma_weights(spread).scale)
     return DigitSigmaPoints(*found, mean, covariance)
 
 

@@ -1,4 +1,8 @@
-"""Sigma points and their weights (Wan and van der Merwe 2000; Kandepu et al. 2008)."""
+"""Sigma points and their weights (Wan and van der Merwe 2000; Kandepu et al. 2008).
+
+The points of the palm are made in ``predict_palm_measurement`` of :mod:`core.compiled.palm`, those of the digits in
+``compute_digit_sigma_points`` of :mod:`core.compiled.digits`.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +51,7 @@ def compute_weights(dimension: int, spread: UnscentedParameters) -> SigmaWeights
     return SigmaWeights(mean, covariance, scale, np.array([*mean[:2], *covariance[:2], scale]))
 
 
-def sigma_offsets(covariance: FloatArray, scale: float) -> FloatArray:
+def compute_sigma_offsets(covariance: FloatArray, scale: float) -> FloatArray:
     """Return the offsets (..., 2n+1, n) of the sigma points for covariances (..., n, n).
 
     Raises

@@ -193,7 +193,7 @@ def slope_by_constants(state: FloatArray, frames: DigitFrames, joints_m: FloatAr
     return slope
 
 
-def spread_points(
+def compute_digit_sigma_points(
     mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
 ) -> DigitSigmaPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""

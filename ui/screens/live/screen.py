@@ -163,6 +163,7 @@ class LiveScreen(FittedWidget):
         for ended in (recording.stopped, recording.stop_failed):
             ended.connect(self.catch_up_bar.hide)
         picture, number = self.picture, self.number_card
+        # Named keys of ui/kit/keys.py: Space starts and stops a recording.
         actions = {
             "record": recording.toggle, "pedal": recording.toggle, "note": controls.note_button.click,
             "pain": controls.pain_button.click, "pause": recording.toggle_pause, "overlay": self.frame_overlay.toggle,
