@@ -143,7 +143,7 @@ class TopBarController(QObject):
         """Show the frame rate, dropped frames, and the recording time left on the disk."""
         least = 12 if self._current.source_kind == "practice" else 25  # 15 are drawn, as few as are enough
         few = counters.fps < least
-        words = self.tr("{count} pictures/s, under {least}") if few else self.tr("{count} pictures/s")
+        words = self.tr("{count} fps (below {least})") if few else self.tr("{count} fps")
         words = words.format(count=round_half_away(counters.fps), least=least)
         lost = counters.dropped + counters.missing
         if not counters.is_recording:

@@ -33,7 +33,7 @@
     </message>
     <message>
         <source>Turning</source>
-        <translation>Drehung</translation>
+        <translation>Rotation</translation>
     </message>
     <message>
         <source>Thumb MCP, abduction–adduction</source>
@@ -604,12 +604,12 @@
         <translation>Die Karte hat sich bewegt: Die Sekunden beginnen neu.</translation>
     </message>
     <message>
-        <source>{count} of 6 discs seen: all of the card in the picture, even light, its wedge upright.</source>
-        <translation>{count} von 6 Punkten zu sehen: die ganze Karte ins Bild, gleichmäßiges Licht, Keil aufgestellt.</translation>
+        <source>{count} of 6 markers visible. Show the whole card in the image, in even light, with its wedge upright.</source>
+        <translation>{count} von 6 Markern sichtbar. Die ganze Karte muss im Bild sein, bei gleichmäßigem Licht, mit aufrechtem Keil.</translation>
     </message>
     <message>
-        <source>All six discs are seen. Leave it lying.</source>
-        <translation>Alle sechs Punkte sind zu sehen. Lassen Sie die Karte liegen.</translation>
+        <source>All six markers are visible. Do not move the card.</source>
+        <translation>Alle sechs Marker sind sichtbar. Die Karte nicht bewegen.</translation>
     </message>
     <message>
         <source>Palmar abduction</source>
@@ -1312,8 +1312,8 @@
         <translation>Mitten auf den Falten über dem PIP-Gelenk.</translation>
     </message>
     <message>
-        <source>In the middle of the creases over the end joint.</source>
-        <translation>Mitten auf den Falten über dem Endgelenk.</translation>
+        <source>Centred on the creases over the DIP joint.</source>
+        <translation>Mitten auf den Falten über dem DIP-Gelenk.</translation>
     </message>
     <message>
         <source>On the nail, in its middle.</source>
@@ -1336,8 +1336,8 @@
         <translation>Alle {count} Marker gefunden</translation>
     </message>
     <message>
-        <source>Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.</source>
-        <translation>Die Linie jedes Fingers läuft vom Handgelenk zur Spitze. Ziehen Sie einen Namen auf einen anderen Punkt, um ihn zu ändern.</translation>
+        <source>Each finger’s line runs from the wrist to its tip. To change a label, drag it to another marker.</source>
+        <translation>Die Linie jedes Fingers läuft vom Handgelenk zur Fingerspitze. Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
         <source>Are these names right?</source>
@@ -1352,8 +1352,8 @@
         <translation>{count} Namen sind zweifelhaft</translation>
     </message>
     <message>
-        <source>Look at: {markers}. Enter says yes; drag a name to another disc to change it.</source>
-        <translation>Sehen Sie nach: {markers}. Eingabe heißt ja; ziehen Sie einen Namen auf einen anderen Punkt, um ihn zu ändern.</translation>
+        <source>Check: {markers}. Press Enter to accept, or drag a label to another marker.</source>
+        <translation>Prüfen: {markers}. Mit Enter annehmen oder eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
         <source>Is this the {marker}?</source>
@@ -2425,7 +2425,7 @@
     </message>
     <message>
         <source>Place, speed, turning</source>
-        <translation>Ort, Geschwindigkeit, Drehung</translation>
+        <translation>Ort, Geschwindigkeit, Rotation</translation>
     </message>
     <message>
         <source>ZYZ angles</source>
@@ -3276,12 +3276,12 @@
         <translation>Wählen Sie, woher die Bilder kommen, dann geht es hier weiter.</translation>
     </message>
     <message>
-        <source>Take the picture when the hand lies flat and every disc is to be seen.</source>
-        <translation>Nehmen Sie das Bild auf, wenn die Hand flach liegt und jeder Punkt zu sehen ist.</translation>
+        <source>Take the image when the hand lies flat and every marker is visible.</source>
+        <translation>Das Bild aufnehmen, wenn die Hand flach liegt und alle Marker sichtbar sind.</translation>
     </message>
     <message>
-        <source>Every disc has its name and every check is good: start here.</source>
-        <translation>Jeder Punkt hat seinen Namen und jede Prüfung ist gut: Beginnen Sie hier.</translation>
+        <source>Every marker has its label and every check is good: start here.</source>
+        <translation>Jeder Marker hat seine Bezeichnung, und alle Prüfungen sind gut: hier beginnen.</translation>
     </message>
     <message>
         <source>The joints are followed already; the space bar starts the recording.</source>
@@ -4992,12 +4992,12 @@
         <translation>Namen stimmen</translation>
     </message>
     <message>
-        <source>Drag a name to another disc to change it.</source>
-        <translation>Zum Ändern einen Namen auf einen anderen Punkt ziehen.</translation>
+        <source>Drag a label to another marker to change it.</source>
+        <translation>Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
-        <source>Look whether every name is on its disc, then press Enter; click the discs that are asked for above.</source>
-        <translation>Schauen Sie, ob jeder Name auf seinem Punkt liegt, dann Eingabe; klicken Sie die Punkte an, nach denen oben gefragt wird.</translation>
+        <source>Check that every label is on its marker, then press Enter. Click the markers requested above.</source>
+        <translation>Prüfen, ob jede Bezeichnung auf ihrem Marker liegt, dann Enter drücken. Die oben verlangten Marker anklicken.</translation>
     </message>
     <message>
         <source>Measure</source>
@@ -5308,8 +5308,8 @@
         <translation>Der Computer ist ausgelastet; nichts fehlt</translation>
     </message>
     <message>
-        <source>The figures are {seconds} s late</source>
-        <translation>Werte kommen {seconds} s später</translation>
+        <source>Values are {seconds} s behind</source>
+        <translation>Werte {seconds} s im Rückstand</translation>
     </message>
     <message>
         <source>The computer is busy</source>
@@ -5513,7 +5513,7 @@
     </message>
     <message>
         <source>rotation from the start; {within}</source>
-        <translation>Drehung seit dem Start; {within}</translation>
+        <translation>Rotation seit dem Start; {within}</translation>
     </message>
     <message>
         <source>0° = thumb up</source>
@@ -5521,7 +5521,7 @@
     </message>
     <message>
         <source>rotation from the start</source>
-        <translation>Drehung seit dem Start</translation>
+        <translation>Rotation seit dem Start</translation>
     </message>
     <message>
         <source>zero is the neutral hand</source>
@@ -5537,11 +5537,11 @@
     </message>
     <message>
         <source>Rotation +</source>
-        <translation>Drehung +</translation>
+        <translation>Rotation +</translation>
     </message>
     <message>
         <source>Rotation −</source>
-        <translation>Drehung −</translation>
+        <translation>Rotation −</translation>
     </message>
     <message>
         <source>Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation.</source>
@@ -7646,11 +7646,11 @@
         <translation>keine</translation>
     </message>
     <message>
-        <source>no target</source>
+        <source>no goal</source>
         <translation>kein Ziel</translation>
     </message>
     <message>
-        <source>Use as targets</source>
+        <source>Use as goals</source>
         <translation>Als Ziele verwenden</translation>
     </message>
     <message>
@@ -7714,7 +7714,7 @@
         <translation>Nötig, um Marker später zu sehen und zu korrigieren: {size} MB je Minute, Platz für {time}.</translation>
     </message>
     <message>
-        <source>Target, {movement}</source>
+        <source>Goal, {movement}</source>
         <translation>Ziel, {movement}</translation>
     </message>
     <message>
@@ -7928,16 +7928,16 @@
         <translation>Messung starten · {left}</translation>
     </message>
     <message>
-        <source>No blue disc in the picture</source>
-        <translation>Kein blauer Punkt im Bild</translation>
+        <source>No blue marker in the image</source>
+        <translation>Kein blauer Marker im Bild</translation>
     </message>
     <message>
-        <source>No blue disc is to be seen</source>
-        <translation>Kein blauer Punkt ist zu sehen</translation>
+        <source>No blue marker is visible</source>
+        <translation>Kein blauer Marker sichtbar</translation>
     </message>
     <message>
-        <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
-        <translation>Sind die Punkte aufgeklebt, und liegt die Hand unter der Kamera? Mehr Licht hilft; dunkelblauer Stoff ist kein Punkt.</translation>
+        <source>No markers found. Check that they are on the hand, the hand is in view and the light is good.</source>
+        <translation>Keine Marker gefunden. Prüfen Sie, ob sie auf der Hand sind, die Hand im Bild und das Licht gut ist.</translation>
     </message>
     <message>
         <source>Looking for the markers…</source>
@@ -8198,7 +8198,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Turning</source>
-        <translation>Drehung</translation>
+        <translation>Rotation</translation>
     </message>
     <message>
         <source>Moving</source>
@@ -8708,8 +8708,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Welche ist: {marker}?</translation>
     </message>
     <message>
-        <source>Disc 1</source>
-        <translation>Punkt 1</translation>
+        <source>Marker 1</source>
+        <translation>Marker 1</translation>
     </message>
     <message>
         <source>Spot 2</source>
@@ -8758,16 +8758,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Hier bleiben</translation>
     </message>
     <message>
-        <source>The depth of {name} lies {px} pixels beside its colours.</source>
-        <translation>Die Tiefe von {name} liegt {px} Pixel neben den Farben.</translation>
+        <source>Depth and colour of {name} are misaligned by {px} pixels.</source>
+        <translation>Tiefe und Farbe von {name} sind um {px} Pixel gegeneinander verschoben.</translation>
     </message>
     <message>
         <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
         <translation>Die Aufnahme selbst ist nicht geändert. Sie sagt nicht, dass die Tiefe auf die Farben gelegt wurde.</translation>
     </message>
     <message>
-        <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
-        <translation>Öffnen Sie sie noch einmal, mit der Tiefe auf den Farben, und klicken Sie dann die Marker neu an.</translation>
+        <source>Open it again with depth aligned to colour, then click the markers again.</source>
+        <translation>Öffnen Sie sie erneut mit an der Farbe ausgerichteter Tiefe, und klicken Sie die Marker dann neu an.</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
@@ -8841,8 +8841,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Beginnt bei {angles} (angegeben)</translation>
     </message>
     <message>
-        <source>Drag a name to its disc. Names that change places swap.</source>
-        <translation>Ziehen Sie einen Namen auf seinen Punkt. Namen, die den Platz wechseln, tauschen.</translation>
+        <source>Drag a label to its marker. Two labels can be swapped.</source>
+        <translation>Eine Bezeichnung auf ihren Marker ziehen. Zwei Bezeichnungen lassen sich tauschen.</translation>
     </message>
     <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
@@ -10986,12 +10986,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Alt und neu übereinander</translation>
     </message>
     <message>
-        <source>{count} pictures/s</source>
-        <translation>{count} Bilder/s</translation>
+        <source>{count} fps</source>
+        <translation>{count} fps</translation>
     </message>
     <message>
-        <source>{count} pictures/s, under {least}</source>
-        <translation>{count} Bilder/s, unter {least}</translation>
+        <source>{count} fps (below {least})</source>
+        <translation>{count} fps (unter {least})</translation>
     </message>
     <message>
         <source>{words}, {lost} lost</source>

@@ -604,12 +604,12 @@
         <translation>Il cartoncino si è mosso: i secondi ripartono.</translation>
     </message>
     <message>
-        <source>{count} of 6 discs seen: all of the card in the picture, even light, its wedge upright.</source>
-        <translation>{count} dischetti visti su 6: tutto il cartoncino nell’immagine, luce uniforme, cuneo in piedi.</translation>
+        <source>{count} of 6 markers visible. Show the whole card in the image, in even light, with its wedge upright.</source>
+        <translation>{count} marcatori visibili su 6. Tutto il cartoncino nell’immagine, luce uniforme, cuneo in piedi.</translation>
     </message>
     <message>
-        <source>All six discs are seen. Leave it lying.</source>
-        <translation>Tutti i sei dischetti sono visti. Non toccare il cartoncino.</translation>
+        <source>All six markers are visible. Do not move the card.</source>
+        <translation>Tutti i sei marcatori sono visibili. Non muovere il cartoncino.</translation>
     </message>
     <message>
         <source>Palmar abduction</source>
@@ -1312,8 +1312,8 @@
         <translation>Al centro delle pieghe sopra l’articolazione IFP.</translation>
     </message>
     <message>
-        <source>In the middle of the creases over the end joint.</source>
-        <translation>Al centro delle pieghe sopra l’articolazione distale.</translation>
+        <source>Centred on the creases over the DIP joint.</source>
+        <translation>Al centro delle pieghe sopra l’articolazione IFD.</translation>
     </message>
     <message>
         <source>On the nail, in its middle.</source>
@@ -1336,8 +1336,8 @@
         <translation>Trovati tutti i {count} marcatori</translation>
     </message>
     <message>
-        <source>Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.</source>
-        <translation>La linea di ogni dito va dal polso alla punta. Per cambiare un nome, trascinarlo su un altro dischetto.</translation>
+        <source>Each finger’s line runs from the wrist to its tip. To change a label, drag it to another marker.</source>
+        <translation>La linea di ogni dito va dal polso alla punta. Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
     </message>
     <message>
         <source>Are these names right?</source>
@@ -1352,8 +1352,8 @@
         <translation>{count} nomi sono dubbi</translation>
     </message>
     <message>
-        <source>Look at: {markers}. Enter says yes; drag a name to another disc to change it.</source>
-        <translation>Guardare: {markers}. Invio dice sì; per cambiare un nome, trascinarlo su un altro dischetto.</translation>
+        <source>Check: {markers}. Press Enter to accept, or drag a label to another marker.</source>
+        <translation>Controllare: {markers}. Premere Invio per accettare, o trascinare un’etichetta su un altro marcatore.</translation>
     </message>
     <message>
         <source>Is this the {marker}?</source>
@@ -1569,7 +1569,7 @@
     </message>
     <message>
         <source>Show the blue dots to the camera</source>
-        <translation>Mostri i dischetti blu alla telecamera</translation>
+        <translation>Mostri i puntini blu alla telecamera</translation>
     </message>
     <message>
         <source>Let your hand rest.</source>
@@ -3276,12 +3276,12 @@
         <translation>Scegliere da dove vengono le immagini, poi proseguire qui.</translation>
     </message>
     <message>
-        <source>Take the picture when the hand lies flat and every disc is to be seen.</source>
-        <translation>Scattare l’immagine quando la mano è piatta e si vedono tutti i dischetti.</translation>
+        <source>Take the image when the hand lies flat and every marker is visible.</source>
+        <translation>Scattare l’immagine quando la mano è piatta e tutti i marcatori sono visibili.</translation>
     </message>
     <message>
-        <source>Every disc has its name and every check is good: start here.</source>
-        <translation>Ogni dischetto ha il suo nome e ogni controllo è buono: iniziare qui.</translation>
+        <source>Every marker has its label and every check is good: start here.</source>
+        <translation>Ogni marcatore ha la sua etichetta e ogni controllo è buono: iniziare qui.</translation>
     </message>
     <message>
         <source>The joints are followed already; the space bar starts the recording.</source>
@@ -4992,12 +4992,12 @@
         <translation>I nomi sono giusti</translation>
     </message>
     <message>
-        <source>Drag a name to another disc to change it.</source>
-        <translation>Per cambiare, trascinare un nome su un altro dischetto.</translation>
+        <source>Drag a label to another marker to change it.</source>
+        <translation>Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
     </message>
     <message>
-        <source>Look whether every name is on its disc, then press Enter; click the discs that are asked for above.</source>
-        <translation>Guardare se ogni nome è sul suo dischetto, poi Invio; fare clic sui dischetti richiesti sopra.</translation>
+        <source>Check that every label is on its marker, then press Enter. Click the markers requested above.</source>
+        <translation>Controllare che ogni etichetta sia sul suo marcatore, poi premere Invio. Fare clic sui marcatori richiesti sopra.</translation>
     </message>
     <message>
         <source>Measure</source>
@@ -5308,7 +5308,7 @@
         <translation>Il computer è occupato; non si perde nulla</translation>
     </message>
     <message>
-        <source>The figures are {seconds} s late</source>
+        <source>Values are {seconds} s behind</source>
         <translation>Valori in ritardo di {seconds} s</translation>
     </message>
     <message>
@@ -7646,11 +7646,11 @@
         <translation>senza</translation>
     </message>
     <message>
-        <source>no target</source>
+        <source>no goal</source>
         <translation>nessuno</translation>
     </message>
     <message>
-        <source>Use as targets</source>
+        <source>Use as goals</source>
         <translation>Usa come obiettivi</translation>
     </message>
     <message>
@@ -7714,7 +7714,7 @@
         <translation>Servono per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
     </message>
     <message>
-        <source>Target, {movement}</source>
+        <source>Goal, {movement}</source>
         <translation>Obiettivo, {movement}</translation>
     </message>
     <message>
@@ -7928,16 +7928,16 @@
         <translation>Inizia a misurare · {left}</translation>
     </message>
     <message>
-        <source>No blue disc in the picture</source>
-        <translation>Nessun dischetto blu nell’immagine</translation>
+        <source>No blue marker in the image</source>
+        <translation>Nessun marcatore blu nell’immagine</translation>
     </message>
     <message>
-        <source>No blue disc is to be seen</source>
-        <translation>Non si vede nessun dischetto blu</translation>
+        <source>No blue marker is visible</source>
+        <translation>Nessun marcatore blu visibile</translation>
     </message>
     <message>
-        <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
-        <translation>I dischetti ci sono, e la mano è sotto la telecamera? Più luce aiuta; una stoffa blu scuro non è un dischetto.</translation>
+        <source>No markers found. Check that they are on the hand, the hand is in view and the light is good.</source>
+        <translation>Nessun marcatore trovato. Controllare che siano sulla mano, che la mano sia inquadrata e che la luce sia buona.</translation>
     </message>
     <message>
         <source>Looking for the markers…</source>
@@ -8708,8 +8708,8 @@ Maiusc+F8 di lato</translation>
         <translation>Qual è: {marker}?</translation>
     </message>
     <message>
-        <source>Disc 1</source>
-        <translation>Dischetto 1</translation>
+        <source>Marker 1</source>
+        <translation>Marcatore 1</translation>
     </message>
     <message>
         <source>Spot 2</source>
@@ -8758,16 +8758,16 @@ Maiusc+F8 di lato</translation>
         <translation>Resta qui</translation>
     </message>
     <message>
-        <source>The depth of {name} lies {px} pixels beside its colours.</source>
-        <translation>La profondità di {name} è spostata di {px} pixel rispetto ai colori.</translation>
+        <source>Depth and colour of {name} are misaligned by {px} pixels.</source>
+        <translation>Profondità e colore di {name} sono sfasati di {px} pixel.</translation>
     </message>
     <message>
         <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
         <translation>La registrazione stessa non cambia. Non dice che la sua profondità era stata sovrapposta ai colori.</translation>
     </message>
     <message>
-        <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
-        <translation>Riaprirla con la profondità spostata sui colori, poi rifare i clic sui marcatori.</translation>
+        <source>Open it again with depth aligned to colour, then click the markers again.</source>
+        <translation>Riaprirla con la profondità allineata al colore, poi rifare i clic sui marcatori.</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
@@ -8841,8 +8841,8 @@ Maiusc+F8 di lato</translation>
         <translation>Parte da {angles} (indicato)</translation>
     </message>
     <message>
-        <source>Drag a name to its disc. Names that change places swap.</source>
-        <translation>Trascinare un nome sul suo dischetto. I nomi che cambiano posto si scambiano.</translation>
+        <source>Drag a label to its marker. Two labels can be swapped.</source>
+        <translation>Trascinare un’etichetta sul suo marcatore. Due etichette si possono scambiare.</translation>
     </message>
     <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
@@ -10986,12 +10986,12 @@ Maiusc+F8 di lato</translation>
         <translation>Vecchio e nuovo sovrapposti</translation>
     </message>
     <message>
-        <source>{count} pictures/s</source>
-        <translation>{count} immagini/s</translation>
+        <source>{count} fps</source>
+        <translation>{count} fps</translation>
     </message>
     <message>
-        <source>{count} pictures/s, under {least}</source>
-        <translation>{count} immagini/s, meno di {least}</translation>
+        <source>{count} fps (below {least})</source>
+        <translation>{count} fps (sotto {least})</translation>
     </message>
     <message>
         <source>{words}, {lost} lost</source>

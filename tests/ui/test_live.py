@@ -331,7 +331,7 @@ def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Liv
     screen._show_counters()
     tried.run(0.5)
     screen._show_values()
-    late = StatusLight("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
+    late = StatusLight("idle", "Values are 4 s behind", "The computer is busy; every picture is kept")
     assert screen.controls.light_view.status_light == late
     assert (math.isnan(screen.exercise_snapshot().value_deg), screen.exercise_snapshot().is_late) == (True, True)
     newest = feed.current_frame()

@@ -503,7 +503,7 @@ def test_frame_without_markers_says_so(screen: MarkersScreen, monkeypatch: pytes
     for seen, said in ((0, True), (6, False)):
         monkeypatch.setattr(calibrator, "count_candidates", lambda seen=seen: seen)
         screen.open_calibrator(calibrator) if said else screen.freeze_frame()
-        assert ("No blue disc" in screen.guidance.title_label.text()) is said
+        assert ("No blue marker" in screen.guidance.title_label.text()) is said
 
 
 def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, marking: Marking) -> None:

@@ -78,7 +78,7 @@ def card_hint(progress: CardProgress | None) -> str:
     if progress.has_moved:
         return tr("The card has moved: the seconds begin again.")
     if progress.disc_px is None:
-        return tr("{count} of 6 discs seen: all of the card in the picture, even light, its wedge upright.").format(
-            count=min(progress.disc_count, 6)
-        )
-    return tr("All six discs are seen. Leave it lying.")
+        return tr(
+            "{count} of 6 markers visible. Show the whole card in the image, in even light, with its wedge upright."
+        ).format(count=min(progress.disc_count, 6))
+    return tr("All six markers are visible. Do not move the card.")

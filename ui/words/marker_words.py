@@ -50,8 +50,8 @@ def marker_placement(marker: str) -> str:
     return {
         "MCP": tr("On the back of the hand, 3–5 mm proximal to the MCP joint."),
         "PIP": tr("Centred on the creases over the PIP joint."),
-        "DIP": tr("In the middle of the creases over the end joint."),
-        "IP": tr("In the middle of the creases over the end joint."),
+        "DIP": tr("Centred on the creases over the DIP joint."),
+        "IP": tr("Centred on the creases over the DIP joint."),
         "TIP": tr("On the nail, in its middle."),
     }.get(joint, "")
 

@@ -168,7 +168,7 @@ class MarkerQuestion(Card):
         else:
             self.words.setText(self.tr("Which one is the {marker}?").format(marker=name))
             faces = {
-                "disc": (self.tr("Disc 1"), "answer_first"),
+                "disc": (self.tr("Marker 1"), "answer_first"),
                 "spot": (self.tr("Spot 2"), "answer_second"),
                 "none": (self.tr("Neither"), "answer_none"),
             }

@@ -212,7 +212,7 @@ def lag_light(lag: TrackingLag, *, recording: bool) -> StatusLight:
         words = tr("{count} pictures are missing: close other programs")
         return StatusLight("warn", tr("The computer is too busy"), words.format(count=lag.missing_frames))
     kept = tr("The computer is busy; every picture is kept")
-    words = tr("The figures are {seconds} s late").format(seconds=format_rounded(lag.lag_s))
+    words = tr("Values are {seconds} s behind").format(seconds=format_rounded(lag.lag_s))
     return StatusLight("idle", words, kept if recording else tr("The computer is busy"))
 
 

@@ -83,11 +83,11 @@ class MarkersFlow(Flow):
 
         self.context.messages.show_question(
             MessageText(
-                self.tr("The depth of {name} lies {px} pixels beside its colours.").format(
+                self.tr("Depth and colour of {name} are misaligned by {px} pixels.").format(
                     name=name, px=format_rounded(off.value)
                 ),
                 self.tr("The recording itself is not changed. It does not say that its depth was laid on its colours."),
-                self.tr("Open it again with the depth moved onto the colours, then click the markers anew."),
+                self.tr("Open it again with depth aligned to colour, then click the markers again."),
             ),
             (
                 Answer(self.tr("Leave it as it is"), lambda: None),

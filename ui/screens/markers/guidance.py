@@ -144,12 +144,10 @@ class GuidancePanel(QWidget):
         self.primary_button.set_label(words, icon="", hint="")
         self.second_button.hide()
         if sees_none:  # said at once, before anybody looks for what is not there
-            self.step_label.show_state("warn", self.tr("No blue disc in the picture"), token="warn")
-            self.title_label.setText(self.tr("No blue disc is to be seen"))
+            self.step_label.show_state("warn", self.tr("No blue marker in the image"), token="warn")
+            self.title_label.setText(self.tr("No blue marker is visible"))
             self.instruction_label.setText(
-                self.tr(
-                    "Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc."
-                )
+                self.tr("No markers found. Check that they are on the hand, the hand is in view and the light is good.")
             )
         if is_proposing:
             self.step_label.show_state("none", self.tr("Looking for the markers…"))
@@ -237,9 +235,11 @@ def proposal_words(labels: LabelState) -> ProposalWords:
     primary = tr("Names are right") if not open_names else tr("Take {count} names").format(count=named)
     if not open_names and not doubtful:
         whole = tr("All {count} markers found").format(count=asked)
-        todo = tr("Drag a name to another disc to change it.")
+        todo = tr("Drag a label to another marker to change it.")
         if labels.protocol.has_fingers:
-            todo = tr("Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.")
+            todo = tr(
+                "Each finger’s line runs from the wrist to its tip. To change a label, drag it to another marker."
+            )
         return ProposalWords("good", whole, tr("Are these names right?"), todo, primary)
     if doubtful:
         step = (
@@ -247,7 +247,7 @@ def proposal_words(labels: LabelState) -> ProposalWords:
             if len(doubtful) == 1
             else tr("{count} names are doubtful").format(count=len(doubtful))
         )
-        todo = tr("Look at: {markers}. Enter says yes; drag a name to another disc to change it.")
+        todo = tr("Check: {markers}. Press Enter to accept, or drag a label to another marker.")
         title = tr("Is this the {marker}?").format(marker=marker_name(doubtful[0], translate_phrase))
         return ProposalWords("warn", step, title, todo.format(markers=_join_markers(doubtful)), tr("Yes, it is"))
     step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)

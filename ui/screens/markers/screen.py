@@ -302,7 +302,7 @@ class MarkersScreen(FittedWidget):
 
     def correct_labels(self) -> None:
         """Move the keyboard to the frame, where labels can be dragged."""
-        self.hint.setText(self.tr("Drag a name to its disc. Names that change places swap."))
+        self.hint.setText(self.tr("Drag a label to its marker. Two labels can be swapped."))
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def start_anyway(self) -> None:

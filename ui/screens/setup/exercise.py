@@ -64,11 +64,11 @@ class ExerciseScreen(QWidget):
         self.problem_label = Text(theme, "", 14, token="bad", wrap=True)
         self.visibility_label = Text(theme, "", 14, token="text2", wrap=True)
         self.proposal_label = Text(theme, "", 14, token="text2", wrap=True)
-        self.proposal_button = Button(theme, self.tr("Use as targets"), "plain", height_px=36)
+        self.proposal_button = Button(theme, self.tr("Use as goals"), "plain", height_px=36)
         self.disk_space_label = caption(theme, wrap=True)
         self.primary_button = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=ENTER_KEY)
         self.target_fields = tuple(
-            DegreesField(theme, MAX_TARGET_DEG, self.tr("no target"), direction) for direction in (1.0, -1.0)
+            DegreesField(theme, MAX_TARGET_DEG, self.tr("no goal"), direction) for direction in (1.0, -1.0)
         )
         self.form = Form(theme, self._form_fields(theme))
         self._build_layout()
@@ -241,7 +241,7 @@ class ExerciseScreen(QWidget):
         for number, (field, part) in enumerate(zip(self.target_fields, _TARGET_FIELDS, strict=True)):
             parts[part].setVisible(single and number < len(names))
             if number < len(names):
-                words = self.tr("Target, {movement}").format(movement=to_mid_sentence(names[number]))
+                words = self.tr("Goal, {movement}").format(movement=to_mid_sentence(names[number]))
                 parts[part].name.setText(words)
                 field.setAccessibleName(words)
                 field.set_minimum(-MAX_TARGET_DEG if exercise.angle == PRONOSUPINATION else 0)

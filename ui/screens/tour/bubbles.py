@@ -76,11 +76,9 @@ def bubble_words(bubble: Bubble) -> str:
     words: Mapping[Bubble, str] = {
         "patient": tr("Choose in the list who is measured and start here; the practice patient is simulated."),
         "camera": tr("Choose where the pictures come from, then go on here."),
-        "aim": tr("Take the picture when the hand lies flat and every disc is to be seen."),
-        "click": tr(
-            "Look whether every name is on its disc, then press Enter; click the discs that are asked for above."
-        ),
-        "check": tr("Every disc has its name and every check is good: start here."),
+        "aim": tr("Take the image when the hand lies flat and every marker is visible."),
+        "click": tr("Check that every label is on its marker, then press Enter. Click the markers requested above."),
+        "check": tr("Every marker has its label and every check is good: start here."),
         "record": tr("The joints are followed already; the space bar starts the recording."),
         "stop": tr("Let the hand move a few times; the space bar then stores it all."),
         "results": tr("These are the results; the key X leaves out the repetition you are at."),
