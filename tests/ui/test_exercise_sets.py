@@ -194,7 +194,7 @@ def test_therapist_makes_names_and_chooses_set(qtbot: QtBot, theme: Theme) -> No
     sheet.open_sets(DEFAULT_SETS, "wrist6")
     sheet.set_choice.setCurrentIndex(sheet.set_choice.count() - 1)
     assert not sheet.save_button.isEnabled(), "it has no name"
-    sheet.name_field.setText("Wrist, all ways")
+    sheet.name_field.setText("Wrist, all movements")
     sheet._validate()
     assert not sheet.save_button.isEnabled(), "another one has this name"
     sheet.name_field.setText("Mine")
