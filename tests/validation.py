@@ -187,7 +187,7 @@ own. Limits by Bland and Altman (2007), intervals by Zou (2013).
             yield from (f"### {motion}", "", "```", *format_study(study), "```", "")
             pictures = options.output.parent / "pictures"
             for one in study.pooled_angles:
-                if one.pairs.name == motion and np.isfinite(one.pairs.agreement_deg.bias):
+                if one.pairs.name == motion and np.isfinite(one.pairs.figures_deg.bias):
                     write_plots(study.to_comparison(), folder / "plots", motion)
                     pictures.mkdir(parents=True, exist_ok=True)
                     shutil.copy(folder / "plots" / f"{motion}.{motion}.png", pictures / f"validation-{motion}.png")

@@ -143,7 +143,7 @@ def _compare_study(arguments: argparse.Namespace) -> int:
             arguments.study, lines, smoothed=arguments.smoothed, max_shift_s=arguments.max_shift,
             load_choices=read_choices, progress=progress,
         )  # fmt: skip
-    known = [one.pairs for one in study.pooled_angles if math.isfinite(one.pairs.agreement_deg.bias)]
+    known = [one.pairs for one in study.pooled_angles if math.isfinite(one.pairs.figures_deg.bias)]
     for line in [*format_study(study), *format_limit_verdicts(known, arguments.limit)]:
         print(line)
     if arguments.output is not None:

@@ -211,7 +211,7 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     done = carpus.export(folder / "truth.h5", tmp_path, ["mot", "c3d"])
     assert {path.suffix for path in done.files} >= {".mot", ".c3d"}
     found = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot")
-    assert max(pair.agreement_deg.rmse for pair in found.pairs) < 0.1
+    assert max(pair.figures_deg.rmse for pair in found.pairs) < 0.1
     given = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot", lag_s=0.1, drift_percent=1.0).shift
     assert (given.lag_s, given.is_given, given.drift) == (0.1, True, pytest.approx(0.01))
 

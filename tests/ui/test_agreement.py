@@ -47,14 +47,14 @@ def test_sign_is_word() -> None:
 def test_agreement_verdict_needs_both_limits_and_enough_readings(
     bias: float, sd: float, count: int, limit: float, verdict: str
 ) -> None:
-    assert judge_agreement(of("flexion", bias, sd, count).agreement_deg, limit) == verdict
+    assert judge_agreement(of("flexion", bias, sd, count).figures_deg, limit) == verdict
 
 
 def test_agreement_points_match_axis(theme: Theme) -> None:
     pairs = of("flexion", 2.0, 1.0)
     plot = AgreementPlot(pairs, 5.0, is_time_series=False)
     panel = plot.panel(screen_style(theme), QRectF(0, 0, 900, 300))
-    shown = pairs.agreement_deg.limits
+    shown = pairs.figures_deg.limits
     assert float(panel.y(shown[1])) < float(panel.y(shown[0])), "more flexion is above"
     assert panel.scale.low < shown[0]
     assert shown[1] < panel.scale.high

@@ -91,7 +91,7 @@ class AgreementPlot:
     def scale(self) -> Scale:
         """Return the vertical scale: symmetric for differences, else around both curves."""
         if self.view == "differences":
-            agreement = self.pairs.agreement_deg
+            agreement = self.pairs.figures_deg
             values = [*(self.carpus_deg - self.reference_deg), *agreement.lower_interval, *agreement.upper_interval]
             maximum = max(
                 (abs(value) for value in (*values, 1.5 * self.limit_deg) if math.isfinite(value)), default=5.0
@@ -143,7 +143,7 @@ class AgreementPlot:
 def _line_labels(plot: AgreementPlot) -> list[tuple[str, ...]]:
     if plot.view == "curves":
         return [(tr("Carpus"),), (tr("Reference"),)]
-    name, agreement = plot.pairs.name, plot.pairs.agreement_deg
+    name, agreement = plot.pairs.name, plot.pairs.figures_deg
     pattern = tr("Limit {value}")
     out: list[tuple[str, ...]] = [
         (pattern.format(value=format_difference(value, name)), f"({format_interval(about, name)})")
@@ -214,7 +214,7 @@ class AgreementChart(Chart):
         self.add_symbols("o", 2.0 * radius, pg.mkPen(None), token, at, DOT_ALPHA)
 
     def _add_differences(self, plot: Plot) -> None:
-        shown, agreement = self._plot, self._plot.pairs.agreement_deg
+        shown, agreement = self._plot, self._plot.pairs.figures_deg
         token, unit, rows = angle_token(shown.pairs.name), self.plot_style.unit, shown.point_rows
         differences = (shown.carpus_deg - shown.reference_deg)[rows]
         self._add_dots(plot, shown.mean_deg[rows], differences, token, 3.0 if shown.is_time_series else 4.5)

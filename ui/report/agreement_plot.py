@@ -80,7 +80,7 @@ def _paint_on_paper(paint: PaintPlots, painter: QPainter, point: float) -> None:
 
 def _page_painter(pairs: AnglePairs, compared: Comparison, limit_deg: float) -> PaintPlots:
     """Return a function that paints an angle's values and both plots, scaled by units per design pixel."""
-    f = pairs.agreement_deg
+    f = pairs.figures_deg
     values = [
         f"RMSE {format_tenths(f.rmse)}",
         f"r {format_coefficient(f.correlation)}",

@@ -89,7 +89,7 @@ COLUMNS = (
 
 def to_row(pairs: AnglePairs) -> dict[str, Any]:
     """Return the statistics of one angle by the names of :data:`COLUMNS`."""
-    f = pairs.agreement_deg
+    f = pairs.figures_deg
     bias = (f.bias, *f.bias_interval, f.sd)
     limits = (f.limits[0], *f.lower_interval, f.limits[1], *f.upper_interval)
     iccs = (f.icc, *f.icc_interval, f.icc_3_1, *f.icc_3_1_interval)
@@ -183,7 +183,7 @@ def format_comparison(comparison: Comparison) -> list[str]:
     out.append("")
     if comparison.shift is None:
         out += [*_format_pairs(comparison.pairs), ""]
-    agreements = [(pairs.name, pairs.agreement_deg) for pairs in comparison.pairs]
+    agreements = [(pairs.name, pairs.figures_deg) for pairs in comparison.pairs]
     known = [(name, agreement) for name, agreement in agreements if math.isfinite(agreement.bias)]
     if known:
         out += [*format_agreements(known), ""]
@@ -233,8 +233,8 @@ def format_limit_verdicts(all_pairs: Sequence[AnglePairs], limit_deg: float) -> 
     return [
         f"Limit        {pairs.name} {texts[verdict].format(limit=limit_deg, apart=apart)}"
         for pairs in all_pairs
-        if (verdict := judge_agreement(pairs.agreement_deg, limit_deg)) in texts
-        and (apart := format_rounded(max_absolute_limit(pairs.agreement_deg), 1))
+        if (verdict := judge_agreement(pairs.figures_deg, limit_deg)) in texts
+        and (apart := format_rounded(max_absolute_limit(pairs.figures_deg), 1))
     ]
 
 

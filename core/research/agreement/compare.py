@@ -72,7 +72,7 @@ class AnglePairs:
     time_s: FloatArray
     measured_rad: FloatArray
     reference_rad: FloatArray
-    agreement_deg: Agreement
+    figures_deg: Agreement
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,10 +243,10 @@ def comparison_remarks(
         phrase(
             "{angle}: opposite to Carpus (r = {r}). One of the two has the opposite sign or shows another movement",
             angle=one.name,
-            r=format_rounded(one.agreement_deg.correlation, 3),
+            r=format_rounded(one.figures_deg.correlation, 3),
         )
         for one in pairs
-        if one.agreement_deg.is_opposite
+        if one.figures_deg.is_opposite
     ]
     out += [
         phrase(

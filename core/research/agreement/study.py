@@ -205,7 +205,7 @@ def _pooling_remarks(pooled: PooledAngle) -> list[str]:
     if pooled.excluded_people:
         facts = {"people": ", ".join(pooled.excluded_people), "fewest": str(pooled.min_pairs)}
         out.append(phrase("excluded from the group values: {people}, fewer than {fewest} pairs", **facts))
-    if not math.isfinite(pooled.pairs.agreement_deg.bias):
+    if not math.isfinite(pooled.pairs.figures_deg.bias):
         people = pooled.variance.people
         out.append(phrase("{people} people are too few for group values: three are needed", people=people))
     return [str(words) for words in out]
@@ -270,9 +270,9 @@ def format_study(study: AgreementStudy) -> list[str]:
     out.append("")
     rows: list[tuple[str, Agreement]] = []
     for one in study.pooled_angles:
-        rows.append((f"{one.pairs.name}, all people", one.pairs.agreement_deg))
+        rows.append((f"{one.pairs.name}, all people", one.pairs.figures_deg))
         rows += [
-            (f"  {line.person}, {line.session.stem}", pairs.agreement_deg)
+            (f"  {line.person}, {line.session.stem}", pairs.figures_deg)
             for line, result in study.comparisons for pairs in result.comparison.pairs if pairs.name == one.pairs.name
         ]  # fmt: skip
     out += format_agreements(rows)

@@ -65,7 +65,7 @@ def test_compare_finds_shift_and_offset(session: Session, later: int) -> None:
     times_s = np.arange(len(angles["flexion"])) / 100.0 + 100.0
     found = compare_session(session, replace(reference, time_s=times_s, angles_rad=angles))
     assert found.shift.lag_s == pytest.approx(later / 100, abs=0.004)
-    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
+    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
     assert flexion.bias == pytest.approx(3.0, abs=0.05)
     assert flexion.sd < 0.5
     assert flexion.correlation > 0.999
@@ -76,7 +76,7 @@ def test_compare_opposite_sign_is_remarked(session: Session) -> None:
     turned = replace(right, angles_rad=dict(right.angles_rad) | {"flexion": -right.angles_rad["flexion"]})
     found = compare_session(session, turned)
     assert found.shift.lag_s == pytest.approx(0.0, abs=0.01)
-    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
+    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
     assert flexion.correlation < -0.99
     assert flexion.icc < 0.0, "not flattered"
     assert any(remark.startswith("flexion: ") and "opposite sign" in remark for remark in found.remarks)
@@ -103,14 +103,14 @@ def test_compare_whole_turns_agree(session: Session) -> None:
     wrapped = {name: np.mod(v, 2.0 * math.pi) for name, v in right.angles_rad.items()}
     for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
         found = compare_session(session, replace(right, angles_rad=angles), lag_s=0.0)
-        assert all(one.agreement_deg.largest_difference < 2.0 for one in found.pairs)
+        assert all(one.figures_deg.largest_difference < 2.0 for one in found.pairs)
 
 
 def test_compare_given_lag_is_used(session: Session) -> None:
     found = compare_session(session, other_session(session, 0.0), lag_s=0.4)
     assert found.shift.is_given
     assert found.shift.lag_s == 0.4
-    assert next(one for one in found.pairs if one.name == "flexion").agreement_deg.sd > 5.0
+    assert next(one for one in found.pairs if one.name == "flexion").figures_deg.sd > 5.0
 
 
 def test_compare_session_with_its_exports_agrees(session: Session, tmp_path: Path) -> None:
@@ -118,7 +118,7 @@ def test_compare_session_with_its_exports_agrees(session: Session, tmp_path: Pat
     mot.write(take, tmp_path)
     found = compare_session(session, read_reference(tmp_path / "s.mot"))
     assert [one.name for one in found.pairs] == list(WRIST_ANGLES)
-    assert max(one.agreement_deg.rmse for one in found.pairs) < 0.05
+    assert max(one.figures_deg.rmse for one in found.pairs) < 0.05
     assert min(len(one.time_s) for one in found.pairs) >= len(session) - 2
 
 
@@ -140,7 +140,7 @@ def test_compare_points_are_aligned_rigidly(session: Session, kind: str, tmp_pat
     writer.write(take_of(theirs, "s"), tmp_path)
     found = compare_session(rigid, read_reference(tmp_path / f"s.{kind}"))
     assert found.alignment.residual_m < 5e-4
-    flexion = next(one for one in found.pairs if one.name == "flexion").agreement_deg
+    flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
     assert abs(flexion.bias) < 2.5, "the neutral pose is where the first half second is"
     assert flexion.sd < 0.7
     assert flexion.correlation > 0.999
@@ -156,7 +156,7 @@ def test_compare_table_with_column_map_agrees(session: Session, tmp_path: Path) 
             table.writerow([f"{t:.4f}".replace(".", ","), f"{-angle:.4f}".replace(".", ","), "1"])
     found = compare_session(session, read_reference(path, {"time": "Zeit", "flexion": "-FlexExt"}))
     (flexion,) = found.pairs
-    assert flexion.agreement_deg.rmse < 0.02
+    assert flexion.figures_deg.rmse < 0.02
     assert any("other" in reason for reason in found.unused)
     assert any("deviation" in reason for reason in found.unused)
     with pytest.raises(ReferenceUnreadable, match="NoSuch"):
@@ -173,7 +173,7 @@ def test_compare_goniometer_readings_agree(session: Session, tmp_path: Path) -> 
     path.write_text("angle,reading_deg,time_s\n" + "\n".join([*rows, "flexion,20,6.0", "toe,3,1"]), encoding="utf-8")
     found = compare_session(still, read_reference(path), figures=compute_session_results(still))
     (flexion,) = found.pairs
-    assert flexion.agreement_deg.count == 6
+    assert flexion.figures_deg.count == 6
     assert flexion.measured_rad[1:] == pytest.approx(np.radians([10.0, 20, 30, 40, 50]), abs=1e-3)
     # Five readings 2 degrees low, and an extension of -2 read as flexion of 2: all by their sign.
     assert np.degrees(flexion.measured_rad - flexion.reference_rad).round(2).tolist() == [-2.0, 2.0, 2.0, 2.0, 2.0, 2.0]
@@ -203,7 +203,7 @@ def test_compare_reading_without_time_uses_the_session_range(session: Session) -
         GoniometerReading("flexion", "flexion", math.radians(row.mean + d), math.nan) for d in (1.0, 2.0, 3.0)
     )
     found = compare_session(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
-    assert found.pairs[0].agreement_deg.bias == pytest.approx(-2.0)
+    assert found.pairs[0].figures_deg.bias == pytest.approx(-2.0)
 
 
 @pytest.mark.filterwarnings("error")
