@@ -1353,7 +1353,7 @@
     </message>
     <message>
         <source>Check: {markers}. Press Enter to accept, or drag a label to another marker.</source>
-        <translation>Prüfen: {markers}. Mit Enter annehmen oder eine Bezeichnung auf einen anderen Marker ziehen.</translation>
+        <translation>Prüfen: {markers}. Mit Eingabe annehmen oder eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
         <source>Is this the {marker}?</source>
@@ -4997,7 +4997,7 @@
     </message>
     <message>
         <source>Check that every label is on its marker, then press Enter. Click the markers requested above.</source>
-        <translation>Prüfen, ob jede Bezeichnung auf ihrem Marker liegt, dann Enter drücken. Die oben verlangten Marker anklicken.</translation>
+        <translation>Prüfen, ob jede Bezeichnung auf ihrem Marker liegt, dann Eingabe drücken. Die oben verlangten Marker anklicken.</translation>
     </message>
     <message>
         <source>Measure</source>
