@@ -55,8 +55,8 @@ MAX_AREA_TILT_RAD = math.radians(50.0)  # of a disc whose area is measured
 class DigitFrame:
     """Measurements of the digits in one frame, ``dt_s`` after the last one.
 
-    The palm in it as their ``base``, its ``blobs`` with their ``area_px`` (D,), and which of them are free
-    ``is_free`` (D,), not the palm's.
+    The palm in it is their ``base``; its ``blobs`` have ``area_px`` (D,), and those with ``is_free`` (D,) are not the
+    palm's.
     """
 
     dt_s: float
