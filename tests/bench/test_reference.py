@@ -37,7 +37,7 @@ def test_spy_measures_parts_of_frame_and_leaves_no_trace() -> None:
         def detect(self, _frame: Frame, _region: object = None) -> Detections:
             return blobs(Pose())
 
-        def region_about(self, *_: object) -> Region:
+        def compute_search_region(self, *_: object) -> Region:
             return Region(0, 0, 1, 1)
 
     pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
@@ -50,7 +50,7 @@ def test_spy_measures_parts_of_frame_and_leaves_no_trace() -> None:
     assert spy.calls("narrow") == 5
     assert spy.calls("association") >= 5
     assert spy.calls("filter") == 5  # once for each: what the search expects, its blobs are named by
-    assert spy.calls("surface") == 10  # the readings, and the update by them
+    assert spy.calls("surface") == 5  # the readings; without depth there is nothing to fit
     assert spy.cpu_since("association", 0) > 0.0
 
 

@@ -39,7 +39,7 @@ def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: Qt
             assert not sheet.isVisible(), type(sheet).__name__
             assert journey.place == place
             seen.append(type(sheet).__name__)
-    assert set(seen) >= {"PatientForm", "StartAngleSheet", "NoteSheet", "PainSheet", "ReasonSheet"}
+    assert set(seen) >= {"PatientForm", "StartAngleDialog", "NoteDialog", "PainDialog", "ExclusionDialog"}
     journey.navigator.switch_screen("patients")
     journey.messages.show_fault(DiskFull("x"))
     press_escape(qtbot, desktop)

@@ -26,19 +26,19 @@ MOST_S, MOST_BYTES = 2.0, 1_000_000_000
 START = """
 import sys, time
 from pathlib import Path
-from carpus.core.records.new_sessions import recover
+from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.library import Library
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))
-recovered, faults = recover(library)
+recovered, faults = recover_sessions(library)
 first = time.monotonic() - begin
 library.close()
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))
-again = recover(library)[1]
-from carpus.core.records.session_list import remembered
-apart = sum(bool(one.reason) for one in remembered(library.store).values())
-patients = len(library.patients.listed())
+again = recover_sessions(library)[1]
+from carpus.core.records.session_list import read_file_states
+apart = sum(bool(one.reason) for one in read_file_states(library.store).values())
+patients = len(library.patients.search())
 library.close()
 print(f"{first:.2f} {time.monotonic() - begin:.2f} {len(faults)} {len(again)} {apart} {patients}")
 """

@@ -25,7 +25,7 @@ CHILD = """
 import itertools, sys
 from pathlib import Path
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.records import erasure, of_sessions
+from carpus.core.records import erasure, session_records
 from tests.records.samples import opened
 kind, folder, session_id, url = sys.argv[1:]
 with opened(Path(folder), url) as house:
@@ -36,9 +36,9 @@ with opened(Path(folder), url) as house:
     version = 0
     for number in itertools.count() if kind != "erasure" else ():
         if kind == "correction":
-            version = of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: str(number)}), version)
+            version = session_records.save_choices(house.store, session_id, RepetitionChoices({0: str(number)}), version)
         else:
-            of_sessions.add_comment(house.store, session_id, str(number), "AB")
+            session_records.add_comment(house.store, session_id, str(number), "AB")
         print(number, flush=True)
 """
 

@@ -54,12 +54,12 @@ class Looked:
     """In the place of the looking back: the smoother's result of a part at once, of the rest at the end."""
 
     def __init__(self) -> None:
-        self.has_more = True
+        self.has_results = True
 
-    def ready(self, timestamp_s: list[float]) -> object:
+    def pop_smoothed(self, timestamp_s: list[float]) -> object:
         if len(timestamp_s) < SMOOTHED:
             return None
-        self.has_more = False
+        self.has_results = False
         return stack_states([make_frame(row) for row in range(SMOOTHED)])
 
     def finish(self, timestamp_s: list[float]) -> object:

@@ -13,10 +13,11 @@ CORE = ("capture", "detection", "tracking", "simulation", "pipeline.live", "pipe
         "session.writer", "records.store", "calibration.calibrate")  # fmt: skip
 FORBIDDEN = ("h5py", "sqlite3", "sqlalchemy", "numba", *(f"carpus.core.{name}" for name in CORE))
 SHARED = {
-    "flow.py", "last_places.py", "camera_state.py", "camera_at_hand.py", "messages/messages.py",
-    "records/backing_up.py", "records/erasing.py", "records/lists.py", "records/locking.py",
+    "shell/flow.py", "shell/recent_locations.py", "shell/camera_state.py", "shell/camera_session.py",
+    "shell/messages.py", "screens/records/backup.py", "screens/records/deletion.py",
+    "screens/records/record_lists.py", "screens/records/lock.py",
 }  # fmt: skip
-"""What flows share; beside it the ``flow.py`` of each room, and what it reads from the disk, ``stored.py``."""
+"""What flows share; beside it the ``flow.py`` of each room, and what it reads from the disk, ``NAME_store.py``."""
 
 
 def loaded_by(modules: list[str]) -> set[str]:
@@ -29,7 +30,7 @@ def loaded_by(modules: list[str]) -> set[str]:
 def test_screens_load_no_device_filter_or_file_code() -> None:
     paths = {path.relative_to(ROOT / "ui").as_posix() for path in (ROOT / "ui").rglob("*.py")}
     assert paths >= SHARED
-    drawn = sorted(path for path in paths - SHARED if not path.endswith(("/flow.py", "/stored.py")))
+    drawn = sorted(path for path in paths - SHARED if not path.endswith(("/flow.py", "_store.py")))
     names = ["carpus.ui." + path.removesuffix(".py").replace("/", ".") for path in drawn]
     loaded = loaded_by(names)
     assert "carpus.ui.screens.live.screen" in loaded

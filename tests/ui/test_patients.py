@@ -71,7 +71,7 @@ def test_patient_list_search_matches_pseudonym_real_name_and_exercise(
         ("rosa", ["linden"]),
         ("pronation", ["heron", "juniper"]),
         ("plate fracture", ["linden", "juniper"]),
-        ("wrist side", ["quartz"]),
+        ("ulnar", ["quartz"]),
     ):
         screen.search.clear()
         qtbot.keyClicks(screen.search, typed)
