@@ -36,7 +36,8 @@ with opened(Path(folder), url) as house:
     version = 0
     for number in itertools.count() if kind != "erasure" else ():
         if kind == "correction":
-            version = session_records.save_choices(house.store, session_id, RepetitionChoices({0: str(number)}), version)
+            choices = RepetitionChoices({0: str(number)})
+            version = session_records.save_choices(house.store, session_id, choices, version)
         else:
             session_records.add_comment(house.store, session_id, str(number), "AB")
         print(number, flush=True)
