@@ -1328,7 +1328,7 @@
         <translation>Kleinfingerseite nach oben drehen</translation>
     </message>
     <message>
-        <source>Take {count} names</source>
+        <source>Accept {count} labels</source>
         <translation>{count} übernehmen</translation>
     </message>
     <message>
@@ -1340,16 +1340,16 @@
         <translation>Die Linie jedes Fingers läuft vom Handgelenk zur Fingerspitze. Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
-        <source>Are these names right?</source>
-        <translation>Stimmen diese Namen?</translation>
+        <source>Are these labels correct?</source>
+        <translation>Stimmen diese Bezeichnungen?</translation>
     </message>
     <message>
         <source>1 name is doubtful</source>
         <translation>1 Name ist zweifelhaft</translation>
     </message>
     <message>
-        <source>{count} names are doubtful</source>
-        <translation>{count} Namen sind zweifelhaft</translation>
+        <source>{count} labels are uncertain</source>
+        <translation>{count} Bezeichnungen sind unsicher</translation>
     </message>
     <message>
         <source>Check: {markers}. Press Enter to accept, or drag a label to another marker.</source>
@@ -1368,8 +1368,8 @@
         <translation>{named} von {asked} Markern gefunden</translation>
     </message>
     <message>
-        <source>Not found: {markers}. Take the other names with Enter, then click these.</source>
-        <translation>Nicht gefunden: {markers}. Übernehmen Sie die anderen Namen mit der Eingabetaste, dann klicken Sie diese an.</translation>
+        <source>Not found: {markers}. Press Enter to accept the others, then click these.</source>
+        <translation>Nicht gefunden: {markers}. Mit Eingabe die anderen übernehmen, dann diese anklicken.</translation>
     </message>
     <message>
         <source>{markers} and {count} more</source>
@@ -1408,7 +1408,7 @@
         <translation>Eingabe</translation>
     </message>
     <message>
-        <source>Correct names</source>
+        <source>Correct labels</source>
         <translation>Bezeichnungen korrigieren</translation>
     </message>
     <message>
@@ -4988,8 +4988,8 @@
         <translation>beschädigt: Die Kalibrierung beschreibt keine Hand</translation>
     </message>
     <message>
-        <source>Names are right</source>
-        <translation>Namen stimmen</translation>
+        <source>Labels are correct</source>
+        <translation>Bezeichnungen stimmen</translation>
     </message>
     <message>
         <source>Drag a label to another marker to change it.</source>
@@ -7948,8 +7948,8 @@
         <translation>Von Hand anklicken</translation>
     </message>
     <message>
-        <source>Names to confirm</source>
-        <translation>Namen zu bestätigen</translation>
+        <source>Labels to confirm</source>
+        <translation>Bezeichnungen bestätigen</translation>
     </message>
     <message>
         <source>Ready to measure</source>
@@ -7960,7 +7960,7 @@
         <translation>Messung starten</translation>
     </message>
     <message>
-        <source>Correct names</source>
+        <source>Correct labels</source>
         <translation>Bezeichnungen korrigieren</translation>
     </message>
     <message>
@@ -8742,8 +8742,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die Marker verlassen?</translation>
     </message>
     <message>
-        <source>The names given on this picture would be lost.</source>
-        <translation>Die Namen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
+        <source>The labels given on this image would be lost.</source>
+        <translation>Die Bezeichnungen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
     </message>
     <message>
         <source>Stay here, or go back to the camera.</source>
@@ -8853,8 +8853,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Diese neu anklicken</translation>
     </message>
     <message>
-        <source>The names stay as they are until you change one.</source>
-        <translation>Die Namen bleiben, bis Sie einen ändern.</translation>
+        <source>The labels stay as they are until you change one.</source>
+        <translation>Die Bezeichnungen bleiben, bis Sie eine ändern.</translation>
     </message>
     <message>
         <source>go on</source>

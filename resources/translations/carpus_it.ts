@@ -1328,8 +1328,8 @@
         <translation>Girare in su il lato del mignolo</translation>
     </message>
     <message>
-        <source>Take {count} names</source>
-        <translation>Accetta {count} nomi</translation>
+        <source>Accept {count} labels</source>
+        <translation>Accetta {count} etichette</translation>
     </message>
     <message>
         <source>All {count} markers found</source>
@@ -1340,16 +1340,16 @@
         <translation>La linea di ogni dito va dal polso alla punta. Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
     </message>
     <message>
-        <source>Are these names right?</source>
-        <translation>I nomi sono giusti?</translation>
+        <source>Are these labels correct?</source>
+        <translation>Queste etichette sono giuste?</translation>
     </message>
     <message>
         <source>1 name is doubtful</source>
         <translation>1 nome è dubbio</translation>
     </message>
     <message>
-        <source>{count} names are doubtful</source>
-        <translation>{count} nomi sono dubbi</translation>
+        <source>{count} labels are uncertain</source>
+        <translation>{count} etichette sono incerte</translation>
     </message>
     <message>
         <source>Check: {markers}. Press Enter to accept, or drag a label to another marker.</source>
@@ -1368,8 +1368,8 @@
         <translation>Trovati {named} marcatori su {asked}</translation>
     </message>
     <message>
-        <source>Not found: {markers}. Take the other names with Enter, then click these.</source>
-        <translation>Non trovati: {markers}. Accettare gli altri nomi con Invio, poi fare clic su questi.</translation>
+        <source>Not found: {markers}. Press Enter to accept the others, then click these.</source>
+        <translation>Non trovati: {markers}. Premere Invio per accettare gli altri, poi fare clic su questi.</translation>
     </message>
     <message>
         <source>{markers} and {count} more</source>
@@ -1408,7 +1408,7 @@
         <translation>Invio</translation>
     </message>
     <message>
-        <source>Correct names</source>
+        <source>Correct labels</source>
         <translation>Correggi le etichette</translation>
     </message>
     <message>
@@ -4988,8 +4988,8 @@
         <translation>danneggiata: la calibrazione non descrive una mano</translation>
     </message>
     <message>
-        <source>Names are right</source>
-        <translation>I nomi sono giusti</translation>
+        <source>Labels are correct</source>
+        <translation>Etichette giuste</translation>
     </message>
     <message>
         <source>Drag a label to another marker to change it.</source>
@@ -7948,8 +7948,8 @@
         <translation>Clic a mano</translation>
     </message>
     <message>
-        <source>Names to confirm</source>
-        <translation>Nomi da confermare</translation>
+        <source>Labels to confirm</source>
+        <translation>Etichette da confermare</translation>
     </message>
     <message>
         <source>Ready to measure</source>
@@ -7960,7 +7960,7 @@
         <translation>Inizia a misurare</translation>
     </message>
     <message>
-        <source>Correct names</source>
+        <source>Correct labels</source>
         <translation>Correggi le etichette</translation>
     </message>
     <message>
@@ -8742,8 +8742,8 @@ Maiusc+F8 di lato</translation>
         <translation>Lasciare i marcatori?</translation>
     </message>
     <message>
-        <source>The names given on this picture would be lost.</source>
-        <translation>I nomi dati su questa immagine andrebbero perduti.</translation>
+        <source>The labels given on this image would be lost.</source>
+        <translation>Le etichette date su questa immagine andrebbero perse.</translation>
     </message>
     <message>
         <source>Stay here, or go back to the camera.</source>
@@ -8853,8 +8853,8 @@ Maiusc+F8 di lato</translation>
         <translation>Rifai questi clic</translation>
     </message>
     <message>
-        <source>The names stay as they are until you change one.</source>
-        <translation>I nomi restano così finché non se ne cambia uno.</translation>
+        <source>The labels stay as they are until you change one.</source>
+        <translation>Le etichette restano finché non se ne cambia una.</translation>
     </message>
     <message>
         <source>go on</source>

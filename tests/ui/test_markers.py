@@ -349,7 +349,7 @@ def test_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
 def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(marking: Marking) -> None:
     calibrator, screen = marking.propose("wrist6"), marking.screen
     assert not screen.has_labels, "proposals come back by themselves: only what a person named is missed"
-    assert screen.primary_button.text() == "Names are right"
+    assert screen.primary_button.text() == "Labels are correct"
     assert screen.primary_button.visible_key == "Enter"
     marking.press(Qt.Key.Key_Return)
     assert screen.has_labels
@@ -412,7 +412,7 @@ def test_bad_frame_is_taken_again_by_enter_and_wrong_names_are_not(marking: Mark
     calibrator.findings = (CalibrationFinding("misnamed", ("MCP4",)),)
     marking.press(Qt.Key.Key_Space)
     marking.judge_all()
-    assert screen.primary_button.text() == "Correct names"
+    assert screen.primary_button.text() == "Correct labels"
     assert screen.picture.wrong_labels == {"MCP4"}
     marking.enter()
     assert screen.picture.hasFocus()
@@ -435,13 +435,13 @@ def test_markers_swapped_fingers_are_exchanged_by_key(qtbot: QtBot, marking: Mar
 def test_enter_never_takes_a_doubtful_name_unseen(marking: Marking) -> None:
     marking.propose(doubtful=("TIP4", "DIP4"))
     screen = marking.screen
-    assert screen.primary_button.text() != "Names are right"
+    assert screen.primary_button.text() != "Labels are correct"
     for name in ("DIP4", "TIP4"):
         np.testing.assert_allclose(screen.picture.cursor_px, marking.disc_px(name))  # in the loupe
         marking.press(Qt.Key.Key_Return)
         np.testing.assert_allclose(marking.clicking.confirmed_px[name], marking.disc_px(name))
         assert len(marking.clicking.confirmed_px) <= 2
-    assert screen.primary_button.text() == "Names are right"
+    assert screen.primary_button.text() == "Labels are correct"
     assert not screen.accept_all_button.isVisible()
 
 

@@ -50,7 +50,7 @@ class MarkersFlow(Flow):
         self.context.messages.show_question(
             MessageText(
                 self.tr("Leave the markers?"),
-                self.tr("The names given on this picture would be lost."),
+                self.tr("The labels given on this image would be lost."),
                 self.tr("Stay here, or go back to the camera."),
             ),
             (

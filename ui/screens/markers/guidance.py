@@ -164,7 +164,7 @@ class GuidancePanel(QWidget):
         self.second_button.set_label(self.tr("Click by hand"), hint="C")
         self.second_button.show()
         asked, proposed = len(labels.order), len(labels.proposals) + len(labels.confirmed_px)
-        checks = self.tr("Names to confirm")
+        checks = self.tr("Labels to confirm")
         self.verdict_panel.show_rows(checks, "none", pending_rows(proposed, asked, calibrator.limits, proposed=True))
 
     def show_verdict(
@@ -196,7 +196,7 @@ class GuidancePanel(QWidget):
             self.primary_button.set_label(words, icon="", hint=key)
             swap = remedy == "swap"
             self.second_button.set_label(
-                self.tr("Correct names") if swap else self.tr("Start although &doubtful"), hint=""
+                self.tr("Correct labels") if swap else self.tr("Start although &doubtful"), hint=""
             )
             self.second_button.setVisible(swap or verdict.can_start)
         self.primary_button.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -232,7 +232,7 @@ def proposal_words(labels: LabelState) -> ProposalWords:
     """Return which labels need a look, and what Enter does."""
     asked, open_names, doubtful = len(labels.order), labels.open_markers, labels.doubtful
     named = len(labels.proposals)
-    primary = tr("Names are right") if not open_names else tr("Take {count} names").format(count=named)
+    primary = tr("Labels are correct") if not open_names else tr("Accept {count} labels").format(count=named)
     if not open_names and not doubtful:
         whole = tr("All {count} markers found").format(count=asked)
         todo = tr("Drag a label to another marker to change it.")
@@ -240,18 +240,18 @@ def proposal_words(labels: LabelState) -> ProposalWords:
             todo = tr(
                 "Each finger’s line runs from the wrist to its tip. To change a label, drag it to another marker."
             )
-        return ProposalWords("good", whole, tr("Are these names right?"), todo, primary)
+        return ProposalWords("good", whole, tr("Are these labels correct?"), todo, primary)
     if doubtful:
         step = (
             tr("1 name is doubtful")
             if len(doubtful) == 1
-            else tr("{count} names are doubtful").format(count=len(doubtful))
+            else tr("{count} labels are uncertain").format(count=len(doubtful))
         )
         todo = tr("Check: {markers}. Press Enter to accept, or drag a label to another marker.")
         title = tr("Is this the {marker}?").format(marker=marker_name(doubtful[0], translate_phrase))
         return ProposalWords("warn", step, title, todo.format(markers=_join_markers(doubtful)), tr("Yes, it is"))
     step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
-    todo = tr("Not found: {markers}. Take the other names with Enter, then click these.")
+    todo = tr("Not found: {markers}. Press Enter to accept the others, then click these.")
     return ProposalWords(
         "warn", step, click_instruction(labels.current), todo.format(markers=_join_markers(open_names)), primary
     )

@@ -277,7 +277,7 @@ def remedy_face(remedy: Remedy) -> tuple[str, str]:
     return {
         "swap": (tr("Swap the two"), ENTER_KEY),
         "click_these": (tr("Click again"), "C"),
-        "correct": (tr("Correct names"), ""),
+        "correct": (tr("Correct labels"), ""),
         "take_spot": (tr("Take that spot"), ""),
         "new_picture": (tr("New picture"), "N"),
     }[remedy]

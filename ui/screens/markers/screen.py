@@ -352,7 +352,7 @@ class MarkersScreen(FittedWidget):
             if doubtful:
                 self.click_again_button.set_label(self.tr("Click these again") if wrong else self.tr("Click all again"))
                 self.click_again_button.setVisible(remedy != "click_these")  # the primary says it
-                self.hint.setText(self.tr("The names stay as they are until you change one."))
+                self.hint.setText(self.tr("The labels stay as they are until you change one."))
         self.picture.update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
