@@ -138,7 +138,7 @@ class CommandParser(argparse.ArgumentParser):
                 meant = find_similar_name(str(value), names)
                 also = f". Did you mean “{meant}”?" if meant else f"; {describe_known_names(str(value), names)}"
                 raise argparse.ArgumentError(None, f"Unknown command “{value}”{also}")
-            raise argparse.ArgumentError(action, f"no “{value}” is known; {describe_known_names(str(value), names)}")
+            raise argparse.ArgumentError(action, f"Unknown name “{value}”; {describe_known_names(str(value), names)}")
 
     def reject_unknown(self, extra: Sequence[str]) -> NoReturn:
         """Exit with 2 because of arguments that belong to no option."""

@@ -144,6 +144,6 @@ def _collect_views(source: FrameSource, gathering: ViewCollector, *, is_live: bo
             if step != said:
                 said = step
                 print(
-                    f"{judgement.view_count} pictures, {judgement.field_count} of 24 fields. {said}.",
+                    f"{judgement.view_count} images, {judgement.field_count} of 24 fields. {said}.",
                     file=sys.stderr,
                 )

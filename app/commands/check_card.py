@@ -98,7 +98,7 @@ def _print_figures(reading: CardReading) -> None:
         print(f"{figure.name:<20} {measured:7.2f} ± {format_rounded(sd, 2)}{unit}, off by {off:+.2f}{unit}")
     share = 100.0 * (reading.scale - 1.0)
     print(
-        f"{'All distances':<20} {share:+.2f} %; {reading.frames_used} pictures, "
+        f"{'All distances':<20} {share:+.2f} %; {reading.frames_used} frames, "
         f"{format_rounded(reading.distance_m * 100)} cm away"
     )
 

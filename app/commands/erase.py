@@ -58,25 +58,25 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
     pseudonym = plan.pseudonym
     _print_plan(plan)
     if confirmed is None:
-        print(f"Nothing has been deleted. To erase it, say --for-good “{pseudonym}”; the archive is the milder way.")
+        print(f"Nothing has been deleted. To delete for good, add --for-good “{pseudonym}”. Archiving can be undone.")
         return 0
     if confirmed.casefold() != pseudonym.casefold():
-        print_message(f"{confirmed} is not whose it is; nothing has been deleted.")
+        print_message(f"“{confirmed}” is not this patient. Nothing has been deleted.")
         return 1
     records.erase(plan)
     return _print_erased()
 
 
 def _print_erased() -> int:
-    print("Erased. The log keeps that it was erased, no name.")
+    print("Deleted. The log records the deletion without a name.")
     return 0
 
 
 def _print_plan(plan: ErasurePlan) -> None:
     size = format_rounded(plan.size_bytes / 1e6, 1)
-    print(f"This goes: {plan.recording_count} sessions, {len(plan.files)} files, {size} MB")
+    print(f"Will be deleted: {plan.recording_count} sessions, {len(plan.files)} files, {size} MB")
     for path in plan.output_files:
-        print(f"This stays, delete it yourself: {path}")
+        print(f"Delete yourself: {path}")
     for path in plan.unassigned_files:
-        print(f"This stays, look at it yourself, it lies in no patient's folder: {path}")
-    print("This stays: back-ups and files copied elsewhere; Carpus cannot reach them.")
+        print(f"Check yourself, in no patient's folder: {path}")
+    print("Not deleted: backups and copies elsewhere.")

@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     log_folder_action(arguments.into, "restored", "everything", sessions=backup.session_count)
     print(f"Restored: {backup.session_count} sessions of {backup.name} into {arguments.into}, each content checked.")
     if gone:
-        print(f"Erased since that backup, and so erased again: {gone} patients and sessions.")
+        print(f"Deleted since that backup, so deleted again: {gone} patients and sessions.")
     return 0
 
 

@@ -36,7 +36,7 @@ def names_type(known: Collection[str]) -> Callable[[str], str]:
     def read(text: str) -> str:
         for name in filter(None, text.split("+")):
             if name not in known:
-                raise argparse.ArgumentTypeError(f"no “{name}” is known; {describe_known_names(name, known)}")
+                raise argparse.ArgumentTypeError(f"Unknown name “{name}”; {describe_known_names(name, known)}")
         return text
 
     return read
@@ -51,12 +51,12 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("hand", {"choices": ("right", "left"), "help": "which hand"}),
     ("seed", {"type": whole_number, "help": "another seed is another patient, room and day"}),
     ("seconds", {"type": number_type(), "metavar": "SECONDS", "help": "how long"}),
-    ("fps", {"type": number_type(), "help": "pictures a second"}),
+    ("fps", {"type": number_type(), "help": "frames per second"}),
     ("speed-hz", {"type": number_type(), "help": "repetitions a second"}),
     ("range-share", {"type": number_type(), "help": "share of the exercise's full range"}),
     ("repetitions", {"type": whole_number, "help": "stop moving after so many"}),
     ("tremor-deg", {"type": number_type(), "help": "how far the hand trembles"}),
-    ("dip", {"choices": ("coupled", "free"), "help": "end joints bound to the middle joints, or free"}),
+    ("dip", {"choices": ("coupled", "free"), "help": "DIP joints coupled to the PIP joints, or free"}),
     ("hand-length-mm", {"type": number_type(), "help": "130 a child, 200 a tall man"}),
     (
         "skin-glide-mm",

@@ -102,7 +102,7 @@ def _add_batch_options(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         type=count_type(1, 1000),
         metavar="N",
-        help="of many recordings so many at a time (default: one for each core)",
+        help="number of recordings processed in parallel (default: one for each core)",
     )
     parser.add_argument(
         "--table",
@@ -115,7 +115,7 @@ def _add_batch_options(parser: argparse.ArgumentParser) -> None:
         "--time-limit",
         type=number_type(0.1, 45000.0, "minutes"),
         metavar="MINUTES",
-        help="of many recordings: one that takes longer is given up, and told (default: 120)",
+        help="of many recordings: one that takes longer is abandoned and reported (default: 120)",
     )
     parser.add_argument(
         "--scheduler",
@@ -141,7 +141,7 @@ def _add_method_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--dip",
         choices=("coupled", "free"),
-        help="end joints at two thirds of the middle joints (default), or free; a session's own unless given",
+        help="DIP joints at two thirds of the PIP joints (default), or free; a session's own unless given",
     )
     parser.add_argument(
         "--discs",
@@ -152,13 +152,13 @@ def _add_method_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--leave-out-damaged",
         action="store_true",
-        help="go on without missing and damaged pictures of a folder, as frames that were lost; else they are a fault",
+        help="treat missing and damaged images of a folder as lost frames (otherwise they are a fault)",
     )
     parser.add_argument("--profile", choices=get_args(Profile), help="how lively the hand is (default: standard)")
     parser.add_argument(
         "--smooth",
         action=argparse.BooleanOptionalAction,
-        help="add /smoothed, every frame in the light of those after it (default), or not",
+        help="also write smoothed results, /smoothed (RTS smoother; default), or not",
     )
 
 

@@ -1140,8 +1140,8 @@
         <translation>Prüfen Sie: {marker}</translation>
     </message>
     <message>
-        <source>Doubtful</source>
-        <translation>Zweifelhaft</translation>
+        <source>Uncertain</source>
+        <translation>Unsicher</translation>
     </message>
     <message>
         <source>Another blue spot is here</source>
@@ -1156,24 +1156,24 @@
         <translation>Wo ist: {marker}?</translation>
     </message>
     <message>
-        <source>Waiting for the first picture</source>
-        <translation>Warten auf das erste Bild</translation>
+        <source>Waiting for the camera image</source>
+        <translation>Warten auf das Kamerabild</translation>
     </message>
     <message>
         <source>Hold the hand flat under the camera</source>
         <translation>Hand flach unter die Kamera halten</translation>
     </message>
     <message>
-        <source>Too few markers seen</source>
-        <translation>Zu wenige Marker zu sehen</translation>
+        <source>Too few markers visible</source>
+        <translation>Zu wenige Marker sichtbar</translation>
     </message>
     <message>
         <source>Turn the back of the hand to the camera</source>
         <translation>Handrücken zur Kamera drehen</translation>
     </message>
     <message>
-        <source>What is seen does not fit: hold the hand flat for a moment</source>
-        <translation>Das Gesehene passt nicht: Hand einen Moment flach halten</translation>
+        <source>Markers do not match the hand: hold the hand flat for a moment</source>
+        <translation>Marker passen nicht zur Hand: Hand kurz flach halten</translation>
     </message>
     <message>
         <source>No angle known yet</source>
@@ -1188,11 +1188,11 @@
         <translation>Verfolgung gut</translation>
     </message>
     <message>
-        <source>All {count} markers seen</source>
-        <translation>Alle {count} Marker zu sehen</translation>
+        <source>All {count} markers visible</source>
+        <translation>Alle {count} Marker sichtbar</translation>
     </message>
     <message>
-        <source>{marker} hidden</source>
+        <source>{marker} occluded</source>
         <translation>{marker} verdeckt</translation>
     </message>
     <message>
@@ -1200,12 +1200,12 @@
         <translation>Daumen verdeckt</translation>
     </message>
     <message>
-        <source>{finger} finger hidden</source>
+        <source>{finger} finger occluded</source>
         <translation>{finger} verdeckt</translation>
     </message>
     <message>
-        <source>Finger ends hidden</source>
-        <translation>Fingerenden verdeckt</translation>
+        <source>Fingertips occluded</source>
+        <translation>Fingerspitzen verdeckt</translation>
     </message>
     <message>
         <source>{count} markers occluded</source>
@@ -1228,24 +1228,24 @@
         <translation>Alle Marker sichtbar. DIP-Gelenke werden nicht gemessen: Sie folgen den PIP-Gelenken.</translation>
     </message>
     <message>
-        <source>All markers seen, every joint is measured.</source>
-        <translation>Alle Marker zu sehen, jedes Gelenk wird gemessen.</translation>
+        <source>All markers visible. Every joint is measured.</source>
+        <translation>Alle Marker sichtbar. Jedes Gelenk wird gemessen.</translation>
     </message>
     <message>
         <source>{what}: {remedy}.</source>
         <translation>{what}: {remedy}.</translation>
     </message>
     <message>
-        <source>{marker} seen now and then</source>
-        <translation>{marker} nur ab und zu zu sehen</translation>
+        <source>{marker} visible only at times</source>
+        <translation>{marker} nur zeitweise sichtbar</translation>
     </message>
     <message>
-        <source>{count} markers seen now and then</source>
-        <translation>{count} Marker nur ab und zu zu sehen</translation>
+        <source>{count} markers visible only at times</source>
+        <translation>{count} Marker nur zeitweise sichtbar</translation>
     </message>
     <message>
-        <source>Arm moved</source>
-        <translation>Arm bewegt</translation>
+        <source>Forearm moved</source>
+        <translation>Unterarm bewegt</translation>
     </message>
     <message>
         <source>Lay the forearm back where it was</source>
@@ -1316,6 +1316,10 @@
         <translation>Mitten auf den Falten über dem DIP-Gelenk.</translation>
     </message>
     <message>
+        <source>Centred on the creases over the IP joint.</source>
+        <translation>Mitten auf den Falten über dem IP-Gelenk.</translation>
+    </message>
+    <message>
         <source>On the nail, in its middle.</source>
         <translation>Mitten auf dem Nagel.</translation>
     </message>
@@ -1344,8 +1348,8 @@
         <translation>Stimmen diese Bezeichnungen?</translation>
     </message>
     <message>
-        <source>1 name is doubtful</source>
-        <translation>1 Name ist zweifelhaft</translation>
+        <source>1 label is uncertain</source>
+        <translation>1 Bezeichnung ist unsicher</translation>
     </message>
     <message>
         <source>{count} labels are uncertain</source>
@@ -1448,12 +1452,12 @@
         <translation>{count} von {count}</translation>
     </message>
     <message>
-        <source>names wrong</source>
-        <translation>Namen falsch</translation>
+        <source>labels wrong</source>
+        <translation>Bezeichnung falsch</translation>
     </message>
     <message>
-        <source>one doubted</source>
-        <translation>1 zweifelhaft</translation>
+        <source>1 uncertain</source>
+        <translation>1 unsicher</translation>
     </message>
     <message>
         <source>{count} not found</source>
@@ -1472,7 +1476,7 @@
         <translation>ruhig, flach</translation>
     </message>
     <message>
-        <source>for {count} pictures</source>
+        <source>for {count} frames</source>
         <translation>über {count} Bilder</translation>
     </message>
     <message>
@@ -1825,7 +1829,7 @@
     </message>
     <message>
         <source>Reference, adults {span}</source>
-        <translation>Referenz, Erwachsene {span}</translation>
+        <translation>Ref. Erwachsene {span}</translation>
     </message>
     <message>
         <source>Total arc</source>
@@ -2932,10 +2936,6 @@
         <translation>{distance} (Grenze {limit})</translation>
     </message>
     <message>
-        <source>Forearm moved</source>
-        <translation>Unterarm bewegt</translation>
-    </message>
-    <message>
         <source>{depth} below its marker (scatter {residual})</source>
         <translation>{depth} unter dem Marker (Streuung {residual})</translation>
     </message>
@@ -3024,7 +3024,7 @@
         <translation>Übungsfolge: {name}</translation>
     </message>
     <message>
-        <source>{movement} {goal} (mean {mean}; a gain can be told from {told})</source>
+        <source>{movement} {goal} (mean {mean}; detectable change from {told})</source>
         <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {told} erkennbar)</translation>
     </message>
     <message>
@@ -3268,12 +3268,12 @@
         <translation>Beide Hände betroffen</translation>
     </message>
     <message>
-        <source>Choose in the list who is measured and start here; the practice patient is simulated.</source>
-        <translation>Wählen Sie in der Liste, wer gemessen wird, und beginnen Sie hier; der Probepatient ist simuliert.</translation>
+        <source>Choose the patient in the list and start here. The practice patient is simulated.</source>
+        <translation>Wählen Sie den Patienten in der Liste und beginnen Sie hier. Der Probepatient ist simuliert.</translation>
     </message>
     <message>
-        <source>Choose where the pictures come from, then go on here.</source>
-        <translation>Wählen Sie, woher die Bilder kommen, dann geht es hier weiter.</translation>
+        <source>Choose the image source, then continue here.</source>
+        <translation>Wählen Sie die Bildquelle, dann geht es hier weiter.</translation>
     </message>
     <message>
         <source>Take the image when the hand lies flat and every marker is visible.</source>
@@ -3284,28 +3284,28 @@
         <translation>Jeder Marker hat seine Bezeichnung, und alle Prüfungen sind gut: hier beginnen.</translation>
     </message>
     <message>
-        <source>The joints are followed already; the space bar starts the recording.</source>
-        <translation>Den Gelenken wird schon gefolgt; die Leertaste startet die Aufnahme.</translation>
+        <source>The joints are already tracked. The space bar starts the recording.</source>
+        <translation>Die Gelenke werden bereits erfasst. Die Leertaste startet die Aufnahme.</translation>
     </message>
     <message>
-        <source>Let the hand move a few times; the space bar then stores it all.</source>
-        <translation>Lassen Sie die Hand einige Male bewegen; dann speichert die Leertaste alles.</translation>
+        <source>Let the hand move a few times. Then the space bar saves everything.</source>
+        <translation>Lassen Sie die Hand einige Male bewegen. Dann speichert die Leertaste alles.</translation>
     </message>
     <message>
-        <source>These are the results; the key X leaves out the repetition you are at.</source>
-        <translation>Das sind die Ergebnisse; die Taste X lässt die angezeigte Wiederholung aus.</translation>
+        <source>These are the results. The key X excludes the current repetition.</source>
+        <translation>Das sind die Ergebnisse. Die Taste X schließt die angezeigte Wiederholung aus.</translation>
     </message>
     <message>
         <source>Make the report of this session here.</source>
         <translation>Erstellen Sie hier den Bericht dieser Sitzung.</translation>
     </message>
     <message>
-        <source>Save the report as a PDF; only the made-up name is on it.</source>
-        <translation>Speichern Sie den Bericht als PDF; nur der erfundene Name steht darauf.</translation>
+        <source>Save the report as a PDF. It contains only the made-up name.</source>
+        <translation>Speichern Sie den Bericht als PDF. Er enthält nur den erfundenen Namen.</translation>
     </message>
     <message>
-        <source>That was a whole session; the arrow at the top left leads back, at last to the patients.</source>
-        <translation>Das war eine ganze Sitzung; der Pfeil oben links führt zurück, am Ende zu den Patienten.</translation>
+        <source>That was a whole session. The arrow at the top left leads back to the patients.</source>
+        <translation>Das war eine ganze Sitzung. Der Pfeil oben links führt zurück zu den Patienten.</translation>
     </message>
     <message>
         <source>the other hand</source>
@@ -4688,8 +4688,8 @@
         <translation>{width}x{height}, {fps} fps, {missing} fehlen, Tiefe in {with_depth} von {count}</translation>
     </message>
     <message>
-        <source>Hidden joints do not count.</source>
-        <translation>Verdeckte Gelenke zählen nicht.</translation>
+        <source>Occluded joints are not analysed.</source>
+        <translation>Verdeckte Gelenke werden nicht ausgewertet.</translation>
     </message>
     <message>
         <source>± is the SD between repetitions.</source>
@@ -5300,11 +5300,11 @@
         <translation>Der Computer ist überlastet</translation>
     </message>
     <message>
-        <source>{count} pictures are missing: close other programs</source>
+        <source>{count} frames are missing: close other programs</source>
         <translation>{count} Bilder fehlen: Programme schließen</translation>
     </message>
     <message>
-        <source>The computer is busy; every picture is kept</source>
+        <source>The computer is busy; every frame is saved</source>
         <translation>Der Computer ist ausgelastet; nichts fehlt</translation>
     </message>
     <message>
@@ -7020,11 +7020,11 @@
         <translation>Fortschritt</translation>
     </message>
     <message>
-        <source>Where do the pictures come from?</source>
-        <translation>Woher kommen die Bilder?</translation>
+        <source>Which image source?</source>
+        <translation>Welche Bildquelle?</translation>
     </message>
     <message>
-        <source>Before you go on</source>
+        <source>Before you continue</source>
         <translation>Bevor es weitergeht</translation>
     </message>
     <message>
@@ -7169,8 +7169,8 @@
         <translation>gut</translation>
     </message>
     <message>
-        <source>to be looked at</source>
-        <translation>anzusehen</translation>
+        <source>to check</source>
+        <translation>zu prüfen</translation>
     </message>
     <message>
         <source>missing</source>
@@ -7374,8 +7374,8 @@
 <context>
     <name>CourseRunner</name>
     <message>
-        <source>Rest {time}; Space begins at once.</source>
-        <translation>Pause {time}; die Leertaste beginnt sofort.</translation>
+        <source>Rest {time}. Press Space to start now.</source>
+        <translation>Pause {time}. Leertaste: sofort beginnen.</translation>
     </message>
 </context>
 <context>
@@ -7694,8 +7694,8 @@
         <translation>Dieser Durchgang</translation>
     </message>
     <message>
-        <source>Hand that is measured</source>
-        <translation>Gemessene Hand</translation>
+        <source>Hand to measure</source>
+        <translation>Zu messende Hand</translation>
     </message>
     <message>
         <source>Repetitions</source>
@@ -7706,11 +7706,11 @@
         <translation>Die Patientenansicht ist für</translation>
     </message>
     <message>
-        <source>Keep the pictures too</source>
-        <translation>Auch die Bilder behalten</translation>
+        <source>Also save video</source>
+        <translation>Auch Video speichern</translation>
     </message>
     <message>
-        <source>Needed to see and correct markers later: {size} MB a minute, room for {time}.</source>
+        <source>Needed to see and correct markers later: {size} MB per minute; space for {time}.</source>
         <translation>Nötig, um Marker später zu sehen und zu korrigieren: {size} MB je Minute, Platz für {time}.</translation>
     </message>
     <message>
@@ -7880,7 +7880,7 @@
         <translation>Legen Sie die Hand flach und ruhig hin</translation>
     </message>
     <message>
-        <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
+        <source>Palm down, fingers as straight as possible, forearm in line. Then take the picture.</source>
         <translation>Handfläche nach unten, Finger so gerade wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
     </message>
     <message>
@@ -7964,8 +7964,8 @@
         <translation>Bezeichnungen korrigieren</translation>
     </message>
     <message>
-        <source>Start although &amp;doubtful</source>
-        <translation>Trotz &amp;Zweifel starten</translation>
+        <source>Start anyway (&amp;uncertain)</source>
+        <translation>Trotzdem starten (&amp;unsicher)</translation>
     </message>
 </context>
 <context>
@@ -8021,16 +8021,16 @@ von oben</translation>
         <translation>Marker</translation>
     </message>
     <message>
-        <source>seen</source>
-        <translation>gesehen</translation>
+        <source>visible</source>
+        <translation>sichtbar</translation>
     </message>
     <message>
-        <source>partly seen</source>
-        <translation>teils gesehen</translation>
+        <source>partly visible</source>
+        <translation>teils sichtbar</translation>
     </message>
     <message>
-        <source>hidden, predicted</source>
-        <translation>verdeckt</translation>
+        <source>occluded, predicted</source>
+        <translation>verdeckt, geschätzt</translation>
     </message>
     <message>
         <source>F2 next joint · F3 next finger
@@ -8220,8 +8220,8 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>LiveFlow</name>
     <message>
-        <source>Recording paused by itself at {time}.</source>
-        <translation>Die Aufnahme hielt um {time} von selbst an.</translation>
+        <source>Recording paused automatically at {time}.</source>
+        <translation>Die Aufnahme wurde um {time} automatisch angehalten.</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are stored.</source>
@@ -8240,7 +8240,7 @@ Umschalt+F8 von der Seite</translation>
         <translation>Zu den Patienten</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
+        <source>Continue measuring</source>
         <translation>Weiter messen</translation>
     </message>
     <message>
@@ -8248,19 +8248,19 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die Aufnahme hat gerade erst begonnen.</translation>
     </message>
     <message>
-        <source>It goes on while you choose, and everything is kept.</source>
-        <translation>Sie läuft weiter, während Sie wählen, und alles bleibt erhalten.</translation>
+        <source>It continues while you choose. Everything is saved.</source>
+        <translation>Sie läuft weiter, während Sie wählen. Alles wird gespeichert.</translation>
     </message>
     <message>
-        <source>Go on measuring, or stop it already?</source>
-        <translation>Weiter messen oder schon beenden?</translation>
+        <source>Continue measuring or stop now?</source>
+        <translation>Weiter messen oder jetzt beenden?</translation>
     </message>
     <message>
         <source>Stop recording?</source>
         <translation>Aufnahme beenden?</translation>
     </message>
     <message>
-        <source>Go on measuring, or stop: the session is saved and opens in the review.</source>
+        <source>Continue measuring, or stop: the session is saved and opens in the review.</source>
         <translation>Weiter messen oder beenden: Die Sitzung wird gespeichert und öffnet sich in der Auswertung.</translation>
     </message>
     <message>
@@ -8272,11 +8272,11 @@ Umschalt+F8 von der Seite</translation>
         <translation>Eine Aufnahme läuft.</translation>
     </message>
     <message>
-        <source>Everything measured up to now is kept, whatever you choose.</source>
-        <translation>Alles bisher Gemessene bleibt erhalten, was Sie auch wählen.</translation>
+        <source>Everything measured so far is saved, whatever you choose.</source>
+        <translation>Alles bisher Gemessene wird gespeichert, was Sie auch wählen.</translation>
     </message>
     <message>
-        <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
+        <source>Continue measuring, or stop: the session is saved and Carpus closes.</source>
         <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
     </message>
 </context>
@@ -8326,19 +8326,19 @@ Umschalt+F8 von der Seite</translation>
         <translation>Aufholen</translation>
     </message>
     <message>
-        <source>The recording plays from its first picture</source>
+        <source>The recording plays from its first frame</source>
         <translation>Die Aufnahme läuft ab dem ersten Bild</translation>
     </message>
     <message>
-        <source>Waiting for a picture</source>
-        <translation>Warten auf ein Bild</translation>
+        <source>Waiting for the camera image</source>
+        <translation>Warten auf das Kamerabild</translation>
     </message>
     <message>
         <source>Angles</source>
         <translation>Winkel</translation>
     </message>
     <message>
-        <source>No picture</source>
+        <source>No image</source>
         <translation>Kein Bild</translation>
     </message>
     <message>
@@ -8350,8 +8350,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Beginn in {seconds}</translation>
     </message>
     <message>
-        <source>Starts by itself when the hand lies still</source>
-        <translation>Beginnt von selbst, wenn die Hand ruhig liegt</translation>
+        <source>Starts automatically when the hand is still</source>
+        <translation>Beginnt automatisch, wenn die Hand ruhig liegt</translation>
     </message>
     <message>
         <source>Close the patient’s view</source>
@@ -8762,8 +8762,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Tiefe und Farbe von {name} sind um {px} Pixel gegeneinander verschoben.</translation>
     </message>
     <message>
-        <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
-        <translation>Die Aufnahme selbst ist nicht geändert. Sie sagt nicht, dass die Tiefe auf die Farben gelegt wurde.</translation>
+        <source>The recording is not changed. It does not state that depth and colour were aligned.</source>
+        <translation>Die Aufnahme wird nicht verändert. Sie gibt nicht an, dass Tiefe und Farbe ausgerichtet wurden.</translation>
     </message>
     <message>
         <source>Open it again with depth aligned to colour, then click the markers again.</source>
@@ -8781,12 +8781,12 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>MarkersScreen</name>
     <message>
-        <source>Wrist cannot lie straight…</source>
-        <translation>Handgelenk kann nicht gerade liegen…</translation>
+        <source>Wrist cannot reach neutral…</source>
+        <translation>Handgelenk nicht in Neutralstellung…</translation>
     </message>
     <message>
-        <source>Start although &amp;doubtful</source>
-        <translation>Trotz &amp;Zweifel starten</translation>
+        <source>Start anyway (&amp;uncertain)</source>
+        <translation>Trotzdem starten (&amp;unsicher)</translation>
     </message>
     <message>
         <source>Click all again</source>
@@ -8821,8 +8821,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>letztes Bild größer</translation>
     </message>
     <message>
-        <source>Waiting for a picture</source>
-        <translation>Warten auf ein Bild</translation>
+        <source>Waiting for the camera image</source>
+        <translation>Warten auf das Kamerabild</translation>
     </message>
     <message>
         <source>No blue marker here. Click nearer.</source>
@@ -8833,12 +8833,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Schon vergeben: {name}</translation>
     </message>
     <message>
-        <source>This marker is the {name} already. Click another one.</source>
+        <source>This marker is already the {name}. Click another one.</source>
         <translation>Dieser Marker heißt schon: {name}. Klicken Sie einen anderen an.</translation>
     </message>
     <message>
-        <source>Starts at {angles} (given)</source>
-        <translation>Beginnt bei {angles} (angegeben)</translation>
+        <source>Start position {angles} (entered)</source>
+        <translation>Startstellung {angles} (eingetragen)</translation>
     </message>
     <message>
         <source>Drag a label to its marker. Two labels can be swapped.</source>
@@ -8857,12 +8857,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Die Bezeichnungen bleiben, bis Sie eine ändern.</translation>
     </message>
     <message>
-        <source>go on</source>
+        <source>continue</source>
         <translation>weiter</translation>
     </message>
     <message>
-        <source>All names are right</source>
-        <translation>Alle Namen stimmen</translation>
+        <source>All labels are correct</source>
+        <translation>Alle Bezeichnungen stimmen</translation>
     </message>
 </context>
 <context>
@@ -8941,8 +8941,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Notiz</translation>
     </message>
     <message>
-        <source>Keep note</source>
-        <translation>Notiz behalten</translation>
+        <source>Save note</source>
+        <translation>Notiz speichern</translation>
     </message>
     <message>
         <source>Close</source>
@@ -8999,12 +8999,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>{joint}, {side}</translation>
     </message>
     <message>
-        <source>doubtful, not counted</source>
-        <translation>zweifelhaft, nicht gezählt</translation>
+        <source>uncertain, excluded</source>
+        <translation>unsicher, nicht gezählt</translation>
     </message>
     <message>
-        <source>doubtful</source>
-        <translation>zweifelhaft</translation>
+        <source>uncertain</source>
+        <translation>unsicher</translation>
     </message>
     <message>
         <source>no value</source>
@@ -9908,7 +9908,7 @@ Umschalt+F8 von der Seite</translation>
         <translation>Passiv</translation>
     </message>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Weiter</translation>
     </message>
     <message>
@@ -9920,16 +9920,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Aufnehmen</translation>
     </message>
     <message>
-        <source>Stop and go on</source>
-        <translation>Beenden und weiter</translation>
+        <source>Stop and next exercise</source>
+        <translation>Beenden, nächste Übung</translation>
     </message>
     <message>
         <source>Stop and review</source>
         <translation>Beenden und auswerten</translation>
     </message>
     <message>
-        <source>Starts in {seconds}: not yet</source>
-        <translation>Beginn in {seconds}: noch nicht</translation>
+        <source>Starting in {seconds} (cancel)</source>
+        <translation>Beginn in {seconds} (abbrechen)</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -10364,7 +10364,7 @@ Umschalt+F8 von der Seite</translation>
         <translation>Es wurde noch einmal als neuestes gespeichert.</translation>
     </message>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Weiter</translation>
     </message>
     <message>
@@ -10553,7 +10553,7 @@ Umschalt+F8 von der Seite</translation>
         <translation>Folge</translation>
     </message>
     <message>
-        <source>No names of patients</source>
+        <source>No patient names</source>
         <translation>Keine Namen von Patienten</translation>
     </message>
     <message>
@@ -10569,8 +10569,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Diese Folge löschen</translation>
     </message>
     <message>
-        <source>Keep the set</source>
-        <translation>Folge behalten</translation>
+        <source>Save the set</source>
+        <translation>Folge speichern</translation>
     </message>
     <message>
         <source>Close</source>
@@ -10830,26 +10830,26 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>StartAngleDialog</name>
     <message>
-        <source>The wrist cannot lie straight</source>
-        <translation>Das Handgelenk kann nicht gerade liegen</translation>
+        <source>The wrist cannot reach neutral</source>
+        <translation>Das Handgelenk erreicht die Neutralstellung nicht</translation>
     </message>
     <message>
-        <source>It lies straight</source>
-        <translation>Es liegt gerade</translation>
+        <source>It is in neutral</source>
+        <translation>Es ist in Neutralstellung</translation>
     </message>
     <message>
         <source>Use these angles</source>
         <translation>Diese Winkel verwenden</translation>
     </message>
     <message>
-        <source>Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation>Messen Sie mit dem Goniometer, wie weit das Handgelenk jetzt von gerade abweicht, und den Unterarm ab Daumen oben: die Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet diese Winkel in alles ein, was es am Handgelenk misst, und der Bericht sagt es. Gebeugte Finger dürfen bleiben, wie sie sind: null eines Fingergelenks ist der gestreckte Finger, was auch immer das Bild zeigt.</translation>
+        <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
+        <translation>Tragen Sie die Winkel von Handgelenk und Unterarm ein, jetzt mit dem Goniometer gemessen. Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet sie in alle Handgelenkwinkel ein und vermerkt es im Bericht. Gebeugte Finger brauchen keinen Eintrag.</translation>
     </message>
 </context>
 <context>
     <name>StraightFingers</name>
     <message>
-        <source>Do the fingers lie straight?</source>
+        <source>Are the fingers straight?</source>
         <translation>Liegen die Finger gerade?</translation>
     </message>
     <message>
@@ -10857,11 +10857,11 @@ Umschalt+F8 von der Seite</translation>
         <translation>{finger} gebeugt</translation>
     </message>
     <message>
-        <source>Click a finger that cannot lie straight (keys 1 to 5).</source>
-        <translation>Klicken Sie einen Finger an, der nicht gerade liegen kann (Tasten 1 bis 5).</translation>
+        <source>Click a finger that cannot fully extend (keys 1 to 5).</source>
+        <translation>Klicken Sie einen Finger an, der sich nicht ganz strecken lässt (Tasten 1 bis 5).</translation>
     </message>
     <message>
-        <source>A bent finger is measured from its own rest, and less surely.</source>
+        <source>A bent finger is measured from its own resting position, with less certainty.</source>
         <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, und weniger sicher.</translation>
     </message>
 </context>
@@ -11028,8 +11028,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>gut</translation>
     </message>
     <message>
-        <source>doubtful</source>
-        <translation>zweifelhaft</translation>
+        <source>uncertain</source>
+        <translation>unsicher</translation>
     </message>
     <message>
         <source>wrong</source>
@@ -11141,11 +11141,11 @@ Umschalt+F8 von der Seite</translation>
         <translation>Willkommen bei Carpus</translation>
     </message>
     <message>
-        <source>Patients and sessions will lie here; nothing leaves this computer.</source>
-        <translation>Patienten und Sitzungen liegen hier; nichts verlässt diesen Computer.</translation>
+        <source>Patients and sessions are saved here. Nothing leaves this computer.</source>
+        <translation>Patienten und Sitzungen werden hier gespeichert. Nichts verlässt diesen Computer.</translation>
     </message>
     <message>
-        <source>This computer is being looked at …</source>
+        <source>Checking this computer …</source>
         <translation>Dieser Computer wird geprüft …</translation>
     </message>
     <message>
@@ -11153,15 +11153,15 @@ Umschalt+F8 von der Seite</translation>
         <translation>Dieser Computer hat alles, was Carpus braucht.</translation>
     </message>
     <message>
-        <source>One thing is to be done; the practice patient needs none of it.</source>
-        <translation>Eines ist zu tun; der Probepatient braucht es nicht.</translation>
+        <source>One thing needs your attention. The practice patient works without it.</source>
+        <translation>Eines ist zu tun. Der Probepatient braucht es nicht.</translation>
     </message>
     <message>
-        <source>{count} things are to be done; the practice patient needs none of them.</source>
-        <translation>{count} Dinge sind zu tun; der Probepatient braucht nichts davon.</translation>
+        <source>{count} things need your attention. The practice patient works without them.</source>
+        <translation>{count} Dinge sind zu tun. Der Probepatient braucht nichts davon.</translation>
     </message>
     <message>
-        <source>The folder counts from the next start on: close Carpus and open it again before you measure.</source>
+        <source>The new folder is used from the next start. Close Carpus and open it again before you measure.</source>
         <translation>Der Ordner gilt ab dem nächsten Start: Schließen Sie Carpus und öffnen Sie es wieder, bevor Sie messen.</translation>
     </message>
 </context>

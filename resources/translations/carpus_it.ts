@@ -1140,8 +1140,8 @@
         <translation>Guardare: {marker}</translation>
     </message>
     <message>
-        <source>Doubtful</source>
-        <translation>Dubbio</translation>
+        <source>Uncertain</source>
+        <translation>Incerto</translation>
     </message>
     <message>
         <source>Another blue spot is here</source>
@@ -1156,24 +1156,24 @@
         <translation>Quale punto blu è: {marker}?</translation>
     </message>
     <message>
-        <source>Waiting for the first picture</source>
-        <translation>In attesa della prima immagine</translation>
+        <source>Waiting for the camera image</source>
+        <translation>In attesa dell’immagine</translation>
     </message>
     <message>
         <source>Hold the hand flat under the camera</source>
         <translation>Tenere la mano piatta sotto la telecamera</translation>
     </message>
     <message>
-        <source>Too few markers seen</source>
-        <translation>Troppo pochi marcatori visti</translation>
+        <source>Too few markers visible</source>
+        <translation>Troppo pochi marcatori visibili</translation>
     </message>
     <message>
         <source>Turn the back of the hand to the camera</source>
         <translation>Girare il dorso della mano verso la telecamera</translation>
     </message>
     <message>
-        <source>What is seen does not fit: hold the hand flat for a moment</source>
-        <translation>Ciò che si vede non torna: tenere un momento la mano piatta</translation>
+        <source>Markers do not match the hand: hold the hand flat for a moment</source>
+        <translation>I marcatori non corrispondono: tenere un momento la mano piatta</translation>
     </message>
     <message>
         <source>No angle known yet</source>
@@ -1188,11 +1188,11 @@
         <translation>La mano è seguita bene</translation>
     </message>
     <message>
-        <source>All {count} markers seen</source>
-        <translation>Visti tutti i {count} marcatori</translation>
+        <source>All {count} markers visible</source>
+        <translation>Visibili tutti i {count} marcatori</translation>
     </message>
     <message>
-        <source>{marker} hidden</source>
+        <source>{marker} occluded</source>
         <translation>Nascosto: {marker}</translation>
     </message>
     <message>
@@ -1200,11 +1200,11 @@
         <translation>Pollice nascosto</translation>
     </message>
     <message>
-        <source>{finger} finger hidden</source>
+        <source>{finger} finger occluded</source>
         <translation>Nascosto: {finger}</translation>
     </message>
     <message>
-        <source>Finger ends hidden</source>
+        <source>Fingertips occluded</source>
         <translation>Punte delle dita nascoste</translation>
     </message>
     <message>
@@ -1228,24 +1228,24 @@
         <translation>Tutti i marcatori sono visibili. Le articolazioni IFD non si misurano: seguono le IFP.</translation>
     </message>
     <message>
-        <source>All markers seen, every joint is measured.</source>
-        <translation>Visti tutti i marcatori, ogni articolazione è misurata.</translation>
+        <source>All markers visible. Every joint is measured.</source>
+        <translation>Tutti i marcatori visibili. Ogni articolazione è misurata.</translation>
     </message>
     <message>
         <source>{what}: {remedy}.</source>
         <translation>{what}: {remedy}.</translation>
     </message>
     <message>
-        <source>{marker} seen now and then</source>
+        <source>{marker} visible only at times</source>
         <translation>A tratti: {marker}</translation>
     </message>
     <message>
-        <source>{count} markers seen now and then</source>
-        <translation>{count} marcatori visti a tratti</translation>
+        <source>{count} markers visible only at times</source>
+        <translation>{count} marcatori visibili a tratti</translation>
     </message>
     <message>
-        <source>Arm moved</source>
-        <translation>Braccio spostato</translation>
+        <source>Forearm moved</source>
+        <translation>Avambraccio spostato</translation>
     </message>
     <message>
         <source>Lay the forearm back where it was</source>
@@ -1316,6 +1316,10 @@
         <translation>Al centro delle pieghe sopra l’articolazione IFD.</translation>
     </message>
     <message>
+        <source>Centred on the creases over the IP joint.</source>
+        <translation>Al centro delle pieghe sopra l’articolazione IF.</translation>
+    </message>
+    <message>
         <source>On the nail, in its middle.</source>
         <translation>Sull’unghia, al centro.</translation>
     </message>
@@ -1344,8 +1348,8 @@
         <translation>Queste etichette sono giuste?</translation>
     </message>
     <message>
-        <source>1 name is doubtful</source>
-        <translation>1 nome è dubbio</translation>
+        <source>1 label is uncertain</source>
+        <translation>1 etichetta è incerta</translation>
     </message>
     <message>
         <source>{count} labels are uncertain</source>
@@ -1448,12 +1452,12 @@
         <translation>{count} su {count}</translation>
     </message>
     <message>
-        <source>names wrong</source>
-        <translation>nomi sbagliati</translation>
+        <source>labels wrong</source>
+        <translation>etichette errate</translation>
     </message>
     <message>
-        <source>one doubted</source>
-        <translation>uno dubbio</translation>
+        <source>1 uncertain</source>
+        <translation>1 incerto</translation>
     </message>
     <message>
         <source>{count} not found</source>
@@ -1472,7 +1476,7 @@
         <translation>ferma, piatta</translation>
     </message>
     <message>
-        <source>for {count} pictures</source>
+        <source>for {count} frames</source>
         <translation>per {count} immagini</translation>
     </message>
     <message>
@@ -1825,7 +1829,7 @@
     </message>
     <message>
         <source>Reference, adults {span}</source>
-        <translation>Riferimento, adulti {span}</translation>
+        <translation>Rif. adulti {span}</translation>
     </message>
     <message>
         <source>Total arc</source>
@@ -2932,10 +2936,6 @@
         <translation>{distance} (limite {limit})</translation>
     </message>
     <message>
-        <source>Forearm moved</source>
-        <translation>Spostamento avambraccio</translation>
-    </message>
-    <message>
         <source>{depth} below its marker (scatter {residual})</source>
         <translation>{depth} sotto il marcatore (dispersione {residual})</translation>
     </message>
@@ -3024,7 +3024,7 @@
         <translation>Sequenza: {name}</translation>
     </message>
     <message>
-        <source>{movement} {goal} (mean {mean}; a gain can be told from {told})</source>
+        <source>{movement} {goal} (mean {mean}; detectable change from {told})</source>
         <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {told})</translation>
     </message>
     <message>
@@ -3268,12 +3268,12 @@
         <translation>Entrambe le mani colpite</translation>
     </message>
     <message>
-        <source>Choose in the list who is measured and start here; the practice patient is simulated.</source>
-        <translation>Scegliere nell’elenco chi si misura e iniziare qui; il paziente di prova è simulato.</translation>
+        <source>Choose the patient in the list and start here. The practice patient is simulated.</source>
+        <translation>Scegliere il paziente nell’elenco e iniziare qui. Il paziente di prova è simulato.</translation>
     </message>
     <message>
-        <source>Choose where the pictures come from, then go on here.</source>
-        <translation>Scegliere da dove vengono le immagini, poi proseguire qui.</translation>
+        <source>Choose the image source, then continue here.</source>
+        <translation>Scegliere la fonte delle immagini, poi proseguire qui.</translation>
     </message>
     <message>
         <source>Take the image when the hand lies flat and every marker is visible.</source>
@@ -3284,28 +3284,28 @@
         <translation>Ogni marcatore ha la sua etichetta e ogni controllo è buono: iniziare qui.</translation>
     </message>
     <message>
-        <source>The joints are followed already; the space bar starts the recording.</source>
-        <translation>Le articolazioni sono già seguite; la barra spaziatrice avvia la registrazione.</translation>
+        <source>The joints are already tracked. The space bar starts the recording.</source>
+        <translation>Le articolazioni sono già rilevate. La barra spaziatrice avvia la registrazione.</translation>
     </message>
     <message>
-        <source>Let the hand move a few times; the space bar then stores it all.</source>
-        <translation>Far muovere la mano alcune volte; poi la barra spaziatrice salva tutto.</translation>
+        <source>Let the hand move a few times. Then the space bar saves everything.</source>
+        <translation>Far muovere la mano alcune volte. Poi la barra spaziatrice salva tutto.</translation>
     </message>
     <message>
-        <source>These are the results; the key X leaves out the repetition you are at.</source>
-        <translation>Questi sono i risultati; il tasto X esclude la ripetizione in cui ci si trova.</translation>
+        <source>These are the results. The key X excludes the current repetition.</source>
+        <translation>Questi sono i risultati. Il tasto X esclude la ripetizione corrente.</translation>
     </message>
     <message>
         <source>Make the report of this session here.</source>
         <translation>Qui si crea la relazione di questa seduta.</translation>
     </message>
     <message>
-        <source>Save the report as a PDF; only the made-up name is on it.</source>
-        <translation>Salvare la relazione in PDF; contiene solo il nome inventato.</translation>
+        <source>Save the report as a PDF. It contains only the made-up name.</source>
+        <translation>Salvare la relazione in PDF. Contiene solo il nome inventato.</translation>
     </message>
     <message>
-        <source>That was a whole session; the arrow at the top left leads back, at last to the patients.</source>
-        <translation>Questa era una seduta intera; la freccia in alto a sinistra torna indietro, alla fine ai pazienti.</translation>
+        <source>That was a whole session. The arrow at the top left leads back to the patients.</source>
+        <translation>Questa era una seduta intera. La freccia in alto a sinistra riporta ai pazienti.</translation>
     </message>
     <message>
         <source>the other hand</source>
@@ -4688,8 +4688,8 @@
         <translation>{width}x{height}, {fps} fps, {missing} mancanti, profondità in {with_depth} su {count}</translation>
     </message>
     <message>
-        <source>Hidden joints do not count.</source>
-        <translation>Le articolazioni nascoste non contano.</translation>
+        <source>Occluded joints are not analysed.</source>
+        <translation>Le articolazioni nascoste non vengono analizzate.</translation>
     </message>
     <message>
         <source>± is the SD between repetitions.</source>
@@ -5300,11 +5300,11 @@
         <translation>Il computer è sovraccarico</translation>
     </message>
     <message>
-        <source>{count} pictures are missing: close other programs</source>
+        <source>{count} frames are missing: close other programs</source>
         <translation>{count} immagini mancano: chiudere altri programmi</translation>
     </message>
     <message>
-        <source>The computer is busy; every picture is kept</source>
+        <source>The computer is busy; every frame is saved</source>
         <translation>Il computer è occupato; non si perde nulla</translation>
     </message>
     <message>
@@ -7020,11 +7020,11 @@
         <translation>Avanzamento</translation>
     </message>
     <message>
-        <source>Where do the pictures come from?</source>
-        <translation>Da dove vengono le immagini?</translation>
+        <source>Which image source?</source>
+        <translation>Quale fonte di immagini?</translation>
     </message>
     <message>
-        <source>Before you go on</source>
+        <source>Before you continue</source>
         <translation>Prima di proseguire</translation>
     </message>
     <message>
@@ -7169,8 +7169,8 @@
         <translation>buono</translation>
     </message>
     <message>
-        <source>to be looked at</source>
-        <translation>da guardare</translation>
+        <source>to check</source>
+        <translation>da verificare</translation>
     </message>
     <message>
         <source>missing</source>
@@ -7374,8 +7374,8 @@
 <context>
     <name>CourseRunner</name>
     <message>
-        <source>Rest {time}; Space begins at once.</source>
-        <translation>Pausa {time}; la barra spaziatrice inizia subito.</translation>
+        <source>Rest {time}. Press Space to start now.</source>
+        <translation>Pausa {time}. Barra spaziatrice: iniziare subito.</translation>
     </message>
 </context>
 <context>
@@ -7694,7 +7694,7 @@
         <translation>Questa serie</translation>
     </message>
     <message>
-        <source>Hand that is measured</source>
+        <source>Hand to measure</source>
         <translation>Mano da misurare</translation>
     </message>
     <message>
@@ -7706,11 +7706,11 @@
         <translation>La vista del paziente è per</translation>
     </message>
     <message>
-        <source>Keep the pictures too</source>
-        <translation>Conservare anche le immagini</translation>
+        <source>Also save video</source>
+        <translation>Salvare anche il video</translation>
     </message>
     <message>
-        <source>Needed to see and correct markers later: {size} MB a minute, room for {time}.</source>
+        <source>Needed to see and correct markers later: {size} MB per minute; space for {time}.</source>
         <translation>Servono per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
     </message>
     <message>
@@ -7880,7 +7880,7 @@
         <translation>Mettere la mano piatta e ferma</translation>
     </message>
     <message>
-        <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
+        <source>Palm down, fingers as straight as possible, forearm in line. Then take the picture.</source>
         <translation>Palmo in giù, dita il più dritte possibile, avambraccio in linea. Poi scattare l’immagine.</translation>
     </message>
     <message>
@@ -7964,8 +7964,8 @@
         <translation>Correggi le etichette</translation>
     </message>
     <message>
-        <source>Start although &amp;doubtful</source>
-        <translation>Inizia benché &amp;dubbio</translation>
+        <source>Start anyway (&amp;uncertain)</source>
+        <translation>Inizia comunque (&amp;incerto)</translation>
     </message>
 </context>
 <context>
@@ -8021,15 +8021,15 @@ dall’alto</translation>
         <translation>Marcatori</translation>
     </message>
     <message>
-        <source>seen</source>
-        <translation>visto</translation>
+        <source>visible</source>
+        <translation>visibile</translation>
     </message>
     <message>
-        <source>partly seen</source>
-        <translation>visto in parte</translation>
+        <source>partly visible</source>
+        <translation>visibile in parte</translation>
     </message>
     <message>
-        <source>hidden, predicted</source>
+        <source>occluded, predicted</source>
         <translation>nascosto, stimato</translation>
     </message>
     <message>
@@ -8220,8 +8220,8 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>LiveFlow</name>
     <message>
-        <source>Recording paused by itself at {time}.</source>
-        <translation>La registrazione si è messa in pausa da sola a {time}.</translation>
+        <source>Recording paused automatically at {time}.</source>
+        <translation>La registrazione è andata in pausa automaticamente a {time}.</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are stored.</source>
@@ -8240,7 +8240,7 @@ Maiusc+F8 di lato</translation>
         <translation>Ai pazienti</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
+        <source>Continue measuring</source>
         <translation>Continua a misurare</translation>
     </message>
     <message>
@@ -8248,19 +8248,19 @@ Maiusc+F8 di lato</translation>
         <translation>La registrazione è appena iniziata.</translation>
     </message>
     <message>
-        <source>It goes on while you choose, and everything is kept.</source>
-        <translation>Prosegue durante la scelta, e tutto è conservato.</translation>
+        <source>It continues while you choose. Everything is saved.</source>
+        <translation>Prosegue durante la scelta. Tutto viene salvato.</translation>
     </message>
     <message>
-        <source>Go on measuring, or stop it already?</source>
-        <translation>Continuare a misurare, o fermare già?</translation>
+        <source>Continue measuring or stop now?</source>
+        <translation>Continuare a misurare o fermare ora?</translation>
     </message>
     <message>
         <source>Stop recording?</source>
         <translation>Interrompere la registrazione?</translation>
     </message>
     <message>
-        <source>Go on measuring, or stop: the session is saved and opens in the review.</source>
+        <source>Continue measuring, or stop: the session is saved and opens in the review.</source>
         <translation>Continuare a misurare o fermare: la seduta viene salvata e si apre nella revisione.</translation>
     </message>
     <message>
@@ -8272,11 +8272,11 @@ Maiusc+F8 di lato</translation>
         <translation>È in corso una registrazione.</translation>
     </message>
     <message>
-        <source>Everything measured up to now is kept, whatever you choose.</source>
-        <translation>Tutto ciò che è stato misurato finora resta, qualunque sia la scelta.</translation>
+        <source>Everything measured so far is saved, whatever you choose.</source>
+        <translation>Tutto ciò che è stato misurato finora viene salvato, qualunque sia la scelta.</translation>
     </message>
     <message>
-        <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
+        <source>Continue measuring, or stop: the session is saved and Carpus closes.</source>
         <translation>Continuare a misurare, o fermare: la seduta viene salvata e Carpus si chiude.</translation>
     </message>
 </context>
@@ -8326,19 +8326,19 @@ Maiusc+F8 di lato</translation>
         <translation>Recupero</translation>
     </message>
     <message>
-        <source>The recording plays from its first picture</source>
+        <source>The recording plays from its first frame</source>
         <translation>La registrazione riparte dalla prima immagine</translation>
     </message>
     <message>
-        <source>Waiting for a picture</source>
-        <translation>In attesa di un’immagine</translation>
+        <source>Waiting for the camera image</source>
+        <translation>In attesa dell’immagine</translation>
     </message>
     <message>
         <source>Angles</source>
         <translation>Angoli</translation>
     </message>
     <message>
-        <source>No picture</source>
+        <source>No image</source>
         <translation>Nessuna immagine</translation>
     </message>
     <message>
@@ -8350,8 +8350,8 @@ Maiusc+F8 di lato</translation>
         <translation>Inizio tra {seconds}</translation>
     </message>
     <message>
-        <source>Starts by itself when the hand lies still</source>
-        <translation>Inizia da sola quando la mano sta ferma</translation>
+        <source>Starts automatically when the hand is still</source>
+        <translation>Inizia automaticamente quando la mano sta ferma</translation>
     </message>
     <message>
         <source>Close the patient’s view</source>
@@ -8762,8 +8762,8 @@ Maiusc+F8 di lato</translation>
         <translation>Profondità e colore di {name} sono sfasati di {px} pixel.</translation>
     </message>
     <message>
-        <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
-        <translation>La registrazione stessa non cambia. Non dice che la sua profondità era stata sovrapposta ai colori.</translation>
+        <source>The recording is not changed. It does not state that depth and colour were aligned.</source>
+        <translation>La registrazione non viene modificata. Non indica che profondità e colore siano stati allineati.</translation>
     </message>
     <message>
         <source>Open it again with depth aligned to colour, then click the markers again.</source>
@@ -8781,12 +8781,12 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>MarkersScreen</name>
     <message>
-        <source>Wrist cannot lie straight…</source>
-        <translation>Il polso non sta dritto…</translation>
+        <source>Wrist cannot reach neutral…</source>
+        <translation>Il polso non sta in neutro…</translation>
     </message>
     <message>
-        <source>Start although &amp;doubtful</source>
-        <translation>Inizia benché &amp;dubbio</translation>
+        <source>Start anyway (&amp;uncertain)</source>
+        <translation>Inizia comunque (&amp;incerto)</translation>
     </message>
     <message>
         <source>Click all again</source>
@@ -8821,8 +8821,8 @@ Maiusc+F8 di lato</translation>
         <translation>ultima immagine più grande</translation>
     </message>
     <message>
-        <source>Waiting for a picture</source>
-        <translation>In attesa di un’immagine</translation>
+        <source>Waiting for the camera image</source>
+        <translation>In attesa dell’immagine</translation>
     </message>
     <message>
         <source>No blue marker here. Click nearer.</source>
@@ -8833,12 +8833,12 @@ Maiusc+F8 di lato</translation>
         <translation>È già: {name}</translation>
     </message>
     <message>
-        <source>This marker is the {name} already. Click another one.</source>
+        <source>This marker is already the {name}. Click another one.</source>
         <translation>Questo marcatore è già: {name}. Fare clic su un altro.</translation>
     </message>
     <message>
-        <source>Starts at {angles} (given)</source>
-        <translation>Parte da {angles} (indicato)</translation>
+        <source>Start position {angles} (entered)</source>
+        <translation>Posizione iniziale {angles} (inserita)</translation>
     </message>
     <message>
         <source>Drag a label to its marker. Two labels can be swapped.</source>
@@ -8857,12 +8857,12 @@ Maiusc+F8 di lato</translation>
         <translation>Le etichette restano finché non se ne cambia una.</translation>
     </message>
     <message>
-        <source>go on</source>
+        <source>continue</source>
         <translation>avanti</translation>
     </message>
     <message>
-        <source>All names are right</source>
-        <translation>Tutti i nomi sono giusti</translation>
+        <source>All labels are correct</source>
+        <translation>Tutte le etichette sono corrette</translation>
     </message>
 </context>
 <context>
@@ -8941,7 +8941,7 @@ Maiusc+F8 di lato</translation>
         <translation>Nota</translation>
     </message>
     <message>
-        <source>Keep note</source>
+        <source>Save note</source>
         <translation>Salva la nota</translation>
     </message>
     <message>
@@ -8999,12 +8999,12 @@ Maiusc+F8 di lato</translation>
         <translation>{joint}, {side}</translation>
     </message>
     <message>
-        <source>doubtful, not counted</source>
-        <translation>dubbio, non contato</translation>
+        <source>uncertain, excluded</source>
+        <translation>incerto, escluso</translation>
     </message>
     <message>
-        <source>doubtful</source>
-        <translation>dubbio</translation>
+        <source>uncertain</source>
+        <translation>incerto</translation>
     </message>
     <message>
         <source>no value</source>
@@ -9908,7 +9908,7 @@ Maiusc+F8 di lato</translation>
         <translation>Passivo</translation>
     </message>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Continua</translation>
     </message>
     <message>
@@ -9920,16 +9920,16 @@ Maiusc+F8 di lato</translation>
         <translation>Registra</translation>
     </message>
     <message>
-        <source>Stop and go on</source>
-        <translation>Interrompi e continua</translation>
+        <source>Stop and next exercise</source>
+        <translation>Interrompi e passa al prossimo</translation>
     </message>
     <message>
         <source>Stop and review</source>
         <translation>Interrompi e rivedi</translation>
     </message>
     <message>
-        <source>Starts in {seconds}: not yet</source>
-        <translation>Inizio tra {seconds}: non ancora</translation>
+        <source>Starting in {seconds} (cancel)</source>
+        <translation>Inizio tra {seconds} (annulla)</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -10364,7 +10364,7 @@ Maiusc+F8 di lato</translation>
         <translation>È stato salvato di nuovo come il più recente.</translation>
     </message>
     <message>
-        <source>Go on</source>
+        <source>Continue</source>
         <translation>Continua</translation>
     </message>
     <message>
@@ -10553,7 +10553,7 @@ Maiusc+F8 di lato</translation>
         <translation>Sequenza</translation>
     </message>
     <message>
-        <source>No names of patients</source>
+        <source>No patient names</source>
         <translation>Niente nomi di pazienti</translation>
     </message>
     <message>
@@ -10569,7 +10569,7 @@ Maiusc+F8 di lato</translation>
         <translation>Elimina questa sequenza</translation>
     </message>
     <message>
-        <source>Keep the set</source>
+        <source>Save the set</source>
         <translation>Salva la sequenza</translation>
     </message>
     <message>
@@ -10830,26 +10830,26 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>StartAngleDialog</name>
     <message>
-        <source>The wrist cannot lie straight</source>
-        <translation>Il polso non può stare dritto</translation>
+        <source>The wrist cannot reach neutral</source>
+        <translation>Il polso non raggiunge la posizione neutra</translation>
     </message>
     <message>
-        <source>It lies straight</source>
-        <translation>È dritto</translation>
+        <source>It is in neutral</source>
+        <translation>È in posizione neutra</translation>
     </message>
     <message>
         <source>Use these angles</source>
         <translation>Usa questi angoli</translation>
     </message>
     <message>
-        <source>Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero of a finger joint is the straight finger, whatever the picture.</source>
-        <translation>Misurare con il goniometro quanto il polso, come sta ora, è lontano dal dritto, e l’avambraccio dal pollice in alto: palmo piatto sul tavolo è 90° di pronazione. Carpus aggiunge questi angoli a tutto ciò che misura del polso e il referto lo dice. Le dita flesse vanno bene così: lo zero di un’articolazione delle dita è il dito disteso, qualunque sia l’immagine.</translation>
+        <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
+        <translation>Inserire gli angoli attuali di polso e avambraccio, misurati con il goniometro. Palmo piatto sul tavolo è 90° di pronazione. Carpus li aggiunge a tutti gli angoli del polso e lo annota nel referto. Per le dita flesse non serve inserire nulla.</translation>
     </message>
 </context>
 <context>
     <name>StraightFingers</name>
     <message>
-        <source>Do the fingers lie straight?</source>
+        <source>Are the fingers straight?</source>
         <translation>Le dita sono dritte?</translation>
     </message>
     <message>
@@ -10857,11 +10857,11 @@ Maiusc+F8 di lato</translation>
         <translation>{finger} piegato</translation>
     </message>
     <message>
-        <source>Click a finger that cannot lie straight (keys 1 to 5).</source>
-        <translation>Fare clic su un dito che non può stare dritto (tasti da 1 a 5).</translation>
+        <source>Click a finger that cannot fully extend (keys 1 to 5).</source>
+        <translation>Fare clic su un dito che non si estende del tutto (tasti da 1 a 5).</translation>
     </message>
     <message>
-        <source>A bent finger is measured from its own rest, and less surely.</source>
+        <source>A bent finger is measured from its own resting position, with less certainty.</source>
         <translation>Un dito piegato si misura dalla sua posizione di riposo, con meno sicurezza.</translation>
     </message>
 </context>
@@ -11028,8 +11028,8 @@ Maiusc+F8 di lato</translation>
         <translation>buono</translation>
     </message>
     <message>
-        <source>doubtful</source>
-        <translation>dubbio</translation>
+        <source>uncertain</source>
+        <translation>incerto</translation>
     </message>
     <message>
         <source>wrong</source>
@@ -11141,11 +11141,11 @@ Maiusc+F8 di lato</translation>
         <translation>Benvenuti in Carpus</translation>
     </message>
     <message>
-        <source>Patients and sessions will lie here; nothing leaves this computer.</source>
-        <translation>Pazienti e sedute staranno qui; nulla lascia questo computer.</translation>
+        <source>Patients and sessions are saved here. Nothing leaves this computer.</source>
+        <translation>Pazienti e sedute vengono salvati qui. Nulla lascia questo computer.</translation>
     </message>
     <message>
-        <source>This computer is being looked at …</source>
+        <source>Checking this computer …</source>
         <translation>Verifica di questo computer …</translation>
     </message>
     <message>
@@ -11153,15 +11153,15 @@ Maiusc+F8 di lato</translation>
         <translation>Questo computer ha tutto ciò che serve a Carpus.</translation>
     </message>
     <message>
-        <source>One thing is to be done; the practice patient needs none of it.</source>
-        <translation>C’è una cosa da fare; per il paziente di prova non serve.</translation>
+        <source>One thing needs your attention. The practice patient works without it.</source>
+        <translation>C’è una cosa da fare. Per il paziente di prova non serve.</translation>
     </message>
     <message>
-        <source>{count} things are to be done; the practice patient needs none of them.</source>
-        <translation>Ci sono {count} cose da fare; per il paziente di prova non servono.</translation>
+        <source>{count} things need your attention. The practice patient works without them.</source>
+        <translation>Ci sono {count} cose da fare. Per il paziente di prova non servono.</translation>
     </message>
     <message>
-        <source>The folder counts from the next start on: close Carpus and open it again before you measure.</source>
+        <source>The new folder is used from the next start. Close Carpus and open it again before you measure.</source>
         <translation>La cartella vale dal prossimo avvio: chiudere Carpus e riaprirlo prima di misurare.</translation>
     </message>
 </context>

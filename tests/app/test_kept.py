@@ -103,7 +103,7 @@ def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_pat
     assert "6 lines." in command("log", "--data-folder", library.folder).out
     asked = command("erase", path)
     assert (asked.code, path.exists()) == (0, True)
-    assert f"This stays, delete it yourself: {out / 'r.pdf'}" in asked.out
+    assert f"Delete yourself: {out / 'r.pdf'}" in asked.out
     assert (command("erase", path, "--for-good", "Heron 17").code, path.exists()) == (1, True)
     assert (command("erase", path, "--for-good", "linden 42").code, path.exists()) == (0, False)
     assert (out / "r.pdf").exists()
@@ -257,7 +257,7 @@ def test_backup_by_command_comes_back_elsewhere(library: Library, tmp_path: Path
     assert [did for did, _, _ in deeds(new)] == ["added", "recorded", "backed_up", "recorded", "restored"]
     assert command("erase", "Linden 42", "--data-folder", library.folder, "--for-good", "linden 42").code == 0
     later = command("restore", place, "--into", tmp_path / "later")
-    assert "erased again: 1 patients" in later.out
+    assert "deleted again: 1 patients" in later.out
     with closing(Library(tmp_path / "later")) as restored:
         assert restored.patients.search() == []
 

@@ -336,7 +336,7 @@ def test_question_during_recording_loses_nothing_and_second_set_keeps_markers(
     live.setFocus()  # as a click beside the card would
     assert card().isAncestorOf(shell.focusWidget())
     qtbot.mouseClick(live.controls.main_button, Qt.MouseButton.LeftButton)
-    goes_on(Qt.Key.Key_Space)  # "Go on measuring"
+    goes_on(Qt.Key.Key_Space)  # "Continue measuring"
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)  # leaves no recording either
     goes_on(Qt.Key.Key_Escape)  # the answer that loses nothing
     monkeypatch.setattr("carpus.ui.screens.live.recording.MIN_RECORDING_S", 3600.0)

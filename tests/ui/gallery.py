@@ -464,7 +464,7 @@ class Gallery(GalleryWindow):
         self.shell.top_bar.show_recording(False)
         feed.is_recording = False
         screen.controls.refresh()
-        answers = [Answer("To the patients", lambda: None, "P"), Answer("Go on measuring", lambda: None, "Space")]
+        answers = [Answer("To the patients", lambda: None, "P"), Answer("Continue measuring", lambda: None, "Space")]
         words = fault_words(DiskFull("session.h5", "no space left"))
         MessageDialog(screen.stage, self.theme).show_words(words, answers, icon="hard-drive")
 
@@ -482,7 +482,7 @@ class Gallery(GalleryWindow):
         bar.show_recording(False)
         card = MessageDialog(screen.stage, self.theme)
         answers = [Answer("Check camera", lambda: None, "C"), Answer("Stop and review", screen.recording.stop, "Space")]
-        detail, safe_detail = "Recording paused by itself at 01:24.", "All 1 min 24 s and 3 full repetitions."
+        detail, safe_detail = "Recording paused automatically at 01:24.", "All 1 min 24 s and 3 full repetitions."
         card.show_words(LOST, answers, icon="unplug", detail=detail, safe_detail=safe_detail)
         card.set_wait_text("Waiting for the camera … 7 s")
 

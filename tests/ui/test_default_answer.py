@@ -101,7 +101,7 @@ DIALOGS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     CameraNameDialog: _opened(CameraNameDialog, CameraNameDialog.request_name, "Continue", "Window"),
     ResultsDialog: _opened(ResultsDialog, ResultsDialog.open, ""),
     ExportDialog: _opened(ExportDialog, ExportDialog.request_formats, "Choose folder…"),
-    NoteDialog: _opened(NoteDialog, NoteDialog.open_note, "Keep note"),
+    NoteDialog: _opened(NoteDialog, NoteDialog.open_note, "Save note"),
     PainDialog: _opened(PainDialog, PainDialog.open_pain, "Close"),
     StartAngleDialog: _opened(StartAngleDialog, StartAngleDialog.open_angles, "Use these angles", np.zeros(3)),
     DeleteDialog: _opened(
@@ -133,7 +133,7 @@ DIALOGS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
         "Move",
         [("a", "Heron 17")],
     ),
-    SetDialog: _opened(SetDialog, SetDialog.open_sets, "Keep the set", DEFAULT_SETS, "wrist6"),
+    SetDialog: _opened(SetDialog, SetDialog.open_sets, "Save the set", DEFAULT_SETS, "wrist6"),
 }
 """Every dialog of the program, opened with something in it."""
 
@@ -221,12 +221,12 @@ def test_dialog_focused_button_takes_enter_and_its_hint(qtbot: QtBot, theme: The
     assert said == [other.text()]
 
 
-@pytest.mark.parametrize(("alarm", "pressed"), [(False, ["Go on"]), (True, [])])
+@pytest.mark.parametrize(("alarm", "pressed"), [(False, ["Continue"]), (True, [])])
 def test_message_dialog_esc_without_alarm_gives_the_last_answer(
     qtbot: QtBot, theme: Theme, host: QWidget, alarm: bool, pressed: list[str]
 ) -> None:
     card, found = MessageDialog(host, theme), []
-    answers = [Answer(name, lambda name=name: found.append(name)) for name in ("Open folder", "Go on")]
+    answers = [Answer(name, lambda name=name: found.append(name)) for name in ("Open folder", "Continue")]
     card.show_words(MessageText("2 files were saved.", "", ""), answers, is_alarm=alarm)
     qtbot.keyClick(card, Qt.Key.Key_Escape)
     assert found == pressed
@@ -253,7 +253,7 @@ def _cards() -> Iterator[tuple[str, list[ast.Call]]]:
 
 
 HARMLESS = {
-    "Continue", "Go on", "Leave it as it is", "Go on measuring", "Cancel", "Back to the form",
+    "Continue", "Leave it as it is", "Continue measuring", "Cancel", "Back to the form",
     "Choose the source again", "Open it again",
     "Stay here", "Choose another folder", "Close Carpus",
 }  # fmt: skip

@@ -28,6 +28,6 @@ def test_pictures_that_never_came_are_not_told_as_kept() -> None:
     counters, behind = FakeFeed().counters(), TrackingLag()
     behind.lag_s = 4.0
     behind.count_missing(replace(counters, missing=380))
-    assert "every picture is kept" in lag_light(behind, recording=True).remedy
+    assert "every frame is saved" in lag_light(behind, recording=True).remedy
     behind.count_missing(replace(counters, missing=383))
-    assert lag_light(behind, recording=True).remedy == "3 pictures are missing: close other programs"
+    assert lag_light(behind, recording=True).remedy == "3 frames are missing: close other programs"

@@ -152,7 +152,7 @@ def test_lost_camera_leaves_no_old_frame_and_no_old_number_and_nothing_offers_to
     screen.draw()
     assert math.isnan(tried.reading().value_deg)
     assert screen.picture.image is None
-    assert screen.controls.light_view.status_light.state == "No picture"
+    assert screen.controls.light_view.status_light.state == "No image"
     assert screen.recording.state == "paused"
     assert (screen.controls.pause_button.isEnabled(), screen.controls.pause_button.text()) == (False, "Pause")
     screen.recording.toggle_pause()
@@ -189,7 +189,9 @@ def test_light_is_read_whole_however_narrow_it_is(
 ) -> None:
     theme.choose(text_scale=scale)
     light = show(StatusLightView(theme))
-    light.show_light(StatusLight("warn", "Mittelfinger-Grundgelenk verdeckt", "Drehen Sie den Handrücken zur Kamera"))
+    light.show_light(
+        StatusLight("warn", "Mittelfinger-MCP nur zeitweise sichtbar", "Drehen Sie den Handrücken zur Kamera")
+    )
     room = QRectF(106, 4, width - 118, theme.px(HEIGHT_PX) - 8)
     (_, _, state), (_, _, remedy) = light._place_lines(room)
     assert room.contains(state)
@@ -331,7 +333,7 @@ def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Liv
     screen._show_counters()
     tried.run(0.5)
     screen._show_values()
-    late = StatusLight("idle", "Values are 4 s behind", "The computer is busy; every picture is kept")
+    late = StatusLight("idle", "Values are 4 s behind", "The computer is busy; every frame is saved")
     assert screen.controls.light_view.status_light == late
     assert (math.isnan(screen.exercise_snapshot().value_deg), screen.exercise_snapshot().is_late) == (True, True)
     newest = feed.current_frame()
@@ -346,7 +348,7 @@ def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Liv
     screen.draw()
     screen._show_values()
     assert screen.controls.light_view.status_light.rank == "warn"
-    assert screen.controls.light_view.status_light.remedy.startswith("5 pictures are missing")
+    assert screen.controls.light_view.status_light.remedy.startswith("5 frames are missing")
     feed.ahead_s = 0.0
     tried.run(0.5)
     screen._show_values()
@@ -418,10 +420,10 @@ def test_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_does_a
 def test_light_names_one_hidden_marker_and_its_remedy() -> None:
     frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
     lamp = wrist_light(frame, MARKERS, False)
-    assert lamp.state == "Thumb CMC hidden"
+    assert lamp.state == "Thumb CMC occluded"
     assert lamp.remedy == "Turn the thumb side up"
     assert wrist_light(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
-    assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Arm moved"
+    assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Forearm moved"
 
 
 def test_curves_scroll_on_fixed_scales(qtbot: QtBot, theme: Theme) -> None:
@@ -523,10 +525,10 @@ def test_key_and_pedal_count_down_and_take_back(qtbot: QtBot, live: Live) -> Non
     tried.run(1.0)
     for counts, takes_back in ((Qt.Key.Key_Space, Qt.Key.Key_PageDown), (Qt.Key.Key_PageDown, Qt.Key.Key_Space)):
         tried.press(counts)
-        assert screen.controls.main_button.text() == "Starts in 3: not yet"
+        assert screen.controls.main_button.text() == "Starting in 3 (cancel)"
         tried.run(1.5)
         assert (screen.controls.main_button.text(), screen.exercise_snapshot().countdown_s) == (
-            "Starts in 2: not yet",
+            "Starting in 2 (cancel)",
             2,
         )
         tried.press(takes_back)
@@ -545,7 +547,7 @@ def test_over_a_still_hand_a_recording_begins_by_itself_but_in_no_rest(qtbot: Qt
     assert not screen.recording.start_trigger.is_waiting
     screen.recording.set_resting(resting=False)
     tried.run(1.0)
-    assert "Starts by itself when the hand lies still" in screen.controls.light_view.status_light.remedy
+    assert "Starts automatically when the hand is still" in screen.controls.light_view.status_light.remedy
     tried.run(STILL_S + COUNTDOWN_S)
     qtbot.waitUntil(lambda: feed.is_recording and screen.recording.counter is not None)
     assert screen.controls.main_button.text() == "Stop and review"

@@ -214,13 +214,13 @@ def test_wrist_keeps_its_own_screen(live: Live) -> None:
 @pytest.mark.parametrize(
     ("hidden", "state", "remedy"),
     [
-        ((), "Tracking well", "All 21 markers seen"),
-        (("TIP4",), "Ring fingertip hidden", "Raise the hand"),
+        ((), "Tracking well", "All 21 markers visible"),
+        (("TIP4",), "Ring fingertip occluded", "Raise the hand"),
         (("MCP1", "IP1", "TIP1"), "Thumb occluded", "Turn the thumb side up"),
-        (("DIP2", "TIP2"), "Index finger hidden", "Turn the back of the fingers to the camera"),
-        (("TIP2", "TIP3", "DIP3"), "Finger ends hidden", "Turn the back of the fingers to the camera"),
-        (("MCP5",), "Little finger MCP hidden", "Turn the little-finger side up"),
-        (("WRIST", "CMC1", "MCP2", "MCP3"), "Too few markers seen", "Turn the back of the hand to the camera"),
+        (("DIP2", "TIP2"), "Index finger occluded", "Turn the back of the fingers to the camera"),
+        (("TIP2", "TIP3", "DIP3"), "Fingertips occluded", "Turn the back of the fingers to the camera"),
+        (("MCP5",), "Little finger MCP occluded", "Turn the little-finger side up"),
+        (("WRIST", "CMC1", "MCP2", "MCP3"), "Too few markers visible", "Turn the back of the hand to the camera"),
     ],
 )
 def test_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], state: str, remedy: str) -> None:
@@ -232,12 +232,12 @@ def test_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], stat
 
 def test_map_says_it_in_one_sentence() -> None:
     seen = dict.fromkeys(MARKERS, "seen")
-    assert hand_map_words(seen) == "All markers seen, every joint is measured."  # type: ignore[arg-type]
+    assert hand_map_words(seen) == "All markers visible. Every joint is measured."  # type: ignore[arg-type]
     assert "follow the PIP joints" in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
-    assert "every joint is measured" not in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
+    assert "Every joint is measured" not in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
     sentence = hand_map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
-    assert sentence == "Ring fingertip hidden: raise the hand. Hidden joints do not count."
-    assert "now and then" in hand_map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
+    assert sentence == "Ring fingertip occluded: raise the hand. Occluded joints are not analysed."
+    assert "only at times" in hand_map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
 
 
 def test_bent_finger_goes_below_back_of_hand_in_side_view() -> None:

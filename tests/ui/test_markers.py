@@ -489,7 +489,7 @@ def test_markers_alternative_blob_is_shown_and_accepted(qtbot: QtBot, marking: M
     calibrator = marking.begin(CalibrationFinding("other_spot", ("MCP3",), spot_px=spot))
     marking.judge_all()
     screen = marking.screen
-    assert screen.guidance.step_label.text().startswith("Doubtful")
+    assert screen.guidance.step_label.text().startswith("Uncertain")
     assert screen.picture.questioned_blobs == [(spot, "MCP3")]
     assert "Take that spot" in screen.primary_button.text()
     calibrator.findings = ()

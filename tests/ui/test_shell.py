@@ -185,10 +185,13 @@ def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, th
     card.show_words(WORDS, [Answer("Stop", lambda: done.append("stop"), "Space")])
     qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_Space)
     assert done == ["check", "stop"]
-    card.show_words(WORDS, [Answer("Go on", lambda: None)], is_alarm=False)
+    card.show_words(WORDS, [Answer("Continue", lambda: None)], is_alarm=False)
     assert card.card.edge == "line"  # good news and questions look like no alarm
     card.close_dialog()
-    answers = [Answer("End it", lambda: done.append("end"), is_risky=True), Answer("Go on", lambda: done.append("on"))]
+    answers = [
+        Answer("End it", lambda: done.append("end"), is_risky=True),
+        Answer("Continue", lambda: done.append("on")),
+    ]
     card.show_words(WORDS, answers)
     qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_Escape)
     assert done[-1] == "on", "Esc gives the answer that loses nothing"

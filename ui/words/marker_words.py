@@ -51,7 +51,7 @@ def marker_placement(marker: str) -> str:
         "MCP": tr("On the back of the hand, 3–5 mm proximal to the MCP joint."),
         "PIP": tr("Centred on the creases over the PIP joint."),
         "DIP": tr("Centred on the creases over the DIP joint."),
-        "IP": tr("Centred on the creases over the DIP joint."),
+        "IP": tr("Centred on the creases over the IP joint."),
         "TIP": tr("On the nail, in its middle."),
     }.get(joint, "")
 

@@ -75,7 +75,7 @@ class RecordingControls(Surface):
         self.pause_button.setEnabled(runs and not recording.camera_lost)  # nothing can go on without pictures
         paused = state == "paused" and not recording.camera_lost
         self.pause_button.set_label(
-            self.tr("Go on") if paused else self.tr("Pause"), icon="play" if paused else "pause"
+            self.tr("Continue") if paused else self.tr("Pause"), icon="play" if paused else "pause"
         )
         self.main_button.setEnabled(not recording.is_storing)
         if recording.is_busy:
@@ -83,9 +83,9 @@ class RecordingControls(Surface):
         words = self.tr("Play and record") if recording.is_playback else self.tr("Record")
         if runs:
             follows = recording.set_up is not None and next_part(recording.set_up) is not None
-            words = self.tr("Stop and go on") if follows else self.tr("Stop and review")
+            words = self.tr("Stop and next exercise") if follows else self.tr("Stop and review")
         elif recording.countdown_s:
-            words = self.tr("Starts in {seconds}: not yet").format(seconds=recording.countdown_s)
+            words = self.tr("Starting in {seconds} (cancel)").format(seconds=recording.countdown_s)
         hint = "" if self._is_tight else self.tr("Space · pedal")
         self.main_button.set_label(words, icon="square" if runs else "", hint=hint)
 

@@ -94,7 +94,7 @@ class CourseRunner(QObject):
             return
         words = course_words(course)
         if self.is_resting:
-            rest = self.tr("Rest {time}; Space begins at once.").format(
+            rest = self.tr("Rest {time}. Press Space to start now.").format(
                 time=numbers.format_clock(self._remaining_rest_s)
             )
             words = f"{rest} {words}. {translate_phrase(set_up.exercise.position)}"

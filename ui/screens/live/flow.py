@@ -100,7 +100,7 @@ class LiveFlow(Flow):
         detail = safe = ""
         if recording:
             at = numbers.format_clock(live.recording.duration_s)
-            detail = self.tr("Recording paused by itself at {time}.").format(time=at)
+            detail = self.tr("Recording paused automatically at {time}.").format(time=at)
             done = live.recording.repetitions
             safe = self.tr("{time} and {count} full repetitions are stored.").format(time=at, count=done)
         answer = (
@@ -133,7 +133,7 @@ class LiveFlow(Flow):
             fault,
             (
                 Answer(self.tr("To the patients"), self.return_to_patients, "P", is_risky=True),
-                Answer(self.tr("Go on measuring"), lambda: None),
+                Answer(self.tr("Continue measuring"), lambda: None),
             ),
         )
 
@@ -145,22 +145,22 @@ class LiveFlow(Flow):
             question,
             (
                 Answer(self.tr("Stop and review"), self.screen.recording.stop, "S", is_risky=True),
-                Answer(self.tr("Go on measuring"), lambda: None),
+                Answer(self.tr("Continue measuring"), lambda: None),
             ),
         )
 
     def _early_stop_question(self) -> MessageText:
         return MessageText(
             self.tr("The recording has only just begun."),
-            self.tr("It goes on while you choose, and everything is kept."),
-            self.tr("Go on measuring, or stop it already?"),
+            self.tr("It continues while you choose. Everything is saved."),
+            self.tr("Continue measuring or stop now?"),
         )
 
     def _stop_question(self) -> MessageText:
         return MessageText(
             self.tr("Stop recording?"),
-            self.tr("It goes on while you choose, and everything is kept."),
-            self.tr("Go on measuring, or stop: the session is saved and opens in the review."),
+            self.tr("It continues while you choose. Everything is saved."),
+            self.tr("Continue measuring, or stop: the session is saved and opens in the review."),
         )
 
     # --- the window closes --------------------------------------------------------------------------------
@@ -175,7 +175,7 @@ class LiveFlow(Flow):
                     Answer(
                         self.tr("Stop, save and close"), self.context.window.close_without_prompt, "S", is_risky=True
                     ),
-                    Answer(self.tr("Go on measuring"), lambda: None),
+                    Answer(self.tr("Continue measuring"), lambda: None),
                 ),
             )
         return True
@@ -183,8 +183,8 @@ class LiveFlow(Flow):
     def _closing_question(self) -> MessageText:
         return MessageText(
             self.tr("A recording is running."),
-            self.tr("Everything measured up to now is kept, whatever you choose."),
-            self.tr("Go on measuring, or stop: the session is saved and Carpus closes."),
+            self.tr("Everything measured so far is saved, whatever you choose."),
+            self.tr("Continue measuring, or stop: the session is saved and Carpus closes."),
         )
 
     def close(self) -> None:

@@ -78,8 +78,10 @@ class HandMap(QWidget):
 
     def _legend(self) -> tuple[tuple[MarkerVisibility, str], ...]:
         return (
-            ("seen", self.tr("seen")), ("partly", self.tr("partly seen")), ("hidden", self.tr("hidden, predicted")),
-        )  # fmt: skip
+            ("seen", self.tr("visible")),
+            ("partly", self.tr("partly visible")),
+            ("hidden", self.tr("occluded, predicted")),
+        )
 
     def _paint_marker(self, painter: QPainter, at: QPointF, state: MarkerVisibility) -> None:
         color = self._theme.color

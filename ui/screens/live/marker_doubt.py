@@ -121,10 +121,10 @@ def question_light(doubt: MarkerDoubt) -> StatusLight:
     lower = marker_in_sentence(doubt.marker)
     if not doubt.has_other:
         words = tr("Look at the {marker}").format(marker=lower)
-        return StatusLight("warn", tr("Doubtful"), words)
+        return StatusLight("warn", tr("Uncertain"), words)
     if doubt.is_hidden:
         return StatusLight("warn", tr("Another blue spot is here"), tr("Is it the {marker}?").format(marker=lower))
-    return StatusLight("warn", tr("Doubtful"), tr("Which blue spot is the {marker}?").format(marker=lower))
+    return StatusLight("warn", tr("Uncertain"), tr("Which blue spot is the {marker}?").format(marker=lower))
 
 
 def _find_unused_blobs(frame: TrackedFrame) -> FloatArray:

@@ -30,7 +30,7 @@ class NoteDialog(Dialog):
         super().__init__(host, theme, 720, is_low=True)
         self.line = QLineEdit(placeholderText=self.tr("What happened? No names."))
         self.line.setAccessibleName(self.tr("Note"))
-        keep = Button(theme, self.tr("Keep note"), "primary", height_px=44)
+        keep = Button(theme, self.tr("Save note"), "primary", height_px=44)
         close = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"))
         self.card.body.addWidget(Text(theme, self.tr("Note at this moment"), 16, SEMIBOLD))
         self.card.body.addLayout(row_layout((self.line, 1), close, keep))

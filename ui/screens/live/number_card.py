@@ -232,7 +232,7 @@ class NumberCard(QWidget):
         theme, scale = self._theme, self._theme.text_scale
         painter.setFont(font(16 * scale, SEMIBOLD))
         metrics, sign = QFontMetricsF(painter.font()), 20 * scale
-        for words in (self.tr("doubtful, not counted"), self.tr("doubtful")):
+        for words in (self.tr("uncertain, excluded"), self.tr("uncertain")):
             if left + 20 + sign + 8 + metrics.horizontalAdvance(words) <= 40 + room:
                 box = QRectF(left + 20, 14 + 20 * scale - sign / 2, sign, sign)
                 paint_state(painter, "warn", box, theme.color("warn"), theme.color("surface"))

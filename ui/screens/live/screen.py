@@ -234,7 +234,7 @@ class LiveScreen(FittedWidget):
         self.controls.reset()
         self.hand_map.set_side(set_up.side)
         self._fit()
-        waits, plays = self.tr("Waiting for a picture"), self.tr("The recording plays from its first picture")
+        waits, plays = self.tr("Waiting for the camera image"), self.tr("The recording plays from its first frame")
         self.picture.clear(plays if self.recording.is_playback else waits)
         room = HAND_AREA_FACTOR if self._is_whole_hand else PALM_AREA_FACTOR
         self.picture.set_hand_area(None if calibration is None else calibration.clicks.pixel, room)
@@ -272,7 +272,7 @@ class LiveScreen(FittedWidget):
         self.finger_curves.set_waiting(lost)
         if lost:
             self.question.withdraw()
-            self.picture.clear(self.tr("No picture"))
+            self.picture.clear(self.tr("No image"))
             self._tracked_view = self.frame_overlay.tracked_view = None
 
     def set_patient_view(self, is_open: bool) -> None:
@@ -383,7 +383,7 @@ class LiveScreen(FittedWidget):
         """Return the light: of the camera, else of the computer, a question, or the start."""
         recording, calibration, view = self.recording, measuring.calibration, self._tracked_view
         if recording.camera_lost:
-            return StatusLight("bad", self.tr("No picture"), self.tr("Plug the camera in again"))
+            return StatusLight("bad", self.tr("No image"), self.tr("Plug the camera in again"))
         markers = calibration.clicks.protocol.markers if calibration else ()
         frame = None if view is None else view.tracked
         if self._is_whole_hand:
@@ -401,7 +401,7 @@ class LiveScreen(FittedWidget):
         if lamp.rank == "good" and recording.countdown_s:
             return StatusLight("good", self.tr("Starts in {seconds}").format(seconds=recording.countdown_s), "")
         if lamp.rank == "good" and recording.start_trigger.is_waiting and recording.state == "off":
-            return StatusLight("good", lamp.state, self.tr("Starts by itself when the hand lies still"))
+            return StatusLight("good", lamp.state, self.tr("Starts automatically when the hand is still"))
         return lamp
 
     def _show_counters(self) -> None:

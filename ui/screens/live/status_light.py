@@ -38,28 +38,30 @@ MIN_TRACKABLE = 3
 def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: bool) -> StatusLight:
     """Return the light for one frame with six markers, without any delay."""
     if frame is None:
-        return StatusLight("idle", tr("Waiting for the first picture"), "")
+        return StatusLight("idle", tr("Waiting for the camera image"), "")
     if frame.status == TrackStatus.LOST:
         return StatusLight("bad", tr("Hand not visible"), tr("Hold the hand flat under the camera"))
     hidden = [
         name for name, pixel in zip(markers, frame.marker_measured_px, strict=True) if not math.isfinite(pixel[0])
     ]
     if len(markers) - len(hidden) < MIN_TRACKABLE or frame.status == TrackStatus.PREDICTED:
-        return StatusLight("warn", tr("Too few markers seen"), tr("Turn the back of the hand to the camera"))
+        return StatusLight("warn", tr("Too few markers visible"), tr("Turn the back of the hand to the camera"))
     if len(hidden) == 1:
         return StatusLight(
-            "warn", tr("{marker} hidden").format(marker=marker_title(hidden[0])), occlusion_remedy(hidden[0])
+            "warn", tr("{marker} occluded").format(marker=marker_title(hidden[0])), occlusion_remedy(hidden[0])
         )
     if hidden:
         words = tr("{count} markers occluded").format(count=len(hidden))
         return StatusLight("warn", words, tr("Turn the back of the hand to the camera"))
     if frame.status == TrackStatus.DOUBTFUL:
-        return StatusLight("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
+        return StatusLight(
+            "warn", tr("Uncertain"), tr("Markers do not match the hand: hold the hand flat for a moment")
+        )
     if forearm_moved:
-        return StatusLight("warn", tr("Arm moved"), tr("Lay the forearm back where it was"))
+        return StatusLight("warn", tr("Forearm moved"), tr("Lay the forearm back where it was"))
     if not np.isfinite(frame.kinematics.angles_rad).any():
         return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
-    return StatusLight("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(markers)))
+    return StatusLight("good", tr("Tracking well"), tr("All {count} markers visible").format(count=len(markers)))
 
 
 class SteadyLight:
@@ -97,37 +99,39 @@ _DISTAL_JOINTS = ("PIP", "DIP", "TIP", "IP")
 def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibility]) -> StatusLight:
     """Return the light of the whole hand, from the same visibility as its map."""
     if frame is None:
-        return StatusLight("idle", tr("Waiting for the first picture"), "")
+        return StatusLight("idle", tr("Waiting for the camera image"), "")
     if frame.status == TrackStatus.LOST:
         return StatusLight("bad", tr("Hand not visible"), tr("Hold the hand flat under the camera"))
     hidden = [name for name, state in visibility.items() if state == "hidden"]
     partly = [name for name, state in visibility.items() if state == "partly"]
     palm = sum(name in PALM_MARKERS for name in hidden)
     if len(PALM_MARKERS) - palm < MIN_PALM_MARKERS or frame.status == TrackStatus.PREDICTED:
-        return StatusLight("warn", tr("Too few markers seen"), tr("Turn the back of the hand to the camera"))
+        return StatusLight("warn", tr("Too few markers visible"), tr("Turn the back of the hand to the camera"))
     if frame.status == TrackStatus.DOUBTFUL:
-        return StatusLight("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
+        return StatusLight(
+            "warn", tr("Uncertain"), tr("Markers do not match the hand: hold the hand flat for a moment")
+        )
     if not hidden and partly:
         return StatusLight("warn", _partly_words(partly), remedy_words(partly))
     if not hidden and not np.isfinite(frame.kinematics.joint_angles_rad).any():
         return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
     if not hidden:
-        return StatusLight("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(visibility)))
+        return StatusLight("good", tr("Tracking well"), tr("All {count} markers visible").format(count=len(visibility)))
     return StatusLight("warn", occlusion_words(hidden), remedy_words(hidden))
 
 
 def occlusion_words(hidden: Sequence[str]) -> str:
     """Describe hidden markers: ``Ring tip hidden``, ``Thumb hidden``, ``7 markers hidden``."""
     if len(hidden) == 1:
-        return tr("{marker} hidden").format(marker=marker_title(hidden[0]))
+        return tr("{marker} occluded").format(marker=marker_title(hidden[0]))
     fingers = {name[-1] for name in hidden if name not in PALM_MARKERS}
     if len(fingers) == 1 and all(name not in PALM_MARKERS for name in hidden):
         (finger,) = fingers
         if finger == "1":
             return tr("Thumb occluded")
-        return tr("{finger} finger hidden").format(finger=finger_name(finger))
+        return tr("{finger} finger occluded").format(finger=finger_name(finger))
     if all(name.rstrip("12345") in _DISTAL_JOINTS for name in hidden):
-        return tr("Finger ends hidden")
+        return tr("Fingertips occluded")
     return tr("{count} markers occluded").format(count=len(hidden))
 
 
@@ -152,17 +156,17 @@ def hand_map_words(visibility: Mapping[str, MarkerVisibility], *, dip_inferred: 
     if not hidden and not partly:
         if dip_inferred:
             return tr("All markers visible. DIP joints are not measured: they follow the PIP joints.")
-        return tr("All markers seen, every joint is measured.")
+        return tr("All markers visible. Every joint is measured.")
     poor = hidden or partly
     words = occlusion_words(poor) if hidden else _partly_words(poor)
     sentence = tr("{what}: {remedy}.").format(what=words, remedy=to_mid_sentence(remedy_words(poor)))
-    return f"{sentence} {tr('Hidden joints do not count.')}" if hidden else sentence
+    return f"{sentence} {tr('Occluded joints are not analysed.')}" if hidden else sentence
 
 
 def _partly_words(poor: Sequence[str]) -> str:
     if len(poor) == 1:
-        return tr("{marker} seen now and then").format(marker=marker_title(poor[0]))
-    return tr("{count} markers seen now and then").format(count=len(poor))
+        return tr("{marker} visible only at times").format(marker=marker_title(poor[0]))
+    return tr("{count} markers visible only at times").format(count=len(poor))
 
 
 LAG_S, CAUGHT_UP_S = 1.0, 0.4
@@ -209,9 +213,9 @@ class TrackingLag:
 def lag_light(lag: TrackingLag, *, recording: bool) -> StatusLight:
     """Return the light while tracking lags behind."""
     if lag.missing_frames and recording:
-        words = tr("{count} pictures are missing: close other programs")
+        words = tr("{count} frames are missing: close other programs")
         return StatusLight("warn", tr("The computer is too busy"), words.format(count=lag.missing_frames))
-    kept = tr("The computer is busy; every picture is kept")
+    kept = tr("The computer is busy; every frame is saved")
     words = tr("Values are {seconds} s behind").format(seconds=format_rounded(lag.lag_s))
     return StatusLight("idle", words, kept if recording else tr("The computer is busy"))
 

@@ -109,7 +109,7 @@ class GuidancePanel(QWidget):
         self.step_label.show_state("none", self.tr("Picture"))
         self.title_label.setText(self.tr("Lay the hand flat and still"))
         self.instruction_label.setText(
-            self.tr("Palm down, fingers as straight as they go, forearm in line. Then take the picture.")
+            self.tr("Palm down, fingers as straight as possible, forearm in line. Then take the picture.")
         )
         order = calibrator.protocol.markers
         self.hand_drawing.show_markers(calibrator.side, dict.fromkeys(order, "later"))
@@ -196,7 +196,7 @@ class GuidancePanel(QWidget):
             self.primary_button.set_label(words, icon="", hint=key)
             swap = remedy == "swap"
             self.second_button.set_label(
-                self.tr("Correct labels") if swap else self.tr("Start although &doubtful"), hint=""
+                self.tr("Correct labels") if swap else self.tr("Start anyway (&uncertain)"), hint=""
             )
             self.second_button.setVisible(swap or verdict.can_start)
         self.primary_button.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -243,7 +243,7 @@ def proposal_words(labels: LabelState) -> ProposalWords:
         return ProposalWords("good", whole, tr("Are these labels correct?"), todo, primary)
     if doubtful:
         step = (
-            tr("1 name is doubtful")
+            tr("1 label is uncertain")
             if len(doubtful) == 1
             else tr("{count} labels are uncertain").format(count=len(doubtful))
         )
@@ -273,7 +273,7 @@ class StraightFingers(QWidget):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self._question = Text(theme, self.tr("Do the fingers lie straight?"), 14, SEMIBOLD)
+        self._question = Text(theme, self.tr("Are the fingers straight?"), 14, SEMIBOLD)
         self._hint = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         self.buttons: list[Button] = []
         grid = grid_layout(4, 4)
@@ -316,9 +316,9 @@ class StraightFingers(QWidget):
     def _show_hint(self) -> None:
         bent = self.answer.count(False)
         self._hint.setText(
-            self.tr("Click a finger that cannot lie straight (keys 1 to 5).")
+            self.tr("Click a finger that cannot fully extend (keys 1 to 5).")
             if not bent
-            else self.tr("A bent finger is measured from its own rest, and less surely.")
+            else self.tr("A bent finger is measured from its own resting position, with less certainty.")
         )
 
 
@@ -340,12 +340,11 @@ class StartAngleDialog(Dialog):
         super().__init__(host, theme, 620)
         body = self.card.body
         words = self.tr(
-            "Measure with a goniometer how far the wrist is from straight as it lies now, and the forearm from thumb "
-            "up: palm flat on the table is 90° pronation. Carpus adds these angles to all it measures of the wrist and "
-            "says so in the report. Bent fingers are fine as they are: zero "
-            "of a finger joint is the straight finger, whatever the picture."
+            "Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is "
+            "90° pronation. Carpus adds them to all wrist angles and notes it in the report. "
+            "Bent fingers need no entry."
         )
-        self.add_heading(self.tr("The wrist cannot lie straight"), words, gap=16)
+        self.add_heading(self.tr("The wrist cannot reach neutral"), words, gap=16)
         self.fields: dict[int, tuple[ChoiceRow, QSpinBox]] = {}
         for column in FIELD_ORDER:
             direction = ChoiceRow(
@@ -356,7 +355,7 @@ class StartAngleDialog(Dialog):
             value.setAccessibleName(terms.movement_name(DIRECTIONS[column][0]))
             body.addLayout(row_layout((direction, 1), value))
             self.fields[column] = (direction, value)
-        straight = Button(theme, self.tr("It lies straight"), "plain", height_px=52)
+        straight = Button(theme, self.tr("It is in neutral"), "plain", height_px=52)
         straight.clicked.connect(lambda: self._enter(np.zeros(3)))
         keep = Button(theme, self.tr("Use these angles"), "primary")
         keep.clicked.connect(lambda: self._enter(self.angles_rad()))

@@ -52,9 +52,9 @@ class MarkersScreen(FittedWidget):
             self.guidance.primary_button,
             self.guidance.second_button,
         )
-        self.start_angle_button = Button(theme, self.tr("Wrist cannot lie straight…"), "quiet", height_px=32)
-        self.start_anyway_button = Button(theme, self.tr("Start although &doubtful"), "quiet", height_px=32)
-        self.accept_all_button = Button(theme, self.tr("All names are right"), "quiet", height_px=32)
+        self.start_angle_button = Button(theme, self.tr("Wrist cannot reach neutral…"), "quiet", height_px=32)
+        self.start_anyway_button = Button(theme, self.tr("Start anyway (&uncertain)"), "quiet", height_px=32)
+        self.accept_all_button = Button(theme, self.tr("All labels are correct"), "quiet", height_px=32)
         self.click_again_button = Button(theme, self.tr("Click all again"), "quiet", hint="C", height_px=32)
         self.new_frame_button = Button(theme, self.tr("New picture"), "quiet", hint="N", height_px=32)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -99,7 +99,7 @@ class MarkersScreen(FittedWidget):
         clicks = clicking is not None and bool(clicking.missing)
         keys = [("Space", self.tr("accept"))] if clicks else []
         if not clicks or (clicking is not None and clicking.proposals):
-            keys.insert(0, ("Enter", self.tr("go on")))
+            keys.insert(0, ("Enter", self.tr("continue")))
         if clicking is None:
             return keys  # nothing to undo, to move or to name
         return [
@@ -189,7 +189,7 @@ class MarkersScreen(FittedWidget):
         self.labelling.reset()
         self.picture.labels = None
         self.picture.set_area(None)
-        self.picture.clear(self.tr("Waiting for a picture"))
+        self.picture.clear(self.tr("Waiting for the camera image"))
         self._preview_timer.start()
         self._show_newest()
         self._refresh()
@@ -235,7 +235,7 @@ class MarkersScreen(FittedWidget):
         if taken:
             name = marker_name(taken, translate_phrase)
             self.picture.no_marker_words = self.tr("Already the {name}").format(name=name)
-            self.hint.setText(self.tr("This marker is the {name} already. Click another one.").format(name=name))
+            self.hint.setText(self.tr("This marker is already the {name}. Click another one.").format(name=name))
         self.picture.update()
 
     def _grab(self, name: str) -> None:
@@ -267,9 +267,12 @@ class MarkersScreen(FittedWidget):
             self.labelling.request_verdict()
 
     def _show_start_angles(self) -> None:
-        words, pattern = terms.start_angle_words(self.labelling.start_angles_rad), self.tr("Starts at {angles} (given)")
+        words, pattern = (
+            terms.start_angle_words(self.labelling.start_angles_rad),
+            self.tr("Start position {angles} (entered)"),
+        )
         self.start_angle_button.set_label(
-            pattern.format(angles=words) if words else self.tr("Wrist cannot lie straight…")
+            pattern.format(angles=words) if words else self.tr("Wrist cannot reach neutral…")
         )
 
     # --- what the buttons do ------------------------------------------------------------------------------

@@ -71,16 +71,16 @@ def verdict_rows(verdict: Verdict, limits: CalibrationLimits) -> list[VerdictRow
     worst = float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan
     markers = tr("{count} of {count}").format(count=count)
     if kinds.keys() & set(LABEL_FINDINGS):
-        markers = tr("names wrong")
+        markers = tr("labels wrong")
     elif kinds.keys() & set(DOUBT_FINDINGS):
-        markers = tr("one doubted")
+        markers = tr("1 uncertain")
     elif any(fault.blocks for fault in marker_faults):
         markers = tr("{count} not found").format(count=len({name for fault in marker_faults for name in fault.markers}))
     elif math.isfinite(worst):
         markers = tr("within {size} mm").format(size=numbers.format_fixed(worst, 1))
     still = [kinds[kind] for kind in STILL_FINDINGS if kind in kinds]
     hand = tr("moved") if "moved" in kinds else tr("still, flat") if verdict.frames_used else UNKNOWN
-    pictures = tr("for {count} pictures").format(count=verdict.frames_used) if verdict.frames_used else ""
+    pictures = tr("for {count} frames").format(count=verdict.frames_used) if verdict.frames_used else ""
     distance = _finding_state(kinds.get("distance"), verdict.distance_m)
     tilt = _finding_state(kinds.get("tilt"), verdict.tilt_deg)
     length = _finding_state(
@@ -118,7 +118,7 @@ class VerdictPanel(Card):
             self._add_line()
         for (icon, thing, value, limit), row in zip(self._lines, rows, strict=True):
             icon.show_state(row.state, "")
-            words = {"good": self.tr("good"), "warn": self.tr("doubtful"), "bad": self.tr("wrong")}
+            words = {"good": self.tr("good"), "warn": self.tr("uncertain"), "bad": self.tr("wrong")}
             icon.setAccessibleName(words.get(row.state, self.tr("open")))
             thing.setText(row.thing)
             value.setText(row.value)
@@ -155,7 +155,7 @@ def headline(verdict: Verdict) -> tuple[str, State]:
     """Return ``Ready``, ``Doubtful`` or ``Cannot start yet`` with its state."""
     if verdict.is_good:
         return tr("Ready"), "good"
-    return (tr("Doubtful"), "warn") if verdict.can_start else (tr("Cannot start yet"), "bad")
+    return (tr("Uncertain"), "warn") if verdict.can_start else (tr("Cannot start yet"), "bad")
 
 
 def _summary_state(findings: Sequence[CalibrationFinding]) -> State:

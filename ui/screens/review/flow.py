@@ -74,7 +74,7 @@ class ReviewFlow(Flow):
                     self.tr("The others stay as they were."),
                     self.tr("It was saved again as the newest."),
                 )
-                self.context.messages.show_question(text, (Answer(self.tr("Go on"), lambda: None),), icon="good")
+                self.context.messages.show_question(text, (Answer(self.tr("Continue"), lambda: None),), icon="good")
 
         def report_failure(fault: Exception) -> None:
             self.context.messages.show_fault(fault)

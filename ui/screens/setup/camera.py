@@ -70,7 +70,7 @@ class CameraScreen(QWidget):
 
     def _build_layout(self) -> None:
         theme = self._theme
-        left = column_layout(heading(theme, self.tr("Where do the pictures come from?")), self.sources, gap=16)
+        left = column_layout(heading(theme, self.tr("Which image source?")), self.sources, gap=16)
         self._files = QWidget()
         row_layout(
             self.choose_file_button,
@@ -84,7 +84,7 @@ class CameraScreen(QWidget):
         self._card = Card(theme, 24)
         body = self._card.body
         body.setSpacing(12)
-        fill(body, Text(theme, self.tr("Before you go on"), 20, SEMIBOLD), self.position_label)
+        fill(body, Text(theme, self.tr("Before you continue"), 20, SEMIBOLD), self.position_label)
         light = self.tr("Camera above the hand, 60 cm or more away, looking straight down. No sun on the markers.")
         fill(body, Text(theme, light, 14, REGULAR, "text2", wrap=True), STRETCH, self.progress_words, self.progress)
         fill(body, self.bubble, self.primary_button)

@@ -85,7 +85,7 @@ class ExerciseScreen(QWidget):
         up, down = self.target_fields
         return [
             Field(
-                "side", self.tr("Hand that is measured"),
+                "side", self.tr("Hand to measure"),
                 ChoiceRow(theme, [(side, terms.side_name(side)) for side in ("right", "left")]),
                 require_choice(self.tr("Which hand is measured?")),
             ),
@@ -106,7 +106,7 @@ class ExerciseScreen(QWidget):
                 ChoiceRow(theme, [(False, self.tr("Adult")), (True, self.tr("Child"))]),
             ),
             Field(
-                "stores_frames", self.tr("Keep the pictures too"),
+                "stores_frames", self.tr("Also save video"),
                 ChoiceRow(theme, [(False, self.tr("No")), (True, self.tr("Yes"))]),
             ),
         ]  # fmt: skip
@@ -166,7 +166,7 @@ class ExerciseScreen(QWidget):
         ``mb_per_minute`` is the size of video, ``room_minutes`` the time for which the disk has space.
         """
         if math.isfinite(mb_per_minute):
-            pattern = self.tr("Needed to see and correct markers later: {size} MB a minute, room for {time}.")
+            pattern = self.tr("Needed to see and correct markers later: {size} MB per minute; space for {time}.")
             self.disk_space_label.setText(
                 pattern.format(size=format_rounded(mb_per_minute), time=numbers.format_recording_time(room_minutes))
             )
@@ -334,7 +334,7 @@ def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
     if not proposed:
         return ""
     parts = [
-        tr("{movement} {goal} (mean {mean}; a gain can be told from {told})")
+        tr("{movement} {goal} (mean {mean}; detectable change from {told})")
         .format(
             movement=_movement_words(exercise, one),
             goal=numbers.format_signed_degrees(one.goal_deg),

@@ -71,7 +71,7 @@ class WelcomePanel(Card):
         self.purpose = Text(theme, purpose_lines(), 14, REGULAR, "text2", wrap=True)
         fill(text, self.purpose, row_layout((self.state_label, 1), self.details_button, self.again_button), self._rows)
         text.addWidget(Separator(theme))
-        note = self.tr("Patients and sessions will lie here; nothing leaves this computer.")
+        note = self.tr("Patients and sessions are saved here. Nothing leaves this computer.")
         lies = column_layout(Text(theme, note, 14, REGULAR, "text2", wrap=True), self.folder_label, gap=0)
         text.addLayout(row_layout((lies, 1), self.folder_button, gap=12))
         later = QHBoxLayout()
@@ -89,7 +89,7 @@ class WelcomePanel(Card):
         fill(self.body, Separator(theme), foot)
 
     def show_checking(self) -> None:
-        self.state_label.setText(self.tr("This computer is being looked at …"))
+        self.state_label.setText(self.tr("Checking this computer …"))
         self.again_button.setEnabled(False)
 
     def show_checks(self, checks: Sequence[Check]) -> None:
@@ -109,9 +109,9 @@ class WelcomePanel(Card):
         if not wanting:
             words = self.tr("This computer has everything that Carpus needs.")
         elif wanting == 1:
-            words = self.tr("One thing is to be done; the practice patient needs none of it.")
+            words = self.tr("One thing needs your attention. The practice patient works without it.")
         else:
-            words = self.tr("{count} things are to be done; the practice patient needs none of them.")
+            words = self.tr("{count} things need your attention. The practice patient works without them.")
         self.state_label.setText(words.format(count=wanting))
         self.again_button.setEnabled(True)
 
@@ -123,7 +123,7 @@ class WelcomePanel(Card):
         """Show the data folder of this or of the next start."""
         self.folder_label.setText(folder)
         self.restart_label.setText(
-            self.tr("The folder counts from the next start on: close Carpus and open it again before you measure.")
+            self.tr("The new folder is used from the next start. Close Carpus and open it again before you measure.")
             if needs_restart
             else ""
         )
@@ -147,5 +147,5 @@ class CheckRow(QWidget):
             margins=(0, 0, 0, 0),
             parent=self,
         )
-        states = {"good": self.tr("good"), "warning": self.tr("to be looked at"), "bad": self.tr("missing")}
+        states = {"good": self.tr("good"), "warning": self.tr("to check"), "bad": self.tr("missing")}
         self.setAccessibleName(f"{check.name}, {states[check.state]}: {check.found}. {check.remedy}")
