@@ -1413,7 +1413,7 @@
     </message>
     <message>
         <source>Correct labels</source>
-        <translation>Bezeichnungen korrigieren</translation>
+        <translation>Korrigieren</translation>
     </message>
     <message>
         <source>Take that spot</source>
@@ -7961,11 +7961,11 @@
     </message>
     <message>
         <source>Correct labels</source>
-        <translation>Bezeichnungen korrigieren</translation>
+        <translation>Korrigieren</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
-        <translation>Trotzdem starten (&amp;unsicher)</translation>
+        <translation>Trotzdem &amp;starten</translation>
     </message>
 </context>
 <context>
@@ -8786,7 +8786,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
-        <translation>Trotzdem starten (&amp;unsicher)</translation>
+        <translation>Trotzdem &amp;starten</translation>
     </message>
     <message>
         <source>Click all again</source>

@@ -7965,7 +7965,7 @@
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
-        <translation>Inizia comunque (&amp;incerto)</translation>
+        <translation>Inizia &amp;comunque</translation>
     </message>
 </context>
 <context>
@@ -8786,7 +8786,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
-        <translation>Inizia comunque (&amp;incerto)</translation>
+        <translation>Inizia &amp;comunque</translation>
     </message>
     <message>
         <source>Click all again</source>
