@@ -197,7 +197,7 @@ def test_oni_contents_unordered_times_raise(tmp_path: Path, sound: bytes) -> Non
     backwards = in_record(RecordType.NEW_DATA, 28, struct.pack("<Q", 1000), 2, IMAGE_NODE)(sound)
     fault = check(tmp_path, backwards)
     assert isinstance(fault, TimesUnordered)
-    assert fault.detail == "image picture 3"
+    assert fault.detail == "image frame 3"
 
 
 def test_oni_contents_damaged_image_is_accepted(tmp_path: Path, sound: bytes) -> None:

@@ -266,7 +266,7 @@ def test_raw_recording_damaged_header_raises_with_frame_count(tmp_path: Path, pl
     data = bytearray(path.read_bytes())
     data[place] ^= 1
     path.write_bytes(data)
-    with pytest.raises(RecordingUnreadable, match=r"head is damaged.*: 4\b"):
+    with pytest.raises(RecordingUnreadable, match=r"damaged header, 4\b"):
         RawRecording(path)
 
 

@@ -388,7 +388,7 @@ class Gallery(GalleryWindow):
         if feed is None and whole_hand:
             feed = FakeFeed("fist", 32.0, hidden, lost, protocol="hand21")
         feed = feed or FakeFeed(seconds=32.0, hidden=hidden, lost=lost)
-        self.place(where="Right hand · Wrist flexion–extension", camera="30 pictures/s")
+        self.place(where="Right hand · Wrist flexion–extension", camera="30 fps")
         screen = self.show(LiveScreen(self.theme, self.background))
         screen.open_source(FakeMeasuring(feed), set_up("FIST_COMPOSITE", 90.0) if whole_hand else set_up())
         screen._timer.stop()
