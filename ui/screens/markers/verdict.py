@@ -152,7 +152,7 @@ class VerdictPanel(Card):
 
 
 def headline(verdict: Verdict) -> tuple[str, State]:
-    """Return ``Ready``, ``Doubtful`` or ``Cannot start yet`` with its state."""
+    """Return ``Ready``, ``Uncertain`` or ``Cannot start yet`` with its state."""
     if verdict.is_good:
         return tr("Ready"), "good"
     return (tr("Uncertain"), "warn") if verdict.can_start else (tr("Cannot start yet"), "bad")
