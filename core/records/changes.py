@@ -17,11 +17,10 @@ from sqlalchemy.exc import IntegrityError
 
 from carpus.core.model.errors import ConcurrentChange, PseudonymTaken
 from carpus.core.records.schema import AUDIT_LOG, PATIENT, SESSION, TABLES
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 
 LOST_FOLDER = "lost/"
 """Prefix of the path of a session whose file was replaced by another one and not found again."""
-PRACTICE = "practice"
-"""Id of the practice patient, whose simulated sessions are counted."""
 
 _IDENTITY = re.compile(r"[0-9a-f]{32}")
 RowAction = Literal["new", "change", "keep", "drop"]
@@ -114,7 +113,7 @@ def _apply_row_change(connection: Connection, table: Table, row: RowChange) -> N
 
 def is_patient_id(text: str) -> bool:
     """Return whether a text has the form of a patient's id, which also names the patient's folder."""
-    return text == PRACTICE or _IDENTITY.fullmatch(text) is not None
+    return text == PRACTICE_PATIENT or _IDENTITY.fullmatch(text) is not None
 
 
 def fingerprint(identity: str) -> str:
@@ -132,7 +131,7 @@ def update_session_counts(connection: Connection, patient_id: str) -> None:
     A recording counts once, an archived or simulated one not at all.
     """
     mine = [SESSION.c.patient_id == patient_id, SESSION.c.archived == "", SESSION.c.erasing == 0]
-    if patient_id != PRACTICE:
+    if patient_id != PRACTICE_PATIENT:
         mine.append(SESSION.c.simulated == 0)
     recordings, results = connection.execute(
         select(func.count(SESSION.c.recording_id.distinct()), func.count()).where(*mine)

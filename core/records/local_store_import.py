@@ -20,13 +20,13 @@ from carpus.core.model.errors import CarpusFault, ConcurrentChange, PseudonymNum
 from carpus.core.records.changes import (
     ERASED_SUBJECTS,
     LOST_FOLDER,
-    PRACTICE,
     RowChange,
     apply_changes,
     fingerprint,
     update_session_counts,
 )
 from carpus.core.records.schema import PATIENT, SESSION, TABLES
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 
 BATCH_ROWS = 500
 MAX_NAMESAKES = 99
@@ -83,7 +83,7 @@ class LocalStoreImport:
             {name: value for name, value in row.items() if name in names}
             for row in rows
             if row["id"] not in known and fingerprint(row["id"]) not in self._erased
-            and PRACTICE not in (row["id"], row.get("patient_id"))
+            and PRACTICE_PATIENT not in (row["id"], row.get("patient_id"))
         ]  # fmt: skip
         for key in table.foreign_keys:
             of = key.parent.name

@@ -19,8 +19,9 @@ from typing import Literal, get_args
 from sqlalchemy import select
 
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
-from carpus.core.records.changes import PRACTICE, fingerprint, insert_row
+from carpus.core.records.changes import fingerprint, insert_row
 from carpus.core.records.schema import AUDIT_LOG
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import parse_time
 
@@ -86,12 +87,12 @@ class AuditLog:
 
     def log_session(self, action: AuditAction, session_id: str, **facts: Fact) -> None:
         with suppress(KeyError, ServerUnavailable):  # of a folder that went away: noted when it comes home
-            if self._owner_id(session_id) != PRACTICE:
+            if self._owner_id(session_id) != PRACTICE_PATIENT:
                 self._write(action, "session", session_id, **facts)
 
     def log_patient(self, action: AuditAction, patient_id: str, **facts: Fact) -> None:
         """Log an action on a patient or on all of a patient's sessions."""
-        if patient_id != PRACTICE:
+        if patient_id != PRACTICE_PATIENT:
             self._write(action, "patient", patient_id, **facts)
 
     def log_program(self, action: AuditAction, **facts: Fact) -> None:

@@ -20,9 +20,10 @@ from carpus.core.model.hand.exercises import find_exercise
 from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg, to_clinical_targets_deg
 from carpus.core.model.names import fold_name
 from carpus.core.model.types import Side
-from carpus.core.records.changes import PRACTICE, RowChange, delete_row, insert_row, update_row, upsert_row
+from carpus.core.records.changes import RowChange, delete_row, insert_row, update_row, upsert_row
 from carpus.core.records.log import AuditAction
 from carpus.core.records.schema import DIAGNOSIS, GOAL, HOME_PLAN, MANUAL_MEASUREMENT, PATIENT
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient, parse_time, valid_choice
 from carpus.core.results.progress import Goals
@@ -71,7 +72,7 @@ class Patients:
         Last session first. Archived patients are left out unless ``include_archived``; archived sessions are never
         counted.
         """
-        these: list[ColumnElement[bool]] = [PATIENT.c.id != PRACTICE, PATIENT.c.erasing == 0]
+        these: list[ColumnElement[bool]] = [PATIENT.c.id != PRACTICE_PATIENT, PATIENT.c.erasing == 0]
         if not include_archived:
             these.append(PATIENT.c.archived == "")
         words = fold_name(text).split()

@@ -13,7 +13,7 @@ from sqlalchemy import func, select
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.phrase import phrase
 from carpus.core.records import erasure
-from carpus.core.records.changes import PRACTICE, fingerprint
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.library import Library
 from carpus.core.records.log import AuditEntry, read_log
@@ -63,7 +63,7 @@ def find_due_patients(store: Store, years: int, today: date) -> list[DuePatient]
     query = (
         select(PATIENT, last, last_s, recordings)
         .join(SESSION, SESSION.c.patient_id == PATIENT.c.id)
-        .where(PATIENT.c.id != PRACTICE, PATIENT.c.erasing == 0, SESSION.c.erasing == 0)
+        .where(PATIENT.c.id != PRACTICE_PATIENT, PATIENT.c.erasing == 0, SESSION.c.erasing == 0)
         .group_by(PATIENT.c.id)
     )
     found = []

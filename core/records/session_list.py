@@ -30,9 +30,10 @@ from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Side
 from carpus.core.platform.durable import link_or_copy, make_private_folder, write_fault
 from carpus.core.records import changes
-from carpus.core.records.changes import LOST_FOLDER, PRACTICE, ChangeSet, insert_row, update_row, upsert_row
+from carpus.core.records.changes import LOST_FOLDER, ChangeSet, insert_row, update_row, upsert_row
 from carpus.core.records.patients import Patients, patient_columns
 from carpus.core.records.schema import FILE_STATE, PATIENT, SESSION
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AffectedSide, Patient, ScanResult, SessionEntry, parse_time
 from carpus.core.session.atomic_files import find_free_name, iter_paths
@@ -164,7 +165,7 @@ class SessionList:
         """Return the patient of the last session; empty for none and for the practice patient."""
         query = select(SESSION.c.patient_id).where(SESSION.c.erasing == 0, SESSION.c.archived == "")
         row = self._store.row(query.order_by(SESSION.c.created_s.desc()).limit(1))
-        return "" if row is None or row.patient_id in (None, PRACTICE) else str(row.patient_id)
+        return "" if row is None or row.patient_id in (None, PRACTICE_PATIENT) else str(row.patient_id)
 
     def _row(self, session_id: str) -> Row[Any]:
         row = self._store.row(select(SESSION).where(SESSION.c.id == session_id, SESSION.c.erasing == 0))
@@ -418,8 +419,8 @@ class SessionFileScanner:
                 )
                 continue
             place[session_id], subject = path, outline.header.subject_id.strip()
-            of_practice = subject == PRACTICE or path.startswith(f"{PRACTICE}/")
-            owner = PRACTICE if of_practice else people.get(fold_name(subject))
+            of_practice = subject == PRACTICE_PATIENT or path.startswith(f"{PRACTICE_PATIENT}/")
+            owner = PRACTICE_PATIENT if of_practice else people.get(fold_name(subject))
             before, folder = rows.get(session_id), path.split("/")[0]
             if owner is None and subject and fold_name(subject) in former.get(folder, ()):
                 owner = folder

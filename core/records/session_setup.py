@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 MARKERS_SUFFIX = ".markers.jpg"
 """Replaces ``.h5`` in the name of the marker photo, which shows the hand and nothing of the room."""
 PRACTICE_PATIENT = "practice"
-"""Id of the practice patient: last in lists, with a simulated camera."""
+"""Id of the practice patient: last in lists, with a simulated camera; its simulated sessions are counted."""
 PRACTICE_REPETITIONS = 3
 
 

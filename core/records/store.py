@@ -27,10 +27,11 @@ from carpus.core.model.errors import (
 )
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import lock_file, make_private_file, make_private_folder
-from carpus.core.records.changes import PRACTICE, ChangeSet, apply_changes, insert_row
+from carpus.core.records.changes import ChangeSet, apply_changes, insert_row
 from carpus.core.records.database import STORE_FILE, Database, copy_to_memory, move_aside, rescue_rows
 from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import PATIENT, TABLES
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.session.atomic_files import iter_paths
 
 if TYPE_CHECKING:
@@ -139,7 +140,7 @@ class Store:
 
     def _has_sessions(self) -> bool:
         files = (one.relative_to(self.sessions_folder) for one in iter_paths(self.sessions_folder, ".h5"))
-        return any(one.parts[0] != PRACTICE for one in files)
+        return any(one.parts[0] != PRACTICE_PATIENT for one in files)
 
     def __enter__(self) -> Self:
         return self
@@ -244,8 +245,10 @@ def _exclusive_lock(path: Path) -> Iterator[None]:
 
 
 def _ensure_practice_patient(connection: Connection) -> None:
-    if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)).first() is None:
-        practice = insert_row(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE_NAME, side="right")
+    if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE_PATIENT)).first() is None:
+        practice = insert_row(
+            PATIENT, PRACTICE_PATIENT, folded=f"\N{BULLET}{PRACTICE_PATIENT}", pseudonym=PRACTICE_NAME, side="right"
+        )
         apply_changes(connection, [practice])
 
 

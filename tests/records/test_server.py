@@ -41,13 +41,14 @@ from carpus.core.records import (
     session_records,
 )
 from carpus.core.records.backup import create_backup, list_backups
-from carpus.core.records.changes import PRACTICE, fingerprint
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.restoring import LogHistory, activate_restored, restore
 from carpus.core.records.schema import PATIENT, TABLES
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
@@ -390,7 +391,7 @@ def test_import_of_own_store_leaves_out_erased(tmp_path: Path, there: str) -> No
         linden, heron = a.patients.add(LINDEN), a.patients.add(HERON)
         fill(a, linden)
         session_records.add_comment(a.store, measure(a, heron, T0), "gone", "AB")
-        measure(a, PRACTICE, T0 + timedelta(days=1))
+        measure(a, PRACTICE_PATIENT, T0 + timedelta(days=1))
         wanted = a.patients.get(linden)
     with opened(tmp_path / "b", there) as b:
         b.log.write_entry("erased", "patient", heron)

@@ -35,12 +35,13 @@ from carpus.core.model.errors import (
 )
 from carpus.core.model.names import normalize_name
 from carpus.core.records import clinic_records, patients, schema, session_records
-from carpus.core.records.changes import PRACTICE, insert_row
+from carpus.core.records.changes import insert_row
 from carpus.core.records.database import STORE_FILE, Database, move_aside
 from carpus.core.records.exercise_sets import read_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import WORDS, patient_columns, suggest_pseudonym
 from carpus.core.records.retention import find_due_patients
+from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -213,7 +214,7 @@ def test_parse_time_invalid_uses_stamp(tmp_path: Path) -> None:
             schema.COMMENT: ("entered",), schema.BACKUP: ("made",),
         }.items():  # fmt: skip
             unzoned = dict.fromkeys(names, "2026-10-09T09:51")
-            house.store.execute_local(update(table).where(table.c.id != PRACTICE).values(unzoned))
+            house.store.execute_local(update(table).where(table.c.id != PRACTICE_PATIENT).values(unzoned))
         assert [(one.session_id, when) for one, _, when in house.index.list_archived()] == [(session_id, T0)]
         assert house.patients.archive_times() == {linden: T0}
         assert [one.text for one in session_records.read_comments(house.store, session_id)] == ["well"]
@@ -397,7 +398,7 @@ def test_store_without_a_column_is_damaged(tmp_path: Path) -> None:
 @pytest.mark.parametrize("how", ["deleted", "emptied"])
 def test_store_missing_beside_sessions_is_reported(tmp_path: Path, how: str) -> None:
     with opened(tmp_path) as house:
-        measure(house, PRACTICE, T0)
+        measure(house, PRACTICE_PATIENT, T0)
     for with_session in (False, True):
         for path in tmp_path.glob(f"{STORE_FILE}*"):
             path.unlink() if how == "deleted" else path.write_bytes(b"")
