@@ -109,7 +109,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
         path = save_calibration(folder, made, stored)
         print(f"Kept for camera {serial}: {path}")
     elif arguments.output is None:
-        print_message("nobody says which camera this was, so it is not kept; name it with --serial, or use --output.")
+        print_message("the camera is unknown, so the calibration is not saved; name it with --serial, or use --output.")
         return 1
     return 0
 

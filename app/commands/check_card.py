@@ -86,7 +86,7 @@ def _check_camera(arguments: argparse.Namespace) -> int:
         add_check(path, CardCheck(when, serial, reading, info.settings.get("calibrated", "")))
         print(f"Kept for camera {serial}: {path}")
     else:
-        print_message("nobody says which camera this was, so the check is not kept; --serial names it.")
+        print_message("the camera is unknown, so the check is not saved; name it with --serial.")
     return 0 if reading.is_within_tolerance else 1
 
 

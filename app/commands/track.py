@@ -316,7 +316,7 @@ def _open_stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Lis
     begun_s: list[float] = []
     stream = SampleStream.open(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
     if not stream.has_listener(LISTENER_TIMEOUT_S):
-        print_message("nobody listens to the stream; it goes on.")
+        print_message("no program receives the stream; tracking continues.")
     begun_s.append(import_pylsl().local_clock())
     return stream
 
