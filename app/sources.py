@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,13 +31,35 @@ def open_recording(
     data_folder: Path | None = None,
     notice: NoticeHandler = ignore_notice,
 ) -> FrameSource:
-    """Open a folder or file of any kind in :data:`RECORDINGS`; readers are imported when needed.
+    """Open a recording of any kind; its reader is imported only then.
 
     ``registered`` tells whether depth is registered to colour in an .oni file that does not say so. With
     ``leave_out_damaged`` missing or damaged images are counted and reported instead of raising a fault.
     ``data_folder`` has stored calibrations, for recordings without intrinsics.
     """
-    source = _open_by_kind(path, _OpenOptions(need_depth, registered, leave_out_damaged, notice))
+    if not path.exists():
+        raise RecordingMissing(path)
+    source: FrameSource
+    if path.is_dir():
+        from carpus.core.capture.files.tum import TumFolder
+
+        source = TumFolder(
+            path, requires_depth=need_depth, read_ahead=8, skip_damaged=leave_out_damaged, notice=notice
+        )  # fmt: skip
+    elif path.suffix.lower() == ".oni":
+        from carpus.core.capture.files.oni_source import OniSource
+
+        source = OniSource(path, registered=registered, notice=notice)
+    elif path.suffix.lower() == REALSENSE_SUFFIX:
+        from carpus.core.capture.files.realsense_recording import RealSenseRecording
+
+        source = RealSenseRecording(path)
+    else:
+        from carpus.core.capture.files.raw import RawRecording, is_raw_recording
+
+        if not is_raw_recording(path):
+            raise RecordingUnreadable(path, phrase("no recording of a form that Carpus knows"))
+        source = RawRecording(path, notice=notice)
     if data_folder is None:
         return source
     from carpus.core.capture.calibrated_source import with_stored_calibration
@@ -71,69 +93,6 @@ def _open_named_camera(settings: Settings, notice: NoticeHandler) -> FrameSource
     return with_given_name(open_camera(settings.camera.uri, notice=notice), settings.data_folder)
 
 
-@dataclass(frozen=True, slots=True)
-class _OpenOptions:
-    """Options of :func:`open_recording`."""
-
-    need_depth: bool
-    registered: bool | None
-    leave_out_damaged: bool
-    notice: NoticeHandler
-
-
-def _open_tum_folder(path: Path, options: _OpenOptions) -> FrameSource:
-    from carpus.core.capture.files.tum import TumFolder
-
-    return TumFolder(
-        path,
-        requires_depth=options.need_depth,
-        read_ahead=8,
-        skip_damaged=options.leave_out_damaged,
-        notice=options.notice,
-    )
-
-
-def _is_oni(path: Path) -> bool:
-    return path.suffix.lower() == ".oni"
-
-
-def _open_oni(path: Path, options: _OpenOptions) -> FrameSource:
-    from carpus.core.capture.files.oni_source import OniSource
-
-    return OniSource(path, registered=options.registered, notice=options.notice)
-
-
-def _is_raw(path: Path) -> bool:
-    from carpus.core.capture.files.raw import is_raw_recording
-
-    return is_raw_recording(path)
-
-
-def _open_raw(path: Path, options: _OpenOptions) -> FrameSource:
-    from carpus.core.capture.files.raw import RawRecording
-
-    return RawRecording(path, notice=options.notice)
-
-
-def _is_realsense(path: Path) -> bool:
-    return path.suffix.lower() == REALSENSE_SUFFIX
-
-
-def _open_realsense(path: Path, _options: _OpenOptions) -> FrameSource:
-    from carpus.core.capture.files.realsense_recording import RealSenseRecording
-
-    return RealSenseRecording(path)
-
-
-RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _OpenOptions], FrameSource]], ...] = (
-    (Path.is_dir, _open_tum_folder),
-    (_is_oni, _open_oni),
-    (_is_realsense, _open_realsense),
-    (_is_raw, _open_raw),
-)
-"""Every kind: how it is recognized and how it is opened; the first match counts."""
-
-
 _INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
 
 
@@ -142,15 +101,6 @@ def warn_assumed_intrinsics(source: FrameSource, path: Path, notice: NoticeHandl
     origin = source.info.camera.origin
     if origin in _INTRINSICS:
         notice(IntrinsicsAssumed(path, _INTRINSICS[origin]))
-
-
-def _open_by_kind(path: Path, options: _OpenOptions) -> FrameSource:
-    if not path.exists():
-        raise RecordingMissing(path)
-    for is_it, opened in RECORDINGS:
-        if is_it(path):
-            return opened(path, options)
-    raise RecordingUnreadable(path, phrase("no recording of a form that Carpus knows"))
 
 
 CLICKS_FILE = "calibration.json"

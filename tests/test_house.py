@@ -19,7 +19,7 @@ pytestmark = SOURCES
 OWN = ("carpus",)
 PROGRAM = ("app", "core", "ui")
 """What runs at the user's; ``resources`` also keeps the scripts that made its files."""
-EXTRAS = ("cluster", "tables", "stream", "realsense")
+EXTRAS = ("cluster", "research", "stream", "realsense")
 """What is installed only when asked for; the code that needs it says so where it is missing."""
 BUILD_ONLY = {"cython"}
 """What the compiled modules are built with; once built they do not import it."""

@@ -164,7 +164,7 @@ def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_no
     for path in told.get_all("License-File", []):
         assert f"{folder}/licenses/{path}" in names
     assert len(told.get_all("License-File", [])) == 3
-    assert set(told.get_all("Provides-Extra", [])) == {"cluster", "tables", "stream", "realsense"}
+    assert set(told.get_all("Provides-Extra", [])) == {"cluster", "research", "stream", "realsense"}
     assert "[console_scripts]\ncarpus =" in scripts
     assert "[gui_scripts]\ncarpus-window =" in scripts
     assert not [url for url in told.get_all("Project-URL", []) if "example" in url or "carpus" in url.lower()]

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -184,22 +183,10 @@ def _live_frames(session: LiveSession) -> CalibrationFrames:
 def read_opening_frames(source: FrameSource, still_s: float) -> list[Frame]:
     """Read the first frames of a recording, for the neutral pose. Raises :class:`RecordingEmpty`."""
     opening: list[Frame] = []
-    with _closing(source.frames()) as frames:
-        for frame in frames:
-            if opening and frame.timestamp_s - opening[0].timestamp_s > still_s:
-                break
-            opening.append(frame)
+    for frame in source.frames():
+        if opening and frame.timestamp_s - opening[0].timestamp_s > still_s:
+            break
+        opening.append(frame)
     if not opening:
         raise RecordingEmpty(source.info.name)
     return opening
-
-
-@contextlib.contextmanager
-def _closing(frames: Iterator[Frame]) -> Iterator[Iterator[Frame]]:
-    """Close an iterator of frames that is not read to its end."""
-    try:
-        yield frames
-    finally:
-        close = getattr(frames, "close", None)
-        if close is not None:
-            close()

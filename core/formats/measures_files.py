@@ -1,4 +1,4 @@
-"""Table of the measures of many sessions: CSV, or Parquet with the extra ``carpus[tables]``."""
+"""Table of the measures of many sessions: CSV, or Parquet with the extra ``carpus[research]``."""
 
 from __future__ import annotations
 

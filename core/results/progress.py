@@ -288,12 +288,9 @@ def select_latest_versions(sessions: Sequence[SessionResults]) -> list[SessionRe
 
 def find_previous(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
     """Return the last earlier included session of the same hand, protocol and exercise."""
-    alike = [
-        other
-        for other in select_latest_versions(history)
-        if _is_same_task(other, figures) and other.side == figures.side
-    ]
-    return max((other for other in alike if other.when < figures.when), key=lambda other: other.when, default=None)
+    alike = [other for other in select_latest_versions(history) if other.side == figures.side]
+    earlier = (one for one in alike if one.when < figures.when and is_same_task(one, figures) and _has_range(one))
+    return max(earlier, key=lambda other: other.when, default=None)
 
 
 def error_limits(history: Sequence[SessionResults]) -> ErrorLimits:
@@ -303,26 +300,20 @@ def error_limits(history: Sequence[SessionResults]) -> ErrorLimits:
 
 def find_other_hand(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
     """Return the last session of the other hand in the same protocol and exercise."""
-    alike = [
-        other
-        for other in select_latest_versions(history)
-        if _is_same_task(other, figures) and other.side != figures.side
-    ]
+    others = [other for other in select_latest_versions(history) if other.side != figures.side]
+    alike = (one for one in others if is_same_task(one, figures) and _has_range(one))
     return max(alike, key=lambda other: other.when, default=None)
 
 
-def _is_same_task(one: SessionResults, other: SessionResults) -> bool:
-    same_kind = (one.exercise.id, one.protocol, one.is_simulated) == (
-        other.exercise.id,
-        other.protocol,
-        other.is_simulated,
-    )
-    return (
-        same_kind
-        and bool(one.measures_in_group("range"))
-        and not one.is_excluded
-        and not _is_same_recording(one, other)
-    )
+def is_same_task(one: SessionResults, other: SessionResults) -> bool:
+    """Return whether ``one`` is an included session of another recording with the task of ``other``."""
+    same = (one.exercise.id, one.protocol, one.is_simulated) == (other.exercise.id, other.protocol, other.is_simulated)
+    is_other = one.session_id != other.session_id and not _is_same_recording(one, other)
+    return same and is_other and not one.is_excluded
+
+
+def _has_range(one: SessionResults) -> bool:
+    return bool(one.measures_in_group("range"))
 
 
 def _is_same_recording(one: SessionResults, other: SessionResults) -> bool:

@@ -20,6 +20,7 @@ from carpus.core.results.progress import (
     compare_ranges,
     find_other_hand,
     incomparable_reasons,
+    is_same_task,
     select_latest_versions,
 )
 from carpus.core.results.repetition_rows import RepetitionResult
@@ -118,23 +119,18 @@ def find_partner(history: Sequence[SessionResults], figures: SessionResults) -> 
     """
     other = find_other_hand(history, figures)
     same_day = [
-        one for one in select_latest_versions(history) if one.side != figures.side and _is_same_task(one, figures)
+        one for one in select_latest_versions(history) if one.side != figures.side and is_same_task(one, figures)
     ]
     same_day = [one for one in same_day if one.when.date() == figures.when.date()]
     if same_day:
         fair = [one for one in same_day if not pair_incomparable_reasons(figures, one)]
         return (fair or same_day)[-1]
-    mine = [one for one in select_latest_versions(history) if one.side == figures.side and _is_same_task(one, figures)]
+    mine = [one for one in select_latest_versions(history) if one.side == figures.side and is_same_task(one, figures)]
     earlier = [one for one in mine if one.when < figures.when]
     fair_earlier = [one for one in earlier if not pair_incomparable_reasons(figures, one)]
     later = [one for one in mine if one.when > figures.when]
     best: list[SessionResults | None] = [*fair_earlier[-1:], other, *earlier[-1:], *later[:1], None]
     return next((one for one in best if one is not None), None)
-
-
-def _is_same_task(one: SessionResults, other: SessionResults) -> bool:
-    same = (one.exercise.id, one.protocol, one.is_simulated) == (other.exercise.id, other.protocol, other.is_simulated)
-    return same and one.session_id != other.session_id and not one.is_excluded
 
 
 @dataclass(frozen=True, slots=True)

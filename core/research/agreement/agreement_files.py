@@ -12,7 +12,13 @@ import numpy as np
 
 from carpus.core.formats.export_item import format_number
 from carpus.core.formats.export_provenance import build_provenance
-from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect, write_new_json, write_new_table
+from carpus.core.formats.output_files import (
+    MACHINE_DIALECT,
+    TableDialect,
+    format_cell,
+    write_new_json,
+    write_new_table,
+)
 from carpus.core.model.hand.forearm_rotation import to_clinical_rad
 from carpus.core.model.rounding import format_rounded
 from carpus.core.platform.provenance import sha256_of_file
@@ -245,8 +251,3 @@ def _format_with_interval(value: float, interval: tuple[float, float]) -> str:
 
 def _format_coefficient(value: float) -> str:
     return format_rounded(value, 3) if math.isfinite(value) else "–"
-
-
-def format_cell(value: Any) -> str:
-    """Return a table cell as text; unknown is empty."""
-    return format_number(value, 6) if isinstance(value, float) else str(value)

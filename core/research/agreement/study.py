@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from carpus.core.formats import table_read as tables
-from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect, write_new_json, write_new_table
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect, format_cell, write_new_json, write_new_table
 from carpus.core.model.errors import CarpusFault, ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.phrase import phrase
@@ -27,7 +27,6 @@ from carpus.core.research.agreement.agreement_files import (
     FileComparison,
     compare_files,
     format_agreements,
-    format_cell,
     to_row,
 )
 from carpus.core.research.agreement.compare import (
