@@ -10,10 +10,9 @@ import sys
 import tempfile
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import BinaryIO, Literal
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carpus.core.capture.camera_info import sidecar_path, write_camera_info
 from carpus.core.capture.files import oni_format as oni
@@ -23,7 +22,6 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, DepthImage, Frame
-from carpus.core.platform.durable import FileWriter
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 
@@ -35,11 +33,6 @@ NOT_KNOWN = 0xFFFFFFFFFFFFFFFF
 _DATA_BEGIN_FIELDS = struct.Struct("<IQ")
 _SEEK_ENTRY = struct.Struct("<QIQ")
 _FRAME_SIZE, _MAX_DEPTH = "oniRequiredFrameSize", "xnDeviceMaxDepth"
-_MAX_VALUES = 0x8000
-"""An index written in full has 15 bits."""
-_UNCHANGED = 0x66
-"""Two pixels without change."""
-_LONGEST_RUN = 15
 _DEPTH_FORMATS = ((1e-3, PixelFormat.DEPTH_1_MM), (1e-4, PixelFormat.DEPTH_100_UM))
 
 
@@ -56,7 +49,7 @@ class _Stream:
         self.entries: list[tuple[int, int]] = []
 
 
-class OniWriter(FileWriter):
+class OniWriter:
     """Writes one recording. Use as a context manager; the file is whole only after :meth:`close`."""
 
     def __init__(
@@ -71,15 +64,13 @@ class OniWriter(FileWriter):
         mirrored: bool = False,
     ) -> None:
         formats = [code for unit_m, code in _DEPTH_FORMATS if math.isclose(unit_m, depth_unit_m)]
-        if depth and not formats:
-            raise ValueError(f"depth in steps of {depth_unit_m} m; an .oni file takes 1 mm or 0.1 mm")
         self._camera = camera
         self._fps = fps
         self._mirrored = mirrored
         self._streams: dict[NodeType, _Stream] = {}
         self._greatest_us = 0
         self._stream_count = 2 if depth else 1
-        self._file: BinaryIO | None = path.open("xb")
+        self._file = path.open("xb")
         self._write(self._header(NOT_KNOWN))
         if depth:
             codec = Codec.DEPTH_TABLE if depth == "table" else Codec.RAW
@@ -95,8 +86,6 @@ class OniWriter(FileWriter):
     def add_color(self, color_rgb: ByteImage, timestamp_s: float) -> None:
         """Append a colour picture (H, W, 3); times rise strictly."""
         stream = self._streams[NodeType.IMAGE]
-        if color_rgb.shape != (self._camera.height_px, self._camera.width_px, 3) or color_rgb.dtype != np.uint8:
-            raise ValueError(f"colour picture {color_rgb.shape} {color_rgb.dtype}")
         self._picture(
             stream, timestamp_s, encode_color(color_rgb) if stream.codec == Codec.JPEG else color_rgb.tobytes()
         )
@@ -104,15 +93,17 @@ class OniWriter(FileWriter):
     def add_depth(self, depth_raw: DepthImage, timestamp_s: float) -> None:
         """Append a depth picture (H, W) in the unit given at the start."""
         stream = self._streams[NodeType.DEPTH]
-        if depth_raw.shape != (self._camera.height_px, self._camera.width_px) or depth_raw.dtype != np.uint16:
-            raise ValueError(f"depth picture {depth_raw.shape} {depth_raw.dtype}")
         payload = encode_depth(depth_raw) if stream.codec == Codec.DEPTH_TABLE else depth_raw.tobytes()
         self._picture(stream, timestamp_s, payload)
 
+    def __enter__(self) -> OniWriter:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
     def close(self) -> None:
-        """Write the tables and the end; may be called twice."""
-        if self._file is None:
-            return
+        """Write the tables and the end."""
         seek_at: dict[int, int] = {}
         for stream in self._streams.values():
             self._record(RecordType.NODE_REMOVED, stream.node, replaces=stream.added_at)
@@ -128,18 +119,9 @@ class OniWriter(FileWriter):
         self._file.seek(0)
         self._write(self._header(self._greatest_us))
         self._file.close()
-        self._file = None
-
-    def abandon(self) -> None:
-        """Leave the file as it is: without its end, which every reader notices."""
-        if self._file is not None:
-            self._file.close()
-            self._file = None
 
     def _picture(self, stream: _Stream, timestamp_s: float, payload: bytes) -> None:
         time_us = round(timestamp_s * 1e6)
-        if time_us < 0 or (stream.entries and time_us <= stream.entries[-1][0]):
-            raise ValueError(f"{stream.name} at {timestamp_s} s does not follow the picture before")
         fields = oni.NEW_DATA_FIELDS.pack(time_us, len(stream.entries) + 1)
         stream.last_at = self._record(RecordType.NEW_DATA, stream.node, fields, payload, stream.last_at)
         stream.entries.append((time_us, stream.last_at))
@@ -194,11 +176,9 @@ class OniWriter(FileWriter):
         return position
 
     def _tell(self) -> int:
-        assert self._file is not None
         return self._file.tell()
 
     def _write(self, data: bytes) -> None:
-        assert self._file is not None, "the recording is closed"
         self._file.write(data)
 
 
@@ -209,38 +189,15 @@ def write_oni(
     *,
     fps: int = 30,
     color: ColorCodec = "jpeg",
-    mirrored: bool = False,
     simulated: bool = False,
-) -> int:
-    """Write ``frames`` to ``path`` and the camera beside it (``NAME.camera_info.yaml``); returns how many.
-
-    With ``mirrored`` the pictures are written left for right, as a camera left on its default does. ``simulated``
-    pictures are said to be in the file beside, since the recording itself has no place for it.
-    """
-    sidecar = sidecar_path(path)
-    written = 0
-    writer: OniWriter | None = None
-    unit_m = 1e-3
-    try:
+) -> None:
+    """Write ``frames``, depth in millimetres, to ``path``, and the camera beside it (``NAME.camera_info.yaml``)."""
+    with OniWriter(path, camera, fps=fps, color=color) as writer:
         for frame in frames:
-            if writer is None:
-                unit_m = frame.depth_unit_m if frame.depth_raw is not None else 1e-3
-                writer = OniWriter(path, camera, fps=fps, color=color, depth_unit_m=unit_m, mirrored=mirrored)
-            side = -1 if mirrored else 1
             if frame.depth_raw is not None:
-                if not math.isclose(frame.depth_unit_m, unit_m):
-                    raise ValueError(f"depth in steps of {frame.depth_unit_m} m after {unit_m} m")
-                writer.add_depth(np.ascontiguousarray(frame.depth_raw[:, ::side]), frame.timestamp_s)
-            writer.add_color(np.ascontiguousarray(frame.color_rgb[:, ::side]), frame.timestamp_s)
-            written += 1
-        if writer is not None:
-            writer.close()
-    finally:
-        if writer is not None:
-            writer.abandon()
-    if written:
-        write_camera_info(sidecar, camera, registered=True, mirrored=mirrored, simulated=simulated)
-    return written
+                writer.add_depth(frame.depth_raw, frame.timestamp_s)
+            writer.add_color(frame.color_rgb, frame.timestamp_s)
+    write_camera_info(sidecar_path(path), camera, registered=True, simulated=simulated)
 
 
 def _string(text: str) -> bytes:
@@ -254,69 +211,12 @@ def _record_bytes(kind: RecordType, node: int, fields: bytes, payload_size: int,
 
 
 def encode_depth(depth_raw: DepthImage) -> bytes:
-    """Pack one depth picture (H, W) without loss, as :func:`oni_format.decode_depth` describes it."""
-    flat = np.ascontiguousarray(depth_raw).ravel()
-    present = np.zeros(1 << 16, bool)
-    present[flat] = True
-    values = np.flatnonzero(present)
-    if len(values) > _MAX_VALUES:
-        raise ValueError(f"{len(values)} different depths, at most {_MAX_VALUES} can be packed")
-    place = np.zeros(1 << 16, np.int32)
-    place[values] = np.arange(len(values), dtype=np.int32)
-    index = place[flat]
-    head = struct.pack("<H", len(values)) + values.astype("<u2").tobytes() + struct.pack("<H", int(index[0]))
-    return head + _differences(index).tobytes()
-
-
-def _differences(index: NDArray[np.int32]) -> NDArray[np.uint8]:
-    """The coded stream after the first index (P,)."""
-    step = index[:-1] - index[1:]
-    count = len(step)
-    if count == 0:
-        return np.empty(0, np.uint8)
-    small = np.abs(step) <= oni.SMALL_STEP
-    where = np.arange(count)
-    last_escape = np.maximum.accumulate(np.where(small, -1, where))
-    second = small & ((where - last_escape) % 2 == 0)
-    first = small & ~second
-    pair = np.flatnonzero(second)
-    alone = np.flatnonzero(first & ~np.append(second[1:], False))
-    escape = np.flatnonzero(~small)
-
-    # up to three bytes stand at each pixel; NONE marks those that are not written
-    none = np.int32(-1)
-    out = np.full((count, 3), none)
-    out[pair, 0] = ((step[pair - 1] + oni.SMALL_STEP) << 4) | (step[pair] + oni.SMALL_STEP)
-    begun = np.zeros(count, bool)
-    begun[escape] = np.append(False, first[:-1])[escape]
-    half = np.where(begun[escape], (step[escape - 1] + oni.SMALL_STEP) << 4 | 0x0F, 0xFF)
-    out[escape, 0] = half
-    far = np.abs(step[escape]) > oni.MEDIUM_STEP
-    out[escape, 1] = np.where(far, index[escape + 1] >> 8, 192 + step[escape])
-    out[escape, 2] = np.where(far, index[escape + 1] & 0xFF, none)
-    if len(alone) and alone[-1] == count - 1:
-        out[-1, 0] = ((step[-1] + oni.SMALL_STEP) << 4) | 0x0D
-    stream = out[out >= 0]
-
-    return _pack_runs(stream, np.isin(np.flatnonzero(out.ravel() >= 0), pair * 3))
-
-
-def _pack_runs(stream: NDArray[np.int32], is_pair: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """Replace each run of unchanged pairs by its length, at most 15 at a time."""
-    still = is_pair & (stream == _UNCHANGED)
-    if not still.any():
-        return stream.astype(np.uint8)
-    where = np.arange(len(stream))
-    before_run = np.maximum.accumulate(np.where(still, -1, where))
-    in_run = np.where(still, where - before_run, 0)
-    ends = still & ((in_run % _LONGEST_RUN == 0) | ~np.append(still[1:], False))
-    length = (in_run - 1) % _LONGEST_RUN + 1
-    coded = np.where(ends, 0xE0 + length, stream)
-    packed: NDArray[np.uint8] = coded[~still | ends].astype(np.uint8)
-    return packed
-
-
-_MILLIMETRE = 1e-3
+    """Pack a depth picture (H, W), each pixel's index in full: :func:`oni_format.decode_depth` describes it."""
+    values, index = np.unique(depth_raw, return_inverse=True)
+    index = index.ravel()
+    rest = np.stack((np.full(index.size - 1, 0xFF), index[1:] >> 8, index[1:] & 0xFF), axis=1)
+    head = struct.pack("<H", values.size) + values.astype("<u2").tobytes() + struct.pack("<H", int(index[0]))
+    return head + rest.astype(np.uint8).tobytes()
 
 
 def in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
@@ -324,8 +224,8 @@ def in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
     for frame in frames:
         depth = frame.depth_raw
         if depth is not None:
-            depth = np.rint(depth * (frame.depth_unit_m / _MILLIMETRE)).astype(np.uint16)
-        yield dataclasses.replace(frame, depth_raw=depth, depth_unit_m=_MILLIMETRE)
+            depth = np.rint(depth * (frame.depth_unit_m / 1e-3)).astype(np.uint16)
+        yield dataclasses.replace(frame, depth_raw=depth, depth_unit_m=1e-3)
 
 
 def main() -> None:

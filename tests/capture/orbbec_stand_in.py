@@ -33,7 +33,7 @@ _PROFILE = ("custom_msg/OBStreamProfileInfo", "0123456789abcdef0123456789abcdef"
 _PROPERTY = ("custom_msg/OBProperty", "0123456789abcdef0123456789abcdef")
 _DEVICE = ("custom_msg/OBDeviceInfo", "afef5328bb4abebd1a309e1ea8b26b3a")
 _RATIONAL = 4
-_FORMATS = {"mjpg": 5, "mono16": 8, "rgb8": 22}
+_FORMATS = {"mjpg": 5, "mono16": 8}
 _COLOR, _DEPTH = 2, 3
 
 
@@ -88,24 +88,22 @@ class Bag:
         path.write_bytes(magic + first + body + b"".join(self._connections) + info)
 
 
-def record(path: Path, *, small: bool = False) -> None:
-    """A recording of a plane with an edge, as the library stores one; ``small`` with colour a quarter as wide, raw."""
-    color_size_px, form = (COLOR_SIZE_PX, "mjpg") if not small else ((320, 240), "rgb8")
-    color_fx = COLOR_FX * color_size_px[0] / COLOR_SIZE_PX[0]
+def record(path: Path) -> None:
+    """A recording of a plane with an edge, as the library stores one."""
     bag = Bag()
     topics = {each: bag.topic(f"/cam/sensor_{each}/frameType_{each}", _IMAGE) for each in (_COLOR, _DEPTH)}
-    width, height = color_size_px
+    width, height = COLOR_SIZE_PX
     ramp = np.tile(np.linspace(40, 200, width)[None, :, None], (height, 1, 3)).astype(np.uint8)
-    color = ramp.tobytes() if small else cv2.imencode(".jpg", ramp)[1].tobytes()
+    color = cv2.imencode(".jpg", ramp)[1].tobytes()
     depth = np.zeros(DEPTH_SIZE_PX[::-1], "<u2")
     depth[:, EDGE_PX:] = NEAR_MM
     for number in range(1, FRAMES + 1):
         at_us = FIRST_US + number * PERIOD_US
         bag.write(topics[_DEPTH], at_us, _image(at_us, number, "mono16", DEPTH_SIZE_PX, depth.tobytes()))
-        bag.write(topics[_COLOR], at_us + 500, _image(at_us + 500, number, form, color_size_px, color))
+        bag.write(topics[_COLOR], at_us + 500, _image(at_us + 500, number, "mjpg", COLOR_SIZE_PX, color))
     k1, k2, p1, p2, k3, k4, k5, k6 = BENT
     for stream, stored, size_px, fx, bent, shift_mm in (
-        (_COLOR, form, color_size_px, color_fx, (k1, k2, k3, k4, k5, k6, p1, p2), 0.0),
+        (_COLOR, "mjpg", COLOR_SIZE_PX, COLOR_FX, (k1, k2, k3, k4, k5, k6, p1, p2), 0.0),
         (_DEPTH, "mono16", DEPTH_SIZE_PX, DEPTH_FX, (0.0,) * 8, SHIFT_MM),
     ):
         middle = ((size_px[0] - 1) / 2, (size_px[1] - 1) / 2)

@@ -132,7 +132,7 @@ def test_camera_info_invalid_value_is_named_in_fault(tmp_path: Path, old: str, n
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00", b"[" * 100_000, b"#" * 2_000_000]
+    "content", [b"", b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00", b"[" * 5_000, b"#" * 2_000_000]
 )
 def test_camera_info_other_content_raises(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "camera_info.yaml"

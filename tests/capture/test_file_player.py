@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 import threading
-import time
 from multiprocessing.shared_memory import SharedMemory
 from pathlib import Path
 from typing import Any
@@ -17,7 +14,6 @@ import pytest
 
 from carpus.core.capture.devices import capture_process
 from carpus.core.capture.files import realsense_recording
-from carpus.core.capture.files.realsense_recording import FilePlayer
 from carpus.core.model.errors import DriverFailed
 from carpus.core.model.types import Frame
 from tests.capture.oni_samples import color_picture
@@ -41,25 +37,6 @@ def test_file_player_new_pass_ends_the_one_before() -> None:
     source.close()
     source.close()
     assert list(source.frames()) == []
-
-
-def test_file_player_closed_while_opening_leaves_no_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    closed: list[bool] = []
-
-    class Process:
-        def __init__(self, *_: object) -> None:
-            player.close()
-
-        def receive_opened(self, closing: threading.Event, _open_s: float) -> None:
-            assert closing.is_set()
-
-        def close(self, *, gently: bool) -> None:
-            closed.append(gently)
-
-    monkeypatch.setattr(realsense_recording, "CaptureProcess", Process)
-    player = FilePlayer(lambda _outlet, _plan: None, Path("a.db3"), 1)
-    assert player.open(None, 1.0) is None
-    assert closed == [False]
 
 
 @pytest.mark.parametrize(("blow", "detail"), [(signal.SIGSEGV, "SIGSEGV"), (signal.SIGSTOP, "no answer")])
@@ -126,37 +103,6 @@ def test_file_player_leaves_no_process_or_memory(memories: list[str]) -> None:
     assert not any(exists(name) for name in memories)
     with pytest.raises(ProcessLookupError):
         os.kill(pid, 0)
-
-
-def test_capture_process_ends_with_its_owner(tmp_path: Path) -> None:
-    program = """
-import time
-from tests.capture.played import PlayedSource
-if __name__ == "__main__":
-    source = PlayedSource(60)
-    frames = source.frames()
-    next(frames)
-    print(source.pid, flush=True)
-    time.sleep(60)
-"""
-    script = tmp_path / "owner.py"
-    script.write_text(program)
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    owner = subprocess.Popen(
-        [sys.executable, str(script)], stdout=subprocess.PIPE, text=True, cwd=ROOT, env=environment
-    )
-    assert owner.stdout is not None
-    pid = int(owner.stdout.readline())
-    os.kill(pid, 0)
-    owner.kill()
-    owner.communicate()
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline:
-        state = Path(f"/proc/{pid}/stat")
-        if not state.exists() or state.read_text().rsplit(")", 1)[1].split()[0] == "Z":
-            return
-        time.sleep(0.02)
-    pytest.fail("the capture process lives on")
 
 
 def test_capture_process_failed_start_leaves_no_memory(memories: list[str], monkeypatch: pytest.MonkeyPatch) -> None:

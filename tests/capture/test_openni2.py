@@ -9,13 +9,15 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from carpus.core.capture.devices import openni2
 from carpus.core.capture.devices.openni2 import load_library
+from carpus.core.capture.files.oni_source import OniSource
 from carpus.core.capture.video_mode import PixelFormat, VideoMode
 from carpus.core.model.errors import DriverMissing
-from tests.capture.oni_samples import HEIGHT, WIDTH, write_sample
+from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture, write_sample
 
 ROOT = Path(__file__).parents[2]
 
@@ -71,16 +73,17 @@ with Context() as library:
     assert "none.oni" in missing[2]
 
 
-@pytest.mark.parametrize("name", ["prüfung.oni", "手.oni", "a" * 256])
-def test_openni2_open_unsafe_name_raises(name: str) -> None:
+def test_openni2_open_unsafe_name_raises() -> None:
     body = """
 with Context() as library:
-    try:
-        library.open(sys.argv[1])
-    except ValueError:
-        result = "kept away"
+    result = []
+    for name in sys.argv[1:]:
+        try:
+            library.open(name)
+        except ValueError:
+            result.append("kept away")
 """
-    assert in_process(body, name) == "kept away"
+    assert in_process(body, "prüfung.oni", "手.oni", "a" * 256) == ["kept away"] * 3
 
 
 def test_openni2_recording_plays_in_lockstep(tmp_path: Path) -> None:
@@ -132,7 +135,46 @@ with Context() as library:
 """
 
 
-def test_openni2_dummy_device_survives_hundred_cycles() -> None:
+def test_openni2_dummy_device_survives_many_cycles() -> None:
     with ThreadPoolExecutor(2) as pool:
-        counts = list(pool.map(lambda _: in_process(CYCLES, "50"), range(2)))
-    assert counts == [100, 100]
+        counts = list(pool.map(lambda _: in_process(CYCLES, "15"), range(2)))
+    assert counts == [30, 30]
+
+
+def test_openni2_recorder_writes_what_it_read(tmp_path: Path) -> None:
+    """What the library reads from our file and writes again holds the same depth and colour.
+
+    Its recorder may lose a picture of its own accord; each one that it wrote must be one of ours.
+    """
+    first, second = write_sample(tmp_path / "first.oni", 6), tmp_path / "second.oni"
+    program = """
+import ctypes, sys, time
+from carpus.core.capture.devices.openni2 import *
+with Context() as library:
+    c = library.api
+    device = library.open(sys.argv[1])
+    device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0)
+    device.set_float(DeviceProperty.PLAYBACK_SPEED, -1.0)
+    streams = [device.create_stream(Sensor.COLOR), device.create_stream(Sensor.DEPTH)]
+    recorder = ctypes.c_void_p()
+    assert c.oniCreateRecorder(sys.argv[2].encode(), ctypes.byref(recorder)) == 0
+    for stream in streams:
+        assert c.oniRecorderAttachStream(recorder, stream.handle, 0) == 0
+    c.oniRecorderStart(recorder)
+    for stream in streams:
+        stream.start()
+    while (ready := library.poll_streams(streams, 500)) is not None:
+        with streams[ready].read_frame():
+            time.sleep(0.03)  # its recorder has one place for the picture to come: let it write
+    time.sleep(0.3)
+    c.oniRecorderStop(recorder)
+    c.oniRecorderDestroy(ctypes.byref(recorder))
+    device.close()
+"""
+    subprocess.run([sys.executable, "-c", program, str(first), str(second)], cwd=ROOT, check=True, timeout=60)
+    back = list(OniSource(second).frames())
+    assert back, "not one was written"
+    ours = {color_picture(number).tobytes() for number in range(1, 7)}
+    assert {frame.color_rgb.tobytes() for frame in back} <= ours
+    for depth in [frame.depth_raw for frame in back if frame.depth_raw is not None]:
+        assert np.array_equal(depth, depth_picture(int(depth[0, 0]) - 5000))

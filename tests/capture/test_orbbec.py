@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError
 from itertools import islice
@@ -18,9 +17,7 @@ import pytest
 from carpus.core.capture.devices import orbbec
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.devices.capture_child import CameraConfig, CaptureFailed
-from carpus.core.capture.devices.color_lock import ColorLock
 from carpus.core.capture.devices.orbbec import (
-    _OrbbecControls,
     check_driver,
     choose_streams,
     find_device,
@@ -29,7 +26,7 @@ from carpus.core.capture.devices.orbbec import (
     open_orbbec,
 )
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.capture.doctor import check_open_camera, check_udev_rules
+from carpus.core.capture.doctor import check_udev_rules
 from carpus.core.model.depth_sensor import AZURE_KINECT
 from carpus.core.model.errors import (
     CameraBusy,
@@ -94,17 +91,6 @@ def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusF
     assert told[0].detail == "unplugged"
 
 
-def test_orbbec_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    bag = tmp_path / "small.bag"
-    orbbec_stand_in.record(bag, small=True)
-    opened = partial(open_orbbec, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
-    monkeypatch.setattr(orbbec, "KIND", replace(orbbec.KIND, open=opened))
-    findings = {each.name: each for each in check_open_camera("orbbec", 0.5)}
-    assert list(findings) == ["Frames", "Registration", "Mirror", "Clock", "Firmware", "USB"]
-    assert findings["Registration"].observation == "depth and colour are aligned, by the library"
-    assert (findings["Firmware"].state, findings["USB"].state) == ("good", "good")
-
-
 def found_driver() -> Finding:
     found = check_driver()
     assert found is not None
@@ -132,11 +118,7 @@ def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 def test_orbbec_stand_ins_match_library() -> None:
     ob = import_sdk()
-    for stand_in, real in (
-        (StandInList, ob.DeviceList),
-        (orbbec_stand_in.StandInContext, ob.Context),
-        (FakeDevice, ob.Device),
-    ):
+    for stand_in, real in ((StandInList, ob.DeviceList), (orbbec_stand_in.StandInContext, ob.Context)):
         names = [name for name in vars(stand_in) if not name.startswith("_")]
         assert [name for name in names if not hasattr(real, name)] == []
     assert ob.Context().query_devices().get_count() == 0
@@ -203,22 +185,6 @@ def test_orbbec_find_sensor_by_model(name: str, kind: str, origin: str) -> None:
     assert sensor.baseline_m == {"Orbbec Gemini 335": 0.050, "Orbbec Gemini 335L": 0.095}.get(name, 0.0)
 
 
-def test_orbbec_color_lock_keeps_colours() -> None:
-    ob, device, sent = import_sdk(), FakeDevice(), list[Any]()
-    streams = SimpleNamespace(color=Profile(640, 480, ob.OBFormat.RGB))
-    lock = ColorLock(SimpleNamespace(send=sent.append), _OrbbecControls(ob, device, streams))  # type: ignore[arg-type]
-    lock.add_frame(device._picture())
-    before = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
-    assert lock.start() is None
-    for _ in range(120):
-        lock.add_frame(device._picture())
-    assert [each.is_locked for each in sent] == [True]
-    after = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
-    assert after == pytest.approx(before, rel=0.05)
-    device._lacks = "EXPOSURE"
-    assert lock.start() is False
-
-
 class Profile:
     def __init__(self, width: int, height: int, form: Any) -> None:
         self._size, self._form = (width, height), form
@@ -234,39 +200,3 @@ class Profile:
 
     def get_format(self) -> Any:
         return self._form
-
-
-class FakeDevice:
-    """A colour camera whose automatics have chosen an exposure of 156 and 4600 kelvin, which nobody can read."""
-
-    def __init__(self) -> None:
-        self._set = {
-            "OB_PROP_COLOR_AUTO_EXPOSURE_BOOL": 1,
-            "OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL": 1,
-            "OB_PROP_COLOR_EXPOSURE_INT": 50,
-            "OB_PROP_COLOR_WHITE_BALANCE_INT": 6000,
-        }
-        self._lacks = ""
-
-    def is_property_supported(self, prop: Any, _permission: Any) -> bool:
-        return prop.name in self._set and not (self._lacks and self._lacks in prop.name)
-
-    def set_bool_property(self, prop: Any, value: bool) -> None:
-        self._set[prop.name] = int(value)
-
-    def set_int_property(self, prop: Any, value: int) -> None:
-        self._set[prop.name] = value
-
-    def get_int_property(self, prop: Any) -> int:
-        return self._set[prop.name]
-
-    def get_int_property_range(self, prop: Any) -> Any:
-        low, high = (1, 10000) if "EXPOSURE" in prop.name else (2800, 6500)
-        return SimpleNamespace(min=low, max=high, step=1)
-
-    def _picture(self) -> bytes:
-        values = list(self._set.values())
-        exposure, kelvin = (156 if values[0] else values[2]), (4600 if values[1] else values[3])
-        warm = np.exp((kelvin - 4600) / 8000.0)
-        pixel = np.clip(np.array([80.0 * warm, 80.0, 80.0 / warm]) * exposure / 156.0, 0, 255)
-        return np.tile(pixel.astype(np.uint8), 4000).tobytes()

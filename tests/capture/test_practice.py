@@ -81,17 +81,6 @@ def test_practice_source_next_recording_is_played_at_next_start() -> None:
     assert other.closed
 
 
-def test_practice_source_close_ends_it_and_closes_recording() -> None:
-    take = Take()
-    source = PracticeSource(take, still_s=0.55)
-    frames = source.frames()
-    next(frames)
-    source.close()
-    assert list(frames) == []
-    assert take.closed
-    assert source.info.frame_count is None
-
-
 def test_practice_source_rests_until_movement_is_available() -> None:
     beginning, whole = Take(), Take()
     beginning.frames = lambda: islice(Take().frames(), STILL)  # type: ignore[method-assign]

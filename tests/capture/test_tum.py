@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.capture.camera_info import write_camera_info
-from carpus.core.capture.files.tum import SIMULATED_REMARK, TumFolder, count_dropped_frames, pair_by_time
+from carpus.core.capture.files.tum import TumFolder, count_dropped_frames, pair_by_time
 from carpus.core.capture.source import FrameSource
 from carpus.core.model.camera import DEFAULT_CAMERA, Camera
 from carpus.core.model.errors import (
@@ -31,7 +31,6 @@ from carpus.core.model.errors import (
     TimesUnordered,
     UnitAssumed,
 )
-from carpus.core.model.types import SIMULATED
 
 WIDTH, HEIGHT = 64, 48
 TIMES_S = [1305031102.175304 + 0.033 * k for k in (0, 1, 2, 5, 6)]
@@ -213,13 +212,12 @@ BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("read_ahead", [0, 2])
 @pytest.mark.parametrize("case", BAD)
-def test_tum_folder_invalid_input_raises_one_fault(take: Path, case: str, read_ahead: int) -> None:
+def test_tum_folder_invalid_input_raises_one_fault(take: Path, case: str) -> None:
     spoil, kind, fact = BAD[case]
     spoil(take)
     with pytest.raises(kind) as caught:
-        list(TumFolder(take, read_ahead=read_ahead).frames())
+        list(TumFolder(take, read_ahead=2).frames())
     assert type(caught.value) is kind
     assert fact in caught.value.detail
     assert caught.value.subject.startswith(str(take))
@@ -276,21 +274,13 @@ def test_count_dropped_frames_uses_median_period() -> None:
     assert count_dropped_frames(np.empty(0)) == []
 
 
-def test_tum_folder_simulated_only_with_remark(take: Path) -> None:
-    assert SIMULATED not in TumFolder(take).info.settings
-    rgb = take / "rgb.txt"
-    rgb.write_text(f"{SIMULATED_REMARK}\n{rgb.read_text()}")
-    assert TumFolder(take).info.settings[SIMULATED] == "yes"
-
-
-@pytest.mark.parametrize("read_ahead", [0, 3])
-def test_tum_folder_skip_damaged_notifies(take: Path, read_ahead: int) -> None:
+def test_tum_folder_skip_damaged_notifies(take: Path) -> None:
     color, depth = (sorted((take / kind).iterdir()) for kind in ("rgb", "depth"))
     color[1].write_text("no picture")
     color[3].unlink()
     depth[2].write_bytes(b"")
     told: list[CarpusFault] = []
-    source = TumFolder(take, read_ahead=read_ahead, skip_damaged=True, notice=told.append)
+    source = TumFolder(take, read_ahead=3, skip_damaged=True, notice=told.append)
     frames = list(source.frames())
     assert [frame.index for frame in frames] == [0, 1, 2]
     assert [frame.timestamp_s for frame in frames] == [round(TIMES_S[k], 6) for k in (0, 2, 4)]
@@ -311,8 +301,10 @@ def test_tum_folder_damaged_first_image_raises(tmp_path: Path) -> None:
                 TumFolder(folder, skip_damaged=leave_out)
 
 
-@pytest.mark.parametrize(("unit", "counts"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
-@pytest.mark.parametrize("first_s", [120.0, 1726543210.0])
+@pytest.mark.parametrize(
+    ("unit", "counts", "first_s"),
+    [("ms", 1e3, 120.0), ("ms", 1e3, 1726543210.0), ("µs", 1e6, 120.0), ("ns", 1e9, 1726543210.0)],
+)
 def test_tum_folder_other_time_unit_is_notified(take: Path, unit: str, counts: float, first_s: float) -> None:
     for name in ("rgb.txt", "depth.txt"):
         lines = [line.split() for line in (take / name).read_text().splitlines() if line[0] != "#"]

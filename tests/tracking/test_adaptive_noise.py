@@ -36,11 +36,6 @@ def test_adapt_noise_pixel_residual_raises_both_pixels_only() -> None:
     assert adapt(0.2, (1.0, 1.0, 3.0))[2] > 1.5
 
 
-def test_adapt_noise_averages_both_pixels() -> None:
-    assert adapt(1.0, (math.sqrt(2.0), 0.0, 1.0))[:2] == pytest.approx([1.0, 1.0])
-    assert adapt(1.0, (1.0, 1.0, 1.0)) == pytest.approx([1.0, 1.0, 1.0])
-
-
 def test_adapt_noise_time_constant_is_independent_of_frame_rate() -> None:
     assert adapt(0.5, (1.5, 1.5, 1.0))[0] == pytest.approx(math.exp(1.25), rel=0.12)
     assert adapt(0.5, (1.5, 1.5, 1.0), DT_S / 4.0)[0] == pytest.approx(math.exp(1.25), rel=0.03)

@@ -114,27 +114,6 @@ def test_log_odds_give_equation_12(seed: int) -> None:
         assert np.allclose(found[i], np.array(weight) / np.sum(weight), atol=1e-9)
 
 
-def test_assign_blobs_without_blobs_is_empty() -> None:
-    mean, covariance, _, _ = scene(0)
-    own = get_marker_block(covariance)
-    odds = log_odds(mean.reshape(3, 3), own, np.empty((0, 3)), np.empty((0, 3)), RES_PX2, OUTLIER, SETTINGS)
-    assert list(assign_blobs(odds.value)) == [-1, -1, -1]
-    assert association_posterior(odds.value).shape == (0, 4)
-
-
-def test_assign_blobs_clutter_density_decides() -> None:
-    """A blob four standard deviations off is the marker in a large picture and clutter in a small one."""
-    own = np.diag([4.0, 4.0, 1e-6])[None]
-    blob, noise = np.array([[308.0, 200.0, np.nan]]), np.array([[0.01, 0.01, 1e-6]])
-
-    def score_assignment(resolution_px2: float) -> int:
-        odds = log_odds(np.array([[300.0, 200.0, 0.7]]), own, blob, noise, resolution_px2, OUTLIER, SETTINGS)
-        return int(assign_blobs(odds.value)[0])
-
-    assert score_assignment(RES_PX2) == 0
-    assert score_assignment(2000.0) == -1
-
-
 @pytest.mark.parametrize(("off_sd", "taken"), [(4.8, 0), (5.2, -1)])
 def test_assign_blobs_beyond_the_gate_is_never_associated(off_sd: float, taken: int) -> None:
     """One by one and jointly: by its density alone a blob 5.2 standard deviations off a sure place would be its."""
@@ -254,17 +233,6 @@ def test_associate_jointly_corrects_separate_association() -> None:
     jointly = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
     assert list(jointly.assigned) == [0, 1, 2]
     assert list(single) != [0, 1, 2]
-
-
-def test_association_outlier_depth_uses_the_pixel() -> None:
-    """A disc whose depth is the table's keeps its name, and its depth is not believed."""
-    mean, covariance = np.array([300.0, 200.0, 0.70]), np.diag([1.0, 1.0, 1e-6])
-    blob, noise = np.array([[300.5, 200.0, 0.75]]), np.array([[0.01, 0.01, 1e-6]])
-    odds = log_odds(mean[None], covariance[None], blob, noise, RES_PX2, OUTLIER, SETTINGS)
-    assert assign_blobs(odds.value)[0] == 0
-    assert not odds.with_depth[0, 0]
-    jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, OUTLIER, SETTINGS)
-    assert as_key(jointly.assigned, jointly.with_depth) == ((0,), (False,))
 
 
 def test_joint_compatibility_rejects_an_improbable_nis() -> None:

@@ -11,7 +11,7 @@ from carpus.core.model.camera import Camera
 from carpus.core.model.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.model.hand.anatomy_prior import constants_from_anatomy
 from carpus.core.model.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
-from carpus.core.model.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
+from carpus.core.model.hand.protocols import SITE_CHAINS, joint_angle_names
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.digits.digit_search import is_in_reach
 from carpus.core.tracking.filter.digit_filter import (
@@ -27,7 +27,6 @@ from carpus.core.tracking.filter.hand_geometry import (
     N_DIGITS,
     N_SLOTS,
     JointAngleMap,
-    direct_marker_rows,
 )
 from carpus.core.tracking.filter.unscented import UnscentedParameters
 
@@ -146,13 +145,6 @@ def test_joint_angle_map_inverts_the_slots(dip_free: bool) -> None:
     assert by_name["PIP4_flexion"] == pytest.approx(3.0)
     if dip_free:
         assert by_name["DIP4_flexion"] == pytest.approx(4.0 / 9.0 * 3.0 + 4.0)
-
-
-def test_direct_markers_are_at_the_joint_and_the_next() -> None:
-    for name, (at, past) in zip(joint_angle_names(True), direct_marker_rows(HAND21, True), strict=True):
-        assert HAND21.markers[at] == name.split("_")[0]
-        assert HAND21.markers[past][-1] == name.split("_")[0][-1]
-        assert past == at + 1
 
 
 @pytest.mark.parametrize(

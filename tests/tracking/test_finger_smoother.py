@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -12,10 +11,6 @@ from carpus.core.model.hand.protocols import joint_angle_names
 from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import restart_at_neutral
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.filter.digit_filter import ANATOMY, RATES
-from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
-from carpus.core.tracking.smoother.finger_smoother import FingerTrajectory, _FilteredFrame
-from carpus.core.tracking.smoother.palm_smoother import smooth_backwards
 from tests.accuracy.carpus import learnt_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.suites import few
@@ -72,15 +67,6 @@ def test_smoothing_in_pieces_is_as_good_as_at_once() -> None:
     assert np.median(np.abs(pieces - whole)[:, bending] / whole_sd[:, bending]) < 0.35
 
 
-def test_smoother_record_discard_removes_finger_steps() -> None:
-    blobs = sequence()
-    tracker = build_tracker(blobs)
-    for i in range(40):
-        tracker.pop_steps()
-        tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
-    assert len(tracker.record.history) == len(tracker.record.finger_history) == 1
-
-
 def test_smoother_record_next_piece_starts_where_the_last_ended() -> None:
     blobs = sequence()
     tracker, times_s = build_tracker(blobs), blobs.truth.timestamp_s
@@ -96,53 +82,6 @@ def test_smoother_record_next_piece_starts_where_the_last_ended() -> None:
     assert not kept.finger_start.is_lost
     tracker.record.append_steps(kept)
     assert len(tracker.smooth()) == 2
-
-
-def test_finger_smoother_restart_carries_back_anatomy_only() -> None:
-    blobs = sequence()
-    tracker = build_tracker(blobs)
-    for i in range(3):
-        tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
-    tracker.smooth()
-    found = tracker.record.smoothed_digits
-    assert found is not None
-    fingers = tracker._filter.fingers
-    assert fingers is not None
-    first, middle, last = found.filtered
-    assert first is not None
-    assert middle is not None
-    assert last is not None
-    chain, joints = 2, slice(0, RATES.stop)
-
-    def smooth_back(
-        second: _FilteredFrame, moved_rad: float = 0.0, longer_m: float = 0.0
-    ) -> tuple[FloatArray, FloatArray]:
-        """Mean and covariance of the digit in the first frame, with the last one's joints and bones moved."""
-        mean = last.mean.copy()
-        mean[chain, :N_SLOTS] += moved_rad
-        mean[chain, ANATOMY.start] += longer_m
-        walk = FingerTrajectory(fingers.model, found.steps, [first, second, replace(last, mean=mean)])
-        estimate = dict(smooth_backwards(walk))[0]
-        assert estimate is not None
-        return estimate.mean[chain], estimate.covariance[chain]
-
-    anew = replace(middle, is_restarted=np.arange(N_DIGITS) == chain)
-    assert np.abs(smooth_back(middle, moved_rad=0.1)[0] - smooth_back(middle)[0])[:N_SLOTS].max() > 1e-4
-    through, alone = smooth_back(anew), smooth_back(replace(middle, is_linked=False))
-    moved = smooth_back(anew, longer_m=0.01)
-    assert np.abs(moved[0] - through[0])[ANATOMY].max() > 1e-5, "bones stay the same bones"
-    assert np.array_equal(alone[0], first.mean[chain])
-    assert (np.diagonal(through[1])[ANATOMY] <= np.diagonal(alone[1])[ANATOMY] * (1.0 + 1e-9)).all()
-    flexed = replace(middle, mean=middle.mean.copy(), is_restarted=anew.is_restarted)
-    flexed.mean[chain, joints] += 0.2
-    held = [dict(smooth_backwards(FingerTrajectory(fingers.model, found.steps, [first, two, None])))[0]
-            for two in (anew, flexed)]  # fmt: skip
-    assert held[0] is not None
-    assert held[1] is not None
-    assert np.array_equal(held[0].mean[chain], held[1].mean[chain]), (
-        "where its joints were found says nothing of before"
-    )
-    assert np.linalg.eigvalsh(held[0].covariance).min() > 0.0
 
 
 @pytest.mark.parametrize("gap_s", few([0.4, 2.5, 0.25, 1.0], 2))

@@ -15,7 +15,7 @@ from carpus.core.tracking.association.palm_association import measurements_from_
 from carpus.core.tracking.digits import finger_model
 from carpus.core.tracking.digits.digit_readout import base_from_estimate
 from carpus.core.tracking.digits.digit_update import DigitFrame, DigitPosterior
-from carpus.core.tracking.filter.digit_filter import ANATOMY, RATES
+from carpus.core.tracking.filter.digit_filter import ANATOMY
 from carpus.core.tracking.filter.hand_geometry import palm_calibration
 from carpus.core.tracking.filter.palm_state import InitialSd, initial_estimate
 from carpus.core.tracking.filter.readout import Readout
@@ -66,16 +66,6 @@ def test_finger_speeds_hidden_joints_may_be_fast() -> None:
     assert fingers.joint_speeds == (0.0, 0.0)
     fingers.reset_joints()
     assert 0.5 < min(fingers.joint_speeds) <= max(fingers.joint_speeds) <= settings.tissue.fastest_rad_s
-
-
-def test_finger_speeds_are_of_thumb_base_and_mcp() -> None:
-    fingers = FingerFilter(calibrate_sequence(sequence()), sequence().truth.camera, TrackerSettings())
-    mean = fingers.estimates.mean.copy()
-    mean[1:, :, RATES] = [3.0, 0.5, 3.0, 3.0, 3.0]
-    mean[0, :, RATES] = [1.0, 0.8, 3.0, 3.0, 3.0]
-    turning = replace(fingers.estimates, mean=mean)
-    fingers._set_estimates(turning, turning.merge())
-    assert fingers.joint_speeds == pytest.approx((np.sqrt((1.0 + 0.64) / 2.0), 0.5))
 
 
 def update_digits_once(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior, FloatArray]:
@@ -149,21 +139,6 @@ def test_fingers_lost_hand_has_no_joints_until_found() -> None:
     error_deg = np.degrees(np.abs(frames[-1].kinematics.joint_angles_rad - seen.truth.joint_angles_rad[99]))
     assert frames[-1].status is TrackStatus.TRACKED
     assert np.median(error_deg) < 3.0
-
-
-def test_fingers_long_gap_stays_within_limits() -> None:
-    """The camera stood still for twelve seconds while the fingers closed: their rates are not carried over them."""
-    still = sequence()
-    tracker = build_tracker(still)
-    times = still.truth.timestamp_s
-    rate = np.abs(still.truth.joint_velocity_rad_s).max(axis=1)
-    pause = int(np.argmax(rate))
-    assert rate[pause] > 1.0
-    for i, found in enumerate(still.detections):
-        frame = tracker.step(i, float(times[i]) + (12.0 if i > pause else 0.0), found)
-        if np.isfinite(frame.kinematics.joint_angles_rad).any():
-            assert np.abs(np.degrees(frame.kinematics.joint_angles_rad)).max() < 150.0
-    assert frame.status is TrackStatus.TRACKED
 
 
 def test_fingers_without_measurement_have_no_nis() -> None:

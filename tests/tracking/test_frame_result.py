@@ -8,14 +8,11 @@ import numpy as np
 
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import Detections, TrackedFrame, TrackStatus
-from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.association.consistency import MAX_UNUSED_S
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.tracker import TrackedFrameBuilder
-from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
-from tests.tracking.sequences import build_tracker
 
 
 def test_row_unused_marker_is_doubted_until_reset() -> None:
@@ -42,16 +39,3 @@ def test_row_unused_marker_is_doubted_until_reset() -> None:
     assert results.build_lost_frame(99, 99 * DT_S, Detections.none(), 0).status is TrackStatus.LOST
     assert row(100).status is TrackStatus.TRACKED, "another hand: nothing is contradicted yet"
     np.testing.assert_allclose(row(101).measured_share, 5.0 / 6.0 * 2.0 / 3.0)
-
-
-def test_row_without_measurement_has_no_nis() -> None:
-    sequence = measurement_sequence(RecordingSpec(seed=3, protocol="hand21", motion="rest", seconds=1.5))
-    tracker = build_tracker(sequence)
-    times_s = sequence.truth.timestamp_s
-    some = tracker.step(0, float(times_s[0]), sequence.detections[0])
-    none = tracker.step(1, float(times_s[1]), Detections.none())
-    assert some.nis_dof > 30
-    assert np.isfinite(some.nis)
-    assert none.status is TrackStatus.PREDICTED
-    assert none.nis_dof == 0
-    assert np.isnan(none.nis)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,13 +10,11 @@ import pytest
 from carpus.core.model.hand.dorsal_surface import fit_dorsal_surface
 from carpus.core.model.types import Detections
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking import hand_filter
-from carpus.core.tracking.association.reacquire import FoundPalm, TurnLimits
+from carpus.core.tracking.association.reacquire import FoundPalm
 from carpus.core.tracking.filter.hand_geometry import palm_calibration
 from carpus.core.tracking.filter.motion import RATE_MEMORY_S
 from carpus.core.tracking.filter.palm_state import RATE, SHAPE, SKIN
 from carpus.core.tracking.filter.settings import TrackerSettings
-from carpus.core.tracking.filter.soft_tissue import ZERO_SPEEDS, stationary_covariance
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
@@ -58,16 +55,6 @@ def test_hand_filter_lost_track_keeps_the_learnt_palm() -> None:
     assert not np.any(own.predict(0.0).nominal.value[SHAPE])
 
 
-def test_hand_filter_search_allows_for_the_skins_scatter(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[Any] = []
-    monkeypatch.setattr(hand_filter, "find_palm", lambda *arguments: asked.append(arguments))
-    settings = TrackerSettings()
-    own = HandFilter(calibration(), CAMERA, settings)
-    own.find_palm(blobs(Pose()), TurnLimits(np.eye(3), 1.0, 1.0))
-    by_skin = stationary_covariance(settings.tissue)[SKIN, SKIN]
-    assert np.linalg.eigvalsh(asked[0][2] - by_skin).min() > 0.0
-
-
 def test_hand_filter_collinear_discs_fade_the_rate_about_their_line() -> None:
     own = HandFilter(calibration(), CAMERA, TrackerSettings(use_surface=False))
     run(own, 10)
@@ -87,29 +74,6 @@ def test_hand_filter_collinear_discs_fade_the_rate_about_their_line() -> None:
     assert own.is_rotation_observed, "what was not seen before is none of a hand found anew"
 
 
-def test_scan_without_blobs_has_none() -> None:
-    own = HandFilter(calibration(), CAMERA, TrackerSettings())
-    predicted = own.predict(0.0)
-    scan = own.build_scan(predicted, blobs(Pose()), 0.0, 0.0).without_blobs()
-    assert len(scan.blobs) == len(scan.ideal) == 0
-    posterior = own.update(predicted, scan)
-    assert posterior.seen_count == posterior.palm.dof == 0
-    assert (posterior.palm.assigned == -1).all()
-
-
-def test_hand_filter_prediction_is_computed_once_per_time() -> None:
-    own = HandFilter(calibration(), CAMERA, TrackerSettings())
-    run(own, 10)
-    first = own.predict(DT_S)
-    assert own.predict(DT_S) is first
-    assert own.predict(2.0 * DT_S) is not first
-    assert np.trace(own.predict(5.0 * DT_S).nominal.covariance) > np.trace(first.nominal.covariance)
-    again = own.predict(DT_S)
-    posterior, scan = update_filter(own, 1.0, swing(1, 40.0, 1.0)(10 * DT_S))
-    own.accept(posterior, scan, is_seen=True, is_linked=True)
-    assert own.predict(DT_S) is not again, "the state is another"
-
-
 def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     """The filter of a hand with fingers, all known as calibrated, and the blobs of its first picture."""
     seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=1.0))
@@ -123,14 +87,6 @@ def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     return HandFilter(replace(known, surface=surface), seen.truth.camera, settings), seen.detections[0]
 
 
-def test_hand_filter_lost_hand_has_diffuse_fingers() -> None:
-    own, _ = with_fingers(use_surface=False)
-    assert own.fingers is not None
-    assert own.fingers.joint_speeds == (0.0, 0.0)
-    own.drop_track()
-    assert min(own.fingers.joint_speeds) > 0.5
-
-
 def test_hand_filter_skin_moves_with_the_joints_beneath() -> None:
     own, _ = with_fingers(use_surface=True)
     assert own.fingers is not None
@@ -139,15 +95,3 @@ def test_hand_filter_skin_moves_with_the_joints_beneath() -> None:
     assert min(own.fingers.joint_speeds) > 0.5
     moving = np.diagonal(own.predict(DT_S).nominal.covariance)[SKIN]
     assert (moving[3:] > 1.5 * rest[3:]).all()
-
-
-@pytest.mark.parametrize("use_surface", [False, True])
-def test_hand_filter_step_has_digit_speeds_where_tissue_needs_them(use_surface: bool) -> None:
-    own, found = with_fingers(use_surface)
-    assert own.fingers is not None
-    own.fingers.reset_joints()
-    predicted = own.predict(DT_S)
-    scan = own.build_scan(predicted, found, DT_S, DT_S).without_blobs()
-    step, _ = own.accept(own.update(predicted, scan), scan, is_seen=False, is_linked=True)
-    assert min(own.fingers.joint_speeds) > 0.5
-    assert step.digit_speeds == (own.fingers.joint_speeds if use_surface else ZERO_SPEEDS)

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from carpus.core.model.types import FINGER_SAMPLE_STEP_PX, FloatArray, SurfaceSamples
-from carpus.core.tracking.digits import knuckle_flexion
 from carpus.core.tracking.digits.knuckle_flexion import (
     FLEXION_SLOT,
     KnuckleFlexion,
@@ -62,12 +61,6 @@ def test_knuckle_flexion_bare_finger_is_found(flexion_deg: float) -> None:
     assert not np.isfinite(np.delete(found.value_rad, INDEX)).any(), "only who was asked for"
 
 
-def test_knuckle_flexion_without_readings_is_nan() -> None:
-    far = SurfaceSamples(np.array([[10.0, 10.0]]), np.array([0.7]))
-    found = bends(far)
-    assert not found.is_any
-
-
 def test_knuckle_flexion_update_is_weak_and_leaves_other_digits() -> None:
     covariance = np.broadcast_to(0.3**2 * np.eye(DIGIT_SIZE), (N_DIGITS, DIGIT_SIZE, DIGIT_SIZE))
     mixture = ModeMixture.from_gaussian(states(), covariance, 2)
@@ -82,16 +75,6 @@ def test_knuckle_flexion_update_is_weak_and_leaves_other_digits() -> None:
     others = np.delete(np.arange(N_DIGITS), INDEX)
     assert np.allclose(once.mean[others], mixture.mean[others])
     assert np.allclose(once.covariance[others], mixture.covariance[others])
-
-
-def test_knuckle_flexion_variance_counts_correlated_frames(monkeypatch: pytest.MonkeyPatch) -> None:
-    alike, least_sd_rad = knuckle_flexion.CORRELATED_FRAMES, knuckle_flexion.MIN_SD_RAD
-    found = bends(readings(50.0))
-    monkeypatch.setattr(knuckle_flexion, "CORRELATED_FRAMES", 1.0)
-    monkeypatch.setattr(knuckle_flexion, "MIN_SD_RAD", 0.0)
-    single = bends(readings(50.0))
-    assert found.variance_rad2[INDEX] >= 0.99 * alike * least_sd_rad**2
-    assert single.variance_rad2[INDEX] < least_sd_rad**2
 
 
 def cover_readings(at: float, off_m: float) -> SurfaceSamples:

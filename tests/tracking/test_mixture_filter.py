@@ -9,11 +9,9 @@ from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,
-    Transition,
     mode_transition_matrix,
     partial_update_shares,
     predict_mixture,
-    propagate_mixture,
     update_mixture,
 )
 from carpus.core.tracking.smoother.palm_smoother import SmootherTransition, smooth_backwards
@@ -47,45 +45,6 @@ def any_line(seed: int) -> Linearisation:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_predict_mixture_is_f_p_f_plus_q(seed: int) -> None:
-    rng, mixture = np.random.default_rng(seed), any_mixture(seed)
-    forward, noise = rng.normal(size=(CHAINS, STATES, STATES)), positive(rng, CHAINS, MODES, size=STATES)
-    found = predict_mixture(mixture, forward, noise)
-    for c in range(CHAINS):
-        for k in range(MODES):
-            assert np.allclose(found.mean[c, k], forward[c] @ mixture.mean[c, k], atol=1e-12)
-            assert np.allclose(
-                found.covariance[c, k], forward[c] @ mixture.covariance[c, k] @ forward[c].T + noise[c, k], atol=1e-12
-            )
-    assert np.array_equal(found.probability, mixture.probability)
-
-
-def test_propagate_mixture_equals_the_full_transition() -> None:
-    rng = np.random.default_rng(3)
-    mixing, relaxing = 3, 2
-    kept = np.ones((MODES, STATES))
-    kept[:, STATES - relaxing :] = rng.uniform(0.0, 1.0, (MODES, relaxing))
-    step = Transition(
-        rng.normal(size=(mixing, mixing)), positive(rng, MODES, size=mixing), kept, positive(rng, MODES, size=relaxing)
-    )
-    nominal = np.r_[np.zeros(STATES - relaxing), rng.normal(size=relaxing)]
-    mixture = ModeMixture(
-        rng.normal(size=(1, MODES, STATES)), positive(rng, 1, MODES, size=STATES), np.full((1, MODES), 1.0 / MODES)
-    )
-    found = propagate_mixture(mixture, step, nominal)
-    for mode in range(MODES):
-        forward, noise = np.diag(kept[mode]), np.zeros((STATES, STATES))
-        forward[:mixing, :mixing] = step.moving
-        noise[:mixing, :mixing] = step.driven[mode]
-        noise[STATES - relaxing :, STATES - relaxing :] = step.relaxing[mode]
-        own = ModeMixture(mixture.mean[:, [mode]], mixture.covariance[:, [mode]], np.ones((1, 1)))
-        whole = predict_mixture(own, forward[None], noise[None, None])
-        # What a mode does not keep of the nominal's last numbers, which stay, is its error.
-        assert np.allclose(found.mean[0, mode], whole.mean[0, 0] + (kept[mode] - 1.0) * nominal, atol=1e-12)
-        assert np.allclose(found.covariance[0, mode], whole.covariance[0, 0], atol=1e-12)
-
-
-@pytest.mark.parametrize("seed", range(4))
 def test_update_mixture_is_kalmans_without_nan_components(seed: int) -> None:
     rng, mixture, linearised = np.random.default_rng(seed), any_mixture(seed), any_line(seed)
     measured, variance = rng.normal(size=(CHAINS, SEEN)), rng.uniform(0.01, 2.0, (CHAINS, SEEN))
@@ -113,59 +72,11 @@ def test_update_mixture_is_kalmans_without_nan_components(seed: int) -> None:
         assert not found.residual[c][~np.isfinite(measured[c])].any()
 
 
-def test_update_mixture_residuals_are_standard_normal() -> None:
-    rng = np.random.default_rng(5)
-    mixture, linearised = any_mixture(1), any_line(1)
-    mixture = ModeMixture(mixture.mean[:, :1], mixture.covariance[:, :1], np.ones((CHAINS, 1)))
-    variance = np.full((CHAINS, SEEN), 0.3)
-    found = []
-    for _ in range(4000):
-        state = mixture.mean[:, 0] + np.einsum(
-            "cij,cj->ci", np.linalg.cholesky(mixture.covariance[:, 0]), rng.normal(size=(CHAINS, STATES))
-        )
-        noise = np.einsum("cij,cj->ci", np.linalg.cholesky(linearised.error), rng.normal(size=(CHAINS, SEEN)))
-        value = linearised.value + np.einsum("cij,cj->ci", linearised.slope, state - linearised.about) + noise
-        measured = value + np.sqrt(variance) * rng.normal(size=value.shape)
-        found.append(update_mixture(mixture, linearised, measured, variance).residual)
-    assert np.std(found, axis=0) == pytest.approx(1.0, abs=0.05)
-    assert np.mean(found, axis=0) == pytest.approx(0.0, abs=0.06)
-
-
-def test_mix_modes_goes_from_row_to_column() -> None:
-    mixture, switch = any_mixture(2), np.array([[0.9, 0.1], [0.4, 0.6]])
-    size = mixture.mean.shape[2]
-    still, no_noise = np.tile(np.eye(size), (CHAINS, 1, 1)), np.zeros((CHAINS, MODES, size, size))
-    blend = predict_mixture(mixture, still, no_noise, switch)
-    for c in range(CHAINS):
-        for to in range(MODES):
-            share = switch[:, to] * mixture.probability[c]
-            assert blend.probability[c, to] == pytest.approx(share.sum())
-            share /= share.sum()
-            mean = share @ mixture.mean[c]
-            apart = mixture.mean[c] - mean
-            spread = np.einsum("k,kij->ij", share, mixture.covariance[c]) + np.einsum(
-                "k,ki,kj->ij", share, apart, apart
-            )
-            assert np.allclose(blend.mean[c, to], mean)
-            assert np.allclose(blend.covariance[c, to], spread)
-
-
 def test_mode_transition_matrix_keeps_the_dwell_time_at_any_step() -> None:
     one, three = mode_transition_matrix(3, 0.5, 0.1), mode_transition_matrix(3, 0.5, 0.3)
     assert np.allclose(one.sum(axis=1), 1.0)
     assert one[0, 0] ** 3 == pytest.approx(three[0, 0])
     assert np.array_equal(mode_transition_matrix(1, 0.5, 0.1), np.ones((1, 1)))
-
-
-def test_merge_is_the_mixtures_mean_and_covariance() -> None:
-    mixture, rng = any_mixture(7), np.random.default_rng(8)
-    mean, covariance = mixture.merge()
-    mode = rng.choice(MODES, 200_000, p=mixture.probability[1])
-    drawn = mixture.mean[1][mode] + np.einsum(
-        "nij,nj->ni", np.linalg.cholesky(mixture.covariance[1])[mode], rng.normal(size=(mode.size, STATES))
-    )
-    assert drawn.mean(axis=0) == pytest.approx(mean[1], abs=0.05)
-    assert np.allclose(np.cov(drawn.T), covariance[1], atol=0.03 * np.trace(covariance[1]))
 
 
 @pytest.mark.parametrize("learning", [0.0, 0.3, 1.0])

@@ -14,8 +14,6 @@ from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixtur
 from carpus.core.tracking.filter.motion import (
     MotionNoise,
     PalmMotion,
-    fading_factors,
-    fading_matrix,
     find_unobserved_turns,
     palm_transition,
 )
@@ -125,13 +123,6 @@ def test_palm_prediction_covariance_is_independent_of_frame_rate() -> None:
     assert np.allclose(ends[1], ends[2], rtol=1e-6, atol=1e-12)
 
 
-def test_palm_modes_scale_the_motion_only() -> None:
-    found = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0)
-    calm, lively = found.driven
-    assert np.allclose(lively, 64.0 * calm)
-    assert np.array_equal(*found.relaxing)
-
-
 def test_soft_tissue_reaches_its_stationary_covariance() -> None:
     stationary = stationary_covariance(SoftTissue())
     tissue = np.r_[SKIN, RELIEF]
@@ -167,17 +158,6 @@ def test_soft_tissue_modes_keep_reset_or_drive_displacement() -> None:
     assert sd_m[1].max() < 2e-4, "it does not creep away: else slow noise of the depths becomes skin"
     assert sd_m[2][6:].reshape(4, 3)[2:, 2].min() > 2e-3, "a closing arch takes ring and little knuckle down"
     assert sd_m[2][:6].max() < 2e-4, "and leaves wrist and thumb"
-
-
-def test_soft_tissue_rest_is_long_and_motion_short() -> None:
-    switch = RESTING.mode_transition_matrix(np.zeros(3), 1.0 / 30.0)
-    assert switch.sum(axis=1) == pytest.approx(1.0)
-    assert switch.min() >= 0.0
-    moves = RESTING.tissue_of > STILL
-    assert switch[~moves][:, moves].sum(axis=1).max() < 0.005
-    assert switch[moves][:, ~moves].sum(axis=1).min() > 0.05
-    assert RESTING.initial_probability.sum() == pytest.approx(1.0)
-    assert RESTING.initial_probability[RESTING.tissue_of == HOME].sum() > 0.8
 
 
 def pushed_by(digits: DigitSpeeds, turning_rad_s: float, seconds: float) -> FloatArray:
@@ -219,15 +199,6 @@ def test_soft_tissue_leaves_home_while_joints_turn() -> None:
     assert grasp[~home][:, home].sum() == pytest.approx(rest[~home][:, home].sum())
     assert FOLLOWING.initial_probability.sum() == pytest.approx(1.0)
     assert FOLLOWING.initial_probability[home].sum() > 0.9
-
-
-def test_tissue_noise_coming_home_is_driven() -> None:
-    home, away = (int(np.flatnonzero((FOLLOWING.tissue_of == HOME) == is_home)[0]) for is_home in (True, False))
-    stayed, came = np.zeros((2, FOLLOWING.modes, FOLLOWING.modes))
-    stayed[home, home] = came[away, home] = 1.0
-    step = palm_transition(np.zeros(3), FOLLOWING, 1.0 / 30.0)
-    rest, push = (FOLLOWING.tissue_noise(went, step) for went in (stayed, came))
-    np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT_TISSUE, SOFT_TISSUE], atol=1e-15)
 
 
 def test_palm_smoother_tissue_uses_the_frames_digit_speeds() -> None:
@@ -318,12 +289,6 @@ def test_reset_error_moves_the_nominal_and_keeps_the_modes() -> None:
         assert np.allclose(there.compute_error(again), 0.0, atol=2e-6)
 
 
-def test_fading_factors_change_velocities_only() -> None:
-    kept = fading_factors(0.5)
-    assert (kept[np.r_[VELOCITY, RATE]] == 0.5).all()
-    assert (np.delete(kept, np.r_[VELOCITY, RATE]) == 1.0).all()
-
-
 def test_palm_smoother_gap_is_a_straight_line() -> None:
     """Known well at both ends and not at all between, a steadily turning hand was halfway in the middle."""
     wide, sharp = np.eye(SIZE) * 1e-2, np.eye(SIZE) * 1e-8
@@ -378,22 +343,6 @@ def test_palm_smoother_resting_tissue_is_not_averaged_away() -> None:
     assert smooth_palm(steps, RESTING)[-1] is steps[-1].estimate
 
 
-def test_palm_smoother_uses_the_filters_step() -> None:
-    """Its noise, the turns that nothing showed, the rate that it began with."""
-    now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
-    made = palm_transition(now.rate_rad_s, MOTION, 0.1, unseen)
-    later = made.propagate(now, 0.1).add_error(0.01 * np.ones(SIZE), moving(2).covariance)
-    calm, lively = np.array([1.0, 0.0]), np.array([0.0, 1.0])
-    steps = [FilterStep(0.0, now, calm, False), FilterStep(0.1, later, lively, True, unseen)]
-    walk = PalmTrajectory(steps, MOTION)
-    assert walk.seconds_to_next(0) == pytest.approx(0.1)
-    passage = walk.compute_transition(0, now, later, 0.1)
-    assert np.array_equal(passage.forward[0, RIGID_MOTION, RIGID_MOTION], made.moving)
-    assert np.allclose(passage.noise[0, RIGID_MOTION, RIGID_MOTION], made.driven[1])
-    assert np.allclose(passage.noise[0, SOFT_TISSUE, SOFT_TISSUE], made.relaxing[1])
-    assert np.allclose(passage.difference, 0.01, atol=1e-12)
-
-
 # --- turns that nothing shows -----------------------------------------------------------------------------
 PALM_M = np.array(
     [[0.0, 0.0, 0.0], [-0.012, 0.016, 0.001], [-0.03, 0.08, 0.003], [-0.008, 0.083, 0.006], [0.012, 0.079, 0.004],
@@ -424,24 +373,3 @@ def test_unobserved_turns_of_two_or_fewer_discs() -> None:
         found = find_unobserved_turns(few, 0.008)
         assert found is not None
         np.testing.assert_array_equal(found, np.eye(3))
-
-
-def test_palm_motion_unobserved_turn_has_its_own_noise() -> None:
-    unseen = np.diag([1.0, 0.0, 0.0])
-    usual = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0).driven
-    found = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0, unseen).driven
-    loud = (MOTION.unseen_scale / MOTION.scales) ** 2
-    for mode in range(len(MOTION.scales)):
-        grown = np.diag(found[mode]) / np.where(np.diag(usual[mode]) > 0.0, np.diag(usual[mode]), 1.0)
-        assert grown[TURN.start] == pytest.approx(max(loud[mode], 1.0))
-        assert grown[RATE.start] == pytest.approx(max(loud[mode], 1.0))
-        assert np.allclose(np.delete(grown[:12], [TURN.start, RATE.start]), 1.0)
-        assert np.linalg.eigvalsh(found[mode]).min() > -1e-12
-
-
-def test_fading_matrix_changes_unobserved_turning_only() -> None:
-    kept = fading_matrix(0.8, np.diag([1.0, 0.0, 0.0]))
-    value = np.arange(float(SIZE))
-    faded = kept @ value
-    assert faded[RATE.start] == pytest.approx(0.8 * value[RATE.start])
-    np.testing.assert_array_equal(np.delete(faded, RATE.start), np.delete(value, RATE.start))

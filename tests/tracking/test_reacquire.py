@@ -85,14 +85,6 @@ def test_find_palm_four_or_five_markers_are_enough(side: Side, hidden: tuple[int
     assert found_right >= 8
 
 
-@pytest.mark.parametrize("side", SIDES)
-def test_find_palm_three_markers_are_not_enough(side: Side) -> None:
-    rng = np.random.default_rng(30)
-    for _ in range(20):
-        hidden = rng.choice(6, 3, replace=False)
-        assert search_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), side) is None
-
-
 def test_find_palm_four_ill_fitting_blobs_give_none(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each lies within millimetres of its place, but across the finger no skin glides so far."""
     four = blobs(Pose(), hidden=(CMC1, MCP5))
@@ -110,19 +102,6 @@ def test_find_palm_three_markers_and_far_clutter_give_none() -> None:
     for _ in range(20):
         seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
         assert search_palm(seen) is None
-
-
-@pytest.mark.parametrize("side", SIDES)
-def test_find_palm_other_hand_gives_none(side: Side) -> None:
-    """The mirrored palm: never all six; where enough match by chance, fewer than a real palm would."""
-    other: Side = "left" if side == "right" else "right"
-    rng = np.random.default_rng(40)
-    refused = 0
-    for _ in range(20):
-        pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
-        found = search_palm(blobs(pose, rng, side=other), side)
-        refused += found is None
-    assert refused == 20
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -242,14 +221,3 @@ def test_found_palm_covariance_covers_its_error(hidden: tuple[int, ...]) -> None
         assert np.array_equal(np.flatnonzero(found.matched), shown)
     assert len(squared) >= 40
     assert np.mean(np.array(squared) < 16.8) > 0.95  # 99 % of chi squared with six degrees of freedom
-
-
-def test_found_palm_knuckles_leave_turn_about_their_line_open() -> None:
-    knuckles = search_palm(blobs(Pose(), hidden=(0, 1)))
-    whole = search_palm(blobs(Pose()))
-    assert knuckles is not None
-    assert whole is not None
-    about_y = [np.sqrt(f.pose_covariance(palm("right"))[4, 4]) for f in (knuckles, whole)]
-    assert about_y[0] > 2.0 * about_y[1]
-    # They lie millimetres off their line, and each is known to 3 mm: little more is known than what wrists do.
-    assert 0.3 < about_y[0] < 0.6

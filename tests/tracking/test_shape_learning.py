@@ -8,14 +8,12 @@ import numpy as np
 import pytest
 
 from carpus.core.model.depth_sensor import D435, PRIMESENSE
-from carpus.core.tracking.filter.palm_state import CALIBRATION_ERROR, SHAPE, SIZE, PalmEstimate
+from carpus.core.tracking.filter.palm_state import SHAPE, SIZE, PalmEstimate
 from carpus.core.tracking.filter.predicted_measurement import (
     LOCKED_DEPTH_SHARE,
     compute_fresh_share,
     depth_bias_matrix,
-    ray_covariances,
     shape_covariance,
-    shape_partial_update,
 )
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.unscented import UnscentedParameters
@@ -23,15 +21,6 @@ from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.tracker import Tracker
 from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration
 from tests.tracking.test_palm_filter import linearised_about
-
-
-@pytest.mark.parametrize("news", [0.1, 1.0])
-def test_shape_partial_update_takes_its_share(news: float) -> None:
-    mean = shape_partial_update(news)
-    moving = np.delete(np.arange(SIZE), np.arange(CALIBRATION_ERROR.start, CALIBRATION_ERROR.stop))
-    assert (mean[moving] == 1.0).all()
-    assert mean[CALIBRATION_ERROR] == pytest.approx(1.0 - np.sqrt(1.0 - news))
-    assert 2.0 * mean[CALIBRATION_ERROR] - mean[CALIBRATION_ERROR] ** 2 == pytest.approx(news), "of the information"
 
 
 def test_shape_learning_still_hand_adds_little() -> None:
@@ -46,17 +35,6 @@ def test_shape_learning_still_hand_adds_little() -> None:
     assert partial[2] > 0.95
     step_m = float(CAMERA.sensor.reading_sd_m(MIDDLE_M[2]))
     assert compute_fresh_share(disc_m, disc_m + [0.0, 0.0, 2.0 * step_m], CAMERA) > 0.8
-
-
-def test_ray_covariances_move_no_pixel() -> None:
-    found = ray_covariances(calibration(), np.full(6, 3e-4))
-    for disc, covariance in zip(RIGHT_PALM_M, found, strict=True):
-        spread, axes = np.linalg.eigh(covariance)
-        assert spread[:2] == pytest.approx(0.0, abs=1e-15)
-        moved = (disc + np.sqrt(spread[2]) * axes[:, 2]) @ FROM_ABOVE.T + MIDDLE_M
-        there = disc @ FROM_ABOVE.T + MIDDLE_M
-        assert np.allclose(CAMERA.project(moved), CAMERA.project(there), atol=1e-6)
-        assert abs(moved[2] - there[2]) == pytest.approx(3e-4)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])

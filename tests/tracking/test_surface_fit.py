@@ -219,29 +219,6 @@ def test_surface_fit_far_readings_have_no_weight_near_ones_less(
     assert np.abs(robust - whole).max() < 0.8 * np.abs(plain - whole).max()
 
 
-def test_surface_fit_gauss_newton_converges_above_the_floor(surface: DorsalSurface) -> None:
-    clean, settings = READINGS, SurfaceSettings()
-    found, further = fit_readings(surface, clean, settings), fit_readings(surface, clean, replace(settings, steps=8))
-    assert found.value == pytest.approx(further.value, abs=5e-5)
-    bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0)
-    floor = found.covariance - fit_readings(surface, clean, bare).covariance
-    assert floor == pytest.approx(np.diag([0.004**2, 0.004**2, 0.0002**2]), abs=1e-12)
-    wide, wider = (replace(bare, reading_per_m=per_m) for per_m in (0.02, 0.04))
-    ratio = fit_readings(surface, clean, wider).covariance / fit_readings(surface, clean, wide).covariance
-    assert ratio == pytest.approx(4.0), "readings that agree are no surer than readings are"
-
-
-def test_surface_fit_too_few_readings_gives_none(surface: DorsalSurface) -> None:
-    settings = SurfaceSettings()
-    for first in range(1, 800):
-        some = SurfaceSamples(READINGS.pixel[:first], READINGS.depth_m[:first])
-        found = fit_surface(HERE, some, surface, VIEW, settings)
-        if found is not None:
-            break
-    assert found is not None
-    assert found.count == settings.least
-
-
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
 def test_surface_update_beyond_max_nis_is_left_out(surface: DorsalSurface, off_sd: float, heard: bool) -> None:
     """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""

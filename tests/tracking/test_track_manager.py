@@ -9,8 +9,6 @@ from carpus.core.model import so3
 from carpus.core.model.types import TrackStatus
 from carpus.core.tracking.association.reacquire import FoundPalm
 from carpus.core.tracking.association.track_manager import (
-    AMBIGUOUS_SD_RAD,
-    AMBIGUOUS_WITH_FINGERS_SD_RAD,
     CONFIRMATION_S,
     MAX_RATE_RAD_S,
     MAX_TURN_RAD,
@@ -38,16 +36,6 @@ def build_found(count: int, turned_rad: float = 0.0) -> FoundPalm:
 def update_track(track: TrackManager, at_s: float, count: int, *, fits: bool = True) -> TrackStatus:
     track.start_frame(at_s)
     return track.update_status(at_s, count, is_consistent=fits)
-
-
-def test_track_hidden_hand_coasts_then_is_deleted() -> None:
-    track = manager()
-    assert update_track(track, 0.0, 6) is TrackStatus.TRACKED
-    assert update_track(track, 0.1, MIN_PALM_MARKERS) is TrackStatus.TRACKED
-    assert update_track(track, 0.1 + LOST_AFTER_S, MIN_PALM_MARKERS - 1) is TrackStatus.PREDICTED
-    assert track.stage is TrackStage.COASTED
-    assert update_track(track, 0.2 + LOST_AFTER_S, 0) is TrackStatus.LOST
-    assert update_track(manager(), 9.0, 0) is TrackStatus.PREDICTED, "the time runs from when it began"
 
 
 def test_track_without_frames_times_out() -> None:
@@ -138,26 +126,3 @@ def test_turn_limits_grow_with_time_up_to_the_maximum() -> None:
     assert all(one.rotation_w2_w0 is turned for one in at[:3])
     anyhow = track.widest_turn_limits()
     assert all(np.array_equal(one.rotation_w2_w0, np.eye(3)) for one in (*at[3:], anyhow)), "no longer as foreseen"
-
-
-@pytest.mark.parametrize("amid_digits", [False, True])
-def test_track_few_markers_of_a_vague_prediction_are_ambiguous(amid_digits: bool) -> None:
-    track = manager(amid_digits=amid_digits)
-    most_rad = AMBIGUOUS_WITH_FINGERS_SD_RAD if amid_digits else AMBIGUOUS_SD_RAD
-    for count, most in enumerate(most_rad):
-        assert not track.is_ambiguous(count, most)
-        assert track.is_ambiguous(count, 1.01 * most)
-    assert not track.is_ambiguous(len(most_rad), 9.0)
-
-
-def test_reacquisition_is_due_with_few_markers_and_enough_blobs() -> None:
-    track, least = manager(), MIN_PALM_MARKERS
-    assert track.is_reacquisition_due(least, 1, 0.0)
-    assert not track.is_reacquisition_due(least, 0, 0.0)
-    assert not track.is_reacquisition_due(least + 1, 9, VAGUE_SD_RAD)
-    assert track.is_reacquisition_due(least + 1, 0, 1.01 * VAGUE_SD_RAD)
-
-
-@pytest.mark.parametrize(("found", "left", "may"), [(4, 2, True), (4, 1, False), (5, 1, True), (6, 9, False)])
-def test_track_can_be_flipped_when_blobs_are_left(found: int, left: int, may: bool) -> None:
-    assert manager().can_be_flipped(found, left) is may
