@@ -140,7 +140,7 @@ class TopBarController(QObject):
         self._shell.top_bar.lock_overlays(state != "off")
 
     def show_counters(self, counters: LiveCounters) -> None:
-        """Show the frame rate, dropped frames, and the recording time left on the disk."""
+        """Show a low frame rate, dropped frames, and the recording time left on the disk."""
         least = 12 if self._current.source_kind == "practice" else 25  # 15 are drawn, as few as are enough
         few = counters.fps < least
         words = self.tr("{count} fps (below {least})") if few else self.tr("{count} fps")
@@ -150,10 +150,9 @@ class TopBarController(QObject):
             self._lost_before_recording = lost
         if lost > self._lost_before_recording:  # of this recording: what was missed before it is missing nowhere
             words = self.tr("{words}, {lost} lost").format(words=words, lost=lost - self._lost_before_recording)
-        if self._current.source is not None and self._current.source.is_hand_resting():
-            self._shell.top_bar.camera.show_state("warn", self.tr("Movement is being drawn"))
-        else:
-            self._shell.top_bar.camera.show_state("warn" if few else "good", words)
+        elif not few:
+            words = ""
+        self._shell.top_bar.camera.show_state("warn" if few else "good", words)
         minutes = counters.disk_minutes_left
         if minutes < 30.0 or (counters.is_recording and minutes == minutes):  # before, pictures are not in it
             state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"

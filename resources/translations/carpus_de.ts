@@ -884,14 +884,6 @@
         <translation>Anhalten oder fortsetzen</translation>
     </message>
     <message>
-        <source>Hide or show the overlay</source>
-        <translation>Einblendungen im Bild aus- oder einschalten</translation>
-    </message>
-    <message>
-        <source>One value large, or all values</source>
-        <translation>Ein Wert groß, oder alle Werte</translation>
-    </message>
-    <message>
         <source>Next angle as large number</source>
         <translation>Nächster Winkel als große Zahl</translation>
     </message>
@@ -1088,20 +1080,12 @@
         <translation>Schmerzwert</translation>
     </message>
     <message>
-        <source>Speeds or angles</source>
-        <translation>Geschwindigkeiten oder Winkel</translation>
-    </message>
-    <message>
         <source>Whole frame or hand area</source>
         <translation>Ganzes Bild oder nur die Hand</translation>
     </message>
     <message>
         <source>Open and close the patient’s view</source>
         <translation>Patientenansicht öffnen und schließen</translation>
-    </message>
-    <message>
-        <source>One finger from the side</source>
-        <translation>Ein Finger von der Seite</translation>
     </message>
     <message>
         <source>Undo the last marker</source>
@@ -5324,10 +5308,6 @@
         <translation>Wird aufgeholt: noch {seconds} s</translation>
     </message>
     <message>
-        <source>Side · {finger}</source>
-        <translation>Seite · {finger}</translation>
-    </message>
-    <message>
         <source>{time} of {whole}</source>
         <translation>{time} von {whole}</translation>
     </message>
@@ -7860,14 +7840,6 @@
         <source>Camera image</source>
         <translation>Kamerabild</translation>
     </message>
-    <message>
-        <source>Hand area ×{scale}</source>
-        <translation>Handbereich ×{scale}</translation>
-    </message>
-    <message>
-        <source>Whole frame</source>
-        <translation>Ganzes Bild</translation>
-    </message>
 </context>
 <context>
     <name>GuidancePanel</name>
@@ -8197,14 +8169,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Kurven der letzten zehn Sekunden</translation>
     </message>
     <message>
-        <source>Turning</source>
-        <translation>Rotation</translation>
-    </message>
-    <message>
-        <source>Moving</source>
-        <translation>Tempo</translation>
-    </message>
-    <message>
         <source>no value</source>
         <translation>kein Wert</translation>
     </message>
@@ -8281,42 +8245,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>LivePathChart</name>
-    <message>
-        <source>Path of the wrist</source>
-        <translation>Weg des Handgelenks</translation>
-    </message>
-    <message>
-        <source>15 mm</source>
-        <translation>15 mm</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, last 10 s</source>
-        <translation>Weg des Handgelenks, letzte 10 s</translation>
-    </message>
-    <message>
-        <source>{span} × {span} mm, fixed</source>
-        <translation>{span} × {span} mm, fest</translation>
-    </message>
-    <message>
-        <source> · cross: where the wrist turns; it must stay in the ring</source>
-        <translation> · Kreuz: Drehpunkt des Handgelenks; er muss im Ring bleiben</translation>
-    </message>
-    <message>
-        <source>forearm moved ({distance})</source>
-        <translation>Unterarm bewegt ({distance})</translation>
-    </message>
-    <message>
-        <source>forearm still ({distance})</source>
-        <translation>Unterarm ruhig ({distance})</translation>
-    </message>
-</context>
-<context>
     <name>LiveScreen</name>
-    <message>
-        <source>Speeds</source>
-        <translation>Geschwindigkeiten</translation>
-    </message>
     <message>
         <source>Patient’s view</source>
         <translation>Patientenansicht</translation>
@@ -8334,16 +8263,20 @@ Umschalt+F8 von der Seite</translation>
         <translation>Warten auf das Kamerabild</translation>
     </message>
     <message>
-        <source>Angles</source>
-        <translation>Winkel</translation>
-    </message>
-    <message>
         <source>No image</source>
         <translation>Kein Bild</translation>
     </message>
     <message>
         <source>Plug the camera in again</source>
         <translation>Schließen Sie die Kamera wieder an</translation>
+    </message>
+    <message>
+        <source>Movement is being drawn</source>
+        <translation>Bewegung wird gezeichnet</translation>
+    </message>
+    <message>
+        <source>Recording can start in a moment</source>
+        <translation>Die Aufnahme kann gleich beginnen</translation>
     </message>
     <message>
         <source>Starts in {seconds}</source>
@@ -9021,10 +8954,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>of {asked}</source>
         <translation>von {asked}</translation>
-    </message>
-    <message>
-        <source>Speed</source>
-        <translation>Tempo</translation>
     </message>
     <message>
         <source>Best today</source>
@@ -10996,10 +10925,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>{words}, {lost} lost</source>
         <translation>{words}, {lost} verloren</translation>
-    </message>
-    <message>
-        <source>Movement is being drawn</source>
-        <translation>Bewegung wird gezeichnet</translation>
     </message>
     <message>
         <source>{time} of disk left</source>

@@ -884,14 +884,6 @@
         <translation>Pausa o ripresa</translation>
     </message>
     <message>
-        <source>Hide or show the overlay</source>
-        <translation>Nascondi o mostra i segni sull’immagine</translation>
-    </message>
-    <message>
-        <source>One value large, or all values</source>
-        <translation>Un valore in grande, o tutti</translation>
-    </message>
-    <message>
         <source>Next angle as large number</source>
         <translation>Angolo seguente come numero grande</translation>
     </message>
@@ -1088,20 +1080,12 @@
         <translation>Punteggio del dolore</translation>
     </message>
     <message>
-        <source>Speeds or angles</source>
-        <translation>Velocità o angoli</translation>
-    </message>
-    <message>
         <source>Whole frame or hand area</source>
         <translation>Immagine intera o area della mano</translation>
     </message>
     <message>
         <source>Open and close the patient’s view</source>
         <translation>Apri e chiudi la vista del paziente</translation>
-    </message>
-    <message>
-        <source>One finger from the side</source>
-        <translation>Un dito di lato</translation>
     </message>
     <message>
         <source>Undo the last marker</source>
@@ -5324,10 +5308,6 @@
         <translation>Recupero: ancora {seconds} s</translation>
     </message>
     <message>
-        <source>Side · {finger}</source>
-        <translation>Di lato · {finger}</translation>
-    </message>
-    <message>
         <source>{time} of {whole}</source>
         <translation>{time} di {whole}</translation>
     </message>
@@ -7860,14 +7840,6 @@
         <source>Camera image</source>
         <translation>Immagine della telecamera</translation>
     </message>
-    <message>
-        <source>Hand area ×{scale}</source>
-        <translation>Mano ×{scale}</translation>
-    </message>
-    <message>
-        <source>Whole frame</source>
-        <translation>Immagine intera</translation>
-    </message>
 </context>
 <context>
     <name>GuidancePanel</name>
@@ -8197,14 +8169,6 @@ Maiusc+F8 di lato</translation>
         <translation>Curve degli ultimi dieci secondi</translation>
     </message>
     <message>
-        <source>Turning</source>
-        <translation>Rotazione</translation>
-    </message>
-    <message>
-        <source>Moving</source>
-        <translation>Moto</translation>
-    </message>
-    <message>
         <source>no value</source>
         <translation>nessun valore</translation>
     </message>
@@ -8281,42 +8245,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>LivePathChart</name>
-    <message>
-        <source>Path of the wrist</source>
-        <translation>Percorso del polso</translation>
-    </message>
-    <message>
-        <source>15 mm</source>
-        <translation>15 mm</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, last 10 s</source>
-        <translation>Percorso del polso, ultimi 10 s</translation>
-    </message>
-    <message>
-        <source>{span} × {span} mm, fixed</source>
-        <translation>{span} × {span} mm, fisso</translation>
-    </message>
-    <message>
-        <source> · cross: where the wrist turns; it must stay in the ring</source>
-        <translation> · croce: centro di rotazione del polso; deve restare nell’anello</translation>
-    </message>
-    <message>
-        <source>forearm moved ({distance})</source>
-        <translation>avambraccio spostato ({distance})</translation>
-    </message>
-    <message>
-        <source>forearm still ({distance})</source>
-        <translation>avambraccio fermo ({distance})</translation>
-    </message>
-</context>
-<context>
     <name>LiveScreen</name>
-    <message>
-        <source>Speeds</source>
-        <translation>Velocità</translation>
-    </message>
     <message>
         <source>Patient’s view</source>
         <translation>Vista del paziente</translation>
@@ -8334,16 +8263,20 @@ Maiusc+F8 di lato</translation>
         <translation>In attesa dell’immagine</translation>
     </message>
     <message>
-        <source>Angles</source>
-        <translation>Angoli</translation>
-    </message>
-    <message>
         <source>No image</source>
         <translation>Nessuna immagine</translation>
     </message>
     <message>
         <source>Plug the camera in again</source>
         <translation>Ricollegare la telecamera</translation>
+    </message>
+    <message>
+        <source>Movement is being drawn</source>
+        <translation>Movimento in disegno</translation>
+    </message>
+    <message>
+        <source>Recording can start in a moment</source>
+        <translation>La registrazione può iniziare tra un attimo</translation>
     </message>
     <message>
         <source>Starts in {seconds}</source>
@@ -9021,10 +8954,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>of {asked}</source>
         <translation>di {asked}</translation>
-    </message>
-    <message>
-        <source>Speed</source>
-        <translation>Velocità</translation>
     </message>
     <message>
         <source>Best today</source>
@@ -10996,10 +10925,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>{words}, {lost} lost</source>
         <translation>{words}, {lost} perse</translation>
-    </message>
-    <message>
-        <source>Movement is being drawn</source>
-        <translation>Movimento in disegno</translation>
     </message>
     <message>
         <source>{time} of disk left</source>

@@ -134,11 +134,14 @@ def test_whole_journey_by_mouse(
     click(qtbot, journey.markers.screen.primary_button)
     at(qtbot, desktop.controller, "live")
     assert desktop.shell.banner.text == f"Simulated hand: this is not {name}, and does not count."
-    source = journey.current.source
-    journey.current.source = replace(source, is_hand_resting=lambda: True)
-    wait(qtbot, lambda: "drawn" in desktop.shell.top_bar.camera.text())
+    live = journey.live.screen
+    wait(qtbot, lambda: not live.recording.is_hand_resting())
+    can_move, live.recording.is_hand_resting = live.recording.is_hand_resting, lambda: True
+    wait(qtbot, lambda: "drawn" in live.controls.light_view.status_light.state)
     assert not journey.messages.is_busy, "a card would take Space from the recording"
-    journey.current.source = source
+    click(qtbot, live.controls.main_button)
+    assert live.recording.state == "off", "a still hand is not recorded"
+    live.recording.is_hand_resting = can_move
     click(qtbot, journey.live.screen.controls.main_button)
     wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
     wait(qtbot, lambda: desktop.shell.top_bar.recording_pill.state == "recording")

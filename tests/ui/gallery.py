@@ -413,11 +413,9 @@ class Gallery(GalleryWindow):
         self.settle()
         if whole_hand:
             bar.show_session("Linden 42", "Right hand · Full fist")
-            screen.frame_overlay.toggle_side()
         return screen
 
     live = partialmethod(_live, hidden=[(16.0, 16.9, "CMC1")])
-    live_large = _then("_live", LiveScreen.toggle_large)
 
     def live_catching_up(self) -> None:
         """Stopped on a busy computer: the newest picture by itself, and how long it takes until all is tracked."""
@@ -429,14 +427,13 @@ class Gallery(GalleryWindow):
         screen.draw()
         screen._show_values()
 
-    live_speeds = _then("_live", LiveScreen.toggle_speeds)
     live_marker_hidden = partialmethod(_live, hidden=[(23.0, 30.0, "CMC1")])
 
     def live_which_spot(self) -> None:
         """On the whole hand, where the picture has least room for it."""
         feed = FakeFeed("fist", 32.0, protocol="hand21")
         with_other_spot(feed, 9, 23.0, taken=True, off_px=(6.0, 20.0))
-        self._live(feed, whole_hand=True).frame_overlay.toggle_side()  # back to the usual view
+        self._live(feed, whole_hand=True)
 
     live_hand_lost = partialmethod(_live, lost=[(23.5, 30.0)])
     live_hand = partialmethod(_live, whole_hand=True)

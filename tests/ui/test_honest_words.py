@@ -37,7 +37,6 @@ from carpus.ui.kit.cells import cell_text
 from carpus.ui.kit.text import StateText, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.builders import build_session_report
-from carpus.ui.screens.live.number_card import speed_words
 from carpus.ui.screens.patients.card import PatientCardView
 from carpus.ui.screens.progress.screen import ProgressScreen
 from carpus.ui.screens.report.screen import default_file_name
@@ -185,8 +184,8 @@ def test_lamp_judges_forearm_by_point_that_wrist_turns_about(moved_mm: float) ->
     for frame in turning(FakeFeed(seconds=20.0).frames[:500], moved_mm):
         history.append([frame])
         seen.append(history.has_forearm_moved())
-    away = np.linalg.norm(history.path_mm(), axis=1)
-    assert np.nanmax(away) > 15.0, "the disc itself leaves the ball"
+    discs_m = np.array([frame.kinematics.position_m for frame in turning(FakeFeed(seconds=20.0).frames[:420], 0.0)])
+    assert np.linalg.norm(discs_m - discs_m[0], axis=1).max() > 0.015, "the disc itself leaves the ball"
     assert not any(seen[:420])
     assert all(seen[440:]) is (moved_mm > 0.0)
 
@@ -304,11 +303,6 @@ def test_change_text_never_claims_no_change() -> None:
     claims = [words for words in said if isinstance(words, str) and "no change " in words.casefold()]
     assert claims
     assert all("no change beyond m" in words.casefold() for words in claims), claims
-
-
-@pytest.mark.parametrize(("speed", "words"), [(2.0, "<\N{NO-BREAK SPACE}10°/s"), (38.0, "38°/s"), (math.nan, "–")])
-def test_still_hand_has_no_speed(speed: float, words: str) -> None:
-    assert speed_words(speed) == words
 
 
 def test_list_s_value_is_of_joint_that_is_trained_and_says_at_least() -> None:

@@ -20,7 +20,6 @@ from carpus.core.session.values import Session
 from carpus.ui.charts.finger_curves import angle_suffix
 from carpus.ui.charts.history import History
 from carpus.ui.kit.theme import Theme
-from carpus.ui.picture.skeleton import side_points_m
 from carpus.ui.screens.live.number_card import NumberCard, Reading
 from carpus.ui.screens.live.repetition_counter import RepetitionCounter
 from carpus.ui.screens.live.status_light import hand_light, hand_map_words
@@ -204,11 +203,11 @@ def test_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
 
 def test_wrist_keeps_its_own_screen(live: Live) -> None:
     screen = live(feed_of()).screen
-    parts = (screen.finger_curves, screen.hand_map, screen.curves, screen.path_view)
-    assert [part.isVisible() for part in parts] == [True, True, False, False]
+    parts = (screen.finger_curves, screen.hand_map, screen.curves)
+    assert [part.isVisible() for part in parts] == [True, True, False]
     screen.open_source(FakeMeasuring(FakeFeed(seconds=8.0)), set_up())
     screen._timer.stop()
-    assert [part.isVisible() for part in parts] == [False, False, True, True]
+    assert [part.isVisible() for part in parts] == [False, False, True]
 
 
 @pytest.mark.parametrize(
@@ -238,16 +237,6 @@ def test_map_says_it_in_one_sentence() -> None:
     sentence = hand_map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
     assert sentence == "Ring fingertip occluded: raise the hand. Occluded joints are not analysed."
     assert "only at times" in hand_map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
-
-
-def test_bent_finger_goes_below_back_of_hand_in_side_view() -> None:
-    straight, bent = (side_points_m(frame_at(time_s), HAND21, 3) for time_s in (OPEN_S, CLOSED_S))
-    assert np.all(np.diff(straight[:, 0]) > 0.0)
-    assert abs(straight[3, 1]) < 0.03
-    assert bent[3, 1] < -0.03
-    assert bent[3, 0] < straight[3, 0]
-    length = [np.linalg.norm(np.diff(points, axis=0), axis=1) for points in (straight, bent)]
-    np.testing.assert_allclose(length[0], length[1], atol=0.004)
 
 
 def test_predicted_frame_supports_no_joint() -> None:

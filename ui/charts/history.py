@@ -38,17 +38,9 @@ HOME_S = 0.5
 FIT_INTERVAL_S = 1.0
 # The wrist's rotation centre is fitted once a second to at most this many poses, spread over all frames.
 FIT_POSES = 600
-_TIME, _ANGLES, _SDS, _STATUS, _POSITION, _SPEEDS, _AXES = (
-    0,
-    slice(1, 4),
-    slice(4, 7),
-    7,
-    slice(8, 11),
-    slice(11, 13),
-    slice(13, 22),
-)
-_POSE = [*range(8, 11), *range(13, 22)]
-_COLUMNS = 22
+_TIME, _ANGLES, _SDS, _STATUS, _POSITION, _AXES = 0, slice(1, 4), slice(4, 7), 7, slice(8, 11), slice(11, 20)
+_POSE = slice(8, 20)
+_COLUMNS = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,25 +176,15 @@ class History:
         """Track status of the newest frame; lost before the first."""
         return TrackStatus(int(self._rows[-1, _STATUS])) if len(self._rows) else TrackStatus.LOST
 
-    @property
-    def speeds(self) -> FloatArray:
-        """Newest linear speed in mm/s and angular speed in degrees per second (2,)."""
-        return self._rows[-1, _SPEEDS] if len(self._rows) else np.full(2, math.nan)
-
     def angle_series(self, column: int) -> Series:
         rows = self._rows
         return Series(
             rows[:, _TIME], rows[:, 1 + column], rows[:, 4 + column], rows[:, _STATUS] == TrackStatus.PREDICTED
         )
 
-    def speed_series(self, column: int) -> Series:
-        """Return linear (0) or angular (1) speed over time, without standard deviation."""
-        rows = self._rows
-        return Series(rows[:, _TIME], rows[:, 11 + column], None, rows[:, _STATUS] == TrackStatus.PREDICTED)
-
     # --- fingers ------------------------------------------------------------------------------------------
-    def angle_block(self, *, speeds: bool = False) -> AngleBlock:
-        """Return all finger angles over the visible time, or their absolute speeds in degrees/s."""
+    def angle_block(self) -> AngleBlock:
+        """Return all finger angles over the visible time."""
         rows, hand, now_s = self._rows, self._fingers, self.end_s
         if not self.has_fingers:
             none = np.empty((0, len(FINGER_ANGLES)))
@@ -211,11 +193,9 @@ class History:
         every = max(1, int(POINT_INTERVAL_S / frame_s + 0.25)) if frame_s > 0.0 else 1
         longest_s = MAX_STEP_S + 2 * (every - 1) * frame_s  # what is left out at both ends of a gap is none
         part = (rows[:, _TIME] >= now_s - VISIBLE_S) & (self._index % every == 0)
-        value, sd = hand.value_deg[part], hand.sd_deg[part]
-        if speeds:
-            value, sd = np.abs(hand.speed_deg_s[part]), np.zeros_like(value)
+        predicted = ~hand.is_measured[part] | self._weights.is_inferred
         return AngleBlock(
-            rows[part, _TIME] - now_s, value, sd, ~hand.is_measured[part] | self._weights.is_inferred, now_s, longest_s
+            rows[part, _TIME] - now_s, hand.value_deg[part], hand.sd_deg[part], predicted, now_s, longest_s
         )
 
     def angle_value(self, index: int) -> tuple[float, float, bool]:
@@ -226,9 +206,6 @@ class History:
         value, sd = float(hand.value_deg[-1, index]), float(hand.sd_deg[-1, index])
         shown = bool(self._has_visible_markers[index]) and self.status == TrackStatus.TRACKED
         return value, sd, shown and math.isfinite(value)
-
-    def angle_speed_deg_s(self, index: int) -> float:
-        return float(self._fingers.speed_deg_s[-1, index]) if len(self._rows) and self.has_fingers else math.nan
 
     def is_inferred(self, index: int) -> bool:
         """Return whether the angle is computed from another joint."""
@@ -252,17 +229,7 @@ class History:
             for name, part in zip(self._protocol.markers, self._visible_fraction.tolist(), strict=True)
         }
 
-    # --- place --------------------------------------------------------------------------------------------
-    def path_mm(self) -> FloatArray:
-        """Return wrist positions (n, 3) from the rest position over the visible time, NaN in gaps."""
-        rows = self._rows[self._rows[:, _TIME] >= self.end_s - VISIBLE_S] if len(self._rows) else self._rows
-        return np.asarray(rows[:, _POSITION] - self._home_mm)
-
-    def axes(self) -> FloatArray:
-        """Return the axes of W2 in W0 as columns (n, 3, 3) over the visible time."""
-        rows = self._rows[self._rows[:, _TIME] >= self.end_s - VISIBLE_S] if len(self._rows) else self._rows
-        return rows[:, _AXES].reshape(-1, 3, 3)
-
+    # --- forearm ------------------------------------------------------------------------------------------
     def _collect_poses(self, rows: FloatArray) -> None:
         """Collect poses for the fit; drop every second one when they become too many."""
         for row in rows:
@@ -279,27 +246,16 @@ class History:
             found = estimate_wrist_centre(1e-3 * poses[:, :3], turned, np.ones(len(poses), dtype=bool))
             self._centre_mm = 1000.0 * found.centre_w2_m
 
-    def home_centre_mm(self) -> FloatArray:
-        """Return the rotation centre at rest (3,), from the rest position of the WRIST marker."""
-        return np.asarray(self._home_rotation @ self._centre_mm)
-
-    def centre_mm(self) -> FloatArray:
-        """Return the present rotation centre (3,), from the rest position of the WRIST marker; NaN if unknown."""
-        if not len(self._rows):
-            return np.full(3, math.nan)
-        row = self._rows[-1]
-        return np.asarray(row[_POSITION] - self._home_mm + row[_AXES].reshape(3, 3) @ self._centre_mm)
-
-    def forearm_offset_mm(self) -> float:
-        """Return how far the forearm is from its rest position.
-
-        Measured at the wrist's rotation centre, because the marker above it moves with every flexion.
-        """
-        return float(np.linalg.norm(self.centre_mm() - self.home_centre_mm()))
-
     def has_forearm_moved(self) -> bool:
-        distance = self.forearm_offset_mm()
-        return math.isfinite(distance) and distance > STILL_RADIUS_MM
+        """Return whether the wrist's rotation centre has left its rest position.
+
+        The marker above it moves with every flexion.
+        """
+        if not len(self._rows):
+            return False
+        row = self._rows[-1]
+        turned = (row[_AXES].reshape(3, 3) - self._home_rotation) @ self._centre_mm
+        return bool(np.linalg.norm(row[_POSITION] - self._home_mm + turned) > STILL_RADIUS_MM)
 
 
 @dataclass(frozen=True, slots=True)
@@ -308,7 +264,6 @@ class _FingerSamples:
 
     value_deg: FloatArray
     sd_deg: FloatArray
-    speed_deg_s: FloatArray
     is_measured: BoolArray
     is_visible: BoolArray
 
@@ -317,11 +272,9 @@ class _FingerSamples:
         joints = len(frames[-1].kinematics.joint_angles_rad) if frames else 0
         if not joints:
             none = np.empty((len(frames), 0))
-            return _FingerSamples(none, none, none, none.astype(bool), none.astype(bool))
+            return _FingerSamples(none, none, none.astype(bool), none.astype(bool))
         _, value, sd, measured, seen = estimate_finger_angles(protocol, frames)
-        weight = angle_weights(joint_names(protocol, joints)).weight
-        speed = np.degrees(np.array([frame.kinematics.joint_velocity_rad_s for frame in frames]) @ weight.T)
-        return _FingerSamples(value, sd, np.where(np.isfinite(value), speed, math.nan), measured, seen)
+        return _FingerSamples(value, sd, measured, seen)
 
     def append(self, more: _FingerSamples) -> _FingerSamples:
         return _FingerSamples(*(np.concatenate((getattr(self, f.name), getattr(more, f.name))) for f in fields(self)))
@@ -337,9 +290,7 @@ def _to_row(frame: TrackedFrame) -> FloatArray:
     row[_SDS] = np.degrees(frame.kinematics.angles_sd_rad)
     row[_STATUS] = frame.status
     row[_POSITION] = 1000.0 * frame.kinematics.position_m
-    row[11] = 1000.0 * math.hypot(*frame.kinematics.velocity_m_s)
-    row[12] = math.degrees(math.hypot(*frame.kinematics.angular_velocity_rad_s))
     row[_AXES] = rotation_in_w0(frame.kinematics.rotation_w2_w0, frame.kinematics.w0_turn_rad).ravel()
     if frame.status == TrackStatus.LOST:
-        row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_SPEEDS] = row[_AXES] = math.nan
+        row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_AXES] = math.nan
     return row

@@ -1,4 +1,4 @@
-"""Live chart of the three wrist angles, or of both speeds, over ten seconds."""
+"""Live chart of the three wrist angles over ten seconds."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise, get_exercise
 from carpus.core.model.hand.forearm_rotation import axis_limits_deg
-from carpus.core.model.rounding import round_half_away
 from carpus.ui.charts import axes
-from carpus.ui.charts.axes import Panel, Scale
+from carpus.ui.charts.axes import Panel
 from carpus.ui.charts.chart import LINES, AxisLabel, Chart, Hatching, PaintedLayer, fit_font, scale_labels
 from carpus.ui.charts.history import VISIBLE_S, History
 from carpus.ui.charts.series import Curve
@@ -25,7 +24,6 @@ from carpus.ui.words import terms
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 132, 112, 24, 28, 30
 # Room for the dot of the newest value, which lies half outside the panel.
 DOT_PX = 7
-SPEED_TOP_MM_S, SPEED_TOP_DEG_S = 400.0, 400.0
 # Within this of zero the direction's name stays, so that it does not flicker.
 ZERO_BAND_DEG = 0.5
 
@@ -40,7 +38,6 @@ class LiveCurves(Chart):
         self._history = history
         self._exercise = get_exercise("")
         self._targets_deg = (math.nan, math.nan)
-        self._speeds = False
         self._single = False
         self._values: list[tuple[str, str, str]] = []
         self._last_values = [1.0, 1.0, 1.0]
@@ -53,31 +50,14 @@ class LiveCurves(Chart):
         self._targets_deg = (target_positive_deg, target_negative_deg)
         self.refresh()
 
-    def show_speeds(self, on: bool) -> None:
-        """Show linear and angular speed, or the angles."""
-        if on != self._speeds:
-            self._speeds = on
-            self.update_values()
-            self.refresh()
-
     def show_single(self, on: bool) -> None:
         """Show the trained angle alone, for large text."""
         if on != self._single:
             self._single = on
             self.refresh()
 
-    @property
-    def is_showing_speeds(self) -> bool:
-        return self._speeds
-
     def update_values(self) -> None:
         """Refresh the values at the right; at most ten times a second."""
-        if self._speeds:
-            linear, angular = self._history.speeds if not self._history.is_waiting else (math.nan, math.nan)
-            words = (self.tr("Turning"), numbers.format_speed(angular), ""), (self.tr("Moving"), _mm_s(linear), "")
-            self._values = list(words)
-            self._update_values_layer()
-            return
         angles, sds = self._history.angles_deg, self._history.sds_deg
         self._values = []
         for k in range(3):
@@ -90,9 +70,6 @@ class LiveCurves(Chart):
             self._values.append(
                 (name, numbers.format_degrees(angles[k]) if known else "", numbers.format_sd(sds[k]) if known else "")
             )
-        self._update_values_layer()
-
-    def _update_values_layer(self) -> None:
         if self._values_layer is not None:
             self._values_layer.update()
 
@@ -102,32 +79,18 @@ class LiveCurves(Chart):
         scale = self._theme.text_scale
         left, right = LEFT_PX * scale, RIGHT_PX * scale
         width = self.width() - left - right
-        order: list[tuple[int, Scale, float]] = []
-        if self._speeds:
-            order = [
-                (1, axes.positive_scale(SPEED_TOP_DEG_S, 100.0, "°/s", self.tr("Turning")), 1.0),
-                (0, axes.positive_scale(SPEED_TOP_MM_S, 100.0, " mm/s", self.tr("Moving")), 1.0),
-            ][: 1 if self._single else 2]
-        else:
-            main = FLEXION if self._exercise.angle is None else self._exercise.angle
-            columns = [main, *(k for k in (FLEXION, 0, PRONOSUPINATION) if k != main)]
-            for k in columns[: 1 if self._single else 3]:
-                limits, names = axis_limits_deg(k, self._exercise), terms.direction_names(k, self._exercise)
-                scale_k = axes.angle_scale(*limits, *names, is_sparse=k != main)
-                order.append((k, scale_k, 2.0 if k == main else 1.0))
-        between = BETWEEN_PX * scale
-        height = self.height() - (TOP_PX + BOTTOM_PX) * scale - between * (len(order) - 1)
-        unit = height / sum(share for _, _, share in order)
-        top = TOP_PX * scale
+        main = FLEXION if self._exercise.angle is None else self._exercise.angle
+        columns = [main, *(k for k in (FLEXION, 0, PRONOSUPINATION) if k != main)][: 1 if self._single else 3]
+        between, top = BETWEEN_PX * scale, TOP_PX * scale
+        height = self.height() - (TOP_PX + BOTTOM_PX) * scale - between * (len(columns) - 1)
+        unit = height / (len(columns) + 1)
         out = []
-        for column, panel_scale, share in order:
-            out.append(
-                (
-                    Panel(axes.align_to_pixels(QRectF(left, top, width, unit * share)), panel_scale, -VISIBLE_S, 0.0),
-                    column,
-                )
-            )
-            top += unit * share + between
+        for k in columns:
+            limits, names = axis_limits_deg(k, self._exercise), terms.direction_names(k, self._exercise)
+            box = QRectF(left, top, width, unit * (2 if k == main else 1))
+            scale_k = axes.angle_scale(*limits, *names, is_sparse=k != main)
+            out.append((Panel(axes.align_to_pixels(box), scale_k, -VISIBLE_S, 0.0), k))
+            top += box.height() + between
         return out
 
     # --- what is in it ------------------------------------------------------------------------------------
@@ -136,10 +99,9 @@ class LiveCurves(Chart):
         self._curves = []
         for place, (panel, column) in enumerate(placed):
             own = self.add_plot(panel)
-            if not self._speeds:
-                add_limits(own, self._exercise, column, is_first=place == 0)
+            add_limits(own, self._exercise, column, is_first=place == 0)
             own.add_grid()
-            if not self._speeds and place == 0:
+            if place == 0:
                 add_targets(own, *self._targets_deg)
             self.add_axis(own, "left", scale_labels(panel), 12)
             hatching = own.add_to_layer(Hatching(own, ()), LINES)
@@ -160,11 +122,8 @@ class LiveCurves(Chart):
         if not self.plots or not self.isVisible():
             return
         for own, (curves, hatching, column) in zip(self.plots, self._curves, strict=True):
-            series = (history.speed_series(column) if self._speeds else history.angle_series(column)).shift_time(
-                history.end_s
-            )
-            token = "curve_c" if self._speeds else CURVE_TOKENS[column]
-            curves.set_curves([Curve(series, token)])
+            series = history.angle_series(column).shift_time(history.end_s)
+            curves.set_curves([Curve(series, CURVE_TOKENS[column])])
             panel = own.panel
             is_late = history.is_waiting and len(series.value) > 0
             if is_late or hatching.stretches:
@@ -175,15 +134,14 @@ class LiveCurves(Chart):
     def _paint_dots(self, painter: QPainter) -> None:
         history = self._history
         for own, (_, _, column) in zip(self.plots, self._curves, strict=True):
-            value = float(history.speeds[column] if self._speeds else history.angles_deg[column])
+            value = float(history.angles_deg[column])
             if not history.is_waiting and math.isfinite(value):
-                token = "curve_c" if self._speeds else CURVE_TOKENS[column]
-                paint_dot(painter, self.plot_style, own.panel.point(0.0, value), token, 5.0)
+                paint_dot(painter, self.plot_style, own.panel.point(0.0, value), CURVE_TOKENS[column], 5.0)
 
     def _paint_values(self, painter: QPainter) -> None:
-        for (panel, column), place in zip(self.panels(), range(3), strict=False):
+        for panel, column in self.panels():
             if self._values:
-                self._paint_value(painter, panel, *self._values[place if self._speeds else column])
+                self._paint_value(painter, panel, *self._values[column])
 
     def _paint_value(self, painter: QPainter, panel: Panel, name: str, value: str, spread: str) -> None:
         theme, scale = self._theme, self._theme.text_scale
@@ -195,7 +153,3 @@ class LiveCurves(Chart):
         draw_text(painter, at, value, face, theme.color("text"))
         at += QPointF(QFontMetricsF(face).horizontalAdvance(value) + 5 * scale, 0.0)
         draw_text(painter, at, spread, font(14 * scale, MEDIUM), theme.color("text2"))
-
-
-def _mm_s(value: float) -> str:
-    return f"{round_half_away(value)}{numbers.NARROW_GAP}mm/s" if math.isfinite(value) else numbers.UNKNOWN

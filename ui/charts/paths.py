@@ -12,27 +12,21 @@ from pyqtgraph.functions import arrayToQPolygonF
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from carpus.core.model.hand.exercises import STILL_RADIUS_MM
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray, Side
 from carpus.core.results.motion_curves import MotionCurves
 from carpus.ui.charts.axes import Panel, Scale, align_to_pixels
-from carpus.ui.charts.chart import CURVES, FRONT, GRID, LINES, Chart, PaintedLayer, PixelItem, Plot
-from carpus.ui.charts.history import VISIBLE_S, History
+from carpus.ui.charts.chart import CURVES, GRID, LINES, Chart, PixelItem, Plot
 from carpus.ui.charts.series import find_runs
-from carpus.ui.charts.style import RIGHT_MIDDLE, PlotStyle, dash_pen, draw_text, paint_dot
+from carpus.ui.charts.style import PlotStyle, draw_text, paint_dot
 from carpus.ui.kit import numbers
-from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD, font
-from carpus.ui.kit.text import paint_status
+from carpus.ui.kit.fonts import SEMIBOLD, font
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.words.finger_angles import FINGERS
 from carpus.ui.words.marker_words import finger_name
 
 EDGE_PX, HEAD_PX, BETWEEN_PX = 20, 34, 14
-# Side of the live squares, for exercises with a still forearm and for all others.
-STILL_SPAN_MM, FREE_SPAN_MM = 60.0, 600.0
-LIVE_AXIS_FRACTION = 0.22
 BAR_LENGTHS_MM = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
 # The view is never narrower, also of a still hand.
 MIN_SPAN_MM = 40.0
@@ -80,17 +74,10 @@ class PathPlot:
     side: Side
     low_mm: FloatArray
     high_mm: FloatArray
-    margin: float = VIEW_MARGIN
-    # Time before the present position that is drawn in full strength.
-    recent_s: float = RECENT_S
-    # Length of the hand's axes at the present position, as a share of the panel's height.
-    axis_fraction: float = CURRENT_AXIS_FRACTION
-    # False for the live view, which has no axes along the path.
-    is_whole: bool = True
 
     def per_mm(self, box: QRectF) -> float:
         """Return painter units per millimetre, the same in all three planes."""
-        needs = np.maximum(self.margin * (self.high_mm - self.low_mm), MIN_SPAN_MM)
+        needs = np.maximum(VIEW_MARGIN * (self.high_mm - self.low_mm), MIN_SPAN_MM)
         fits = [(box.width() / needs[ACROSS[plane]], box.height() / needs[UP[plane]]) for plane in range(3)]
         return float(min(min(fit) for fit in fits))
 
@@ -168,7 +155,7 @@ class PlaneItem(PixelItem):
     def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         if self.plot_data is None:
             return
-        if self.plot_data.axes is not None and self.plot_data.is_whole:
+        if self.plot_data.axes is not None:
             self._paint_axes_along(painter, style, panel, self.plot_data.axes)
         occupied = [*self.occupied]
         row = self._current_row()
@@ -182,14 +169,8 @@ class PlaneItem(PixelItem):
         if row >= 0 and self.plot_data.axes is not None:
             place = self._project_positions(panel, self.plot_data.paths[0].position_mm[row : row + 1])
             at = QPointF(float(place[0][0]), float(place[1][0]))
-            self._paint_axes(
-                painter,
-                style,
-                at,
-                self.plot_data.axes[row],
-                panel.box.height() * self.plot_data.axis_fraction,
-                lettered=True,
-            )
+            length = panel.box.height() * CURRENT_AXIS_FRACTION
+            self._paint_axes(painter, style, at, self.plot_data.axes[row], length, lettered=True)
 
     def _current_row(self) -> int:
         assert self.plot_data is not None
@@ -223,7 +204,7 @@ class PlaneItem(PixelItem):
                     painter.setPen(pen)
                     painter.drawPolyline(arrayToQPolygonF(x[begin:end], y[begin:end]))
         if row >= 0:
-            recent = int(np.searchsorted(self.plot_data.time_s, self.plot_data.time_s[row] - self.plot_data.recent_s))
+            recent = int(np.searchsorted(self.plot_data.time_s, self.plot_data.time_s[row] - RECENT_S))
             painter.setPen(QPen(style.color(path.token), 2.0 * style.line_width))
             for first, last in find_runs(known[recent : row + 1]):
                 painter.drawPolyline(
@@ -300,42 +281,6 @@ class PlaneItem(PixelItem):
                 draw_text(painter, box, AXIS_LETTERS[axis], face, color, middle)
 
 
-class RotationCentreItem(PixelItem):
-    """Ring in which the wrist's rotation centre must stay, and a cross where it is."""
-
-    def __init__(self, plot: Plot, plane: int, words: str) -> None:
-        super().__init__(plot, is_cached=False)
-        self._plane, self._words = plane, words
-        self._centre: tuple[FloatArray, FloatArray, float] | None = None
-
-    def show_centre(self, home_mm: FloatArray, now_mm: FloatArray, per_mm: float) -> None:
-        self._centre = home_mm, now_mm, per_mm
-        self.update()
-
-    def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        if self._centre is None or not np.isfinite(self._centre[0] + self._centre[1]).all():
-            return
-        home, now = (
-            panel.box.center() + _project_point(self._plane, place) * self._centre[2] for place in self._centre[:2]
-        )
-        radius = STILL_RADIUS_MM * self._centre[2]
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(dash_pen(style.color("border"), style.unit, (4, 3)))
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawEllipse(home, radius, radius)
-        painter.setPen(QPen(style.color("text"), 1.5 * style.unit))
-        for dx, dy in ((4.0, 0.0), (0.0, 4.0)):
-            arm = QPointF(dx * style.unit, dy * style.unit)
-            painter.drawLine(now - arm, now + arm)
-        if self._words:
-            at = QPointF(home.x() + 6, home.y() - radius - 4)
-            draw_text(painter, at, self._words, style.label_font, style.color("text2"))
-
-
-def _project_point(plane: int, place: FloatArray) -> QPointF:
-    return QPointF(ACROSS_SIGN[plane] * float(place[ACROSS[plane]]), -float(place[UP[plane]]))
-
-
 def has_title(style: PlotStyle, panel: Panel) -> bool:
     """Return whether the panel is high enough for a title below it."""
     return panel.box.height() > (MIN_LINES_WITH_TITLE - 2.0) * _line_height(style) - 1.0
@@ -345,22 +290,7 @@ def _line_height(style: PlotStyle) -> float:
     return QFontMetricsF(style.label_font).height() + 4 * style.unit
 
 
-class PlanesChart(Chart):
-    """Three squares, each with a frame and a cross through its middle."""
-
-    def add_planes(self, panels: Sequence[Panel]) -> list[PlaneItem]:
-        out = []
-        for plane, panel in enumerate(panels):
-            plot = self.add_plot(panel)
-            plot.setBorder(plot.pen("line", self.plot_style.grid_width / self.plot_style.unit))
-            for angle in (0, 90):
-                line = pg.InfiniteLine(0.0, angle, plot.pen("line", self.plot_style.grid_width / self.plot_style.unit))
-                plot.add_to_layer(line, GRID)
-            out.append(plot.add_to_layer(PlaneItem(plot, plane), CURVES))
-        return out
-
-
-class PathsChart(PlanesChart):
+class PathsChart(Chart):
     """Card with the paths of a session up to the player's time; on paper whole and without title."""
 
     def __init__(self, theme: Theme) -> None:
@@ -395,10 +325,16 @@ class PathsChart(PlanesChart):
         if not self.is_printing:
             scale = self._theme.text_scale
             self.add_text(self._title, font(14 * scale, SEMIBOLD), "text", (0.0, 0.5)).setPos(EDGE_PX, 19 * scale)
-        panels = self.panels()
-        self._planes = self.add_planes(panels)
-        for panel, item, (up, across, title, letters) in zip(panels, self._planes, plane_names(ways.side), strict=True):
-            box = panel.box
+        for plane, (panel, (up, across, title, letters)) in enumerate(
+            zip(self.panels(), plane_names(ways.side), strict=True)
+        ):
+            plot, box = self.add_plot(panel), panel.box
+            pen = plot.pen("line", look.grid_width / look.unit)
+            plot.setBorder(pen)
+            for angle in (0, 90):
+                plot.add_to_layer(pg.InfiniteLine(0.0, angle, pen), GRID)
+            item = plot.add_to_layer(PlaneItem(plot, plane), CURVES)
+            self._planes.append(item)
             self.add_text(f"{letters} · {up}", look.label_font, "text2", (0.0, 0.5)).setPos(
                 box.left(), box.top() - line / 2
             )
@@ -420,108 +356,6 @@ class PathsChart(PlanesChart):
         plot.add_line([start, start + length * plot_data.per_mm(box) * across], [y, y], "border", 1.5, layer=LINES)
         words = self.add_text(f"{format_rounded(length)}{numbers.NARROW_GAP}mm", look.label_font, "text2", (0.0, 1.0))
         words.setPos(box.left() + 8 * unit, box.bottom() - 10 * unit)
-
-
-class LivePathChart(PlanesChart):
-    """Live path of the wrist and its axes in three fixed squares (wrist paper, figures 3 and 5)."""
-
-    default_px, min_px = (520, 242), (380, 180)
-
-    def __init__(self, theme: Theme, history: History) -> None:
-        super().__init__(theme)
-        self._history = history
-        self._side: Side = "right"
-        self._pure = True
-        self._planes: list[PlaneItem] = []
-        self._centre_items: list[RotationCentreItem] = []
-        self.setAccessibleName(self.tr("Path of the wrist"))
-
-    def set_exercise(self, side: Side, pure_wrist: bool) -> None:
-        self._side, self._pure = side, pure_wrist
-        self.refresh()
-
-    # --- places -------------------------------------------------------------------------------------------
-    def _head(self) -> QRectF:
-        return QRectF(20, 12, self.width() - 40, 24 * self._theme.text_scale)
-
-    def panels(self) -> list[Panel]:
-        """Return the squares of the three planes, in millimetres from the forearm's rest position."""
-        scale = self._theme.text_scale
-        top = self._head().bottom() + 6
-        size = min((self.width() - 40 - 2 * 15) / 3, self.height() - top - 46 * scale)
-        gap = (self.width() - 40 - 3 * size) / 2
-        boxes = [align_to_pixels(QRectF(20 + plane * (size + gap), top, size, size)) for plane in range(3)]
-        return [Panel(box, Scale(-1.0, 1.0, (), ()), -1.0, 1.0) for box in boxes]
-
-    def _span_mm(self) -> float:
-        return STILL_SPAN_MM if self._pure else FREE_SPAN_MM
-
-    # --- what is in it ------------------------------------------------------------------------------------
-    def build(self) -> None:
-        look, scale = self.plot_style, self._theme.text_scale
-        self.add_text(self.tr("Path of the wrist, last 10 s"), font(14 * scale, SEMIBOLD), "text", (0.0, 0.5)).setPos(
-            20, self._head().center().y()
-        )
-        self._planes = self.add_planes(self.panels())
-        self._centre_items = []
-        for plane, (item, (up, across, title, letters)) in enumerate(
-            zip(self._planes, plane_names(self._side), strict=True)
-        ):
-            box, metrics = item.plot.panel.box, QFontMetricsF(look.label_font)
-            fits = metrics.horizontalAdvance(up) + metrics.horizontalAdvance(across) + 24 <= box.width()
-            height = metrics.height()
-            over = box.top() + 4 * scale
-            beside = over if fits else box.bottom() - 4 * scale - height  # below, the ring may lie
-            for words, anchor, x, y in ((up, 0.0, box.left() + 8, over), (across, 1.0, box.right() - 8, beside)):
-                self.add_text(words, look.label_font, "text2", (anchor, 0.0)).setPos(x, y)
-                wide = metrics.horizontalAdvance(words)
-                item.occupied.append(QRectF(x - anchor * wide - box.left(), y - box.top(), wide, height))
-            self.add_text(title, look.end_label_font).setPos(box.left(), box.bottom() + 4)
-            self.add_text(letters, look.end_label_font, "text2", (1.0, 0.0)).setPos(box.right(), box.bottom() + 4)
-            if self._pure:
-                ball = item.plot.add_to_layer(
-                    RotationCentreItem(item.plot, plane, self.tr("15 mm") if plane == 0 else ""), FRONT
-                )
-                self._centre_items.append(ball)
-        words = self.tr("{span} × {span} mm, fixed").format(span=format_rounded(self._span_mm()))
-        if self._pure:
-            words += self.tr(" · cross: where the wrist turns; it must stay in the ring")
-        at = self._planes[0].plot.panel.box.bottom() + 26 * scale
-        self.add_text(words, font(12 * scale, REGULAR), "text2").setPos(20, at)
-        self._forearm_layer = PaintedLayer(self, self._head(), self._paint_forearm)
-        self.draw()
-
-    def draw(self) -> None:
-        """Redraw the path."""
-        if not self.plots or not self.isVisible():
-            return
-        history = self._history
-        way, turned, half = history.path_mm(), history.axes(), np.full(3, self._span_mm() / 2)
-        line = PathLine(way, "accent", "", np.ones(len(way), dtype=bool))
-        time_s = np.linspace(-VISIBLE_S, 0.0, len(way))
-        ways = PathPlot(
-            time_s, [line], turned, self._side, -half, half, 1.0, VISIBLE_S / 2, LIVE_AXIS_FRACTION, is_whole=False
-        )
-        for item in self._planes:
-            item.show_paths(ways if len(way) else None, 0.0)
-        for ball in self._centre_items:
-            ball.show_centre(history.home_centre_mm(), history.centre_mm(), ways.per_mm(ball.plot.panel.box))
-        self._forearm_layer.update()
-
-    def _paint_forearm(self, painter: QPainter) -> None:
-        head, distance = self._head(), self._history.forearm_offset_mm()
-        if not self._pure or not math.isfinite(distance):
-            return
-        moved = distance > STILL_RADIUS_MM
-        pattern = self.tr("forearm moved ({distance})") if moved else self.tr("forearm still ({distance})")
-        words = pattern.format(distance=numbers.format_millimetres(distance))
-        scale = self._theme.text_scale
-        face = font(12 * scale, MEDIUM)
-        draw_text(painter, head, words, face, self._theme.color("warn" if moved else "text2"), RIGHT_MIDDLE)
-        size = 16 * scale
-        left = head.right() - QFontMetricsF(face).horizontalAdvance(words) - size - 6
-        box = QRectF(left, head.center().y() - size / 2, size, size)
-        paint_status(painter, self._theme, "warn" if moved else "good", box)
 
 
 def paint_paths(painter: QPainter, style: PlotStyle, plot: PathPlot, box: QRectF) -> None:

@@ -10,10 +10,8 @@ from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPaintEvent, Q
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.model.types import ByteImage, FloatArray
-from carpus.ui.kit import numbers
 from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.picture.convert import to_qimage
-from carpus.ui.picture.photo import paint_label
 
 Overlay = Callable[[QPainter, "FrameView"], None]
 PALM_AREA_FACTOR, HAND_AREA_FACTOR = 2.0, 1.3
@@ -63,8 +61,9 @@ class FrameView(QWidget):
             low, high = np.nanmin(pixel, axis=0), np.nanmax(pixel, axis=0)
             width, height = (high - low) * area_factor + 40.0
             center = (low + high) / 2
-            # The fingers lie beyond the markers of the palm: the area reaches further towards the top.
-            above = 0.6 if area_factor == PALM_AREA_FACTOR else 0.5
+            above = 0.5
+            if area_factor == PALM_AREA_FACTOR:  # the fingers lie beyond the palm's markers, the thumb beside them
+                above, width = 0.6, 1.3 * width
             self._shown_area = QRectF(center[0] - width / 2, center[1] - height * above, width, height)
         self._update_transform()
 
@@ -170,8 +169,3 @@ class FrameView(QWidget):
             painter.save()
             self.overlay(painter, self)
             painter.restore()
-
-    def paint_area_label(self, painter: QPainter) -> None:
-        """Draw the zoom of the hand area, or that the whole frame is shown."""
-        words = self.tr("Hand area ×{scale}").format(scale=numbers.format_fixed(self._scale, 1))
-        paint_label(painter, self._theme, self.tr("Whole frame") if self._is_whole else words, 12, 12)

@@ -47,11 +47,10 @@ class RecordingControls(Surface):
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         recording.changed.connect(self.refresh)
 
-    def fit(self, *, tight: bool, large: bool) -> None:
-        """Hide hints with large text on a small screen, and all buttons but one in the large view."""
+    def fit(self, *, tight: bool) -> None:
+        """Hide hints with large text on a small screen."""
         self._is_tight = tight
         for button, hint in ((self.note_button, "F5"), (self.pain_button, "F6"), (self.pause_button, "F7")):
-            button.setVisible(not large)
             button.set_label(button.text(), hint="" if tight else hint)
         self.refresh()
 

@@ -48,7 +48,7 @@ class LiveFlow(Flow):
         now = self.context.current
         if now.source is not None:
             assert now.set_up is not None
-            self.screen.open_source(now.source.measuring, now.set_up)
+            self.screen.open_source(now.source.measuring, now.set_up, now.source.is_hand_resting)
             self.patient_view.start_exercise(now.set_up)
             self.course.start_part(now.set_up)
             self.context.navigator.switch_screen("live")
@@ -61,9 +61,6 @@ class LiveFlow(Flow):
             self.context.navigator.open_screen("camera")
         elif not self.screen.recording.is_storing:
             self._confirm_stop(self._stop_question())
-
-    def show_research(self, *, on: bool) -> None:
-        self.screen.show_research(on=on)
 
     def _on_leaving(self, place: str) -> None:
         """Let messages cover only the stage here, so that the tracking light stays visible."""

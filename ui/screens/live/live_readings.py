@@ -36,19 +36,17 @@ class LiveReadings:
             value, sd, measured = history.angle_value(column)
             inferred = history.is_inferred(column)
             known, own = (measured or inferred) and not lost, count is not None and count.joint == figure.joint
-            speed = history.angle_speed_deg_s(column)
             reading = Reading(figure=figure, is_predicted=known and inferred)
         else:
             angle, status = shown.angle, history.status
             value, sd = float(history.angles_deg[angle]), float(history.sds_deg[angle])
             known, own = not lost, count is not None and count.angle == angle
             doubtful = known and status == TrackStatus.DOUBTFUL
-            speed = math.nan if doubtful else float(history.speeds[1])
             reading = Reading(angle=angle, is_predicted=known and status == TrackStatus.PREDICTED, is_doubtful=doubtful)
         asked = recording.set_up.repetitions if recording.set_up else 0
         reading = replace(
             reading, value_deg=value if known else math.nan, sd_deg=sd if known else math.nan,
-            speed_deg_s=speed if known else math.nan, repetitions_done=recording.repetitions, repetitions_asked=asked,
+            repetitions_done=recording.repetitions, repetitions_asked=asked,
             is_repetition_running=recording.state == "recording" and recording.repetitions < asked,
         )  # fmt: skip
         if count is not None and own:

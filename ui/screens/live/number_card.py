@@ -29,12 +29,8 @@ MAX_DOTS = 12
 SPREAD_PX = 44
 MIN_NUMBER_PX = 72.0
 RIGHT_PX, NARROW_RIGHT_PX, NARROW_BELOW_PX = 230, 182, 640
-LARGE_PX = (640, 300)
-"""Size of the card in the large view before it is scaled to the screen."""
 MAX_SHRINK_PX = 26
 """Height that the card may lose with large text: the dots of the repetitions disappear."""
-MIN_SPEED_DEG_S = 10.0
-"""Noise of the tracker: lower speeds are not shown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +51,6 @@ class Reading:
     repetitions_done: int = 0
     repetitions_asked: int = 0
     is_repetition_running: bool = False
-    speed_deg_s: float = math.nan
     best_positive_deg: float = math.nan
     best_negative_deg: float = math.nan
     is_best_lower_bound: bool = False
@@ -74,13 +69,6 @@ class Reading:
         return self if figure is None else Reading(figure=FingerAngle(figure.finger % len(FINGERS) + 1, figure.kind))
 
 
-def speed_words(speed_deg_s: float) -> str:
-    """Format a speed: ``38°/s``, or a bound below the noise of the tracker."""
-    if abs(speed_deg_s) < MIN_SPEED_DEG_S:
-        return f"<{numbers.NARROW_GAP}{numbers.format_speed(MIN_SPEED_DEG_S)}"
-    return numbers.format_speed(speed_deg_s)
-
-
 class NumberCard(QWidget):
     """Paints a :class:`Reading` in fixed places."""
 
@@ -92,31 +80,6 @@ class NumberCard(QWidget):
         self._direction = 1.0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         theme.changed.connect(self.updateGeometry)
-        self._is_large = False
-
-    def set_large(self, large: bool) -> None:
-        """Fill the window, to be read from across the room, or take the usual place."""
-        self._is_large = large
-        self.setSizePolicy(
-            QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding if large else QSizePolicy.Policy.Maximum
-        )
-        self.updateGeometry()
-        self.update()
-
-    @property
-    def _zoom(self) -> float:
-        if not self._is_large:
-            return 1.0
-        scale = self._theme.text_scale
-        return max(1.0, min(self.width() / (LARGE_PX[0] * scale), self.height() / (LARGE_PX[1] * scale)))
-
-    @property
-    def _layout_width(self) -> float:
-        return self.width() / self._zoom
-
-    @property
-    def _layout_height(self) -> float:
-        return self.height() / self._zoom
 
     def show_reading(self, reading: Reading) -> None:
         """Show new values; the word for the direction stays while the angle is about zero."""
@@ -164,15 +127,7 @@ class NumberCard(QWidget):
 
     def _number_px(self) -> float:
         """Return the size of the number: as designed, or smaller if the widest value needs it."""
-        if self._is_large:
-            scale = self._theme.text_scale
-            high = (
-                (self._layout_height - 36 - 136 * scale)
-                / QFontMetricsF(font(NUMBER_PX, SEMIBOLD)).capHeight()
-                * NUMBER_PX
-            )
-            return max(NUMBER_PX, min(high, self._max_number_px()))
-        if self._layout_width >= WIDE_FROM_PX * self._theme.text_scale:
+        if self.width() >= WIDE_FROM_PX * self._theme.text_scale:
             return float(NUMBER_WIDE_PX)
         return max(MIN_NUMBER_PX, min(NUMBER_PX, self._max_number_px()))
 
@@ -181,11 +136,11 @@ class NumberCard(QWidget):
         widest = numbers.format_degrees(round(max(abs(end) for end in self._gauge_range()[:2]), -1))
         needed = QFontMetricsF(font(NUMBER_PX, SEMIBOLD)).horizontalAdvance(widest)
         spread = QFontMetricsF(font(SPREAD_PX, MEDIUM)).horizontalAdvance(numbers.format_sd(10.0))
-        room = self._layout_width - 24 - self._right_px() - spread - 20
+        room = self.width() - 24 - self._right_px() - spread - 20
         return NUMBER_PX * room / needed
 
     def _right_px(self) -> float:
-        narrow = self._layout_width < NARROW_BELOW_PX * self._theme.text_scale
+        narrow = self.width() < NARROW_BELOW_PX * self._theme.text_scale
         return (NARROW_RIGHT_PX if narrow else RIGHT_PX) * self._theme.text_scale
 
     def sizeHint(self) -> QSize:
@@ -197,7 +152,7 @@ class NumberCard(QWidget):
 
     def _shrink_px(self) -> float:
         """Return the height that the card has lost to large text."""
-        return 0.0 if self._is_large else min(max(self.sizeHint().height() - self._layout_height, 0.0), MAX_SHRINK_PX)
+        return min(max(self.sizeHint().height() - self.height(), 0.0), MAX_SHRINK_PX)
 
     def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
         self.updateGeometry()
@@ -207,12 +162,11 @@ class NumberCard(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         paint_card(painter, theme, QRectF(self.rect()))
-        painter.scale(self._zoom, self._zoom)
         token = CURVE_TOKENS[reading.angle] if reading.figure is None else reading.figure.token
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.color(token))
         painter.drawRoundedRect(QRectF(24, 24, 6, 20 * scale), 3, 3)
-        room = self._layout_width - self._right_px() - 52
+        room = self.width() - self._right_px() - 52
         size = 28 * scale
         while size > 20 and QFontMetricsF(font(size, SEMIBOLD)).horizontalAdvance(self.movement_name()) > room:
             size -= 1
@@ -225,7 +179,7 @@ class NumberCard(QWidget):
             )
         self._paint_number(painter, 24.0, 36 * scale + 20)
         self._paint_right(painter)
-        self._paint_gauge(painter, QRectF(24, self._layout_height - 42 * scale, self._layout_width - 48, 12), token)
+        self._paint_gauge(painter, QRectF(24, self.height() - 42 * scale, self.width() - 48, 12), token)
 
     def _paint_doubtful(self, painter: QPainter, left: float, room: float) -> None:
         """Paint the warning beside the movement, shorter if space is short."""
@@ -271,7 +225,7 @@ class NumberCard(QWidget):
 
     def _paint_right(self, painter: QPainter) -> None:
         theme, scale, reading = self._theme, self._theme.text_scale, self.reading
-        left = self._layout_width - self._right_px()
+        left = self.width() - self._right_px()
         y = 16.0
         if reading.repetitions_asked:
             self._paint_text(painter, self.tr("Repetitions"), left, y, 14, REGULAR, "text2")
@@ -288,29 +242,17 @@ class NumberCard(QWidget):
             if self._shrink_px() < 8.0:  # the number says as much
                 self._paint_dots(painter, left, baseline + 19)
         y = 114 * (0.65 + 0.35 * scale) + max(self._number_px() - NUMBER_PX, 0.0) / 3 - self._shrink_px()
-        self._paint_text(painter, self.tr("Speed"), left, y, 14, REGULAR, "text2")
-        self._paint_text(painter, speed_words(reading.speed_deg_s), left, y + 21 * scale, 20, SEMIBOLD, "text")
         positive = reading.figure is not None or self._direction > 0.0 or self._is_supination_only()
         best = reading.best_positive_deg if positive else reading.best_negative_deg
-        across = left + 0.487 * self._right_px()
-        movement = (
-            ""
-            if reading.figure is not None
-            else terms.direction_names(reading.angle, self.exercise)[0 if positive else 1]
-        )
-        words = (
-            self.tr("Best {movement}").format(movement=to_mid_sentence(movement)) if movement else self.tr("Best today")
-        )
-        size, room = 14, self._layout_width - 8 - across
-        if QFontMetricsF(font(10 * scale, REGULAR)).horizontalAdvance(words) > room:
-            words = self.tr("Best today")
-        while size > 10 and QFontMetricsF(font(size * scale, REGULAR)).horizontalAdvance(words) > room:
-            size -= 1
-        self._paint_text(painter, words, across, y, size, REGULAR, "text2")
+        words = self.tr("Best today")
+        if reading.figure is None:
+            movement = terms.direction_names(reading.angle, self.exercise)[0 if positive else 1]
+            words = self.tr("Best {movement}").format(movement=to_mid_sentence(movement))
+        self._paint_text(painter, words, left, y, 14, REGULAR, "text2")
         bound = reading.is_best_lower_bound and math.isfinite(best)
         shown = numbers.format_signed_degrees(best if positive else -best)
         shown = f"≥{numbers.NARROW_GAP}{shown}" if bound else shown
-        self._paint_text(painter, shown, across, y + 21 * scale, 20, SEMIBOLD, "text")
+        self._paint_text(painter, shown, left, y + 21 * scale, 20, SEMIBOLD, "text")
 
     def _paint_text(
         self, painter: QPainter, text: str, left: float, top: float, size: int, weight: int, token: str
@@ -322,7 +264,7 @@ class NumberCard(QWidget):
     def _paint_dots(self, painter: QPainter, left: float, middle: float) -> None:
         reading, color = self.reading, self._theme.color
         count = min(reading.repetitions_asked, MAX_DOTS)
-        step = min(20.5, (self._layout_width - left - 30) / max(count, 1))
+        step = min(20.5, (self.width() - left - 30) / max(count, 1))
         for number in range(count):
             center = QPointF(left + 6 + number * step, middle)
             painter.setPen(Qt.PenStyle.NoPen)

@@ -131,11 +131,6 @@ class MarkerQuestion(Card):
         )
         return told.get(name)
 
-    @property
-    def is_at_head(self) -> bool:
-        """True if it is at the head of the frame."""
-        return self._is_at_top and not self.isHidden()
-
     def reposition(self) -> None:
         """Place the card at the foot of the frame, or at its head if it would cover the question's spots."""
         host = self._picture

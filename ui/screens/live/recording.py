@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -54,6 +55,8 @@ class RecordingController(QObject):
         self.countdown_s = 0
         """Seconds left in the countdown."""
         self.camera_lost = self.is_passive = self._is_resting = False
+        self.is_hand_resting: Callable[[], bool] = lambda: False
+        """Whether a simulated hand cannot move yet: a recording would show a still hand."""
         self.is_busy = False
         """True while it starts or stops, which waits for the disk."""
         self._started_at_s = -MIN_RECORDING_S
@@ -104,6 +107,8 @@ class RecordingController(QObject):
                 self.early_stop_requested.emit()
             else:
                 self.stop()
+        elif self.is_hand_resting():
+            return
         elif self.start_trigger.is_counting:
             self.start_trigger.stop()
             self._update_countdown()
@@ -156,6 +161,8 @@ class RecordingController(QObject):
         """Start the recording if the countdown or the still hand says so."""
         history, set_up = self._history, self.set_up
         if self.measuring is None or self.measuring.feed.is_recording or self.is_busy or not len(history):
+            return
+        if self.is_hand_resting():
             return
         fingers = FINGERS[1:] if set_up is not None and set_up.protocol.has_fingers else ()
         bent = [history.angle_value(FINGER_ANGLES.index(FingerAngle(finger, "middle")))[0] for finger in fingers]

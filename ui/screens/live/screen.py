@@ -1,9 +1,10 @@
-"""The live screen: frame, path, number, curves and light, updated by a timer."""
+"""The live screen: frame, number, curves and light, updated by a timer."""
 
 from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
@@ -16,7 +17,6 @@ from carpus.ui.charts.chart import Chart
 from carpus.ui.charts.finger_curves import FingerCurves
 from carpus.ui.charts.history import History
 from carpus.ui.charts.live_curves import LiveCurves
-from carpus.ui.charts.paths import LivePathChart
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Separator
@@ -96,20 +96,17 @@ class LiveScreen(FittedWidget):
         self._drawn_at_s, self._drawn_cpu_s = -math.inf, 0.0
         self._drawing_ms: float | None = 0.0
         self._new_frame_at_s = self._snapshot_at_s = -math.inf
-        self._is_whole_hand = self._is_large = False
-        self._shows_research = True
+        self._is_whole_hand = False
         self.stage = QWidget()
         """Everything but the bar below: messages cover this part, and the light stays visible."""
         self.picture = FrameView(theme)
         self.question = MarkerQuestion(self.picture, theme, self, lambda: self.recording.time_s)
         self.frame_overlay = FrameOverlay(theme, self.picture, self.question, self.recording)
-        self.path_view = LivePathChart(theme, self.history)
         self.number_card = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
         self.finger_curves = FingerCurves(theme, self.history)
         self.hand_map = HandMap(theme)
         self.controls = RecordingControls(theme, self.recording)
-        self.speeds_button = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
         self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.course_label.hide()
@@ -126,19 +123,15 @@ class LiveScreen(FittedWidget):
         self._timer.timeout.connect(self.draw_if_due)
 
     def _build_layout(self) -> None:
-        left = column_layout((self.picture, 390), (self.path_view, 242), (self.hand_map, 300), gap=12)
+        left = column_layout((self.picture, 390), (self.hand_map, 300), gap=12)
         right = column_layout(self.number_card, (self.curves, 1), (self.finger_curves, 1), gap=12)
         self._columns = columns = QHBoxLayout(self.stage)
         columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
         columns.setSpacing(GAP_PX)
         fill(columns, (left, 520), (right, 696))
-        # Over the corner of the curves that nothing is written in, and over the picture.
-        for button, host, top_px, right_px in (
-            (self.speeds_button, self.curves, 4, 6),
-            (self.patient_view_button, self.picture, 8, 8),
-        ):
-            button.setProperty("floats", True)
-            row_layout(STRETCH, (button, 0, Qt.AlignmentFlag.AlignTop), margins=(0, top_px, right_px, 0), parent=host)
+        self.patient_view_button.setProperty("floats", True)
+        on_picture = (self.patient_view_button, 0, Qt.AlignmentFlag.AlignTop)
+        row_layout(STRETCH, on_picture, margins=(0, 8, 8, 0), parent=self.picture)
         whole = column_layout(
             (self.stage, 1), _with_margins(self.course_label, 8), gap=0, margins=(0, 0, 0, 0), parent=self
         )
@@ -153,10 +146,8 @@ class LiveScreen(FittedWidget):
         self.note_dialog.note_entered.connect(lambda words: recording.add_event("note", words))
         self.note_dialog.passive_changed.connect(lambda passive: recording.set_passive(passive=passive))
         self.pain_dialog.pain_entered.connect(self._add_pain)
-        self.speeds_button.clicked.connect(self.toggle_speeds)
         self.patient_view_button.clicked.connect(self.patient_view_requested)
-        for button in (self.speeds_button, self.patient_view_button):
-            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.patient_view_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         recording.started.connect(lambda: self._lag.reset())
         recording.start_failed.connect(self.event_received)
         recording.stopping.connect(controls.show_storing)
@@ -166,16 +157,14 @@ class LiveScreen(FittedWidget):
         # Named keys of ui/kit/keys.py: Space starts and stops a recording.
         actions = {
             "record": recording.toggle, "pedal": recording.toggle, "note": controls.note_button.click,
-            "pain": controls.pain_button.click, "pause": recording.toggle_pause, "overlay": self.frame_overlay.toggle,
-            "whole_picture": lambda: picture.set_whole(not picture.is_whole), "speeds": self.toggle_speeds,
+            "pain": controls.pain_button.click, "pause": recording.toggle_pause,
+            "whole_picture": lambda: picture.set_whole(not picture.is_whole),
             "next_angle": lambda: self.show_angle(number.reading.with_next_angle()),
             "next_finger": lambda: self.show_angle(number.reading.with_next_finger()),
-            "side_view": self.frame_overlay.toggle_side, "patient_view": self.patient_view_requested.emit,
-            "large_view": self.toggle_large,
+            "patient_view": self.patient_view_requested.emit,
         }  # fmt: skip
         self.finger_curves.angle_chosen.connect(lambda figure: self.show_angle(Reading(figure=figure)))
-        self._shortcuts = bind_screen_keys(self, actions)
-        self.question.host_shortcuts = list(self._shortcuts.values())
+        self.question.host_shortcuts = list(bind_screen_keys(self, actions).values())
         self.question.changed.connect(self._place_question)
         self.question.answered.connect(recording.answer_spot)
 
@@ -192,33 +181,27 @@ class LiveScreen(FittedWidget):
             self.question.isHidden() or self.question.y() > self.patient_view_button.geometry().bottom()
         )
 
-    def show_research(self, *, on: bool) -> None:
-        """Show or hide the path and the speeds; movement of the forearm is watched in any case."""
-        self._shows_research = self.frame_overlay.shows_research = on
-        if not on and self.curves.is_showing_speeds:
-            self.toggle_speeds()
-        self._shortcuts["speeds"].setEnabled(on)
-        self._fit()
-
     def _fit(self) -> None:
-        """Hide the path with large text on a small screen, so that the large values keep their space."""
-        tight = is_tight(self, self._theme)
-        small, hand = not self._is_large, self._is_whole_hand
-        self.picture.setVisible(small)
-        self.path_view.setVisible(small and not tight and not hand and self._shows_research)
-        self.speeds_button.setVisible(self._shows_research)
-        self.hand_map.setVisible(small and not tight and hand)
-        self.curves.setVisible(small and not hand)
-        self.finger_curves.setVisible(small and hand)
+        """Hide the hand map with large text on a small screen, so that the large values keep their space."""
+        tight, hand = is_tight(self, self._theme), self._is_whole_hand
+        self.hand_map.setVisible(not tight and hand)
+        self.curves.setVisible(not hand)
+        self.finger_curves.setVisible(hand)
         for place, share in enumerate(HAND_COLUMNS if hand else WRIST_COLUMNS):
-            self._columns.setStretch(place, share if small or place else 0)
+            self._columns.setStretch(place, share)
         self.bubble.set_room(self.height() >= MIN_SCREEN_PX * self._theme.text_scale and not (tight and hand))
         self.curves.show_single(tight)
         self._place_question()
-        self.controls.fit(tight=tight, large=self._is_large)
+        self.controls.fit(tight=tight)
 
     # --- life ---------------------------------------------------------------------------------------------
-    def open_source(self, measuring: MeasurementController, set_up: SessionSetup) -> None:
+    def open_source(
+        self,
+        measuring: MeasurementController,
+        set_up: SessionSetup,
+        is_hand_resting: Callable[[], bool] = lambda: False,
+    ) -> None:
+        """Show a source; it cannot be recorded while ``is_hand_resting``."""
         exercise, calibration = set_up.exercise, measuring.calibration
         self.history.clear(set_up.protocol, exercise, None if calibration is None else calibration.start_angles_rad)
         self.number_card.exercise = exercise
@@ -227,8 +210,8 @@ class LiveScreen(FittedWidget):
         self.frame_overlay.tracked_view = None
         self.question.withdraw()
         self.recording.set_source(measuring, set_up)
+        self.recording.is_hand_resting = is_hand_resting
         self.curves.set_exercise(exercise, set_up.target_positive_deg, set_up.target_negative_deg)
-        self.path_view.set_exercise(set_up.side, exercise.is_forearm_fixed)
         angle = 1 if exercise.angle is None else exercise.angle
         self.show_angle(Reading(angle=angle, figure=find_finger_angle(exercise.joint) if self._is_whole_hand else None))
         self.controls.reset()
@@ -246,20 +229,8 @@ class LiveScreen(FittedWidget):
         self.recording.measuring = None
         self.recording_changed.emit("off", 0.0)
 
-    def toggle_large(self) -> None:
-        """Show one value and the light only, to be read from across the room, or everything."""
-        self._is_large = not self._is_large
-        self.number_card.set_large(self._is_large)
-        self._fit()
-
-    def toggle_speeds(self) -> None:
-        self.curves.show_speeds(not self.curves.is_showing_speeds)
-        self.finger_curves.show_speeds(self.curves.is_showing_speeds)
-        self.speeds_button.set_label(self.tr("Angles") if self.curves.is_showing_speeds else self.tr("Speeds"))
-
     def show_angle(self, reading: Reading) -> None:
         reading = self.readings.with_targets(reading)
-        self.frame_overlay.figure = reading.figure
         if reading.figure is not None:
             self.finger_curves.set_angle(reading.figure, reading.target_positive_deg)
         self.number_card.show_reading(reading)
@@ -367,7 +338,6 @@ class LiveScreen(FittedWidget):
             )
         else:
             self.curves.update_values()
-            self.path_view.draw()
         self.controls.light_view.show_light(self._current_light(measuring))
         if self.recording.is_storing:  # how long it takes until all that waits is tracked
             counters = measuring.feed.counters()
@@ -398,6 +368,8 @@ class LiveScreen(FittedWidget):
         doubt = self.question.update_doubt(find_doubt(frame, markers, measuring.camera))
         if doubt is not None and lamp.rank in ("good", "warn"):
             return question_light(doubt)
+        if lamp.rank == "good" and recording.is_hand_resting():
+            return StatusLight("idle", self.tr("Movement is being drawn"), self.tr("Recording can start in a moment"))
         if lamp.rank == "good" and recording.countdown_s:
             return StatusLight("good", self.tr("Starts in {seconds}").format(seconds=recording.countdown_s), "")
         if lamp.rank == "good" and recording.start_trigger.is_waiting and recording.state == "off":
