@@ -166,6 +166,12 @@ class OutputExists(CarpusFault, code="C-401"):
     remedy = phrase("Choose another name.")
 
 
+class GdtUnreadable(CarpusFault, code="C-413"):
+    summary = phrase("The practice system’s file cannot be read: {subject} ({detail}).")
+    data_safety = _FILE_UNCHANGED
+    remedy = phrase("Send the patient again from the practice system, or choose the patient in Carpus.")
+
+
 class ExtraMissing(CarpusFault, code="C-001"):
     """``subject`` is the name of an optional Python package."""
 
