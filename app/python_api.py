@@ -491,7 +491,7 @@ def export(
     deidentified: bool = False,
     region: str | None = None,
 ) -> ExportResult:
-    """Write sessions as csv, json, c3d, trc, mot, bids or h5; existing files are never overwritten.
+    """Write sessions as csv, json, c3d, trc, mot, bids, fhir or h5; existing files are never overwritten.
 
     Tables are for programs; with a ``region`` such as ``de_DE`` for a spreadsheet there: its separator, decimal sign
     and a UTF-8 mark. Exports of a data folder are written into its log.

@@ -43,6 +43,7 @@ FORMATS = {
     "trc": Format("trc", "markers for OpenSim"),
     "mot": Format("mot", "angles for OpenSim"),
     "bids": Format("bids_motion", "a BIDS-Motion data set"),
+    "fhir": Format("fhir", "measures for a hospital system (FHIR R4)"),
     "h5": Format("session_copy", "the session itself without pictures, to be imported again"),
 }
 

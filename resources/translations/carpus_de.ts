@@ -6567,6 +6567,46 @@
         <source>This image is too small to print. Choose one of at least 32 × 32 pixels.</source>
         <translation>Dieses Bild ist zu klein zum Drucken. Wählen Sie eines mit mindestens 32 × 32 Pixeln.</translation>
     </message>
+    <message>
+        <source>Send the patient again from the practice system, or choose the patient in Carpus.</source>
+        <translation>Übergeben Sie die Patientin oder den Patienten erneut aus der Praxissoftware, oder wählen Sie sie oder ihn in Carpus.</translation>
+    </message>
+    <message>
+        <source>The practice system’s file cannot be read: {subject} ({detail}).</source>
+        <translation>Die Datei der Praxissoftware kann nicht gelesen werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>character set {number} is unknown</source>
+        <translation>Zeichensatz {number} ist unbekannt</translation>
+    </message>
+    <message>
+        <source>it does not begin with the type of its record</source>
+        <translation>sie beginnt nicht mit der Satzart</translation>
+    </message>
+    <message>
+        <source>it is a record {number}, and 6302 or 6301 is expected</source>
+        <translation>sie enthält die Satzart {number}, erwartet wird 6302 oder 6301</translation>
+    </message>
+    <message>
+        <source>it names no patient number</source>
+        <translation>die Patientennummer fehlt</translation>
+    </message>
+    <message>
+        <source>its birth date is none ({text})</source>
+        <translation>das Geburtsdatum ist ungültig ({text})</translation>
+    </message>
+    <message>
+        <source>its end is missing</source>
+        <translation>das Ende fehlt</translation>
+    </message>
+    <message>
+        <source>line {number} is longer or shorter than it states</source>
+        <translation>Zeile {number} ist länger oder kürzer als angegeben</translation>
+    </message>
+    <message>
+        <source>line {number} is not a line of GDT</source>
+        <translation>Zeile {number} ist keine GDT-Zeile</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7794,6 +7834,10 @@
     <message>
         <source>a spreadsheet in {region}: {example}</source>
         <translation>eine Tabellenkalkulation in {region}: {example}</translation>
+    </message>
+    <message>
+        <source>Values for a hospital system (FHIR R4)</source>
+        <translation>Werte für ein Krankenhaussystem (FHIR R4)</translation>
     </message>
 </context>
 <context>

@@ -6567,6 +6567,46 @@
         <source>This image is too small to print. Choose one of at least 32 × 32 pixels.</source>
         <translation>Questa immagine è troppo piccola per la stampa. Sceglierne una di almeno 32 × 32 pixel.</translation>
     </message>
+    <message>
+        <source>Send the patient again from the practice system, or choose the patient in Carpus.</source>
+        <translation>Inviare di nuovo il paziente dal gestionale oppure sceglierlo in Carpus.</translation>
+    </message>
+    <message>
+        <source>The practice system’s file cannot be read: {subject} ({detail}).</source>
+        <translation>Il file del gestionale non può essere letto: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>character set {number} is unknown</source>
+        <translation>il set di caratteri {number} è sconosciuto</translation>
+    </message>
+    <message>
+        <source>it does not begin with the type of its record</source>
+        <translation>non inizia con il tipo di record</translation>
+    </message>
+    <message>
+        <source>it is a record {number}, and 6302 or 6301 is expected</source>
+        <translation>contiene un record {number}, ma è richiesto 6302 o 6301</translation>
+    </message>
+    <message>
+        <source>it names no patient number</source>
+        <translation>manca il numero del paziente</translation>
+    </message>
+    <message>
+        <source>its birth date is none ({text})</source>
+        <translation>la data di nascita non è valida ({text})</translation>
+    </message>
+    <message>
+        <source>its end is missing</source>
+        <translation>manca la fine</translation>
+    </message>
+    <message>
+        <source>line {number} is longer or shorter than it states</source>
+        <translation>la riga {number} è più lunga o più corta di quanto dichiara</translation>
+    </message>
+    <message>
+        <source>line {number} is not a line of GDT</source>
+        <translation>la riga {number} non è una riga GDT</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7794,6 +7834,10 @@
     <message>
         <source>a spreadsheet in {region}: {example}</source>
         <translation>un foglio di calcolo in {region}: {example}</translation>
+    </message>
+    <message>
+        <source>Values for a hospital system (FHIR R4)</source>
+        <translation>Valori per un sistema ospedaliero (FHIR R4)</translation>
     </message>
 </context>
 <context>

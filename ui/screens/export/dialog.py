@@ -26,6 +26,7 @@ FORMAT_NAMES = {
     "trc": QT_TRANSLATE_NOOP("ExportDialog", "Markers for OpenSim (TRC)"),
     "mot": QT_TRANSLATE_NOOP("ExportDialog", "Angles for OpenSim (MOT)"),
     "bids": QT_TRANSLATE_NOOP("ExportDialog", "Data set for research (BIDS-Motion)"),
+    "fhir": QT_TRANSLATE_NOOP("ExportDialog", "Values for a hospital system (FHIR R4)"),
     "h5": QT_TRANSLATE_NOOP("ExportDialog", "Session file, for another Carpus installation"),
 }
 """A format that is missing here is shown by its short name."""

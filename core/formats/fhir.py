@@ -1,0 +1,147 @@
+"""FHIR R4: a session as a collection of patient, observations and a diagnostic report.
+
+Each range of motion and task measure is an Observation. Codes are SNOMED CT where a concept is known for certain, else
+a text; no LOINC code for movements of the wrist and the fingers is known to us. A report ``NAME.pdf`` that lies in the
+folder already is attached.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+from pathlib import Path
+from typing import Any
+from uuid import NAMESPACE_URL, uuid5
+
+from carpus.core.formats.export_item import ExportItem
+from carpus.core.formats.output_files import write_new_json
+from carpus.core.platform.version import __version__
+from carpus.core.results.measure import Measure
+from carpus.core.results.session_results import SessionResults
+
+SNOMED, UCUM = "http://snomed.info/sct", "http://unitsofmeasure.org"
+EXTENSIONS = "http://hl7.org/fhir/StructureDefinition"
+TERMINOLOGY = "http://terminology.hl7.org/CodeSystem"
+RANGE_OF_MOTION = ("364564000", "Range of joint movement (observable entity)")
+SIDES = {"left": ("7771000", "Left (qualifier value)"), "right": ("24028007", "Right (qualifier value)")}
+WRIST = ("74670003", "Wrist joint structure (body structure)")
+MCP = ("70420003", "Metacarpophalangeal joint structure (body structure)")
+UNITS = {"deg": "deg", "deg/s": "deg/s", "mm": "mm", "s": "s", "1": "1", "%": "%"}
+"""Units of measures that UCUM has a code for."""
+
+
+def write(take: ExportItem, folder: Path) -> list[Path]:
+    """Write ``NAME.fhir.json``; return its path."""
+    report = folder / f"{take.name}.pdf"
+    pdf = report.read_bytes() if report.is_file() else b""
+    return [write_new_json(folder / f"{take.name}.fhir.json", build_bundle(take, pdf))]
+
+
+def build_bundle(take: ExportItem, pdf: bytes = b"") -> dict[str, Any]:
+    """Return a Bundle of a session: Patient, Device, BodyStructures, Observations, DiagnosticReport.
+
+    The patient is the pseudonym of the session file, which knows no other name. ``pdf`` is the printed report.
+    """
+    results, header = take.results, take.session.header
+    when = results.when.astimezone().isoformat(timespec="seconds")
+    patient = {
+        "resourceType": "Patient",
+        "identifier": [{"use": "secondary", "type": {"text": "Pseudonym"}, "value": header.subject_id or "unknown"}],
+    }
+    device = {
+        "resourceType": "Device",
+        "deviceName": [{"name": "Carpus", "type": "user-friendly-name"}],
+        "version": [{"value": __version__}],
+    }
+    bundle = _Bundle(header.session_id)
+    subject, measuring = bundle.add("patient", patient), bundle.add("device", device)
+    common = {"subject": subject, "effectiveDateTime": when, "device": measuring}
+    observations = [
+        bundle.add(
+            f"observation/{row.subject}/{row.quantity}/{row.is_passive}",
+            _build_observation(row, results) | common | _locate(bundle, row, results, subject),
+        )
+        for row in results.measures
+        if row.group in ("range", "task")
+    ]
+    report = {
+        "resourceType": "DiagnosticReport",
+        "status": "final",
+        "code": {"text": f"Hand motion analysis: {results.exercise.id}"},
+        "subject": subject,
+        "effectiveDateTime": when,
+        "result": observations,
+    }
+    if pdf:
+        attachment = {"contentType": "application/pdf", "data": base64.b64encode(pdf).decode(), "title": take.name}
+        report["presentedForm"] = [attachment]
+    bundle.add("report", report)
+    return {"resourceType": "Bundle", "type": "collection", "timestamp": when, "entry": bundle.entries}
+
+
+class _Bundle:
+    """Entries of a bundle that refer to one another by addresses made from the session's id."""
+
+    def __init__(self, session_id: str) -> None:
+        self._session_id = session_id
+        self.entries: list[dict[str, Any]] = []
+
+    def add(self, name: str, resource: dict[str, Any]) -> dict[str, str]:
+        """Add a resource once and return a reference to it."""
+        address = f"urn:uuid:{uuid5(NAMESPACE_URL, f'carpus/{self._session_id}/{name}')}"
+        if all(entry["fullUrl"] != address for entry in self.entries):
+            self.entries.append({"fullUrl": address, "resource": resource})
+        return {"reference": address}
+
+
+def _build_observation(row: Measure, results: SessionResults) -> dict[str, Any]:
+    angular = row.group == "range"
+    value = row.best if math.isfinite(row.best) else row.mean
+    observation: dict[str, Any] = {
+        "resourceType": "Observation",
+        "status": "final",
+        "category": [{"coding": [{"system": f"{TERMINOLOGY}/observation-category", "code": "exam"}]}],
+        "code": {
+            "coding": [_code(RANGE_OF_MOTION)] if angular else [],
+            "text": f"{row.subject} {row.quantity}, {'passive' if row.is_passive else 'active'}",
+        },
+        "method": {"text": f"Optical tracking of skin markers, {'smoother' if results.is_smoothed else 'filter'}"},
+    }
+    if not angular:
+        del observation["code"]["coding"]
+    if not math.isfinite(value):
+        absent = {"system": f"{TERMINOLOGY}/data-absent-reason", "code": "unknown"}
+        return observation | {"dataAbsentReason": {"coding": [absent], "text": row.unknown_reason or "not measured"}}
+    quantity: dict[str, Any] = {"value": round(value, 3), "unit": row.unit}
+    if row.unit in UNITS:
+        quantity |= {"system": UCUM, "code": UNITS[row.unit]}
+    if row.is_lower_bound:
+        quantity["comparator"] = ">="
+    if math.isfinite(row.measurement_sd):
+        quantity["extension"] = [
+            {"url": f"{EXTENSIONS}/iso21090-uncertainty", "valueDecimal": round(row.measurement_sd, 3)},
+            {"url": f"{EXTENSIONS}/iso21090-uncertaintyType", "valueCode": "N"},
+        ]
+    return observation | {"valueQuantity": quantity}
+
+
+def _locate(bundle: _Bundle, row: Measure, results: SessionResults, subject: dict[str, str]) -> dict[str, Any]:
+    """Return the body site of an observation, with its side in a BodyStructure."""
+    joint = "wrist" if row.wrist_angle >= 0 else row.subject.partition("_")[0]
+    code = WRIST if joint == "wrist" else MCP if joint.startswith("MCP") else None
+    location: dict[str, Any] = {"text": joint} | ({"coding": [_code(code)]} if code else {})
+    structure = {
+        "resourceType": "BodyStructure",
+        "location": location,
+        "locationQualifier": [{"coding": [_code(SIDES[results.side])]}],
+        "patient": subject,
+    }
+    reference = bundle.add(f"body/{joint}", structure)
+    return {
+        "extension": [{"url": f"{EXTENSIONS}/bodySite", "valueReference": reference}],
+        "bodySite": location | {"text": f"{results.side} {joint}"},
+    }
+
+
+def _code(concept: tuple[str, str]) -> dict[str, str]:
+    return {"system": SNOMED, "code": concept[0], "display": concept[1]}
