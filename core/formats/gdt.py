@@ -1,6 +1,7 @@
 """GDT 2.1: requests of a practice system for a measurement, and the results that go back.
 
-A record is one file of lines ``LLLFFFFcontent``: length of the line in bytes with its CR LF, field identifier, content.
+A record is one file of lines: three digits for the length of the line in bytes with its CR LF, four for the field, then
+its content.
 Source: QMS, *Gerätedatentransfer, Satzbeschreibung 2.1*.
 """
 
