@@ -147,8 +147,8 @@ def write_deb(folder: Path, python: Path, number: str) -> Path:
     told = run(
         python, "-P", "-c",
         "import sys; sys.path.insert(0, sys.argv[1]); from man_page import man_page; from carpus import __version__;"
-        "from carpus.app.commands import COMMANDS; from carpus.core.capture.devices.cameras import udev_rules;"
-        "print(man_page(__version__, sys.argv[2], COMMANDS), udev_rules(), sep=chr(0), end='')",
+        "from carpus.app.commands import COMMANDS; from carpus.core.capture.devices.cameras import format_udev_rules;"
+        "print(man_page(__version__, sys.argv[2], COMMANDS), format_udev_rules(), sep=chr(0), end='')",
         HERE, date,
     )  # fmt: skip
     page, _, rules = told.partition("\0")

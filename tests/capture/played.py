@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import threading
 from pathlib import Path
 
 import numpy as np
 
 from carpus.core.capture.devices.capture_child import CaptureOutlet, DeviceOpened
-from carpus.core.capture.files.realsense_recording import FilePlayer
-from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, StreamLayout
+from carpus.core.capture.devices.capture_process import CaptureProcess
+from carpus.core.capture.files.realsense_recording import SLOTS, RealSenseRecording
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.model.types import Frame
 from tests.capture.oni_samples import CAMERA, HEIGHT, WIDTH, color_picture
 
 MODES = {Sensor.COLOR: VideoMode(PixelFormat.RGB888, WIDTH, HEIGHT, 30)}
@@ -21,7 +20,7 @@ PERIOD_US = 33_333
 
 def serve(outlet: CaptureOutlet, count: int) -> None:
     """So many pictures, the next only when there is room for it."""
-    outlet.send(DeviceOpened(MODES, {}, None, {}))
+    outlet.send(DeviceOpened(MODES, {}))
     for number in range(1, count + 1):
         while not outlet.has_free_slot:
             outlet.handle_commands(block=True)
@@ -32,25 +31,19 @@ def serve(outlet: CaptureOutlet, count: int) -> None:
         outlet.publish(Sensor.COLOR, number, number * PERIOD_US, picture)
 
 
-class PlayedSource:
+class PlayedSource(RealSenseRecording):
     """Frames of ``count`` pictures; a walk as often as wanted."""
 
     def __init__(self, count: int) -> None:
-        self._count = count
-        self.player = FilePlayer(serve, Path("stand-in"), WIDTH * HEIGHT * 3)
+        self._count, self._path = count, Path("stand-in")
+        self._closing, self._lock = threading.Event(), threading.Lock()
+        self._process = self._opened = None
         self.info = SourceInfo("stand-in", CAMERA, False, count, 30.0)
 
     @property
     def pid(self) -> int:
-        assert self.player._process is not None
-        assert self.player._process.pid is not None
-        return self.player._process.pid
+        assert self._process is not None
+        return self._process.pid
 
-    def frames(self) -> Iterator[Frame]:
-        if self.player.open(self._count, 60.0) is None:
-            return
-        layout = StreamLayout((WIDTH, HEIGHT), None)
-        yield from self.player.frames(FrameAssembler(layout, float(PERIOD_US), FILE_PAIRING_LIMIT), MODES)
-
-    def close(self) -> None:
-        self.player.close()
+    def _start_process(self) -> CaptureProcess:
+        return CaptureProcess(serve, self._count, "stand-in", WIDTH * HEIGHT * 3, SLOTS)

@@ -155,11 +155,14 @@ MODE = VideoMode(PixelFormat.RGB888, 64, 48, 30)
 
 
 def picture(**changes: int | bool) -> VideoFrame:
-    whole = {
-        "sensor": Sensor.COLOR, "index": 1, "timestamp_us": 1, "width_px": 64, "height_px": 48, "stride_bytes": 192,
-        "pixel_format": PixelFormat.RGB888, "is_cropped": False, "size_bytes": 9216, "address": 4096,
-    }  # fmt: skip
-    return VideoFrame(**{**whole, **changes})  # type: ignore[arg-type]
+    frame = VideoFrame(
+        sensor=Sensor.COLOR, index=1, timestamp_us=1, width_px=64, height_px=48, stride_bytes=192, size_bytes=9216,
+        address=4096,
+    )  # fmt: skip
+    frame.mode.pixel_format = PixelFormat.RGB888
+    for name, value in changes.items():
+        setattr(frame.mode if name == "pixel_format" else frame, name, value)
+    return frame
 
 
 @pytest.mark.parametrize(

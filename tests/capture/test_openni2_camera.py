@@ -13,7 +13,7 @@ from itertools import islice, pairwise
 import pytest
 
 from carpus.core.capture.devices.capture_child import CameraConfig
-from carpus.core.capture.devices.openni2_camera import open_openni2
+from carpus.core.capture.devices.openni2_camera import KIND
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.model.camera import Camera
 from carpus.core.model.errors import (
@@ -34,7 +34,7 @@ PERIOD_S = 0.033
 
 @pytest.fixture
 def camera(told: list[CarpusFault]) -> Iterator[ProcessCamera]:
-    source = open_openni2(uri="Dummy", notice=told.append)
+    source = KIND.open("Dummy", notice=told.append)
     yield source
     source.close()
 
@@ -88,7 +88,7 @@ def test_openni2_camera_states_its_settings(camera: ProcessCamera) -> None:
 
 def test_openni2_camera_can_be_reopened() -> None:
     for _ in range(2):
-        source = open_openni2(uri="Dummy")
+        source = KIND.open("Dummy")
         assert_rising(list(islice(source.frames(), 3)))
         source.close()
         source.close()
@@ -192,17 +192,17 @@ def test_openni2_camera_close_ends_reconnecting(camera: ProcessCamera) -> None:
 
 def test_openni2_camera_missing_raises() -> None:
     with pytest.raises(CameraMissing):
-        open_openni2(uri="1d27/0601@9/9")
+        KIND.open("1d27/0601@9/9")
     with pytest.raises(CameraMissing):
-        open_openni2()
+        KIND.open()
 
 
 def test_openni2_camera_uses_measured_intrinsics(told: list[CarpusFault]) -> None:
     measured = Camera(530.0, 531.0, 318.0, 241.0, distortion=(0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
-    source = open_openni2(uri="Dummy", camera=measured)
+    source = KIND.open("Dummy", camera=measured)
     found = source.info.camera
     source.close()
     assert (found.fx_px, found.cx_px, found.cy_px) == (265.0, (318.5 / 2) - 0.5, (241.5 / 2) - 0.5)
     assert (found.distortion, found.origin) == (measured.distortion, "file")
     with pytest.raises(CameraFileUnreadable):
-        open_openni2(uri="Dummy", camera=Camera(500.0, 500.0, 320.0, 256.0, 640, 512))
+        KIND.open("Dummy", camera=Camera(500.0, 500.0, 320.0, 256.0, 640, 512))

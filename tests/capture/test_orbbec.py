@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError
 from itertools import islice
@@ -23,7 +24,6 @@ from carpus.core.capture.devices.orbbec import (
     find_device,
     find_sensor,
     import_sdk,
-    open_orbbec,
 )
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.capture.doctor import check_udev_rules
@@ -34,7 +34,7 @@ from carpus.core.model.errors import (
     CameraMissing,
     CameraUnsuited,
     CarpusFault,
-    DriverMissing,
+    ExtraMissing,
 )
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.installation import Finding
@@ -55,7 +55,8 @@ def camera(
     tmp_path: Path, bag: Path, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[ProcessCamera]:
     monkeypatch.chdir(tmp_path)
-    source = open_orbbec(notice=told.append, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
+    context = partial(orbbec_stand_in.plugged_in, tmp_path, bag)
+    source = replace(orbbec.KIND, make_context=context).open(notice=told.append)
     yield source
     source.close()
     assert not (tmp_path / "Log").exists(), "the library keeps logs where the program was started"
@@ -109,11 +110,9 @@ def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr("importlib.metadata.version", missing)
     assert check_driver(is_needed=False) is None
     assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
-    monkeypatch.setattr(orbbec, "find_spec", lambda _: None)
-    with pytest.raises(DriverMissing) as told:
+    with pytest.raises(ExtraMissing) as told:
         open_camera(f"orbbec:{SERIAL}")
-    assert "(pyorbbecsdk2). Nothing was changed." in format_fault_line(told.value)
-    assert "“carpus doctor” says what is missing" in format_fault_line(told.value)
+    assert format_fault_line(told.value).endswith("-m pip install --no-deps pyorbbecsdk2”. (C-001)")
 
 
 def test_orbbec_stand_ins_match_library() -> None:
@@ -159,7 +158,7 @@ def test_orbbec_choose_streams_prefers_wanted_size() -> None:
                 ),
             )
 
-        streams = choose_streams(ob, SimpleNamespace(get_stream_profile_list=listed), CameraConfig())
+        streams = choose_streams(ob, SimpleNamespace(get_stream_profile_list=listed))
         return streams.color.get_width(), streams.depth.get_width(), streams.downscale
 
     gemini = [(1280, 720), (848, 480), (640, 480), (640, 360)]

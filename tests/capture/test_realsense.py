@@ -22,7 +22,7 @@ from carpus.core.capture.devices.cameras import check_firmware_and_usb, open_cam
 from carpus.core.capture.devices.capture_child import camera_open_error, camera_unlisted_error
 from carpus.core.capture.devices.color_lock import MAX_ROUNDS, ColorController, ColorStatistics
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.capture.devices.realsense import check_driver, open_realsense
+from carpus.core.capture.devices.realsense import check_driver
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import check_open_camera
 from carpus.core.capture.files.realsense_recording import RealSenseRecording
@@ -110,7 +110,8 @@ def test_realsense_recording_truncated_raises(take: Path, tmp_path: Path) -> Non
 
 @pytest.fixture
 def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[ProcessCamera]:
-    source = open_realsense(notice=told.append, context=partial(realsense_stand_in.plugged_in, tmp_path))
+    context = partial(realsense_stand_in.plugged_in, tmp_path)
+    source = replace(realsense.KIND, make_context=context).open(notice=told.append)
     yield source
     source.close()
 
@@ -189,8 +190,12 @@ def test_realsense_color_lock_keeps_colours(camera: ProcessCamera, told: list[Ca
 def test_realsense_missing_camera_raises(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "unplugged").touch()
     with pytest.raises(CameraMissing):
-        open_realsense(context=partial(realsense_stand_in.plugged_in, tmp_path))
-    monkeypatch.setattr(realsense, "find_spec", lambda _: None)
+        replace(realsense.KIND, make_context=partial(realsense_stand_in.plugged_in, tmp_path)).open()
+
+    def missing(name: str) -> str:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr("importlib.metadata.version", missing)
     with pytest.raises(ExtraMissing) as told:
         open_camera("realsense:815412070123")
     assert format_fault_line(told.value).endswith("-m pip install pyrealsense2”. (C-001)")
@@ -216,8 +221,8 @@ def test_color_controller_finds_matching_settings(true: tuple[float, float], slo
 
 
 def test_realsense_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    opened = partial(open_realsense, context=partial(realsense_stand_in.plugged_in, tmp_path))
-    monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, open=opened))
+    context = partial(realsense_stand_in.plugged_in, tmp_path)
+    monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, make_context=context))
     findings = {each.name: each for each in check_open_camera("realsense", 0.5)}
     assert list(findings) == ["Frames", "Registration", "Mirror", "Clock", "Firmware", "USB"]
     assert findings["Registration"].observation == "depth and colour are aligned, by the library"

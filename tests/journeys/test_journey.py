@@ -21,7 +21,7 @@ from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.source_factory import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.capture.devices import openni2_camera
+from carpus.core.capture.devices.cameras import CameraKind
 from carpus.core.model.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.pipeline import measurement
 from carpus.core.pipeline.smoothing import SmoothingProcess
@@ -247,10 +247,10 @@ def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_tha
     assert wanted == [SourceChoice("file", str(take), is_depth_registered=False)]
     assert journey.place == "camera"
 
-    def missing(**_: object) -> None:
+    def missing(*_: object, **__: object) -> None:
         raise CameraMissing("", "no device")
 
-    monkeypatch.setattr(openni2_camera, "KIND", replace(openni2_camera.KIND, open=missing))
+    monkeypatch.setattr(CameraKind, "open", missing)
     journey.camera.context.camera.stop()  # its next look would find none
     journey.camera.screen.set_camera_ready(True)
     click(qtbot, journey.camera.screen.sources.option("camera"))

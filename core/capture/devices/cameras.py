@@ -10,21 +10,33 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any
 
 from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.model.camera import Camera
-from carpus.core.model.errors import CameraUnknown, DriverMissing
+from carpus.core.model.depth_sensor import DepthSensor
+from carpus.core.model.errors import CameraUnknown, DriverMissing, ExtraMissing
 from carpus.core.model.installation import Finding, install_hint
 from carpus.core.model.names import describe_known_names
 from carpus.core.model.phrase import Phrase, phrase
 
 if TYPE_CHECKING:
+    from carpus.core.capture.devices.capture_child import ServeFunction
     from carpus.core.capture.devices.process_camera import ProcessCamera
 
 
-def check_library(
+def require_package(package: str) -> str:
+    """Return the name and version of a camera maker's package; raises :class:`ExtraMissing` without it."""
+    from importlib.metadata import PackageNotFoundError, version  # which every command would load here
+
+    try:
+        return f"{package} {version(package)}"
+    except PackageNotFoundError as cause:
+        raise ExtraMissing(package) from cause
+
+
+def check_package(
     name: str, package: str, load: Callable[[], None], loads_library: bool = True, is_needed: bool = True
 ) -> Finding | None:
     """Check the camera maker's library by its package.
@@ -32,35 +44,21 @@ def check_library(
     It is loaded, in a process of its own, if ``loads_library`` and ``is_needed``.
     Returns None if it is missing and not needed.
     """
-    from importlib.metadata import PackageNotFoundError, version  # which every command would load here
-
-    try:
-        found = f"{package} {version(package)}"
-    except PackageNotFoundError:
-        found = phrase("missing: {package}", package=package)
-        return Finding(name, "bad", found, install_hint(package)) if is_needed else None
-    load_error = _find_load_error(load) if loads_library and is_needed else ""
-    if not load_error:
-        return Finding(name, "good", found)
-    return Finding(
-        name,
-        "bad",
-        phrase("{found}, cannot be loaded: {trouble}", found=found, load_error=load_error),
-        phrase("Reinstall it, and what it names."),
-    )
-
-
-def _find_load_error(load: Callable[[], None]) -> str:
-    """Return why the library cannot be loaded; empty if it can."""
     from carpus.core.platform.child_process import ChildDiedError, call_in_child
 
     try:
-        call_in_child(load)
-    except DriverMissing as fault:
-        return fault.detail
-    except ChildDiedError:
-        return "it ends its process"
-    return ""
+        found = require_package(package)
+    except ExtraMissing:
+        missing = phrase("missing: {package}", package=package)
+        return Finding(name, "bad", missing, install_hint(package)) if is_needed else None
+    try:
+        if loads_library and is_needed:
+            call_in_child(load)
+    except (DriverMissing, ChildDiedError) as cause:
+        trouble = cause.detail if isinstance(cause, DriverMissing) else "it ends its process"
+        words = phrase("{found}, cannot be loaded: {trouble}", found=found, trouble=trouble)
+        return Finding(name, "bad", words, phrase("Reinstall it, and what it names."))
+    return Finding(name, "good", found)
 
 
 USB_3 = phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub.")
@@ -87,18 +85,6 @@ def _parse_version(version_text: str) -> list[int]:
     return [int(part) if part.isdigit() else 0 for part in version_text.split(".")]
 
 
-class CameraOpener(Protocol):
-    """Function that opens a camera and loads its driver.
-
-    ``uri`` None opens the first camera; ``camera`` are measured intrinsics; ``patience_s`` is how long the camera
-    may be absent before :class:`CameraLost` is raised.
-    """
-
-    def __call__(
-        self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: NoticeHandler
-    ) -> ProcessCamera: ...
-
-
 @dataclass(frozen=True, slots=True)
 class CameraKind:
     """Kind of camera: its models, how it is opened and checked.
@@ -107,6 +93,10 @@ class CameraKind:
     ----------
     models : mapping
         Name by USB vendor and product (four hexadecimal digits each).
+    serve : callable
+        Serves a camera in the capture process.
+    find_sensor : callable
+        Depth sensor of an opened camera by its settings and the focal length of its colour images.
     check_driver : callable
         Finding on the library. Arguments: whether to load it (half a second), whether the kind is needed.
     needed_mbit : int
@@ -115,15 +105,44 @@ class CameraKind:
         Advice on the port to use.
     check_settings : callable
         Further findings from the settings of an opened camera.
+    package : str
+        Python package of the maker's library.
+    make_context : callable, optional
+        Makes the library's context in the capture process (tests use a software device).
     """
 
     title: str
     models: Mapping[tuple[str, str], str]
-    open: CameraOpener
+    serve: ServeFunction
+    find_sensor: Callable[[Mapping[str, str], float], DepthSensor]
     check_driver: Callable[[bool, bool], Finding | None]
     needed_mbit: int
     port_advice: Phrase
     check_settings: Callable[[Mapping[str, str]], Sequence[Finding]] = lambda _settings: ()
+    package: str = ""
+    make_context: Callable[[], Any] | None = None
+
+    def open(
+        self,
+        uri: str = "",
+        *,
+        camera: Camera | None = None,
+        patience_s: float = math.inf,
+        notice: NoticeHandler = ignore_notice,
+    ) -> ProcessCamera:
+        """Open the first camera, or the one with the address or serial number ``uri``.
+
+        ``camera`` are measured intrinsics; a camera absent for longer than ``patience_s`` raises :class:`CameraLost`.
+        """
+        from carpus.core.capture.devices.capture_child import CameraConfig
+        from carpus.core.capture.devices.process_camera import ProcessCamera
+
+        if self.package:
+            require_package(self.package)
+        plan = CameraConfig(uri, models=self.models, make_context=self.make_context)
+        return ProcessCamera(
+            self.serve, plan, uri or self.title, self.find_sensor, camera=camera, patience_s=patience_s, notice=notice
+        )
 
     @property
     def udev_rules(self) -> str:
@@ -214,4 +233,4 @@ def open_camera(
     name = choose_kind(uri)
     kind_name, _, which = uri.partition(":")
     place = which if kind_name in CAMERAS else uri
-    return load_camera_kind(name).open(uri=place or None, camera=camera, patience_s=patience_s, notice=notice)
+    return load_camera_kind(name).open(place, camera=camera, patience_s=patience_s, notice=notice)

@@ -35,6 +35,9 @@ from carpus.core.model.errors import (
 )
 from carpus.core.platform.child_process import end_with_owner
 
+SIZE_PX, FPS = (640, 480), 30
+"""Largest size of the images, and their rate."""
+
 
 @dataclass(frozen=True, slots=True)
 class CameraConfig:
@@ -42,24 +45,20 @@ class CameraConfig:
 
     Attributes
     ----------
+    uri : str
+        OpenNI2 address, or serial number; empty for any.
     serial : str
-        Serial number of the camera, empty for any.
-    size_px, fps
-        Size and rate of the images.
+        Serial number of a camera that was open before, else empty.
     models : mapping
         Name by USB vendor and product.
     make_context : callable, optional
-        Makes the library's context in the capture process (tests use a software device); None for the real bus.
-    uri : str
-        OpenNI2 address, empty for any.
+        Makes the library's context in the capture process; None for the real bus.
     """
 
+    uri: str = ""
     serial: str = ""
-    size_px: tuple[int, int] = (640, 480)
-    fps: int = 30
     models: Mapping[tuple[str, str], str] = field(default_factory=dict)
     make_context: Callable[[], Any] | None = None
-    uri: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,15 +79,16 @@ class Heartbeat:
 class DeviceOpened:
     """Message: the device is open and streams ``modes``.
 
-    ``settings`` goes into the session. ``lens`` if the driver states it, else ``field_of_view_rad`` if known.
+    ``settings`` goes into the session; ``mirrored`` names sensors. ``lens`` if the driver states it, else
+    ``field_of_view_rad`` if known.
     """
 
     modes: Mapping[Sensor, VideoMode]
-    mirrored: Mapping[Sensor, bool]
-    field_of_view_rad: tuple[float, float] | None
     settings: Mapping[str, str]
     lens: Lens | None = None
     depth_unit_m: float = 1e-3
+    mirrored: frozenset[Sensor] = frozenset()
+    field_of_view_rad: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)

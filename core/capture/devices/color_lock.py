@@ -6,9 +6,10 @@ The automatic is switched off, then values are searched at which the images look
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any
 
 from carpus.core.capture.devices.capture_child import CaptureOutlet, ExposureLocked
 
@@ -109,63 +110,60 @@ def _clamp(value: float, reach: tuple[float, float]) -> float:
     return max(reach[0], min(reach[1], value))
 
 
-def max_exposure(fps: float) -> float:
-    """Return the longest exposure at a frame rate, in units of :data:`EXPOSURE_UNIT_S`."""
-    return EXPOSURE_SHARE / fps / EXPOSURE_UNIT_S
+class ColorOptions(ABC):
+    """Options of a colour camera: automatic exposure, automatic white balance, exposure, white balance (kelvin).
 
+    ``fps`` limits the exposure.
+    """
 
-@dataclass(frozen=True, slots=True)
-class Control:
-    """Value and range of a camera control, in the camera's own unit."""
+    def __init__(self, options: Sequence[Any], fps: float) -> None:
+        self.auto_exposure, self.auto_white_balance, self.exposure, self.white_balance = options
+        self.max_exposure = EXPOSURE_SHARE / fps / EXPOSURE_UNIT_S
 
-    value: float
-    min_value: float
-    max_value: float
+    @abstractmethod
+    def set(self, option: Any, value: float) -> bool:
+        """Set an option; return whether the camera accepted it."""
 
+    @abstractmethod
+    def read(self, option: Any) -> tuple[float, Any] | None:
+        """Return the value of an option and its range (``min``, ``max``, ``step``); None if it cannot be set."""
 
-class ColorControls(Protocol):
-    """Colour controls of a camera driver."""
-
-    def disable_automatic(self) -> tuple[bool, bool]:
-        """Switch automatic exposure and white balance off; return for each whether it was."""
-        ...
-
-    def read_exposure(self) -> Control | None:
-        """Return the exposure; None if it cannot be set."""
-        ...
-
-    def read_white_balance(self) -> Control | None:
-        """Return the colour temperature in kelvin; None if it cannot be set."""
-        ...
-
-    def apply(self, step: ColorSettings) -> None:
-        """Set both to the nearest values that the camera accepts."""
-        ...
+    def set_nearest(self, option: Any, value: float) -> None:
+        """Set an option to the nearest accepted value: a camera rejects values between its steps."""
+        found = self.read(option)
+        if found is not None:
+            reach = found[1]
+            step = reach.step or 1
+            self.set(option, reach.min + round((_clamp(value, (reach.min, reach.max)) - reach.min) / step) * step)
 
 
 class ColorLock:
     """Lock of exposure and white balance; its success is reported to the owner of the process."""
 
-    def __init__(self, outlet: CaptureOutlet, controls: ColorControls) -> None:
-        self._outlet, self._controls = outlet, controls
+    def __init__(self, outlet: CaptureOutlet, options: ColorOptions) -> None:
+        self._outlet, self._options = outlet, options
+        outlet.lock_exposure = self.start
         self._controller: ColorController | None = None
         self._last_image: bytes | None = None
 
     def start(self) -> bool | None:
         """Start to lock; return whether it succeeded, or None if that is reported later."""
         self._controller = None
-        took = self._controls.disable_automatic()
+        options = self._options
+        took = [options.set(option, 0) for option in (options.auto_exposure, options.auto_white_balance)]
         if self._last_image is None:
             return all(took)
-        exposure, balance = self._controls.read_exposure(), self._controls.read_white_balance()
+        exposure, balance = options.read(options.exposure), options.read(options.white_balance)
         if not took[0] or exposure is None:
             return False
+        shortest, longest = exposure[1].min, exposure[1].max
+        kelvin, kelvins = (0.0, None) if balance is None else (balance[0], (balance[1].min, balance[1].max))
         self._controller = ColorController(
             measure_colors(self._last_image),
-            exposure.value,
-            (exposure.min_value, exposure.max_value),
-            balance.value if balance else 0.0,
-            (balance.min_value, balance.max_value) if balance else None,
+            exposure[0],
+            (shortest, max(shortest, min(longest, options.max_exposure))),
+            kelvin,
+            kelvins,
         )
         return None
 
@@ -176,7 +174,9 @@ class ColorLock:
             return
         step = self._controller.update(measure_colors(image))
         if step is not None:
-            self._controls.apply(step)
+            self._options.set_nearest(self._options.exposure, step.exposure)
+            if step.kelvin:
+                self._options.set_nearest(self._options.white_balance, step.kelvin)
         if self._controller.is_done:
             done = self._controller.has_converged
             self._controller = None

@@ -34,15 +34,9 @@ touch freed memory.
 
 
 class Status(IntEnum):
-    """Return value of a call."""
+    """Return values of a call that are asked for."""
 
     OK = 0
-    ERROR = 1
-    NOT_IMPLEMENTED = 2
-    NOT_SUPPORTED = 3
-    BAD_PARAMETER = 4
-    OUT_OF_FLOW = 5
-    NO_DEVICE = 6
     TIME_OUT = 102
 
 
@@ -51,11 +45,8 @@ class DeviceProperty(IntEnum):
 
     FIRMWARE_VERSION = 0
     DRIVER_VERSION = 1
-    HARDWARE_VERSION = 2
     SERIAL_NUMBER = 3
     IMAGE_REGISTRATION = 5
-    PLAYBACK_SPEED = 100
-    PLAYBACK_REPEAT = 101
 
 
 class StreamProperty(IntEnum):
@@ -65,7 +56,6 @@ class StreamProperty(IntEnum):
     VERTICAL_FOV = 2
     VIDEO_MODE = 3
     MIRRORING = 7
-    NUMBER_OF_FRAMES = 8
     AUTO_WHITE_BALANCE = 100
     AUTO_EXPOSURE = 101
 
@@ -102,20 +92,22 @@ class _DeviceInfo(ctypes.Structure):
     ]
 
 
-class _Frame(ctypes.Structure):
+class VideoFrame(ctypes.Structure):
+    """One image of a stream; ``address`` is in the library's memory, valid until it is released."""
+
     _fields_ = [
-        ("data_size", c_int),
-        ("data", c_void_p),
+        ("size_bytes", c_int),
+        ("address", c_void_p),
         ("sensor", c_int),
         ("timestamp_us", c_uint64),
         ("index", c_int),
-        ("width", c_int),
-        ("height", c_int),
+        ("width_px", c_int),
+        ("height_px", c_int),
         ("mode", _VideoMode),
-        ("cropping", c_int),
-        ("crop_x", c_int),
-        ("crop_y", c_int),
-        ("stride", c_int),
+        ("is_cropped", c_int),
+        ("crop_x_px", c_int),
+        ("crop_y_px", c_int),
+        ("stride_bytes", c_int),
     ]
 
 
@@ -129,13 +121,11 @@ class _Callbacks(ctypes.Structure):
 
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "oniInitialize": (c_int, [c_int]),
-    "oniShutdown": (None, []),
     "oniGetVersion": (_Version, []),
     "oniGetExtendedError": (c_char_p, []),
     "oniGetDeviceList": (c_int, [POINTER(POINTER(_DeviceInfo)), POINTER(c_int)]),
     "oniReleaseDeviceList": (c_int, [POINTER(_DeviceInfo)]),
     "oniRegisterDeviceCallbacks": (c_int, [POINTER(_Callbacks), c_void_p, POINTER(c_void_p)]),
-    "oniUnregisterDeviceCallbacks": (None, [c_void_p]),
     "oniDeviceOpen": (c_int, [c_char_p, POINTER(c_void_p)]),
     "oniDeviceClose": (c_int, [c_void_p]),
     "oniDeviceGetInfo": (c_int, [c_void_p, POINTER(_DeviceInfo)]),
@@ -150,8 +140,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "oniStreamStop": (None, [c_void_p]),
     "oniStreamSetProperty": (c_int, [c_void_p, c_int, c_void_p, c_int]),
     "oniStreamGetProperty": (c_int, [c_void_p, c_int, c_void_p, POINTER(c_int)]),
-    "oniStreamReadFrame": (c_int, [c_void_p, POINTER(POINTER(_Frame))]),
-    "oniFrameRelease": (None, [POINTER(_Frame)]),
+    "oniStreamReadFrame": (c_int, [c_void_p, POINTER(POINTER(VideoFrame))]),
+    "oniFrameRelease": (None, [POINTER(VideoFrame)]),
     "oniWaitForAnyStream": (c_int, [POINTER(c_void_p), c_int, POINTER(c_int), c_int]),
 }
 
@@ -165,25 +155,6 @@ class DeviceInfo:
     name: str
     vendor_id: int
     product_id: int
-
-
-@dataclass(frozen=True, slots=True)
-class VideoFrame:
-    """One image of a stream; ``address`` is in the library's memory, valid until it is released."""
-
-    sensor: int
-    index: int
-    timestamp_us: int
-    width_px: int
-    height_px: int
-    stride_bytes: int
-    pixel_format: int
-    is_cropped: bool
-    size_bytes: int
-    address: int
-
-
-DisconnectHandler = Callable[[str], None]
 
 
 def load_library() -> ctypes.CDLL:
@@ -231,42 +202,27 @@ def _read_version(library: ctypes.CDLL) -> str:
 
 
 class Context:
-    """Initialised library, one per process: ``with Context() as library:``."""
+    """Initialised library, one per process until that ends."""
 
     def __init__(self) -> None:
-        self._c = load_library()
-        self._callbacks: _Callbacks | None = None
-        self._callback_handle = c_void_p()
-        self.check("oniInitialize", self._c.oniInitialize(API_VERSION))
-
-    def __enter__(self) -> Context:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.shutdown()
-
-    @property
-    def api(self) -> ctypes.CDLL:
-        return self._c
-
-    @property
-    def version(self) -> str:
-        return _read_version(self._c)
+        self.api = load_library()
+        self.check("oniInitialize", self.api.oniInitialize(API_VERSION))
+        self.version = _read_version(self.api)
 
     def check(self, call: str, status: int) -> None:
         if status != Status.OK:
-            text = self._c.oniGetExtendedError() or b""
+            text = self.api.oniGetExtendedError() or b""
             raise OpenNI2Error(call, status, text.decode("utf-8", "replace").strip())
 
     def list_devices(self) -> list[DeviceInfo]:
         first, count = POINTER(_DeviceInfo)(), c_int()
-        self.check("oniGetDeviceList", self._c.oniGetDeviceList(byref(first), byref(count)))
+        self.check("oniGetDeviceList", self.api.oniGetDeviceList(byref(first), byref(count)))
         try:
             return [_device_info(first[i]) for i in range(count.value)]
         finally:
-            self._c.oniReleaseDeviceList(first)
+            self.api.oniReleaseDeviceList(first)
 
-    def register_disconnect_handler(self, on_disconnect: DisconnectHandler) -> None:
+    def register_disconnect_handler(self, on_disconnect: Callable[[str], None]) -> None:
         """Call ``on_disconnect`` with the URI of each unplugged device.
 
         It runs on a thread of the library: it may only note the fact and must not call the library.
@@ -279,7 +235,7 @@ class Context:
         self._callbacks = _Callbacks(
             _DeviceCallback(_ignore_event), _DeviceCallback(handle_disconnect), _StateCallback(_ignore_event)
         )
-        status = self._c.oniRegisterDeviceCallbacks(byref(self._callbacks), None, byref(self._callback_handle))
+        status = self.api.oniRegisterDeviceCallbacks(byref(self._callbacks), None, byref(c_void_p()))
         self.check("oniRegisterDeviceCallbacks", status)
 
     def open(self, uri: str | bytes) -> Device:
@@ -291,25 +247,18 @@ class Context:
         if not name.isascii() or len(name) >= 256:
             raise ValueError(f"not a name that OpenNI2 survives: {name!r}")
         handle = c_void_p()
-        self.check("oniDeviceOpen", self._c.oniDeviceOpen(name, byref(handle)))
+        self.check("oniDeviceOpen", self.api.oniDeviceOpen(name, byref(handle)))
         return Device(self, handle)
 
     def poll_streams(self, streams: Sequence[Stream], timeout_ms: int) -> int | None:
         """Return the index of a stream that has an image; None after the timeout."""
         handles = (c_void_p * len(streams))(*[stream.handle for stream in streams])
         ready = c_int(-1)
-        status = self._c.oniWaitForAnyStream(handles, len(streams), byref(ready), timeout_ms)
+        status = self.api.oniWaitForAnyStream(handles, len(streams), byref(ready), timeout_ms)
         if status == Status.TIME_OUT:
             return None
         self.check("oniWaitForAnyStream", status)
         return ready.value
-
-    def shutdown(self) -> None:
-        """Shut the library down; every device must be closed."""
-        if self._callback_handle.value:
-            self._c.oniUnregisterDeviceCallbacks(self._callback_handle)
-            self._callback_handle = c_void_p()
-        self._c.oniShutdown()
 
 
 class Device:
@@ -356,11 +305,10 @@ class Device:
         status = self.context.api.oniDeviceGetProperty(self.handle, key, byref(found), byref(size))
         return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}" if status == Status.OK else ""
 
-    def set_int(self, key: DeviceProperty, value: int) -> bool:
-        return self._set(key, c_int(value))
-
-    def set_float(self, key: DeviceProperty, value: float) -> bool:
-        return self._set(key, c_float(value))
+    def set_value(self, key: int, value: c_int | c_float) -> bool:
+        """Set a property; return whether the device accepted it."""
+        status = self.context.api.oniDeviceSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
+        return bool(status == Status.OK)
 
     def can_register_depth(self) -> bool:
         """Return whether the device can register depth to colour."""
@@ -380,10 +328,6 @@ class Device:
             stream.destroy()
         self.streams.clear()
         self.context.api.oniDeviceClose(self.handle)
-
-    def _set(self, key: DeviceProperty, value: c_int | c_float) -> bool:
-        status = self.context.api.oniDeviceSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))
-        return bool(status == Status.OK)
 
 
 class Stream:
@@ -418,15 +362,11 @@ class Stream:
             StreamProperty.VIDEO_MODE, _VideoMode(mode.pixel_format, mode.width_px, mode.height_px, mode.fps)
         )
 
-    def get_int(self, key: StreamProperty) -> int | None:
-        """Return an integer property; None if the stream lacks it."""
-        found = c_int()
-        return int(found.value) if self._get(key, found) else None
-
-    def get_float(self, key: StreamProperty) -> float | None:
-        """Return a float property; None if the stream lacks it."""
-        found = c_float()
-        return float(found.value) if self._get(key, found) else None
+    def get_value(self, key: int, found: c_int | c_float) -> float | None:
+        """Return a property of the type of ``found``; None if the stream lacks it."""
+        size = c_int(ctypes.sizeof(found))
+        status = self.context.api.oniStreamGetProperty(self.handle, key, byref(found), byref(size))
+        return found.value if status == Status.OK else None
 
     def set_int(self, key: StreamProperty, value: int) -> bool:
         """Set an integer property; return whether the stream accepted it."""
@@ -435,33 +375,16 @@ class Stream:
     @contextmanager
     def read_frame(self) -> Iterator[VideoFrame | None]:
         """Yield the next image, released on leaving; only after :meth:`Context.poll_streams` returned this stream."""
-        pointer = POINTER(_Frame)()
+        pointer = POINTER(VideoFrame)()
         status = self.context.api.oniStreamReadFrame(self.handle, byref(pointer))
         self.context.check("oniStreamReadFrame", status)
         if not bool(pointer):
             yield None
             return
         try:
-            frame = pointer[0]
-            yield VideoFrame(
-                frame.sensor,
-                frame.index,
-                frame.timestamp_us,
-                frame.width,
-                frame.height,
-                frame.stride,
-                frame.mode.pixel_format,
-                bool(frame.cropping),
-                frame.data_size,
-                frame.data or 0,
-            )
+            yield pointer[0]
         finally:
             self.context.api.oniFrameRelease(pointer)
-
-    def _get(self, key: StreamProperty, value: c_int | c_float) -> bool:
-        size = c_int(ctypes.sizeof(value))
-        status = self.context.api.oniStreamGetProperty(self.handle, key, byref(value), byref(size))
-        return bool(status == Status.OK)
 
     def _set(self, key: StreamProperty, value: c_int | _VideoMode) -> bool:
         status = self.context.api.oniStreamSetProperty(self.handle, key, byref(value), ctypes.sizeof(value))

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import ctypes
-import math
 import sys
 import threading
 from collections.abc import Sequence
 
 from carpus.core.capture.devices.cameras import CameraKind
 from carpus.core.capture.devices.capture_child import (
+    FPS,
     POLL_MS,
+    SIZE_PX,
     CameraConfig,
     CaptureFailed,
     CaptureOutlet,
@@ -29,11 +30,8 @@ from carpus.core.capture.devices.openni2 import (
     library_version,
     load_library,
 )
-from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
-from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import PRIMESENSE
 from carpus.core.model.errors import (
     CameraBusy,
@@ -60,7 +58,7 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
     device = _find_device(library, plan)
     streams: dict[Sensor, Stream] = {}
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
-        mode = choose_mode(device.list_modes(sensor), wanted, plan.size_px, plan.fps)
+        mode = choose_mode(device.list_modes(sensor), wanted, SIZE_PX, FPS)
         if mode is None:
             raise CaptureFailed(CameraUnsuited, f"no {wanted.name} pictures")
         stream = streams[sensor] = device.create_stream(sensor)
@@ -74,7 +72,7 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
     for stream in streams.values():
         stream.start()
     # only a running depth stream takes it
-    registered = device.can_register_depth() and device.set_int(DeviceProperty.IMAGE_REGISTRATION, 1)
+    registered = device.can_register_depth() and device.set_value(DeviceProperty.IMAGE_REGISTRATION, ctypes.c_int(1))
     synchronous = device.enable_sync()
     modes = {sensor: stream.read_mode() for sensor, stream in streams.items()}
     info = device.read_info()
@@ -94,11 +92,15 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
         "automatic_exposure": "on" if all(automatic) else "not settable",
     }
     across, down = (
-        streams[Sensor.COLOR].get_float(key) for key in (StreamProperty.HORIZONTAL_FOV, StreamProperty.VERTICAL_FOV)
+        streams[Sensor.COLOR].get_value(key, ctypes.c_float())
+        for key in (StreamProperty.HORIZONTAL_FOV, StreamProperty.VERTICAL_FOV)
     )
     view = (across, down) if across and down else None
-    mirrored = {sensor: bool(stream.get_int(StreamProperty.MIRRORING)) for sensor, stream in streams.items()}
-    return device, DeviceOpened(modes, mirrored, view, {key: value for key, value in settings.items() if value})
+    mirrored = frozenset(
+        sensor for sensor, stream in streams.items() if stream.get_value(StreamProperty.MIRRORING, ctypes.c_int())
+    )
+    known = {key: value for key, value in settings.items() if value}
+    return device, DeviceOpened(modes, known, mirrored=mirrored, field_of_view_rad=view)
 
 
 def _find_device(library: Context, plan: CameraConfig) -> Device:
@@ -223,27 +225,14 @@ def frame_size_bytes(frame: VideoFrame, mode: VideoMode) -> int | None:
     size = row * mode.height_px
     agreed = (
         size > 0
-        and frame.address != 0
+        and bool(frame.address)
         and not frame.is_cropped
-        and frame.pixel_format == mode.pixel_format
+        and frame.mode.pixel_format == mode.pixel_format
         and (frame.width_px, frame.height_px) == (mode.width_px, mode.height_px)
         and frame.stride_bytes == row
         and frame.size_bytes == size
     )
     return size if agreed else None
-
-
-def open_openni2(
-    *,
-    uri: str | None = None,
-    camera: Camera | None = None,
-    patience_s: float = math.inf,
-    notice: NoticeHandler = ignore_notice,
-) -> ProcessCamera:
-    """Open the first camera of :data:`MODELS`, or the one at an OpenNI2 address."""
-    plan = CameraConfig(size_px=SIZE_PX, models=MODELS, uri=uri or "")
-    name = uri or "camera"
-    return ProcessCamera(serve, plan, name, lambda _: PRIMESENSE, camera=camera, patience_s=patience_s, notice=notice)
 
 
 def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding:
@@ -279,7 +268,8 @@ def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding
 KIND = CameraKind(
     title="Asus Xtion",
     models=MODELS,
-    open=open_openni2,
+    serve=serve,
+    find_sensor=lambda _settings, _focal_px: PRIMESENSE,
     check_driver=check_driver,
     needed_mbit=480,
     port_advice=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),

@@ -6,18 +6,19 @@ import math
 import os
 import sys
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from importlib.util import find_spec
 from typing import Any
 
 import cv2
 
-from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_library
+from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_package
 from carpus.core.capture.devices.capture_child import (
+    FPS,
     POLL_MS,
+    SIZE_PX,
     CameraConfig,
     CaptureFailed,
     CaptureOutlet,
@@ -26,18 +27,15 @@ from carpus.core.capture.devices.capture_child import (
     camera_open_error,
     camera_unlisted_error,
 )
-from carpus.core.capture.devices.color_lock import ColorLock, ColorSettings, Control, max_exposure
-from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
+from carpus.core.capture.devices.color_lock import ColorLock, ColorOptions
 from carpus.core.capture.devices.usb_devices import find_usb_cameras
 from carpus.core.capture.frame_assembly import DepthDistorter, camera_from_lens
-from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
-from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
 from carpus.core.model.errors import CameraBusy, CameraUnsuited, DriverMissing
 from carpus.core.model.phrase import phrase
 
-MODULE, PACKAGE = "pyorbbecsdk", "pyorbbecsdk2"
+PACKAGE = "pyorbbecsdk2"
 DEPTH_SIZE_PX = (640, 480)
 """Near this size the Femto cameras measure at full size and the Gemini cameras at their best."""
 
@@ -97,11 +95,11 @@ def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
     state = ob.OBDeviceAccessState
     held = (state.OB_DEVICE_ACCESS_STATE_CONTROLLED, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE)
     listing = context.query_devices()
-    names = []
+    wanted, names = plan.serial or plan.uri, []
     for index in range(listing.get_count()):
         serial = str(listing.get_device_serial_number_by_index(index))
         name = f"{listing.get_device_name_by_index(index)} {serial}".strip()
-        if plan.serial in ("", serial):
+        if wanted in ("", serial):
             if listing.query_device_access_state(index) in held:
                 raise CaptureFailed(CameraBusy, name)
             return listing.get_device_by_index(index)
@@ -109,14 +107,14 @@ def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
     raise camera_unlisted_error(find_usb_cameras(plan.models), names)
 
 
-def choose_streams(ob: Any, pipeline: Any, plan: CameraConfig) -> OrbbecStreams:
+def choose_streams(ob: Any, pipeline: Any) -> OrbbecStreams:
     """Choose colour of the wanted size, or of twice that to be downscaled, and depth at the same rate.
 
     Raises :class:`CaptureFailed` if the camera has none.
     """
-    width, height = plan.size_px
-    colors = [each for each in _list_profiles(ob, pipeline, ob.OBSensorType.COLOR_SENSOR) if _is_color(ob, each)]
-    depths = [each for each in _list_profiles(ob, pipeline, ob.OBSensorType.DEPTH_SENSOR) if _is_depth(ob, each)]
+    width, height = SIZE_PX
+    colors = _list_profiles(ob, pipeline, ob.OBSensorType.COLOR_SENSOR, (ob.OBFormat.RGB, ob.OBFormat.MJPG))
+    depths = _list_profiles(ob, pipeline, ob.OBSensorType.DEPTH_SENSOR, (ob.OBFormat.Y16, ob.OBFormat.Z16))
     if not depths:
         raise CaptureFailed(CameraUnsuited, "no depth")
     for shrink in (1, 2):
@@ -125,7 +123,7 @@ def choose_streams(ob: Any, pipeline: Any, plan: CameraConfig) -> OrbbecStreams:
         if fitting:
             # the library turns what a camera sends into red, green and blue; where it does not, Carpus does
             red_first = [each for each in fitting if each.get_format() == ob.OBFormat.RGB]
-            color = max(red_first or fitting, key=lambda each: _profile_score(each, within, plan.fps))
+            color = max(red_first or fitting, key=lambda each: _profile_score(each, within, FPS))
             rate = color.get_fps()
             return OrbbecStreams(color, max(depths, key=lambda each: _profile_score(each, DEPTH_SIZE_PX, rate)), shrink)
     raise CaptureFailed(CameraUnsuited, f"no colour pictures of {width}x{height}")
@@ -209,22 +207,15 @@ def describe_device(ob: Any, device: Any, streams: OrbbecStreams) -> dict[str, s
     return {key: value for key, value in settings.items() if value}
 
 
-def _list_profiles(ob: Any, pipeline: Any, sensor: Any) -> list[Any]:
+def _list_profiles(ob: Any, pipeline: Any, sensor: Any, formats: tuple[Any, ...]) -> list[Any]:
     try:
         listing = pipeline.get_stream_profile_list(sensor)
     except (RuntimeError, ob.OBError):
         return []  # a camera without this sensor
-    return [
+    profiles = [
         listing.get_stream_profile_by_index(index).as_video_stream_profile() for index in range(listing.get_count())
     ]
-
-
-def _is_color(ob: Any, profile: Any) -> bool:
-    return profile.get_format() in (ob.OBFormat.RGB, ob.OBFormat.MJPG)
-
-
-def _is_depth(ob: Any, profile: Any) -> bool:
-    return profile.get_format() in (ob.OBFormat.Y16, ob.OBFormat.Z16)
+    return [profile for profile in profiles if profile.get_format() in formats]
 
 
 def _profile_score(profile: Any, size_px: tuple[int, int], fps: int) -> tuple[int, int]:
@@ -260,7 +251,7 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
 
     context.set_device_changed_callback(handle_change)
     pipeline = ob.Pipeline(device)
-    streams = choose_streams(ob, pipeline, plan)
+    streams = choose_streams(ob, pipeline)
     settings = describe_device(ob, device, streams) | configure(ob, device)
     config = ob.Config()
     config.enable_stream(streams.color)
@@ -270,8 +261,7 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     outlet.retain(context, device, pipeline, streams, config, handle_change)
     pipeline.start(config)
     pictures = _OrbbecImages(ob, outlet, streams)
-    lock = ColorLock(outlet, _OrbbecControls(ob, device, streams))
-    outlet.lock_exposure = lock.start
+    lock = ColorLock(outlet, _OrbbecOptions(ob, device, streams.color.get_fps()))
     is_reported = False
 
     def forward_images(watchdog: StreamWatchdog) -> None:
@@ -282,8 +272,7 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
             watchdog.reset(Sensor.DEPTH)
             if not is_reported:  # the unit comes with a depth image, in millimetres
                 unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
-                mirrored = dict.fromkeys(streams.modes, False)
-                outlet.send(DeviceOpened(streams.modes, mirrored, None, settings, read_lens(ob, streams), unit_m))
+                outlet.send(DeviceOpened(streams.modes, settings, read_lens(ob, streams), unit_m))
                 is_reported = True
             pictures.forward_depth(depth)
         if color is not None:
@@ -339,47 +328,27 @@ class _OrbbecImages:
         return pixels
 
 
-class _OrbbecControls:
-    """Exposure and white balance of the colour camera."""
+class _OrbbecOptions(ColorOptions):
+    """Properties of the colour camera."""
 
-    def __init__(self, ob: Any, device: Any, streams: OrbbecStreams) -> None:
-        self._ob, self._device, self._prop = ob, device, ob.OBPropertyID
-        self._max_exposure = max_exposure(streams.color.get_fps())
-
-    def disable_automatic(self) -> tuple[bool, bool]:
-        exposure, balance = (
-            set_property(self._ob, self._device, each, 0)
-            for each in (self._prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL, self._prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL)
+    def __init__(self, ob: Any, device: Any, fps: float) -> None:
+        prop = ob.OBPropertyID
+        options = (
+            prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL,
+            prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL,
+            prop.OB_PROP_COLOR_EXPOSURE_INT,
+            prop.OB_PROP_COLOR_WHITE_BALANCE_INT,
         )
-        return exposure, balance
+        super().__init__(options, fps)
+        self._ob, self._device = ob, device
 
-    def read_exposure(self) -> Control | None:
-        found = self._read_control(self._prop.OB_PROP_COLOR_EXPOSURE_INT)
-        return (
-            None
-            if found is None
-            else replace(found, max_value=max(found.min_value, min(found.max_value, self._max_exposure)))
-        )
+    def set(self, option: Any, value: float) -> bool:
+        return set_property(self._ob, self._device, option, value)
 
-    def read_white_balance(self) -> Control | None:
-        return self._read_control(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT)
-
-    def apply(self, step: ColorSettings) -> None:
-        self._set_nearest(self._prop.OB_PROP_COLOR_EXPOSURE_INT, step.exposure)
-        if step.kelvin:
-            self._set_nearest(self._prop.OB_PROP_COLOR_WHITE_BALANCE_INT, step.kelvin)
-
-    def _read_control(self, prop: Any) -> Control | None:
-        if not self._device.is_property_supported(prop, self._ob.OBPermissionType.PERMISSION_READ_WRITE):
+    def read(self, option: Any) -> tuple[float, Any] | None:
+        if not self._device.is_property_supported(option, self._ob.OBPermissionType.PERMISSION_READ_WRITE):
             return None
-        reach = self._device.get_int_property_range(prop)
-        return Control(float(self._device.get_int_property(prop)), float(reach.min), float(reach.max))
-
-    def _set_nearest(self, prop: Any, value: float) -> None:
-        reach = self._device.get_int_property_range(prop)
-        step = reach.step or 1
-        value = min(max(value, reach.min), reach.max)
-        set_property(self._ob, self._device, prop, reach.min + round((value - reach.min) / step) * step)
+        return float(self._device.get_int_property(option)), self._device.get_int_property_range(option)
 
 
 MODELS = {
@@ -405,30 +374,6 @@ _WIDE_BASELINE_MODELS = ("330L", "335L", "336L", "GEMINI 2")
 """Baseline of about 100 mm; the other Gemini cameras have about 50 mm."""
 
 
-def open_orbbec(
-    *,
-    uri: str | None = None,
-    camera: Camera | None = None,
-    patience_s: float = math.inf,
-    notice: NoticeHandler = ignore_notice,
-    context: Callable[[], Any] | None = None,
-) -> ProcessCamera:
-    """Open the first camera, or the one with the serial number ``uri``.
-
-    Raises :class:`DriverMissing` without the library.
-    """
-    if find_spec(MODULE) is None:
-        raise DriverMissing(PACKAGE, PACKAGE)
-    plan = CameraConfig(uri or "", SIZE_PX, models=MODELS, make_context=context)
-
-    def opened_sensor(opened: DeviceOpened) -> DepthSensor:
-        return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
-
-    return ProcessCamera(
-        serve, plan, uri or "Orbbec", opened_sensor, camera=camera, patience_s=patience_s, notice=notice
-    )
-
-
 def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
     """Return the depth sensor of a camera with these settings.
 
@@ -443,13 +388,15 @@ def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -
     return replace(pair.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
 
 
-check_driver = partial(check_library, phrase("Orbbec driver"), PACKAGE, load_library)
+check_driver = partial(check_package, phrase("Orbbec driver"), PACKAGE, load_library)
 KIND = CameraKind(
     title="Orbbec Femto, Gemini or Astra 2",
     models=MODELS,
-    open=open_orbbec,
+    serve=serve,
+    find_sensor=find_sensor,
     check_driver=check_driver,
     needed_mbit=5000,
     port_advice=USB_3,
     check_settings=check_firmware_and_usb,
+    package=PACKAGE,
 )

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from carpus.core.capture.camera_info import rescale_camera
 from carpus.core.capture.devices.capture_child import (
+    SIZE_PX,
     CameraConfig,
     DeviceOpened,
     ExposureLocked,
@@ -42,7 +43,6 @@ from carpus.core.model.errors import (
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import Frame
 
-SIZE_PX = (640, 480)
 RING_SLOTS = 60
 """Slots for a camera, which does not wait: two seconds of images for a busy computer (55 MB, used only then)."""
 OPEN_TIMEOUT_S = 15.0
@@ -75,8 +75,8 @@ class ProcessCamera:
         Which camera to open.
     subject : str
         Name of the camera in faults until it is open.
-    sensor : callable
-        Returns the depth sensor of the opened camera.
+    find_sensor : callable
+        Returns the depth sensor for the settings of the opened camera and the focal length of its colour images.
     camera : Camera, optional
         Measured intrinsics; default are those of the driver, or those from its field of view.
     """
@@ -86,13 +86,13 @@ class ProcessCamera:
         serve: ServeFunction,
         plan: CameraConfig,
         subject: str,
-        sensor: Callable[[DeviceOpened], DepthSensor],
+        find_sensor: Callable[[Mapping[str, str], float], DepthSensor],
         *,
         camera: Camera | None = None,
         patience_s: float = math.inf,
         notice: NoticeHandler = ignore_notice,
     ) -> None:
-        self._serve, self._plan, self._subject, self._sensor = serve, plan, subject, sensor
+        self._serve, self._plan, self._subject, self._find_sensor = serve, plan, subject, find_sensor
         self._patience_s = patience_s
         self._notice = notice
         self._closing = threading.Event()
@@ -254,9 +254,9 @@ class ProcessCamera:
             self._notice(DepthNotRegistered(name))
         if layout.format_enlargement:
             self._notice(FramesEnlarged(name, layout.format_enlargement))
-        turned = any(opened.mirrored.values())
-        settings = {**opened.settings, "mirrored": "turned back" if turned else "no"}
-        seen = replace(found, sensor=self._sensor(opened))
+        settings = {**opened.settings, "mirrored": "turned back" if opened.mirrored else "no"}
+        focal_px = math.nan if opened.lens is None else opened.lens.fx_px
+        seen = replace(found, sensor=self._find_sensor(opened.settings, focal_px))
         return SourceInfo(name, seen, True, None, float(opened.modes[Sensor.COLOR].fps), settings)
 
 
@@ -270,12 +270,11 @@ def _read_serial(opened: DeviceOpened) -> str:
 
 def _build_layout(opened: DeviceOpened) -> StreamLayout:
     sizes = {sensor: (mode.width_px, mode.height_px) for sensor, mode in opened.modes.items()}
-    mirrored = opened.mirrored
     layout = StreamLayout(
         sizes[Sensor.COLOR],
         sizes[Sensor.DEPTH],
-        mirrored[Sensor.COLOR],
-        mirrored[Sensor.DEPTH],
+        Sensor.COLOR in opened.mirrored,
+        Sensor.DEPTH in opened.mirrored,
         opened.depth_unit_m,
     )
     if layout.describe_size_mismatch():

@@ -6,17 +6,20 @@ import math
 import queue
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_library
+import numpy as np
+
+from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_package
 from carpus.core.capture.devices.capture_child import (
+    FPS,
     POLL_MS,
+    SIZE_PX,
     CameraConfig,
     CaptureFailed,
     CaptureOutlet,
@@ -25,18 +28,14 @@ from carpus.core.capture.devices.capture_child import (
     camera_open_error,
     camera_unlisted_error,
 )
-from carpus.core.capture.devices.color_lock import ColorLock, ColorSettings, Control, max_exposure
-from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
+from carpus.core.capture.devices.color_lock import ColorLock, ColorOptions
 from carpus.core.capture.devices.usb_devices import find_usb_cameras
-from carpus.core.capture.source import NoticeHandler, ignore_notice
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
-from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
 from carpus.core.model.errors import (
     CameraUnsuited,
     DriverFailed,
     DriverMissing,
-    ExtraMissing,
     RecordingDamaged,
     RecordingUnsupported,
 )
@@ -85,14 +84,13 @@ class RealsenseStreams:
 
 def find_device(rs: Any, context: Any, plan: CameraConfig) -> Any:
     """Return the device to open; raises :class:`CaptureFailed` if there is none."""
-    listed = list(context.query_devices())
-    for device in listed:
-        if not plan.serial or read_device_info(rs, device, "serial_number") == plan.serial:
+    wanted = plan.serial or plan.uri
+    names = []
+    for device in context.query_devices():
+        serial = read_device_info(rs, device, "serial_number")
+        if wanted in ("", serial):
             return device
-    names = [
-        f"{read_device_info(rs, device, 'name')} {read_device_info(rs, device, 'serial_number')}".strip()
-        for device in listed
-    ]
+        names.append(f"{read_device_info(rs, device, 'name')} {serial}".strip())
     raise camera_unlisted_error(find_usb_cameras(plan.models), names)
 
 
@@ -102,39 +100,61 @@ def read_device_info(rs: Any, device: Any, fact: str) -> str:
     return str(device.get_info(info)) if device.supports(info) else ""
 
 
-def choose_streams(rs: Any, device: Any, plan: CameraConfig) -> RealsenseStreams:
+def choose_streams(rs: Any, device: Any) -> RealsenseStreams:
     """Choose colour of the wanted size and rate, and depth as the camera measures it best.
 
     Raises :class:`CaptureFailed` if the camera has none.
     """
-    offered = _list_profiles(rs, device)
-    width, height = plan.size_px
+    colors, depths = _list_profiles(rs, device)
+    width, height = SIZE_PX
 
-    def nearness(profile: Any, size_px: tuple[int, int]) -> tuple[int, int]:
-        return -abs(profile.fps() - plan.fps), -abs(profile.width() - size_px[0]) - abs(profile.height() - size_px[1])
+    def nearness(pair: tuple[Any, Any], size_px: tuple[int, int]) -> tuple[int, int]:
+        profile = pair[1]
+        return -abs(profile.fps() - FPS), -abs(profile.width() - size_px[0]) - abs(profile.height() - size_px[1])
 
-    colors = [(sensor, each) for sensor, each in offered if each.format() == rs.format.rgb8 and _is_color(rs, each)]
-    fitting = [pair for pair in colors if pair[1].width() <= width and pair[1].height() <= height]
+    fitting = [
+        pair
+        for pair in colors
+        if pair[1].format() == rs.format.rgb8 and pair[1].width() <= width and pair[1].height() <= height
+    ]
     if not fitting:
         raise CaptureFailed(CameraUnsuited, f"no colour pictures of {width}x{height}")
-    depths = [(sensor, each) for sensor, each in offered if _is_depth(rs, each)]
     if not depths:
         raise CaptureFailed(CameraUnsuited, "no depth")
-    color = max(fitting, key=lambda pair: nearness(pair[1], plan.size_px))
-    depth = max(depths, key=lambda pair: nearness(pair[1], DEPTH_SIZE_PX))
-    return _group_by_sensor([color, depth])
+    color = max(fitting, key=lambda pair: nearness(pair, SIZE_PX))
+    return _group_by_sensor([color, max(depths, key=lambda pair: nearness(pair, DEPTH_SIZE_PX))])
 
 
 def choose_recording_streams(rs: Any, playback: Any) -> RealsenseStreams:
     """Return colour and, if there is any, depth of a recording; raises :class:`CaptureFailed`."""
-    offered = _list_profiles(rs, playback)
-    colors = [pair for pair in offered if _is_color(rs, pair[1])]
+    colors, depths = _list_profiles(rs, playback)
     readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
     if not readable:
         form = f"colour as {colors[0][1].format().name}" if colors else "no colour frames"
-        raise CaptureFailed(CameraUnsuited, form)
-    depths = [pair for pair in offered if _is_depth(rs, pair[1])]
+        raise CaptureFailed(RecordingUnsupported, form)
     return _group_by_sensor([readable[0], *depths[:1]])
+
+
+def _list_profiles(rs: Any, device: Any) -> tuple[list[tuple[Any, Any]], list[tuple[Any, Any]]]:
+    """Return sensor and profile of all colour streams, and of all depth streams."""
+    offered = [
+        (sensor, profile.as_video_stream_profile())
+        for sensor in device.query_sensors()
+        for profile in sensor.get_stream_profiles()
+        if profile.is_video_stream_profile()
+    ]
+    colors = [pair for pair in offered if pair[1].stream_type() == rs.stream.color]
+    depths = [pair for pair in offered if pair[1].stream_type() == rs.stream.depth]
+    return colors, [pair for pair in depths if pair[1].format() == rs.format.z16]
+
+
+def _group_by_sensor(chosen: Sequence[tuple[Any, Any]]) -> RealsenseStreams:
+    """Group the profiles by sensor: one that sends both (D405) is opened once."""
+    by_name: dict[str, tuple[Any, list[Any]]] = {}
+    for number, (sensor, profile) in enumerate(chosen):
+        by_name.setdefault(sensor.name or str(number), (sensor, []))[1].append(profile)
+    opening = tuple((sensor, tuple(profiles)) for sensor, profiles in by_name.values())
+    return RealsenseStreams(chosen[0][1], chosen[1][1] if len(chosen) > 1 else None, opening)
 
 
 def configure(rs: Any, streams: RealsenseStreams) -> dict[str, str]:
@@ -167,14 +187,24 @@ def set_option(sensor: Any, option: Any, value: float) -> bool:
     return False
 
 
-def set_nearest_option(sensor: Any, option: Any, value: float) -> bool:
-    """Set an option to the nearest accepted value: the sensor rejects values between its steps."""
-    if not sensor.supports(option):
-        return False
-    reach = sensor.get_option_range(option)
-    step = reach.step or 1.0
-    value = min(max(value, reach.min), reach.max)
-    return set_option(sensor, option, reach.min + round((value - reach.min) / step) * step)
+class _RealSenseOptions(ColorOptions):
+    """Options of the sensor that sends colour."""
+
+    def __init__(self, rs: Any, streams: RealsenseStreams) -> None:
+        option = rs.option
+        self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
+        super().__init__(
+            (option.enable_auto_exposure, option.enable_auto_white_balance, option.exposure, option.white_balance),
+            streams.color.fps(),
+        )
+
+    def set(self, option: Any, value: float) -> bool:
+        return set_option(self._sensor, option, value)
+
+    def read(self, option: Any) -> tuple[float, Any] | None:
+        if not self._sensor.supports(option):
+            return None
+        return float(self._sensor.get_option(option)), self._sensor.get_option_range(option)
 
 
 def read_depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
@@ -219,39 +249,13 @@ def describe_device(rs: Any, device: Any, streams: RealsenseStreams) -> dict[str
         "usb": read_device_info(rs, device, "usb_type_descriptor"),
         "library": f"librealsense {rs.__version__}",
         "color_mode": _format_mode(streams.color),
-        "depth_mode": _format_mode(streams.depth) if streams.depth is not None else "",
         "lens_model": read_lens(rs, streams.color).model,
-        "registered": "by the library" if streams.depth is not None else "",
     }
     if streams.depth is not None:
+        settings["depth_mode"] = _format_mode(streams.depth)
+        settings["registered"] = "by the library"
         settings["depth_focal_px"] = f"{streams.depth.get_intrinsics().fx:.2f}"
     return {key: value for key, value in settings.items() if value}
-
-
-def _list_profiles(rs: Any, device: Any) -> list[tuple[Any, Any]]:
-    return [
-        (sensor, profile.as_video_stream_profile())
-        for sensor in device.query_sensors()
-        for profile in sensor.get_stream_profiles()
-        if profile.is_video_stream_profile()
-    ]
-
-
-def _is_color(rs: Any, profile: Any) -> bool:
-    return bool(profile.stream_type() == rs.stream.color)
-
-
-def _is_depth(rs: Any, profile: Any) -> bool:
-    return bool(profile.stream_type() == rs.stream.depth and profile.format() == rs.format.z16)
-
-
-def _group_by_sensor(chosen: Sequence[tuple[Any, Any]]) -> RealsenseStreams:
-    """Group the profiles by sensor: one that sends both (D405) is opened once."""
-    by_name: dict[str, tuple[Any, list[Any]]] = {}
-    for number, (sensor, profile) in enumerate(chosen):
-        by_name.setdefault(sensor.name or str(number), (sensor, []))[1].append(profile)
-    opening = tuple((sensor, tuple(profiles)) for sensor, profiles in by_name.values())
-    return RealsenseStreams(chosen[0][1], chosen[1][1] if len(chosen) > 1 else None, opening)
 
 
 def _format_mode(profile: Any) -> str:
@@ -283,39 +287,19 @@ def _serve_camera(rs: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     device = find_device(rs, context, plan)
     unplugged = threading.Event()
     context.set_devices_changed_callback(lambda change: unplugged.set() if change.was_removed(device) else None)
-    streams = choose_streams(rs, device, plan)
+    streams = choose_streams(rs, device)
     settings = describe_device(rs, device, streams) | configure(rs, streams)
-    frame_queue: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
-    outlet.retain(context, device, streams, frame_queue)
-
-    def enqueue(frame: Any) -> None:
-        frame.keep()
-        while True:
-            try:
-                frame_queue.put_nowait(frame)
-                return
-            except queue.Full:
-                _get_frame(frame_queue, 0.0)  # the oldest; its number is missing then, and counted
-
-    _start_streams(streams, enqueue)
-    pictures = _RealSenseImages(rs, outlet, streams)
-    hold = ColorLock(outlet, _RealSenseControls(rs, streams))
-    outlet.lock_exposure = hold.start
-    is_reported = False
+    outlet.retain(context, device)
+    images = _RealSenseImages(rs, outlet, streams, settings, drops_oldest=True)
+    lock = ColorLock(outlet, _RealSenseOptions(rs, streams))
 
     def forward_images(watchdog: StreamWatchdog) -> None:
-        nonlocal is_reported
-        frame = _get_frame(frame_queue, POLL_MS / 1000.0)
-        if frame is None:
-            return
-        sensor = _frame_sensor(rs, frame)
-        watchdog.reset(sensor)
-        if sensor == Sensor.COLOR and not is_reported:
-            outlet.send(_build_report(rs, streams, settings | {"clock": _clock_name(rs, frame)}))
-            is_reported = True
-        pictures.forward(frame)
-        if sensor == Sensor.COLOR:
-            hold.add_frame(memoryview(frame.get_data()).cast("B"))
+        frame = images.forward()
+        if frame is not None:
+            sensor = Sensor.COLOR if _is_color(rs, frame) else Sensor.DEPTH
+            watchdog.reset(sensor)
+            if sensor == Sensor.COLOR:
+                lock.add_frame(memoryview(frame.get_data()).cast("B"))
 
     outlet.run(streams.modes, unplugged, forward_images)
     for sensor, _ in streams.opening:
@@ -330,78 +314,44 @@ def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
         streams = choose_recording_streams(rs, playback)
     except RuntimeError as failure:
         raise CaptureFailed(RecordingDamaged, " ".join(str(failure).split())) from failure
-    except CaptureFailed as failure:
-        raise CaptureFailed(RecordingUnsupported, failure.detail) from failure
-    frame_queue: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
-    outlet.retain(playback, streams, frame_queue)
-
-    def enqueue(frame: Any) -> None:
-        frame.keep()
-        frame_queue.put(frame)  # the library reads on only when this is over
-
-    settings = describe_device(rs, playback, streams)
+    outlet.retain(playback)
     playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
-    _start_streams(streams, enqueue)
+    images = _RealSenseImages(rs, outlet, streams, describe_device(rs, playback, streams), drops_oldest=False)
     playback.resume()
-    pictures = _RealSenseImages(rs, outlet, streams)
-    watchdog = time.monotonic()
-    is_reported = False
+    last_s = time.monotonic()
     while not outlet.is_stopping:
         outlet.handle_commands(block=not outlet.has_free_slot)
-        if not outlet.has_free_slot:
-            watchdog = time.monotonic()
-            continue
-        frame = _get_frame(frame_queue, POLL_MS / 1000.0)
-        if frame is not None:
-            watchdog = time.monotonic()
-            if not is_reported:
-                outlet.send(_build_report(rs, streams, settings | {"clock": _clock_name(rs, frame)}))
-                is_reported = True
-            pictures.forward(frame)
-        elif playback.current_status() == rs.playback_status.stopped and frame_queue.empty():
-            if not is_reported:
+        is_stopped = playback.current_status() == rs.playback_status.stopped
+        if not outlet.has_free_slot or images.forward() is not None:
+            last_s = time.monotonic()
+        elif is_stopped:
+            if not images.has_reported:
                 raise CaptureFailed(RecordingDamaged, "no picture in it")
             return
-        elif time.monotonic() - watchdog > FILE_SILENCE_S:
+        elif time.monotonic() - last_s > FILE_SILENCE_S:
             raise CaptureFailed(RecordingDamaged, f"no picture for {FILE_SILENCE_S:g} s")
         outlet.send_heartbeat()
 
 
-def _start_streams(streams: RealsenseStreams, take: Callable[[Any], None]) -> None:
-    for sensor, profiles in streams.opening:
-        sensor.open(list(profiles))
-    for sensor, _ in streams.opening:
-        sensor.start(take)
-
-
-def _get_frame(frame_queue: queue.Queue[Any], wait_s: float) -> Any | None:
-    try:
-        return frame_queue.get(timeout=wait_s) if wait_s > 0.0 else frame_queue.get_nowait()
-    except queue.Empty:
-        return None
-
-
-def _frame_sensor(rs: Any, frame: Any) -> Sensor:
-    return Sensor.COLOR if frame.profile.stream_type() == rs.stream.color else Sensor.DEPTH
-
-
-def _clock_name(rs: Any, frame: Any) -> str:
-    """Return the clock of the time stamps: the camera's, or the computer's (time of arrival)."""
-    return "computer" if frame.get_frame_timestamp_domain() == rs.timestamp_domain.system_time else "camera"
-
-
-def _build_report(rs: Any, streams: RealsenseStreams, settings: dict[str, str]) -> DeviceOpened:
-    mirrored = dict.fromkeys(streams.modes, False)
-    return DeviceOpened(
-        streams.modes, mirrored, None, settings, read_lens(rs, streams.color), read_depth_unit_m(rs, streams)
-    )
+def _is_color(rs: Any, frame: Any) -> bool:
+    return bool(frame.profile.stream_type() == rs.stream.color)
 
 
 class _RealSenseImages:
-    """Publisher of colour and of depth registered to it, both with their own times."""
+    """Publisher of colour and of depth registered to it, both with their own times; starts the streams."""
 
-    def __init__(self, rs: Any, outlet: CaptureOutlet, streams: RealsenseStreams) -> None:
-        self._rs, self._outlet = rs, outlet
+    def __init__(
+        self,
+        rs: Any,
+        outlet: CaptureOutlet,
+        streams: RealsenseStreams,
+        settings: dict[str, str],
+        *,
+        drops_oldest: bool,
+    ) -> None:
+        self._rs, self._outlet, self._streams, self._settings = rs, outlet, streams, settings
+        self._drops_oldest = drops_oldest
+        self.has_reported = False
         self._is_registered = is_depth_registered(streams)
         self._align = rs.align(rs.stream.color)
         self._color: Any | None = None
@@ -411,74 +361,67 @@ class _RealSenseImages:
             lambda frame, source: source.frame_ready(source.allocate_composite_frame([frame, self._color]))
         )
         self._join.start(self._joined)
+        self._frames: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
         outlet.retain(self)
+        for sensor, profiles in streams.opening:
+            sensor.open(list(profiles))
+        for sensor, _ in streams.opening:
+            sensor.start(self._enqueue)
 
-    def forward(self, frame: Any) -> None:
-        """Publish one image; depth from before the first colour image waits for it."""
-        if _frame_sensor(self._rs, frame) == Sensor.DEPTH:
+    def _enqueue(self, frame: Any) -> None:
+        """Take a frame of the library's thread: a camera's oldest makes room, a recording reads on when there is."""
+        frame.keep()
+        while self._drops_oldest and self._frames.full():
+            with suppress(queue.Empty):
+                self._frames.get_nowait()  # its number is missing then, and counted
+        self._frames.put(frame)
+
+    def forward(self) -> Any | None:
+        """Publish the next image and return it; None if there is none yet.
+
+        A camera is reported with its first colour image, a recording with its first of any. Depth that is yet to be
+        registered waits for a colour image.
+        """
+        rs = self._rs
+        try:
+            frame = self._frames.get(timeout=POLL_MS / 1000.0)
+        except queue.Empty:
+            return None
+        is_color = _is_color(rs, frame)
+        if not self.has_reported and (is_color or not self._drops_oldest):
+            # the camera's time, or the computer's (of arrival)
+            is_arrival = frame.get_frame_timestamp_domain() == rs.timestamp_domain.system_time
+            settings = self._settings | {"clock": "computer" if is_arrival else "camera"}
+            lens, unit_m = read_lens(rs, self._streams.color), read_depth_unit_m(rs, self._streams)
+            self._outlet.send(DeviceOpened(self._streams.modes, settings, lens, unit_m))
+            self.has_reported = True
+        if not is_color:
             if self._is_registered:
-                self._publish(Sensor.DEPTH, frame, memoryview(frame.get_data()).cast("B"))
+                self._publish(Sensor.DEPTH, frame)
             elif self._color is None:
                 self._early = [*self._early[-WAITING_FRAMES:], frame]
             else:
-                self._forward_depth(frame)
-            return
+                self._publish_registered(frame)
+            return frame
         if self._color is None:
             self._color = frame  # laying depth on colour asks only how it sees, so any colour picture will do
-        data = memoryview(frame.get_data()).cast("B")
-        is_turned = frame.profile.format() == self._rs.format.bgr8
-        self._publish(Sensor.COLOR, frame, _bgr_to_rgb(data) if is_turned else data)
+        self._publish(Sensor.COLOR, frame)
         for early in self._early:
-            self._forward_depth(early)
+            self._publish_registered(early)
         self._early = []
+        return frame
 
-    def _forward_depth(self, frame: Any) -> None:
+    def _publish_registered(self, frame: Any) -> None:
         self._join.invoke(frame)
         both = self._joined.wait_for_frame(JOIN_MS).as_frameset()
-        registered = self._align.process(both).get_depth_frame()
-        self._publish(Sensor.DEPTH, registered, memoryview(registered.get_data()).cast("B"))
+        self._publish(Sensor.DEPTH, self._align.process(both).get_depth_frame())
 
-    def _publish(self, sensor: Sensor, frame: Any, picture: memoryview) -> None:
-        self._outlet.publish(sensor, frame.get_frame_number(), round(frame.get_timestamp() * 1000.0), picture)
-
-
-def _bgr_to_rgb(blue_first: memoryview) -> memoryview:
-    out = bytearray(blue_first.nbytes)
-    out[0::3], out[1::3], out[2::3] = blue_first[2::3], blue_first[1::3], blue_first[0::3]
-    return memoryview(out)
-
-
-class _RealSenseControls:
-    """Exposure and white balance of the colour sensor."""
-
-    def __init__(self, rs: Any, streams: RealsenseStreams) -> None:
-        self._option = rs.option
-        self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
-        self._max_exposure = max_exposure(streams.color.fps())
-
-    def disable_automatic(self) -> tuple[bool, bool]:
-        option, sensor = self._option, self._sensor
-        return set_option(sensor, option.enable_auto_exposure, 0), set_option(
-            sensor, option.enable_auto_white_balance, 0
-        )
-
-    def read_exposure(self) -> Control | None:
-        found = self._read_control(self._option.exposure)
-        return None if found is None else replace(found, max_value=min(found.max_value, self._max_exposure))
-
-    def read_white_balance(self) -> Control | None:
-        return self._read_control(self._option.white_balance)
-
-    def apply(self, step: ColorSettings) -> None:
-        set_nearest_option(self._sensor, self._option.exposure, step.exposure)
-        if step.kelvin:
-            set_nearest_option(self._sensor, self._option.white_balance, step.kelvin)
-
-    def _read_control(self, option: Any) -> Control | None:
-        if not self._sensor.supports(option):
-            return None
-        reach = self._sensor.get_option_range(option)
-        return Control(float(self._sensor.get_option(option)), reach.min, reach.max)
+    def _publish(self, sensor: Sensor, frame: Any) -> None:
+        image = np.asanyarray(frame.get_data())
+        if frame.profile.format() == self._rs.format.bgr8:
+            image = np.ascontiguousarray(image[..., ::-1])
+        time_us = round(frame.get_timestamp() * 1000.0)
+        self._outlet.publish(sensor, frame.get_frame_number(), time_us, memoryview(image).cast("B"))
 
 
 MODELS = {
@@ -493,35 +436,6 @@ MODELS = {
 SENSORS = {"D415": D415, "D435": D435, "D455": D455, "D456": D455, "D457": D455}
 
 
-def open_realsense(
-    *,
-    uri: str | None = None,
-    camera: Camera | None = None,
-    patience_s: float = math.inf,
-    notice: NoticeHandler = ignore_notice,
-    context: Callable[[], Any] | None = None,
-) -> ProcessCamera:
-    """Open the first camera, or the one with the serial number ``uri``.
-
-    Raises :class:`ExtraMissing` without the library.
-    """
-    require_library()
-    plan = CameraConfig(uri or "", SIZE_PX, models=MODELS, make_context=context)
-
-    def opened_sensor(opened: DeviceOpened) -> DepthSensor:
-        return find_sensor(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
-
-    return ProcessCamera(
-        serve, plan, uri or "RealSense", opened_sensor, camera=camera, patience_s=patience_s, notice=notice
-    )
-
-
-def require_library() -> None:
-    """Raise :class:`ExtraMissing` if the maker's library is not installed; loads nothing."""
-    if find_spec(PACKAGE) is None:
-        raise ExtraMissing(PACKAGE)
-
-
 def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
     """Return the depth sensor of a camera with these settings; an unknown camera is taken for a D435.
 
@@ -534,13 +448,15 @@ def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -
     return sensor.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else sensor
 
 
-check_driver = partial(check_library, phrase("RealSense driver"), PACKAGE, load_library)
+check_driver = partial(check_package, phrase("RealSense driver"), PACKAGE, load_library)
 KIND = CameraKind(
     title="Intel RealSense",
     models=MODELS,
-    open=open_realsense,
+    serve=serve,
+    find_sensor=find_sensor,
     check_driver=check_driver,
     needed_mbit=5000,
     port_advice=USB_3,
     check_settings=check_firmware_and_usb,
+    package=PACKAGE,
 )
