@@ -11,18 +11,16 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.calibrate import (
     NeutralCapture,
-    calibrate_hand,
     check_hand_length,
     measure_hand,
     require_calibration,
 )
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.depth_sensor import PRIMESENSE
 from carpus.core.model.errors import ClickOnNoMarker, MarkerWithoutDepth
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.model.types import FloatArray, Side
+from carpus.core.model.types import Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of, outcome_of, still
 from tests.detection.pictures import CAMERA, PALM_PX
 from tests.tracking.hands import palm
@@ -64,7 +62,7 @@ def test_calibrate_hand_without_noise_is_exact() -> None:
     assert found.verdict.residual_mm.max() < 0.3
 
 
-@pytest.mark.parametrize("direction_deg", [0.0, 80.0, 160.0, 240.0, 320.0])
+@pytest.mark.parametrize("direction_deg", [0.0, 160.0])
 def test_calibrate_hand_clicks_five_pixels_off_are_assigned(direction_deg: float) -> None:
     angle = np.radians(direction_deg + 60.0 * np.arange(6))
     error = 5.0 * np.stack((np.cos(angle), np.sin(angle)), axis=1)
@@ -125,8 +123,10 @@ def test_calibrate_hand_two_clicks_on_one_marker_are_named() -> None:
 @pytest.mark.parametrize(
     ("pair", "side"),
     [
-        *((pair, "right") for pair in ((0, 1), (1, 5), (2, 3), (4, 5))),
-        *((pair, "left") for pair in ((0, 3), (1, 2), (3, 4))),
+        ((0, 1), "right"),
+        ((4, 5), "right"),
+        ((0, 3), "left"),
+        ((3, 4), "left"),
     ],
 )
 def test_calibrate_hand_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None:
@@ -139,8 +139,7 @@ def test_calibrate_hand_swapped_clicks_are_named(pair: tuple[int, int], side: Si
     assert not any(finding.blocks for finding in verdict.findings), "it is told, and tracking may go on"
 
 
-@pytest.mark.parametrize("by", [1, -2])
-@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize(("side", "by"), [("right", 1), ("left", -2)])
 def test_calibrate_hand_shifted_labels_are_refused(side: Side, by: int) -> None:
     scene = Scene(side)
     outcome = outcome_of(scene, Clicks(side, WRIST6, np.roll(scene.discs_px, by, axis=0)), still(scene, 5))
@@ -173,7 +172,7 @@ def test_check_hand_length_other_length_is_found() -> None:
         assert doubted.verdict.can_start
 
 
-@pytest.mark.parametrize("marker", [0, 3, 5])
+@pytest.mark.parametrize("marker", [0, 5])
 def test_calibrate_hand_marker_without_depth_is_named(marker: int) -> None:
     scene = Scene()
     outcome = outcome_of(scene, frames=frames_of(scene, 5, hole_at=marker))
@@ -218,18 +217,6 @@ def test_calibrate_hand_tilt_and_distance_are_found_with_value(
     finding = single_finding(outcome_of(scene).verdict.findings, kind)
     assert finding.value == value
     assert (finding.limit, finding.unit, finding.blocks) == (limit, unit, False)
-
-
-@pytest.mark.parametrize(
-    ("limit", "kind", "within"), [("most_tilt_deg", "tilt", 1.01), ("least_distance_m", "distance", 0.99)]
-)
-def test_calibrate_hand_value_just_beyond_limit_is_found(limit: str, kind: str, within: float) -> None:
-    scene = Scene(tilt_deg=9.0, distance_m=0.66)
-    verdict = outcome_of(scene).verdict
-    value = verdict.tilt_deg if kind == "tilt" else verdict.distance_m
-    for share, findings in ((within, []), (1.0 / within, [kind])):
-        settings = replace(CalibrationSettings(), **{limit: share * value})
-        assert [one.kind for one in outcome_of(scene, settings=settings).verdict.findings] == findings
 
 
 @pytest.mark.parametrize("count", [1, 4])
@@ -290,26 +277,6 @@ def test_measure_hand_covariances_match_errors() -> None:
         assert np.linalg.eigvalsh(found.marker_covariance_w0_m2).min() > 0.0
     # The pattern that stays with a surface is not in these pictures, so the claim is on the careful side.
     assert np.mean(squares) < 2.0
-
-
-def test_calibrate_hand_start_angles_are_kept() -> None:
-    scene = Scene()
-    start = np.radians([0.0, 30.0, 0.0])
-    args = (clicks_on(scene), still(scene, 5), CAMERA, CalibrationSettings(), DetectionSettings())
-    given, none = (calibrate_hand(*args, angles).calibration for angles in (start, None))
-    assert given is not None
-    assert none is not None
-    assert np.array_equal(given.start_angles_rad, start)
-    assert np.array_equal(none.start_angles_rad, np.zeros(3))
-    assert np.array_equal(given.marker_position_w0_m, none.marker_position_w0_m), "told, not mixed in"
-
-
-def test_calibrate_hand_clicks_at_the_image_edge_are_accepted() -> None:
-    scene = Scene()
-    pixel: FloatArray = scene.discs_px.copy()
-    pixel[0] = [319.0, 239.0]
-    outcome = outcome_of(scene, Clicks("right", WRIST6, pixel), still(scene, 5))
-    assert single_finding(outcome.verdict.findings, "click_on_no_marker").markers == ("WRIST",)
 
 
 def test_measure_hand_marker_seen_once_adds_no_noise() -> None:

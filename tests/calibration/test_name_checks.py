@@ -61,14 +61,6 @@ def test_shifted_labels_of_a_right_palm_are_none(side: Side) -> None:
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_shifted_labels_by_one_marker_begin_with_the_wrist(side: Side) -> None:
-    for seed in range(6):
-        plan = visible_plan(seed, side, "wrist6")
-        assert find_shifted_labels(side, np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
-        assert find_shifted_labels(side, np.roll(plan, -1, axis=0))[:2] == ("WRIST", "CMC1")
-
-
-@pytest.mark.parametrize("side", SIDES)
 def test_shifted_labels_of_every_permutation_are_named(side: Side) -> None:
     for seed in range(2):
         plan = visible_plan(seed, side, "wrist6")
@@ -85,8 +77,7 @@ def test_shifted_labels_of_the_other_hand_are_none() -> None:
         assert find_shifted_labels("left", visible_plan(seed, "right", "wrist6")) == ()
 
 
-@pytest.mark.parametrize("tilt_deg", [-35.0, 35.0])
-@pytest.mark.parametrize("axis", ["x", "y"])
+@pytest.mark.parametrize(("axis", "tilt_deg"), [("x", -35.0), ("y", 35.0)])
 def test_shifted_labels_of_a_tilted_hand_are_found(axis: str, tilt_deg: float) -> None:
     for seed in range(6):
         flat = np.column_stack((visible_plan(seed, "right", "wrist6"), np.zeros(6)))
@@ -129,20 +120,6 @@ def test_label_fault_any_two_swapped_labels_are_named() -> None:
         found = find_label_fault(HAND21, "right", wrong)
         assert found is not None, pair
         assert set(sum(found.swapped, ())) == {HAND21.markers[i] for i in pair}
-
-
-@pytest.mark.parametrize(
-    "pair", [("TIP3", "TIP4"), ("TIP1", "IP1"), ("MCP3", "MCP4"), ("PIP2", "DIP2"), ("MCP1", "CMC1"), ("TIP4", "TIP5")]
-)
-@pytest.mark.parametrize("side", ["right", "left"])
-def test_label_fault_usual_mistakes_on_many_hands_are_named(pair: tuple[str, str], side: Side) -> None:
-    rows = [ROW(name) for name in pair]
-    for seed in range(2):
-        plan = visible_plan(seed, side)
-        plan[rows] = plan[rows[::-1]]
-        found = find_label_fault(HAND21, side, plan)
-        assert found is not None
-        assert {*found.swapped[0], *found.swapped[1]} == set(pair)
 
 
 def test_label_fault_two_swapped_fingers_are_named() -> None:

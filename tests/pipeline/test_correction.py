@@ -309,15 +309,6 @@ def test_correction_several_of_one_frame_hold(hand: Path, tmp_path: Path) -> Non
     assert find_lost_corrections(after, read_detections(tmp_path / "new.h5"), [said]) == ()
 
 
-def test_correction_of_finger_trusts_only_measurement(hand: Path, tmp_path: Path) -> None:
-    before = read_session(hand)
-    place = tuple(before.markers.measured_px[WRONG_FROM, DIP3].tolist())
-    after = corrected(hand, tmp_path / "new.h5", Correction(WRONG_FROM, {"DIP3": place}))
-    size = np.abs(after.motion.joint_angles_sd_rad - before.motion.joint_angles_sd_rad)[WRONG_FROM]
-    changed = {name for name, one in zip(after.header.joint_names, size, strict=True) if one > 1e-4}
-    assert changed == {name for name in changed if "3" in name} != set(), size
-
-
 @pytest.mark.parametrize(
     "wrong", [{"row": -1}, {"row": 10_000}, {"places": {"NOSE": None}}, {"places": {"DIP3": (math.nan, 3.0)}}]
 )

@@ -17,9 +17,9 @@ import pytest
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.model.errors import SmoothingFailed
 from carpus.core.pipeline import smoothing
-from carpus.core.pipeline.smoothing import ChunkedSmoother, SmoothingProcess, TrackedHand, run_smoother
+from carpus.core.pipeline.smoothing import ChunkedSmoother, SmoothingProcess, TrackedHand
 from carpus.core.pipeline.track import noise_from_neutral, restart_at_neutral
-from carpus.core.platform.child_process import NICENESS, ChildProcess
+from carpus.core.platform.child_process import NICENESS
 from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
@@ -222,12 +222,4 @@ def test_smoothing_process_fault_is_one_line(capfd: pytest.CaptureFixture[str]) 
         with pytest.raises(SmoothingFailed) as told:
             running.finish(times_s())
     assert "AttributeError" in told.value.detail
-    assert capfd.readouterr().err == ""
-
-
-def test_smoothing_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> None:
-    child = ChildProcess(run_smoother, tracked_hand(), PIECE_S, LAG_S, name="orphan")
-    child.link.send(list(steps()[:40]))
-    child.link.close()
-    assert child.describe_exit(60.0) == "its process ended with 0"
     assert capfd.readouterr().err == ""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import resource
 import subprocess
@@ -211,32 +210,6 @@ def test_hostile_file_affects_reading_process_only(
     assert isinstance(read, Session)
     assert len(read) == ROWS
     another.end()
-
-
-def test_reading_process_failed_start_is_retried(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    own, path = ReadingProcess(), stored(tmp_path / "s.h5")
-
-    def no_process(*_: object) -> None:
-        raise OSError(errno.EAGAIN, "no more processes")
-
-    with monkeypatch.context() as full:
-        full.setattr("multiprocessing.popen_fork.Popen._launch", no_process)
-        full.setattr(reader, "_can_fork", lambda: True)
-        with pytest.raises(OSError, match="no more processes"):
-            own.request("outline", path)
-    assert own.request("outline", path) is not None
-    own.end()
-
-
-def test_reading_process_serves_many_files(tmp_path: Path) -> None:
-    own = ReadingProcess()
-    paths = [stored(tmp_path / f"{number}.h5") for number in range(5)]
-    seen = set()
-    for path in paths:
-        own.request("outline", path)
-        seen.add(own._child.pid)
-    own.end()
-    assert len(seen) == 1
 
 
 def test_reading_process_arrays_are_read_only(tmp_path: Path) -> None:

@@ -162,9 +162,7 @@ def test_session_header_without_zone_or_with_wrong_joints_raises() -> None:
 @pytest.mark.parametrize(
     ("parameters", "simulated", "targets_deg"),
     [
-        ("[]", False, (np.nan, np.nan)),
         ('{"source": [], "set_up": 3}', False, (np.nan, np.nan)),
-        ('{"set_up": {"targets_deg": [1]}}', False, (np.nan, np.nan)),
         ('{"set_up": {"targets_deg": [Infinity, -1e9]}}', False, (np.nan, np.nan)),
         ('{"source": {"simulated": "yes"}, "set_up": {"targets_deg": ["a", -20]}}', True, (np.nan, -20.0)),
     ],

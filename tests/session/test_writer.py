@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
 
@@ -18,31 +16,12 @@ import pytest
 from carpus.core.model.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.session import atomic_files, writer
-from carpus.core.session.blocks import build_motion_blocks
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_raw, read_session, verify
 from carpus.core.session.values import EncodedImages, Motion, stack_states
-from carpus.core.session.writer import SessionWriter
 from tests.moments import with_moment
 from tests.session.samples import begun, make_frame, make_header
 
 ROOT = Path(__file__).parents[2]
-
-
-def open_below(folder: Path) -> list[str]:
-    """What this process holds open of a folder."""
-    held = []
-    for descriptor in Path("/proc/self/fd").iterdir():
-        with contextlib.suppress(FileNotFoundError):  # the one that reads this list
-            held.append(str(descriptor.readlink()))
-    return [path for path in held if path.startswith(str(folder))]
-
-
-@pytest.mark.parametrize("end", [SessionWriter.close, SessionWriter.abandon])
-def test_session_writer_leaves_no_open_file(tmp_path: Path, end: Callable[[SessionWriter], None]) -> None:
-    session = begun(tmp_path / "s.h5", rows=1)
-    assert open_below(tmp_path)
-    end(session)
-    assert open_below(tmp_path) == []
 
 
 @pytest.mark.parametrize("links", [True, False])
@@ -135,15 +114,6 @@ def test_session_writer_smoothed_rows_must_match_frames(tmp_path: Path) -> None:
     read = read_session(tmp_path / "s.h5").smoothed
     for field in fields(Motion):
         np.testing.assert_array_equal(getattr(read, field.name), getattr(smoothed, field.name))
-
-
-def test_session_writer_drops_incomplete_smoothed_result(tmp_path: Path) -> None:
-    session = begun(tmp_path / "s.h5", rows=4)
-    session.add_motion_blocks(build_motion_blocks(session._layout, stack_states([make_frame(0), make_frame(1)])))
-    session.drop_motion()
-    session.close()
-    verify(tmp_path / "s.h5")
-    assert read_session(tmp_path / "s.h5").smoothed is None
 
 
 def test_session_writer_images_are_read_back_exactly(tmp_path: Path) -> None:

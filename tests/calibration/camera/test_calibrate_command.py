@@ -4,7 +4,6 @@ it."""
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -27,7 +26,6 @@ from carpus.core.capture.calibrated_source import (
 )
 from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info, write_camera_info
 from carpus.core.capture.files.raw import RawWriter
-from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.errors import CameraFileUnreadable
@@ -35,7 +33,6 @@ from carpus.core.model.types import Frame
 from carpus.core.pipeline.track import describe_source
 from carpus.core.simulation.sensor import depth_scale
 from tests.calibration.camera.printed import ShownSheets
-from tests.capture.oni_writer import write_oni
 from tests.studio import LENS, Studio
 
 SERIAL = "1206-77"
@@ -60,8 +57,9 @@ def stored(data_folder: Path, serial: str, day: int, scale: float = 1.0, offset_
 
 
 @pytest.mark.usefixtures("qapp")
-@pytest.mark.parametrize(("paper", "size_mm"), [("a4", (297.0, 210.0)), ("letter", (279.4, 215.9))])
-@pytest.mark.parametrize("pattern", ["chessboard", "charuco"])
+@pytest.mark.parametrize(
+    ("paper", "pattern", "size_mm"), [("a4", "chessboard", (297.0, 210.0)), ("letter", "charuco", (279.4, 215.9))]
+)
 def test_calibrate_command_board_page_has_its_size(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], paper: str, size_mm: tuple[float, float], pattern: str
 ) -> None:
@@ -73,10 +71,6 @@ def test_calibrate_command_board_page_has_its_size(
     assert "100 %" in capsys.readouterr().out
     assert main(["calibrate-camera", "--board", str(pdf)]) == 1
     assert "A file with this name already exists" in capsys.readouterr().err
-
-
-def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:
-    assert main(["calibrate-camera", str(tmp_path), "--board", str(tmp_path / "b.pdf")]) == 2
 
 
 def test_calibrate_command_writes_a_file_that_is_used(
@@ -112,29 +106,6 @@ def test_save_calibration_twice_in_a_second_keeps_both(tmp_path: Path) -> None:
     assert newest is not None
     assert newest.calibration is not None
     assert newest.calibration.depth_scale == 1.03
-
-
-def test_calibrate_command_folder_and_oni_agree(
-    shown: list[Frame], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    info = SourceInfo("camera", DEFAULT_CAMERA, True, None, 1.0)
-    with TumWriter(tmp_path / "tum", info) as writer:
-        for frame in shown:
-            writer.append_frame(frame)
-    in_mm = [replace(frame, depth_raw=(frame.depth_raw / np.uint16(5)).round().astype(np.uint16), depth_unit_m=1e-3)
-             for frame in shown if frame.depth_raw is not None]  # fmt: skip
-    write_oni(tmp_path / "board.oni", in_mm, DEFAULT_CAMERA, fps=1)
-    found = []
-    for name in ("tum", "board.oni"):
-        output = tmp_path / f"{name}.yaml"
-        assert main(["calibrate-camera", str(tmp_path / name), "--output", str(output), "--serial", "9"]) == 0
-        found.append(read_camera_info(output))
-    for info_of in found:
-        assert info_of.camera.fx_px == pytest.approx(LENS.fx_px, rel=0.003)
-        assert info_of.calibration is not None
-        assert info_of.calibration.serial == "9"
-    assert main(["calibrate-camera", str(tmp_path / "tum")]) == 1
-    assert "--serial" in capsys.readouterr().err
 
 
 def test_stored_calibration_includes_earlier_correction(gathered: ViewCollector) -> None:

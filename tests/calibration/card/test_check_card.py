@@ -25,7 +25,6 @@ from carpus.core.calibration.card.card import (
 from carpus.core.calibration.card.checks import (
     CardCheck,
     add_check,
-    check_status,
     checks_path,
     examine_cameras,
     read_checks,
@@ -183,20 +182,6 @@ def test_examine_cameras_names_age_of_calibration_and_check(tmp_path: Path) -> N
     assert (later.state, later.remedy) == ("warning", "Run: carpus check-card: it was calibrated since.")
 
 
-def test_check_status_after_a_calibration_is_within_tolerance(tmp_path: Path) -> None:
-    nothing = check_status(tmp_path, "77", NOW)
-    assert (nothing.last_check, nothing.is_out_of_tolerance, nothing.is_due) == (None, False, True)
-    for day, scale in ((0, 1.0), (4, 1.02)):
-        add_check(checks_path(tmp_path, "77"), check(day, scale=scale))
-    now = check_status(tmp_path, "77", NOW + timedelta(days=12))
-    assert (now.is_out_of_tolerance, now.is_due, round(now.check_age_days)) == (True, True, 8)
-    path = new_calibration_path(tmp_path, "77", NOW + timedelta(days=5))
-    when = (NOW + timedelta(days=5)).isoformat()
-    write_camera_info(path, LENS, calibration=StoredCalibration("77", when, 1.02, 0.0, 0.2, 20))
-    later = check_status(tmp_path, "77", NOW + timedelta(days=6))
-    assert (later.is_out_of_tolerance, later.is_due) == (False, True), "it is to be checked with the new values"
-
-
 @pytest.mark.usefixtures("qapp")
 def test_check_card_command_prints_measures_and_saves(
     shown: list[Frame], tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -223,10 +208,3 @@ def test_check_card_command_prints_measures_and_saves(
 
 def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:
     assert main(["check-card", str(tmp_path), "--card", str(tmp_path / "c.pdf")]) == 2
-
-
-def test_card_reading_largest_errors() -> None:
-    measured = np.array([30.5, 48.0, 90.1, 80.4, 119.0, 25.2])
-    reading = CardReading(measured, np.zeros(6), 1.0, 0.6, 9, 9)
-    assert reading.angle_error_deg == pytest.approx(2.0)
-    assert reading.length_error_mm == pytest.approx(1.0)

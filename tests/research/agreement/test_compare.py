@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +13,6 @@ import numpy as np
 import pytest
 
 from carpus.core.formats import c3d_write, mot, trc
-from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.model import so3
 from carpus.core.model.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.model.hand.protocols import WRIST_ANGLES
@@ -28,10 +26,6 @@ from tests.commands import Command
 from tests.formats.takes import stored, take_of
 from tests.ui.fakes import session as flexing
 from tests.ui.printed import pages_of, words_of
-
-PLACES = [place / "shared" / "data" for place in Path(__file__).resolve().parents]
-DATA = next((place for place in PLACES if place.is_dir()), PLACES[0])
-needs_data = pytest.mark.skipif(not DATA.is_dir(), reason="real data of others are not beside the checkout")
 
 
 @pytest.fixture(scope="module")
@@ -53,15 +47,10 @@ def other_session(session: Session, shift_s: float, offset_deg: float = 0.0, rat
     return Reference(Path("other.mot"), "angles", there_s - there_s[0] + 100.0, angles)
 
 
-@pytest.mark.parametrize("later", [34, -121])
-def test_compare_finds_shift_and_offset(session: Session, later: int) -> None:
+def test_compare_finds_shift_and_offset(session: Session) -> None:
     """A reference that began so many of its samples earlier: what was before does not matter."""
-    reference = other_session(session, 0.0, offset_deg=-3.0)
-    angles = reference.angles_rad
-    if later > 0:
-        angles = {name: np.concatenate((np.full(later, v[0]), v)) for name, v in angles.items()}
-    elif later < 0:
-        angles = {name: v[-later:] for name, v in angles.items()}
+    reference, later = other_session(session, 0.0, offset_deg=-3.0), 34
+    angles = {name: np.concatenate((np.full(later, v[0]), v)) for name, v in reference.angles_rad.items()}
     times_s = np.arange(len(angles["flexion"])) / 100.0 + 100.0
     found = compare_session(session, replace(reference, time_s=times_s, angles_rad=angles))
     assert found.shift.lag_s == pytest.approx(later / 100, abs=0.004)
@@ -86,9 +75,8 @@ def test_compare_opposite_sign_is_remarked(session: Session) -> None:
     assert not any("opposite" in remark for remark in compare_session(session, right).remarks)
 
 
-@pytest.mark.parametrize("factor", [math.pi / 180.0, 180.0 / math.pi])
-def test_compare_wrong_unit_is_remarked(session: Session, factor: float) -> None:
-    right = other_session(session, 0.0)
+def test_compare_wrong_unit_is_remarked(session: Session) -> None:
+    right, factor = other_session(session, 0.0), math.pi / 180.0
     found = compare_session(
         session, replace(right, angles_rad={name: factor * v for name, v in right.angles_rad.items()})
     )
@@ -225,51 +213,23 @@ def test_compare_another_movement_is_refused(session: Session) -> None:
         )
 
 
-def test_compare_command_writes_tables_and_plots(tmp_path: Path, command: Command) -> None:
+def test_compare_command_writes_tables_and_plots_with_limit(tmp_path: Path, command: Command) -> None:
     path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
-    done = command("compare", path, path, "--output", out)
-    assert (done.code, "flexion" in done.out) == (0, True)
-    names = {file.name.removeprefix("one-against-one.") for file in out.iterdir()}
-    assert names >= {"agreement.csv", "agreement.json", "pdf", "flexion.png"}
+    done = command("compare", path, path, "--limit", "5", "--output", out)
+    assert done.code == 0
     content = json.loads((out / "one-against-one.agreement.json").read_text(encoding="utf-8"))
     assert {row["angle"] for row in content["angles"]} == set(WRIST_ANGLES)
     assert len(content["provenance"]["reference"]["sha256"]) == 64
-    assert "Limit" not in done.out
-
-
-def test_compare_command_plots_show_the_limit(tmp_path: Path, command: Command) -> None:
-    path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
-    done = command("compare", path, path, "--limit", "5", "--output", out)
+    assert (out / "one-against-one.agreement.csv").exists()
     assert "Limit        flexion agrees within 5°" in done.out.splitlines()
     for name in WRIST_ANGLES:
         picture = cv2.imread(str(out / f"one-against-one.{name}.png"))
         assert picture.shape == (960, 2240, 3)
-        halves = picture[:, :1120], picture[:, 1120:]
-        assert all(np.unique(half.reshape(-1, 3), axis=0).shape[0] > 20 for half in halves), "two plots are drawn"
+        assert min(picture[:, :1120].std(), picture[:, 1120:].std()) > 5.0, "two plots are drawn"
     words = words_of(out / "one-against-one.pdf")
     for piece in ("Flexion–extension", "RMSE", "Reference", "Limit", "hatched: within the limit you set"):
         assert piece in words
     assert pages_of(out / "one-against-one.pdf") == len(WRIST_ANGLES)
-
-
-@needs_data
-def test_reference_six_encodings_read_alike() -> None:
-    tracks = [read_c3d(path) for path in sorted((DATA / "c3d").glob("c3dorg_sample01_*.c3d"))]
-    assert len(tracks) == 6
-    for track in tracks:
-        assert track.position_m.shape == (450, 26, 3)
-        assert track.names[0] == "RFT1"
-        assert np.allclose(track.position_m, tracks[0].position_m, atol=1e-7, equal_nan=True)
-
-
-@needs_data
-def test_reference_files_of_other_programs_are_read() -> None:
-    for path in sorted((DATA / "trc").glob("*.trc")):
-        reference = read_reference(path, markers={})
-        assert reference.unused, "markers of a whole body are none of the discs"
-        assert (np.diff(reference.time_s) > 0).all()
-    found = read_reference(DATA / "trc" / "pyomeca_inverse_kin.mot", {"flexion": "hand_r_Flex"})
-    assert np.abs(found.angles_rad["flexion"]).max() < math.pi
 
 
 @pytest.mark.parametrize("name", ["x.c3d", "x.trc", "x.mot", "x.csv", "x.xyz"])
@@ -291,14 +251,6 @@ def test_compare_drift_over_minutes_is_accepted() -> None:
     noise = replace(curves, reference_values=np.random.default_rng(0).normal(size=curves.reference_values.shape))
     with pytest.raises(ReferenceUnsuited):
         _check_match(Reference(Path("x.mot"), "angles"), noise, with_residual_drift(noise, find_shift(noise, 10.0)))
-
-
-@pytest.mark.parametrize(("match", "suits"), [(0.51, True), (-0.51, True), (0.49, False)])
-def test_compare_match_below_a_half_is_refused(match: float, suits: bool) -> None:
-    time_s = np.arange(0.0, 10.0, 0.1)
-    curves = AlignmentCurves(time_s, time_s[:, None], time_s, time_s[:, None], ignores_sign=True)
-    with nullcontext() if suits else pytest.raises(ReferenceUnsuited):
-        _check_match(Reference(Path("x.mot"), "angles"), curves, ClockShift(0.0, match))
 
 
 def test_compare_opposed_curves_remark_a_larger_shift() -> None:

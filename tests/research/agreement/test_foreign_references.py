@@ -166,9 +166,8 @@ def test_compare_residual_between_markers_is_remarked(tmp_path: Path) -> None:
     assert any("mm apart" in remark for remark in compared.remarks)
 
 
-@pytest.mark.parametrize("count", [1, 2])
-def test_compare_one_or_two_readings_print_pairs(count: int, tmp_path: Path) -> None:
-    made = session()
+def test_compare_two_readings_print_pairs(tmp_path: Path) -> None:
+    made, count = session(), 2
     text = "movement;reading (°)\n" + "flexion;47,5\nextension;49\n".splitlines(keepends=True)[0] * count
     compared = compare_session(made, read_text(tmp_path, text), figures=compute_session_results(made))
     said = "\n".join(format_comparison(compared))

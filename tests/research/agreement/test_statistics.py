@@ -96,7 +96,7 @@ def test_icc_3_1_matches_the_variance_table(raters: int) -> None:
     assert icc_3_1(table + 10.0 * np.arange(raters))[0] == pytest.approx(icc), "an offset is no disagreement"
 
 
-@pytest.mark.parametrize("correlation", [-0.995, -0.9, -0.5, -0.1])
+@pytest.mark.parametrize("correlation", [-0.995, -0.5])
 def test_icc_interval_of_a_negative_icc_has_its_coverage(correlation: float) -> None:
     rng = np.random.default_rng(3)
     held = [0, 0]

@@ -18,29 +18,6 @@ def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
     return root @ root.T + 0.1 * np.eye(n)
 
 
-@pytest.mark.parametrize("spread", SPREADS)
-def test_augmented_filter_on_linear_model_is_kalman_filter(spread: UnscentedParameters) -> None:
-    rng = np.random.default_rng(3)
-    n, k, m = 5, 3, 4
-    x, p, q = rng.normal(size=n), some_covariance(rng, n), some_covariance(rng, k)
-    f, g, h = rng.normal(size=(n, n)), rng.normal(size=(n, k)), rng.normal(size=(m, n))
-    r, y = rng.uniform(0.5, 2.0, m), rng.normal(size=m)
-
-    ahead = predict_state(AugmentedGaussian(x, p), q, lambda states, noise: states @ f.T + noise @ g.T, spread)
-    there, spread_there = f @ x, f @ p @ f.T + g @ q @ g.T
-    assert np.allclose(ahead.state.mean, there)
-    assert np.allclose(ahead.state.covariance, spread_there)
-
-    seen = predict_outputs(ahead, ahead.points @ h.T)
-    after = update_state(ahead, seen, y, r)
-    s = h @ spread_there @ h.T + np.diag(r)
-    gain = spread_there @ h.T @ np.linalg.inv(s)
-    assert np.allclose(seen.covariance + np.diag(r), s)
-    assert np.allclose(after.state.mean, there + gain @ (y - h @ there))
-    assert np.allclose(after.state.covariance, (np.eye(n) - gain @ h) @ spread_there)
-    assert after.nis == pytest.approx((y - h @ there) @ np.linalg.inv(s) @ (y - h @ there))
-
-
 def test_update_without_measurement_changes_nothing() -> None:
     ahead = predict_state(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
     after = update_state(ahead, predict_outputs(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
@@ -87,8 +64,3 @@ def test_predict_and_update_are_filterpys(spread: UnscentedParameters, seed: int
     assert np.allclose(after.state.mean, oracle.x[:3], rtol=1e-8, atol=1e-10)
     assert np.allclose(after.state.covariance, oracle.P[:3, :3], rtol=1e-8, atol=1e-10)
     assert np.linalg.norm(after.state.mean - ahead.state.mean) > 1e-3
-
-
-def test_predict_invalid_covariance_is_an_error() -> None:
-    with pytest.raises(np.linalg.LinAlgError):
-        predict_state(AugmentedGaussian(np.zeros(2), np.diag([1.0, -1.0])), np.eye(1), lambda x, _w: x, SPREADS[0])
