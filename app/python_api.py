@@ -10,23 +10,22 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from carpus.app.session_commands import log_export, log_session_action, read_choices
+from carpus.app.opened_session import OpenedSession, check_path, open_session
+from carpus.app.session_commands import log_export, read_choices
 from carpus.app.sources import open_recording
 from carpus.core.calibration.candidates import find_marker_candidates
 from carpus.core.calibration.clicks_file import read_clicks, write_clicks
 from carpus.core.calibration.label_proposal import propose_labels
 from carpus.core.calibration.result import Clicks
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.formats.csv_tables import build_repetition_table, build_tables
 from carpus.core.formats.export import FORMATS, ExportRequest, ExportResult, export_sessions
-from carpus.core.formats.export_provenance import build_provenance
 from carpus.core.formats.output_files import MACHINE_DIALECT
 from carpus.core.model.camera import DEFAULT_CAMERA, Camera
 from carpus.core.model.errors import CalibrationImpossible, CarpusFault, RecordingEmpty, SettingsInvalid
@@ -40,10 +39,6 @@ from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIF
 from carpus.core.research.agreement.reference import ANGLE_NAMES
 from carpus.core.research.papers.hand_model import PaperSettings
 from carpus.core.research.papers.track_settings import PaperTrackSettings
-from carpus.core.results.measures_table import build_measure_rows
-from carpus.core.results.session_results import SessionResults, compute_session_results
-from carpus.core.session import reader
-from carpus.core.session.values import Session
 from carpus.core.simulation import recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
@@ -51,7 +46,6 @@ from carpus.core.tracking.filter.settings import Profile, TrackerSettings
 
 FilterName = Literal["default", "paper"]
 Dip = Literal["coupled", "free"]
-_UNIT_BY_SUFFIX = {"_deg_s": "deg/s", "_mm_s": "mm/s", "_deg": "deg", "_mm": "mm", "_px": "px", "_s": "s"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,44 +140,6 @@ class ProposedClicks:
         write_clicks(Path(path), self.clicks())
 
 
-@dataclass(frozen=True, slots=True)
-class OpenedSession(Session):
-    """A session with tables, measures and provenance beside its arrays."""
-
-    def tables(self) -> Mapping[str, Any]:
-        """Return ``wrist``, ``joints``, ``markers``, ``events``, ``repetitions`` and ``measures``.
-
-        Returns
-        -------
-        mapping of str to DataFrame, or to columns by name where pandas is not installed
-            Tidy, NaN for unknown values. Data frames over time have the time after the first frame as their index
-            (:class:`pandas.TimedeltaIndex`); ``attrs["units"]`` has the unit of each column.
-        """
-        figures = self._figures()
-        found: dict[str, Any] = dict(build_tables(self)) | {"repetitions": build_repetition_table(self, figures)}
-        rows = [asdict(row) for row in build_measure_rows(figures, self.path.stem)]
-        found["measures"] = {name: [row[name] for row in rows] for name in rows[0]} if rows else {}
-        try:
-            import pandas
-        except ModuleNotFoundError:
-            return found
-        return {name: _to_data_frame(pandas, columns, self) for name, columns in found.items()}
-
-    def measures(self) -> Sequence[Any]:
-        """Return all measures as :class:`core.results.measures_table.MeasureRow`.
-
-        Repetitions that were excluded or moved in the review count as they are stored beside the file.
-        """
-        return build_measure_rows(self._figures(), self.path.stem)
-
-    def _figures(self) -> SessionResults:
-        return compute_session_results(self, read_choices(self.path))
-
-    def provenance(self) -> Mapping[str, Any]:
-        """Return the origin of the data and the software and settings that made them."""
-        return build_provenance(self)
-
-
 def track(
     path: str | Path,
     clicks: str | Path | ProposedClicks,
@@ -223,7 +179,7 @@ def track(
     """
     where = "carpus.track"
     chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
-    return _track_frames(_check_path(where, "path", path), _load_clicks(where, clicks), replace(chosen, smooth=False))
+    return _track_frames(check_path(where, "path", path), _load_clicks(where, clicks), replace(chosen, smooth=False))
 
 
 def write_session(
@@ -252,11 +208,8 @@ def write_session(
     if exercise:
         _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
     chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
-    recorded, out, told = (
-        _check_path(where, "path", path),
-        _check_path(where, "output", output),
-        _load_clicks(where, clicks),
-    )
+    recorded, out = check_path(where, "path", path), check_path(where, "output", output)
+    told = _load_clicks(where, clicks)
     source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_show_warning)
     try:
         track_recording(
@@ -283,16 +236,9 @@ def _build_settings(
     return TrackSettings(tracker=replace(known, **wanted))
 
 
-def _check_path(where: str, name: str, value: object) -> Path:
-    """Return ``value`` as a path. Raises :class:`SettingsInvalid`."""
-    if not isinstance(value, (str, Path)) or "\0" in str(value):
-        raise SettingsInvalid(where, f"{name} is {value!r}, a path expected")
-    return Path(value)
-
-
 def _load_clicks(where: str, clicks: str | Path | ProposedClicks) -> Clicks:
     """Return proposed clicks, or those of a file. Raises :class:`SettingsInvalid` and their faults."""
-    return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(_check_path(where, "clicks", clicks))
+    return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(check_path(where, "clicks", clicks))
 
 
 def _to_list(where: str, name: str, value: object) -> list[Any]:
@@ -411,32 +357,6 @@ def _hand_frame(found: TrackedFrame, joint_names: Sequence[str], markers: tuple[
     )
 
 
-def _to_data_frame(pandas: Any, columns: Mapping[str, Any], session: Session) -> Any:
-    """Return a table as a data frame, indexed by time where it has times."""
-    frame = pandas.DataFrame(columns)
-    frame.attrs["units"] = {
-        name: unit
-        for name in frame.columns
-        if (unit := next((unit for end, unit in _UNIT_BY_SUFFIX.items() if name.endswith(end)), ""))
-    }
-    if "timestamp_s" in columns or "start_s" in columns:
-        first_s = session.timestamp_s[0] if len(session) else 0.0
-        after_s = columns["timestamp_s"] - first_s if "timestamp_s" in columns else columns["start_s"]
-        frame.index = pandas.to_timedelta(np.round(np.asarray(after_s, dtype=np.float64), 6), unit="s").rename("time")
-    return frame
-
-
-def open_session(path: str | Path) -> OpenedSession:
-    """Open a session file in a process of its own; the file is never changed.
-
-    The opening of a session in a data folder is written into the folder's log.
-    """
-    named = _check_path("carpus.open_session", "path", path)
-    session = reader.read_session(named)
-    log_session_action("opened", named, session.header.session_id)
-    return OpenedSession(**{field.name: getattr(session, field.name) for field in fields(Session)})
-
-
 def propose_clicks(
     frame: str | Path | Frame | Any,
     hand: Side = "right",
@@ -457,7 +377,7 @@ def propose_clicks(
     _check(where, "depth_unit_m", depth_unit_m, float, (1e-6, 1.0))
     markers = get_protocol(protocol)
     if isinstance(frame, (str, Path)):
-        source = open_recording(_check_path(where, "frame", frame), need_depth=False)
+        source = open_recording(check_path(where, "frame", frame), need_depth=False)
         try:
             first, camera = next(source.frames(), None), camera or source.info.camera
         finally:
@@ -508,9 +428,9 @@ def export(
     """
     where = "carpus.export"
     _check(where, "deidentified", deidentified, bool)
-    paths = [_check_path(where, "sessions", path) for path in _to_list(where, "sessions", sessions)]
+    paths = [check_path(where, "sessions", path) for path in _to_list(where, "sessions", sessions)]
     wanted = [ExportRequest.from_file(path, read_choices) for path in paths]
-    into, chosen = _check_path(where, "folder", folder), _to_list(where, "formats", formats)
+    into, chosen = check_path(where, "folder", folder), _to_list(where, "formats", formats)
     for name in chosen:
         _check(where, "formats", name, Literal[*FORMATS])
     from carpus.ui.kit.table_file import regional_table_form  # Qt, which nothing else here loads
@@ -573,7 +493,7 @@ def compare(
     _check(where, "most_shift_s", most_shift_s, float, (0.0, MAX_SHIFT_S))
     _check(where, "lag_s", lag_s, float | None, (-MAX_SHIFT_S, MAX_SHIFT_S))
     _check(where, "drift_percent", drift_percent, float, (-MAX_DRIFT_PERCENT, MAX_DRIFT_PERCENT))
-    ours, theirs = _check_path(where, "session", session), _check_path(where, "reference", reference)
+    ours, theirs = check_path(where, "session", session), check_path(where, "reference", reference)
     result = compare_files(
         ours, theirs, columns=columns, markers=markers, radians=radians, smoothed=smoothed,
         max_shift_s=most_shift_s, lag_s=math.nan if lag_s is None else lag_s, drift=0.01 * drift_percent,
@@ -589,4 +509,4 @@ def simulate(folder: str | Path, **options: Any) -> Truth:
     """
     where = "carpus.simulate"
     _check_fields(where, options, RecordingSpec)
-    return recording.simulate(RecordingSpec(**options), _check_path(where, "folder", folder))
+    return recording.simulate(RecordingSpec(**options), check_path(where, "folder", folder))

@@ -6,14 +6,20 @@ Files outside a data folder are a person's own: nothing is logged.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import print_fault, print_message
 from carpus.app.settings import Settings, load_valid_settings, sessions_folder
-from carpus.core.model.errors import CarpusFault, DataFolderMissing, FolderMissing, StudyUnsuited
+from carpus.core.model.errors import (
+    CarpusFault,
+    DataFolderMissing,
+    FolderMissing,
+    SessionsMissing,
+    StudyUnsuited,
+)
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.session.reader import read_outline
 
@@ -38,10 +44,11 @@ def find_data_folder(path: Path) -> Path | None:
     """Return the data folder of a file (this computer's for a file on its share), or None."""
     parents = Path(os.path.realpath(path)).parents
     settings, _ = load_valid_settings()
-    share = sessions_folder(settings)
-    if share is not None and share.resolve() in parents and has_store(settings.data_folder):
-        return settings.data_folder
-    return next((folder for folder in parents if has_store(folder)), None)
+    share, own = sessions_folder(settings), settings.data_folder
+    if share is not None and share.resolve() in parents and has_store(own):
+        return own
+    on_server = Path(os.path.realpath(own)) if settings.records.url else None
+    return next((folder for folder in parents if folder == on_server or (folder / STORE_FILE).is_file()), None)
 
 
 def has_store(folder: Path) -> bool:
@@ -137,12 +144,21 @@ def read_report_form(folder: Path) -> ReportForm:
         return read_form(store)
 
 
-def find_session_files(places: Iterable[Path]) -> Iterator[Path]:
-    """Yield session files and those in folders, in order. Raises :class:`FolderMissing`."""
+def find_session_files(places: Sequence[Path]) -> list[Path]:
+    """Return session files and those in folders, each once, in order.
+
+    Raises
+    ------
+    FolderMissing, SessionsMissing
+    """
+    found: dict[Path, None] = {}
     for place in places:
         if not place.exists():
             raise FolderMissing(place)
-        yield from sorted(place.rglob("*.h5")) if place.is_dir() else [place]
+        found |= dict.fromkeys(sorted(place.rglob("*.h5")) if place.is_dir() else [place])
+    if not found:
+        raise SessionsMissing(places[0])
+    return list(found)
 
 
 def read_figures(

@@ -6,9 +6,8 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import add_region_option, print_fault, progress_bar
-from carpus.app.session_commands import log_export
+from carpus.app.session_commands import find_session_files, log_export, read_choices
 from carpus.core.formats.export import FORMATS
-from carpus.core.model.errors import SessionsMissing
 from carpus.core.model.names import describe_known_names
 
 EXAMPLE = "carpus export session.h5 --format csv,c3d --output out/export"
@@ -44,10 +43,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.app.session_commands import read_choices
     from carpus.core.formats.export import ExportRequest, export_sessions
 
-    paths = find_sessions(arguments.sessions)
+    paths = find_session_files(arguments.sessions)
     with progress_bar("exporting", "file") as progress:
         done = export_sessions(
             [ExportRequest.from_file(path, read_choices) for path in paths],
@@ -66,14 +64,3 @@ def run(arguments: argparse.Namespace) -> int:
     if len(paths) > 1 and count:
         print(f"Written: {count} files of {len(paths) - len(done.refused)} sessions into {arguments.output}")
     return 1 if done.refused else 0
-
-
-def find_sessions(paths: list[Path]) -> list[Path]:
-    """Return session files and those in folders, each once. Raises :class:`SessionsMissing`."""
-    out: list[Path] = []
-    for path in paths:
-        found = sorted(path.rglob("*.h5")) if path.is_dir() else [path]
-        if not found:
-            raise SessionsMissing(path)
-        out += found
-    return list(dict.fromkeys(out))

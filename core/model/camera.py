@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-import cv2
 import numpy as np
 
 from carpus.core.model.depth_sensor import ASSUMED_SENSOR, DepthSensor
@@ -79,9 +78,7 @@ class Camera:
         if not self.is_distorted or pixel.size == 0:
             return pixel
         if self.distortion_model == "plumb_bob":
-            k = self.matrix
-            flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
-            return np.asarray(flat, dtype=np.float64).reshape(-1, 2)
+            return self._undistort_plumb_bob(pixel)
         return (
             self._apply_polynomial(pixel)
             if self.distortion_model == "inverse_brown_conrady"
@@ -98,7 +95,16 @@ class Camera:
             else self._apply_polynomial(pixel)
         )
 
+    def _undistort_plumb_bob(self, pixel: FloatArray) -> FloatArray:
+        import cv2  # a session is opened without it
+
+        k = self.matrix
+        flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
+        return np.asarray(flat, dtype=np.float64).reshape(-1, 2)
+
     def _apply_polynomial(self, pixel: FloatArray) -> FloatArray:
+        import cv2
+
         rays = self.backproject(pixel, np.ones(pixel.shape[:-1]))
         out, _ = cv2.projectPoints(
             rays.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, np.array(self.distortion)
@@ -107,9 +113,7 @@ class Camera:
 
     def _invert_polynomial(self, pixel: FloatArray) -> FloatArray:
         """Invert :meth:`_apply_polynomial` by fixed-point iteration."""
-        k = self.matrix
-        flat = cv2.undistortPoints(pixel.reshape(-1, 1, 2), k, np.array(self.distortion), P=k)
-        out = np.asarray(flat, dtype=np.float64).reshape(-1, 2)
+        out = self._undistort_plumb_bob(pixel)
         for _ in range(_MAX_ITERATIONS):
             off = self._apply_polynomial(out) - pixel
             out = out - off

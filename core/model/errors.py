@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import ClassVar
 
-from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.phrase import Phrase, fill_template, phrase
 
 UNEXPECTED_CODE = "C-000"
 """Code of an error of the program itself."""
@@ -62,6 +62,8 @@ class CarpusFault(Exception):
         storable = str(detail).encode("utf-8", "backslashreplace").decode("utf-8")
         self.detail = detail if isinstance(detail, Phrase) and detail == storable else storable
         super().__init__(f"{self.code} {type(self).__name__}: {self.subject} {self.detail}".strip())
+        if hasattr(self, "summary"):  # the sentences, for a traceback in a notebook
+            self.add_note(fill_template(f"{self.summary} {self.remedy}", self.subject, self.detail))
 
 
 class Notice(CarpusFault):

@@ -10,7 +10,7 @@ from pathlib import PureWindowsPath
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.installation import install_hint
-from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.model.phrase import Phrase, fill_template, phrase
 
 Translate = Callable[[str], str]
 """Translates a :class:`Phrase`; any other text stays."""
@@ -31,9 +31,6 @@ class MessageText:
     code: str = ""
     details: tuple[str, ...] = ()
 
-
-_CONNECTIVES = " (for|at|to|in|für|auf|nach|unter|per|su|a) "
-"""Words that join a fact to its sentence in all languages, and go with it if there is none."""
 
 _FACT_IN_BRACKETS = re.compile(r" \((\{subject\}, )?\{detail\}\)")
 MAX_NAME_CHARACTERS = 32
@@ -98,7 +95,7 @@ def format_fault(
     if is_brief:
         templates = [_FACT_IN_BRACKETS.sub("", text) for text in templates]
         subject = shorten_path(subject)
-    happened, safe, do = (_fill_template(text, subject, detail) for text in templates)
+    happened, safe, do = (fill_template(text, subject, detail) for text in templates)
     details = tuple(part for part in (fault.subject, " ".join(detail.split()), support) if part)
     return MessageText(happened, safe, do, translate(fault.title), fault.code, details)
 
@@ -157,15 +154,6 @@ def join_marker_names(markers: list[str] | tuple[str, ...], translate: Translate
     if len(names) < 2:
         return "".join(names)
     return translate(phrase("{one} and {other}", one=", ".join(names[:-1]), other=names[-1]))
-
-
-def _fill_template(text: str, subject: str, detail: str) -> str:
-    """Fill in the facts; the place of a missing fact is removed with its connective."""
-    facts = {"subject": subject, "detail": " ".join(detail.split())}
-    for name, fact in facts.items():
-        if not fact:
-            text = re.sub(rf" \([^()]*\{{{name}\}}\)|(: |{_CONNECTIVES}| )\{{{name}\}}", "", text)
-    return text.format(**facts)
 
 
 def join_sentences(summary: str, remedy: str) -> str:

@@ -5,6 +5,7 @@ As a string it is the filled English sentence. ``make translations`` finds the l
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 
@@ -27,3 +28,16 @@ def phrase(template: str, **facts: object) -> Phrase:
     words = Phrase(template.format(**kept) if kept else template)
     words.template, words.facts = template, kept
     return words
+
+
+_CONNECTIVES = " (for|at|to|in|für|auf|nach|unter|per|su|a) "
+"""Words that join a fact to its sentence in all languages, and go with it if there is none."""
+
+
+def fill_template(text: str, subject: str, detail: str) -> str:
+    """Fill in the facts; the place of a missing fact is removed with its connective."""
+    facts = {"subject": subject, "detail": " ".join(detail.split())}
+    for name, fact in facts.items():
+        if not fact:
+            text = re.sub(rf" \([^()]*\{{{name}\}}\)|(: |{_CONNECTIVES}| )\{{{name}\}}", "", text)
+    return text.format(**facts)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 
 from carpus.core.model.hand.protocols import WRIST_ANGLES
@@ -46,6 +47,17 @@ class MeasureRow:
     inferred: bool = False
     positive: str = ""
     estimate: str = ""
+
+    @property
+    def key(self) -> str:
+        """Name of the measure without spaces, the same in every session."""
+        return "_".join(re.findall(r"[a-z0-9]+", f"{self.of} {self.measure.partition(',')[0]}".lower()))
+
+    @property
+    def label(self) -> str:
+        """Name and unit, for the axis of a figure."""
+        unit = "" if self.unit in ("1", "") else f" ({self.unit})"
+        return f"{self.of.replace('_', ' ')}, {self.measure}{unit}"
 
 
 def build_measure_rows(results: SessionResults, session: str) -> tuple[MeasureRow, ...]:

@@ -36,20 +36,9 @@ FREE_MOVEMENT = "FREE"
 
 def session_summary(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
     """Return all lines of a session file, identity first and settings last."""
-    header, quality, figures = session.header, session.quality, compute_session_results(session, choices)
+    header, figures = session.header, compute_session_results(session, choices)
     lines = [
-        _line("Session", str(session.path)),
-        _line("Identity", f"{header.session_id}, written by Carpus {header.software_version}"),
-        _line("Patient", f"{header.subject_id or 'not given'}, {header.hand} hand"),
-        _line("Exercise", header.exercise or "not given"),
-        _line("Recorded", header.recorded or "not known"),
-        _line("Created", header.created),
-        _line("Recording", header.recording_id),
-        _line("Markers", f"{header.protocol.name}: {' '.join(header.protocol.markers)}"),
-        *([_line("Source", "simulated: nobody's movement was measured")] if header.is_simulated else []),
-        _line("Complete", _completeness_text(session)),
-        *_frame_lines(session.timestamp_s, np.maximum(quality.dropped_before, 0)),
-        _line("Tracking", _status_shares(session)),
+        *identity_lines(session),
         "Range of motion",
         *range_lines(session, figures),
         *_joint_range_lines(session, figures),
@@ -66,6 +55,25 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
     if header.origin:
         lines.append(_line("Origin", f"tracked again from {header.origin}"))
     return lines
+
+
+def identity_lines(session: Session) -> list[str]:
+    """Return what a session is of, how long it is and how it was tracked."""
+    header = session.header
+    return [
+        _line("Session", str(session.path)),
+        _line("Identity", f"{header.session_id}, written by Carpus {header.software_version}"),
+        _line("Patient", f"{header.subject_id or 'not given'}, {header.hand} hand"),
+        _line("Exercise", header.exercise or "not given"),
+        _line("Recorded", header.recorded or "not known"),
+        _line("Created", header.created),
+        _line("Recording", header.recording_id),
+        _line("Markers", f"{header.protocol.name}: {' '.join(header.protocol.markers)}"),
+        *([_line("Source", "simulated: nobody's movement was measured")] if header.is_simulated else []),
+        _line("Complete", _completeness_text(session)),
+        *_frame_lines(session.timestamp_s, np.maximum(session.quality.dropped_before, 0)),
+        _line("Tracking", _status_shares(session)),
+    ]
 
 
 def recording_summary(folder: Path, recording: TumFolder) -> list[str]:

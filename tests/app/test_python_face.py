@@ -10,12 +10,13 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pytest
 
 import carpus
 from carpus.app.python_api import HandFrame, ProposedClicks
-from carpus.core.model.errors import CalibrationImpossible, SettingsInvalid
+from carpus.core.model.errors import CalibrationImpossible, ExtraMissing, SettingsInvalid
 from carpus.core.model.hand.protocols import get_protocol
 from carpus.core.session.reader import read_session
 from tests.rendered import FLEXION, REPEATED_FLEXION, Rendered
@@ -135,16 +136,29 @@ def test_name_that_package_does_not_have_is_none_of_it() -> None:
 def test_listing_its_functions_loads_nothing_and_opening_a_session_nothing_of_the_window(folder: Path) -> None:
     script = "import sys, carpus; print(*dir(carpus)); print('numpy' in sys.modules)\n"
     script += "session = carpus.open_session(sys.argv[1])\n"
-    script += "print(len(session), session.header.hand, 'PySide6' in sys.modules)"
+    script += "print(len(session), session.header.hand, 'PySide6' in sys.modules)\n"
+    script += "print({'cv2', 'scipy.optimize', 'pandas', 'carpus.core.tracking.tracker'} & set(sys.modules))\n"
+    script += "import multiprocessing; print(multiprocessing.active_children())"
     command = [sys.executable, "-c", script, str(folder / "truth.h5")]
-    listed, loaded, opened = subprocess.run(
+    listed, loaded, opened, costly, processes = subprocess.run(
         command, cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout.splitlines()
     assert listed.split() == sorted(
-        ["__version__", "track", "write_session", "open_session", "simulate", "propose_clicks", "export", "compare"]
+        [
+            "__version__",
+            "track",
+            "write_session",
+            "open_session",
+            "open_sessions",
+            "simulate",
+            "propose_clicks",
+            "export",
+            "compare",
+        ]
     )
     assert loaded == "False"
     assert opened.split() == ["75", "right", "False"]
+    assert (costly, processes) == ("set()", "[]"), "the first session opens in half a second"
 
 
 def test_papers_filter_in_python_is_that_of_command(rendered: Rendered, tmp_path: Path) -> None:
@@ -207,6 +221,63 @@ def test_tables_measures_and_provenance_of_a_session(folder: Path) -> None:
     assert session.provenance()["of"]["recording_id"] == session.header.recording_id
 
 
+def test_session_is_shown_in_ten_lines_and_with_a_picture(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = carpus.open_session(folder / "truth.h5")
+    assert len(repr(session).splitlines()) <= 10
+    assert "wrist6" in repr(session)
+    assert "data:image/png;base64," in session._repr_html_()
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    assert "wrist6" in session._repr_html_(), "without matplotlib the lines alone"
+
+
+def test_frame_and_labelled_arrays_hold_the_angles_with_units(folder: Path) -> None:
+    session = carpus.open_session(folder / "truth.h5")
+    flexion = np.degrees(session.motion.angles_rad[:, 1])
+    frame, arrays = session.to_dataframe("filter"), session.to_xarray("filter")
+    assert np.array_equal(frame["flexion_deg"], flexion)
+    assert frame.attrs["units"]["flexion_sd_deg"] == "deg"
+    assert np.array_equal(arrays["flexion"], flexion)
+    assert arrays["flexion"].attrs["units"] == "deg"
+    assert arrays["time"].attrs["units"] == "s"
+    shape = {"time": len(session), "marker": 6, "axis": 3}
+    assert dict(arrays["marker_position"].sizes) == shape
+    with pytest.raises(SettingsInvalid, match="which did not run"):
+        session.to_xarray("smoother")
+
+
+def test_plot_has_a_line_and_a_band_for_each_angle(folder: Path) -> None:
+    matplotlib.use("Agg")
+    session = carpus.open_session(folder / "truth.h5")
+    axes = session.plot()
+    assert [line.get_label() for line in axes.lines] == ["deviation", "flexion", "pronosupination"]
+    assert len(axes.collections) == 3
+    (line,) = session.plot(["flexion"], ax=axes.figure.add_subplot()).lines
+    assert np.array_equal(line.get_ydata(), np.degrees(session.motion.angles_rad[:, 1]))
+    with pytest.raises(SettingsInvalid, match="no angle is called 'flexoin'"):
+        session.plot(["flexoin"])
+
+
+def test_study_is_one_tidy_table_and_unreadable_file_is_warned_of(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "good.h5").write_bytes((folder / "truth.h5").read_bytes())
+    (tmp_path / "bad.h5").write_bytes(b"no session")
+    with pytest.warns(UserWarning, match="bad.h5"):
+        study = carpus.open_sessions(tmp_path)
+    assert set(study["session"]) == {"good"}
+    assert study["key"].is_unique
+    assert all(re.fullmatch(r"[a-z0-9_]+", key) for key in study["key"])
+    assert study.set_index("key")["mean"]["flexion_arc"] > 10.0
+    assert str(study["recorded"].dt.tz) == "UTC"
+
+
+def test_missing_pandas_is_said_in_a_sentence(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ExtraMissing) as raised:
+        carpus.open_session(folder / "truth.h5").tables()
+    said = "\n".join(raised.value.__notes__)
+    assert "A Python package that this needs is not installed: pandas." in said
+    assert "pip install 'carpus[research]'" in said
+
+
 def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     done = carpus.export(folder / "truth.h5", tmp_path, ["mot", "c3d"])
     assert {path.suffix for path in done.files} >= {".mot", ".c3d"}
@@ -229,7 +300,7 @@ def test_page_of_python_names_every_function_and_its_lines_compile() -> None:
     page = (ROOT / "resources" / "api.md").read_text(encoding="utf-8")
     for name in set(carpus.__all__) - {"__version__"}:
         assert f"`{name}(" in page or f"carpus.{name}(" in page, name
-    (lines,) = [part.split("```")[0] for part in page.split("```python")[1:]]
+    lines = "".join(part.split("```")[0] for part in page.split("```python")[1:])
     compile(lines, "api.md", "exec")
     called = set(re.findall(r"carpus\.(\w+)\(", lines))
     assert called <= set(carpus.__all__)
