@@ -162,13 +162,12 @@ def test_openni2_recorder_writes_what_it_read(tmp_path: Path) -> None:
     """
     first, second = write_sample(tmp_path / "first.oni", 6), tmp_path / "second.oni"
     program = """
-import ctypes, sys, time
-from carpus.core.capture.devices.openni2 import *
+import ctypes, time
 with OpenContext() as library:
     c = library.api
     device = library.open(sys.argv[1])
-    device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0)
-    device.set_float(DeviceProperty.PLAYBACK_SPEED, -1.0)
+    device.set_value(PLAYBACK_REPEAT, c_int(0))
+    device.set_value(PLAYBACK_SPEED, c_float(-1.0))
     streams = [device.create_stream(Sensor.COLOR), device.create_stream(Sensor.DEPTH)]
     recorder = ctypes.c_void_p()
     assert c.oniCreateRecorder(sys.argv[2].encode(), ctypes.byref(recorder)) == 0
@@ -185,7 +184,7 @@ with OpenContext() as library:
     c.oniRecorderDestroy(ctypes.byref(recorder))
     device.close()
 """
-    subprocess.run([sys.executable, "-c", program, str(first), str(second)], cwd=ROOT, check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", PRELUDE + program, str(first), str(second)], cwd=ROOT, check=True, timeout=60)
     back = list(OniSource(second).frames())
     assert back, "not one was written"
     ours = {color_picture(number).tobytes() for number in range(1, 7)}
