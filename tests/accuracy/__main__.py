@@ -1,6 +1,7 @@
 """``python -m tests.accuracy``: the errors of Carpus against simulated truth, beside the simplest thing and the bound.
 
-Every figure is synthetic: simulated hands, simulated camera.
+Every figure is synthetic: simulated hands, simulated camera. Printed as Markdown, which
+``python -m tests.accuracy.pages FILE`` puts into the pages.
 """
 
 from __future__ import annotations
@@ -17,11 +18,10 @@ from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.pages import marked, ruled
 from tests.accuracy.readings_table import ReadRow
-from tests.accuracy.robustness import robustness_verdicts
 from tests.accuracy.runs import Run
 from tests.accuracy.scenarios import GROUPS, Scenario
 from tests.accuracy.soft import SENSOR_HAND, SENSOR_WRIST, SOFT_HAND, SOFT_WRIST
-from tests.accuracy.table import markdown, read_rows, rows_of, terminal
+from tests.accuracy.table import markdown, read_rows, rows_of
 from tests.accuracy.targets import verdicts
 
 _Row = TypeVar("_Row", Scenario, HandScenario)
@@ -51,11 +51,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--pictures", type=int, default=1, help="rendered recordings a row; 0: simulated ones of all")
     parser.add_argument("--quick", action="store_true", help=f"{SEEDS} seeds and no pictures")
-    parser.add_argument(
-        "--markdown",
-        action="store_true",
-        help="tables for the pages, where python -m tests.accuracy.pages FILE puts them",
-    )
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args(arguments)
     seeds, pictures = (SEEDS, 0) if options.quick else (options.seeds, options.pictures)
@@ -67,23 +62,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     begin = time.monotonic()
     read: list[ReadRow] = []
     if wrist:
-        told, some = _wrist_report(wrist, seeds, pictures, options.processes, as_markdown=options.markdown)
+        told, some = _wrist_report(wrist, seeds, pictures, options.processes)
         read += some
         print(told, flush=True)
     if hand:
         hands = hand21_table.all_hand_runs(hand21_table.hand_jobs(hand, seeds, pictures), options.processes)
         read += hand21_table.read_rows(hands, hand)
-        told = "\n".join(_hand_tables(hands, hand)) if options.markdown else hand21_table.report(hands, hand)
-        print("", told, sep="\n", flush=True)
+        kept = map(str, hand21_table.hand_verdicts(hands, hand))
+        print("", *_hand_tables(hands, hand), *kept, sep="\n", flush=True)
     if options.group == "papers":
-        print("", papers.report(options.only, seeds, options.processes, as_markdown=options.markdown), sep="\n")
+        print("", papers.report(options.only, seeds, options.processes), sep="\n")
     if options.group == "camera" and pictures:
         for group in (cameras, check_cards):
-            print("", group.report(options.only, max(seeds // 2, 1), as_markdown=options.markdown), sep="\n")
+            print("", group.report(options.only, max(seeds // 2, 1)), sep="\n")
     if options.group in ("all", "badly") and pictures and not options.only:
         print("", marked("badly", badly.report(pictures)), sep="\n", flush=True)
     if judged:
-        told, some = second.report(judged, pictures, options.processes, as_markdown=options.markdown)
+        told, some = second.report(judged, pictures, options.processes)
         read += some
         print("", told, sep="\n")
     if options.group == "all" and pictures and not options.only:
@@ -101,20 +96,17 @@ def _named(rows: Mapping[str, tuple[_Row, ...]], group: str, only: str) -> list[
 
 
 def _wrist_report(
-    scenarios: Sequence[Scenario], seeds: int, pictures: int, processes: int, *, as_markdown: bool
+    scenarios: Sequence[Scenario], seeds: int, pictures: int, processes: int
 ) -> tuple[str, list[ReadRow]]:
     """Run these rows and tell; also what is read off them."""
     runs = all_runs(jobs_for(scenarios, seeds, pictures), processes)
-    rows = list(rows_of(runs, scenarios))
-    read = read_rows(rows)
-    as_text = [terminal(rows), "", readings_table.terminal(read)]
-    lines = list(_wrist_tables(runs, scenarios)) if as_markdown else as_text
+    lines = list(_wrist_tables(runs, scenarios))
     promised = [row for row in scenarios if row not in (*SOFT_WRIST, *SENSOR_WRIST)]
     names = {row.name for row in promised}
     kept = [run for run in runs if run.scenario in names]
     lines += ["", "Synthetic: simulated hands before a simulated camera. What was promised:"] if kept else []
-    lines += [str(verdict) for verdict in (*verdicts(kept, promised), *robustness_verdicts(kept, promised))]
-    return "\n".join(lines), read
+    lines += map(str, verdicts(kept, promised))
+    return "\n".join(lines), read_rows(list(rows_of(runs, scenarios)))
 
 
 def _wrist_tables(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> Iterator[str]:

@@ -20,7 +20,7 @@ from carpus.core.model.depth_sensor import AZURE_KINECT, D435
 from carpus.core.model.errors import BoardViewsTooSimilar
 from carpus.core.model.types import FloatArray, Frame
 from carpus.core.simulation.sensor import depth_scale
-from tests.accuracy.pages import aligned, ruled
+from tests.accuracy.pages import ruled
 from tests.studio import LENS, Studio, card_scene, poses, texture_of
 
 FOCAL_SHARE, DEPTH_SHARE = 0.003, 0.002
@@ -140,7 +140,7 @@ def _lens_px(found: Camera, lens: Camera) -> float:
     return float(np.linalg.norm(turned[:, :2] / turned[:, 2:] - rays[1][:, :2], axis=1).max() * lens.fx_px)
 
 
-def report(only: str, seeds: int, *, as_markdown: bool) -> str:
+def report(only: str, seeds: int) -> str:
     """Run every camera with fresh seeds, the chessboard and the ChArUco board in turn, and tell."""
     runs = [
         run_one(one, "charuco" if k % 3 == 2 else "chessboard", SEED + 100 * number + k)
@@ -148,8 +148,7 @@ def report(only: str, seeds: int, *, as_markdown: bool) -> str:
         if only.lower() in one.name.lower()
         for k in range(seeds)
     ]
-    told = ruled if as_markdown else aligned
-    return "\n".join([told(_table(runs)), "", *_verdicts(runs)]) if runs else ""
+    return "\n".join([ruled(_table(runs)), "", *_verdicts(runs)]) if runs else ""
 
 
 HEAD = (

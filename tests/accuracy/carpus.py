@@ -77,12 +77,11 @@ def stepped(
 @dataclass(frozen=True, slots=True)
 class Measured:
     """A recording tracked through the whole of Carpus, from folder to session file: what the session holds, the blobs
-    of its frames, when the neutral pose ended, CPU milliseconds a frame."""
+    of its frames, when the neutral pose ended."""
 
     session: Session
     blobs: tuple[Detections, ...]
     neutral_ends_s: float
-    ms: float
 
 
 def measured_session(folder: Path, settings: TrackSettings | None = None) -> Measured:
@@ -90,14 +89,12 @@ def measured_session(folder: Path, settings: TrackSettings | None = None) -> Mea
     source, clicks = TumFolder(folder), read_clicks(folder / CLICKS_FILE)
     with tempfile.TemporaryDirectory() as place:
         output = Path(place) / "session.h5"
-        begin = time.process_time()
         track_recording(source, clicks, output, settings or TrackSettings())
-        ms = 1e3 * (time.process_time() - begin)
         session, table = read_session(output), read_detections(output)
     learnt = noise_from_json(session.header.parameters)
     assert learnt is not None
     count = len(session.status)
-    return Measured(session, tuple(table.get_frame(i) for i in range(count)), learnt.neutral_ends_s, ms / count)
+    return Measured(session, tuple(table.get_frame(i) for i in range(count)), learnt.neutral_ends_s)
 
 
 def detected_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
@@ -107,17 +104,15 @@ def detected_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
 
 
 def run_on_blobs(
-    scenario: Scenario, sequence: MeasurementSequence, settings: TrackerSettings | None = None, method: str = CARPUS
+    scenario: Scenario, sequence: MeasurementSequence, settings: TrackerSettings | None = None
 ) -> tuple[Run, float]:
     """Track and smooth measurements; also when the neutral pose ends: only frames after it are scored."""
     tracker, neutral_ends_s = learnt_tracker(sequence, settings)
-    frames, ms = stepped(tracker, sequence, neutral_ends_s)
+    frames, _ = stepped(tracker, sequence, neutral_ends_s)
     status = np.array([frame.status for frame in frames])
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     motions = stack_states(frames), stack_states(tracker.smooth())
-    return _scored(
-        scenario, "blobs", method, sequence, neutral_ends_s, *motions, measured_px, status, ms
-    ), neutral_ends_s
+    return _scored(scenario, "blobs", sequence, neutral_ends_s, *motions, measured_px, status), neutral_ends_s
 
 
 def run_on_pictures(
@@ -133,8 +128,8 @@ def run_on_pictures(
     sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
     assert session.smoothed is not None
     run = _scored(
-        scenario, "pictures", CARPUS, sequence, found.neutral_ends_s, session.motion, session.smoothed,
-        session.markers.measured_px, session.status.astype(np.int64), found.ms,
+        scenario, "pictures", sequence, found.neutral_ends_s, session.motion, session.smoothed,
+        session.markers.measured_px, session.status.astype(np.int64),
     )  # fmt: skip
     return run, sequence, found.neutral_ends_s, folder
 
@@ -142,14 +137,12 @@ def run_on_pictures(
 def _scored(
     scenario: Scenario,
     mode: Mode,
-    method: str,
     sequence: MeasurementSequence,
     begin_s: float,
     live: Motion,
     back: Motion,
     measured_px: FloatArray,
     status: NDArray[np.int64],
-    ms: float,
 ) -> Run:
     truth = sequence.truth
     scored = scored_frames(truth, begin_s)
@@ -162,7 +155,7 @@ def _scored(
         scenario.name,
         truth.spec.seed,
         mode,
-        method,
+        CARPUS,
         causal,
         smoothed,
         status[scored],
@@ -170,7 +163,6 @@ def _scored(
         int(names.wrong.sum()),
         longest_s(names.wrong, truth.timestamp_s[scored]),
         longest_untracked_s(sequence, status == TrackStatus.TRACKED),
-        ms,
         stroke_speeds(truth, scored, back),
         reading_of(
             truth, scored, truth.angles_rad, causal.error_deg, causal.sd_deg, unused=names.missed, shown=names.shown

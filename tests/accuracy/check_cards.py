@@ -12,7 +12,7 @@ from carpus.core.calibration.card.card import CHECK_S, CardReading
 from carpus.core.calibration.card.measure import SEARCH_INTERVAL_S, measure_card
 from carpus.core.model.depth_sensor import SENSORS
 from tests.accuracy.cameras import OFF_SHARE, most_of
-from tests.accuracy.pages import aligned, ruled
+from tests.accuracy.pages import ruled
 from tests.studio import LENS, Studio, card_scene
 
 SEED = 7600
@@ -60,16 +60,14 @@ HEAD = (
 )  # fmt: skip
 
 
-def report(only: str, seeds: int, *, as_markdown: bool) -> str:
+def report(only: str, seeds: int) -> str:
     """Run every sensor with fresh seeds and tell."""
     rows = [HEAD]
     for number, (name, sensor, step) in enumerate(ROWS):
         if only.lower() in name.lower():
             count = seeds if step == 1 else MANY * seeds
             rows.append(_row(name, [run_one(sensor, SEED + 100 * number + k, step) for k in range(count)]))
-    if len(rows) == 1:
-        return ""
-    return ruled(rows) if as_markdown else aligned(rows)
+    return ruled(rows) if rows[1:] else ""
 
 
 def _row(name: str, runs: Sequence[CardRun]) -> tuple[str, ...]:

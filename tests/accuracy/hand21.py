@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
 from carpus.core.model.hand.protocols import HAND21, joint_angle_names
-from carpus.core.model.types import FloatArray, TrackStatus
+from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.recording import render_cached
@@ -19,7 +19,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.accuracy.carpus import detected_sequence, learnt_tracker, measured_session, stepped
 from tests.accuracy.readings import Reading, reading_of
-from tests.accuracy.runs import Mode, degrees_between, longest_s
+from tests.accuracy.runs import Mode, degrees_between
 from tests.accuracy.sequences import names_taken, scored_frames, true_names
 from tests.rendered import truth_in
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
@@ -102,13 +102,11 @@ class HandRun:
     Errors and stated standard deviations of ``joint`` and ``smoothed`` (N, 21) and of the wrist (N, 3), degrees;
     ``seen`` (N, 21) the discs at and past the joint were there to be seen; ``compared`` (N, 21) where the angle means
     something; ``disc_mm`` errors of the discs that were seen, after the unit's depth scale; ``status`` (N,);
-    measurements ``taken`` and ``wrong``, ``longest_wrong_s`` on end; ``missed`` of ``shown`` discs; ``ms`` of CPU time
-    a frame; what a therapist reads live off wrist and joints, the latter while seen.
+    measurements ``taken`` and ``wrong``; ``missed`` of ``shown`` discs; what a therapist reads live off wrist and
+    joints, the latter while seen.
     """
 
     scenario: str
-    motion: str
-    seed: int
     mode: Mode
     joint_deg: FloatArray
     joint_sd_deg: FloatArray
@@ -122,10 +120,8 @@ class HandRun:
     status: NDArray[np.int64]
     taken: int
     wrong: int
-    longest_wrong_s: float
     missed: int
     shown: int
-    ms: float
     wrist_reading: Reading
     joint_reading: Reading
 
@@ -159,12 +155,12 @@ def run_on_blobs(row: HandScenario, spec: RecordingSpec) -> HandRun:
     """Track simulated measurements."""
     sequence = clickable_sequence(spec)
     tracker, neutral_ends_s = learnt_tracker(sequence, row.tracker)
-    frames, ms = stepped(tracker, sequence, neutral_ends_s)
+    frames, _ = stepped(tracker, sequence, neutral_ends_s)
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     disc_m = np.array([frame.marker_position_cam_m for frame in frames])
     status = np.array([frame.status for frame in frames])
     motions = stack_states(frames), stack_states(tracker.smooth())
-    return _scored(row, "blobs", sequence, neutral_ends_s, *motions, measured_px, disc_m, status, ms)
+    return _scored(row, "blobs", sequence, neutral_ends_s, *motions, measured_px, disc_m, status)
 
 
 def run_on_pictures(row: HandScenario, spec: RecordingSpec) -> HandRun:
@@ -175,7 +171,7 @@ def run_on_pictures(row: HandScenario, spec: RecordingSpec) -> HandRun:
     assert session.smoothed is not None
     return _scored(
         row, "pictures", sequence, found.neutral_ends_s, session.motion, session.smoothed, session.markers.measured_px,
-        session.markers.position_cam_m, session.status.astype(np.int64), found.ms,
+        session.markers.position_cam_m, session.status.astype(np.int64),
     )  # fmt: skip
 
 
@@ -189,7 +185,6 @@ def _scored(
     measured_px: FloatArray,
     disc_m: FloatArray,
     status: NDArray[np.int64],
-    ms: float,
 ) -> HandRun:
     truth = sequence.truth
     kept = scored_frames(truth, begin_s)
@@ -208,8 +203,6 @@ def _scored(
     joints_seen_deg = np.where(seen & compared, joint_deg, np.nan)
     return HandRun(
         row.name,
-        truth.spec.motion,
-        truth.spec.seed,
         mode,
         joint_deg,
         joint_sd_deg,
@@ -223,10 +216,8 @@ def _scored(
         status[kept],
         int(names.taken.sum()),
         int(names.wrong.sum()),
-        longest_s(names.wrong, truth.timestamp_s[kept]),
         names.missed,
         names.shown,
-        ms,
         reading_of(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, **discs),
         reading_of(truth, kept, joint_true, joints_seen_deg, joint_sd_deg, **discs),
     )
@@ -238,8 +229,3 @@ def readable(joint_true: FloatArray) -> NDArray[np.bool_]:
     for k in (2, 3, 4, 5):
         out[:, ANGLES.index(f"MCP{k}_abduction")] = joint_true[:, ANGLES.index(f"MCP{k}_flexion")] < BENT_RAD
     return out
-
-
-def tracked(status: NDArray[np.int64]) -> float:
-    """Share of frames that were tracked."""
-    return float(np.mean(status == TrackStatus.TRACKED))

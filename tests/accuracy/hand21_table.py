@@ -9,7 +9,6 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from carpus.core.model.types import FloatArray
-from tests.accuracy import readings_table
 from tests.accuracy.hand21 import (
     ANGLES,
     JOINT_GROUPS,
@@ -19,7 +18,6 @@ from tests.accuracy.hand21 import (
     HandScenario,
     run_on_blobs,
     run_on_pictures,
-    tracked,
 )
 from tests.accuracy.jobs import side_by_side
 from tests.accuracy.pages import ruled
@@ -125,12 +123,6 @@ def wrist_rmse(runs: Sequence[HandRun]) -> FloatArray:
     return np.asarray(np.sqrt(np.nanmean(error**2, axis=0)))
 
 
-def wrist_inside(runs: Sequence[HandRun]) -> FloatArray:
-    """Share (3,) of the frames with the wrist's truth within two sds."""
-    error, sd = np.concatenate([run.wrist_deg for run in runs]), np.concatenate([run.wrist_sd_deg for run in runs])
-    return np.asarray(np.nanmean(np.where(np.isfinite(error), np.abs(error) <= 2.0 * sd, np.nan), axis=0))
-
-
 def disc_mm(runs: Sequence[HandRun]) -> FloatArray:
     """Median and 95th percentile of the discs' errors."""
     return np.asarray(np.percentile(np.concatenate([run.disc_mm for run in runs]), (50.0, 95.0)))
@@ -144,43 +136,6 @@ def _by_row(
             mine = [run for run in runs if run.scenario == row.name and run.mode == mode]
             if mine:
                 yield row, mode, mine
-
-
-def terminal(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
-    """A block for every row, a line for every group of joints."""
-    head = (
-        f"{'':16}{'RMSE':>7}{'sd/RMSE':>9}{'in 2 sd %':>11}{'back':>7}{'in 2 sd %':>11}"
-        f"{'hidden: RMSE':>15}{'sd':>7}{'in 2 sd %':>11}{'all %':>8}"
-    )
-    lines = []
-    for row, mode, mine in _by_row(runs, rows):
-        source = "simulated measurements" if mode == "blobs" else "rendered pictures"
-        lines += ["", f"{row.name}  [{len(mine)} x {source}]", head]
-        for group in JOINT_GROUPS:
-            f = figures(mine, group)
-            lines.append(
-                f"  {group:14}{f.rmse:7.2f}{f.sd_over_rmse:9.2f}{100 * f.inside:11.1f}{f.back:7.2f}"
-                f"{100 * f.back_inside:11.1f}{f.hidden_rmse:15.1f}{f.hidden_sd:7.1f}{100 * f.hidden_inside:11.1f}"
-                f"{100 * f.all_inside:8.1f}"
-            )
-        lines += [f"  {line}" for line in _other_lines(mine)]
-    return "\n".join(lines[1:])
-
-
-def _other_lines(runs: Sequence[HandRun]) -> Iterator[str]:
-    rmse, inside = wrist_rmse(runs), wrist_inside(runs)
-    yield (
-        f"wrist {' / '.join(f'{v:.2f}' for v in rmse)}, in 2 sd {' / '.join(f'{100 * v:.0f}' for v in inside)} %; "
-        f"discs {disc_mm(runs)[0]:.2f} / {disc_mm(runs)[1]:.2f} mm"
-    )
-    wrong, taken = sum(run.wrong for run in runs), sum(run.taken for run in runs)
-    missed, shown = sum(run.missed for run in runs), sum(run.shown for run in runs)
-    status = np.concatenate([run.status for run in runs])
-    yield (
-        f"{100 * tracked(status):.1f} % tracked; wrong {100 * wrong / taken:.3f} % for at most "
-        f"{max(run.longest_wrong_s for run in runs):.2f} s; missed {100 * missed / shown:.2f} %; "
-        f"{np.mean([run.ms for run in runs]):.2f} ms"
-    )
 
 
 def markdown(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
@@ -253,9 +208,3 @@ def hand_verdicts(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> Iter
             yield Verdict(f"{row.name}: RMSE of wrist {name} at most {limit:g} degrees", f"{value:.2f}", value <= limit)
         for name, limit, value in zip(("median", "95th percentile"), MOST_DISC_MM, disc_mm(mine), strict=True):
             yield Verdict(f"{row.name}: {name} of the discs at most {limit:g} mm", f"{value:.2f}", bool(value <= limit))
-
-
-def report(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
-    """What became of these rows, for the terminal."""
-    read = readings_table.terminal(read_rows(runs, rows))
-    return "\n".join([terminal(runs, rows), "", read, "", *map(str, hand_verdicts(runs, rows))])

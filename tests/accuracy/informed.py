@@ -1,4 +1,4 @@
-"""The bound: the filter and smoother of Carpus, told what nobody can know.
+"""The bound: the filter of Carpus, told what nobody can know.
 
 It is given the true name of every blob, the true hand and neutral pose, the constant part of each marker's
 measurement error, taken away, and the variance of the rest. What it still gets wrong no association, calibration or
@@ -7,7 +7,6 @@ noise model could mend; only another filter could.
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +20,6 @@ from carpus.core.tracking.filter.palm_state import SIZE, TURN, PalmEstimate, Pal
 from carpus.core.tracking.filter.predicted_measurement import predict_measurement
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import single_moving_mode
-from carpus.core.tracking.smoother.palm_smoother import FilterStep, smooth_palm
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import LEAST_DISCS, measured_and_errors, scored_frames
@@ -36,7 +34,7 @@ def informed_run(
     mode: Mode,
     settings: TrackerSettings | None = None,
 ) -> Run:
-    """Filter and smooth a wrist sequence; frames after ``begin_s`` are scored, as those of Carpus are."""
+    """Filter a wrist sequence; frames after ``begin_s`` are scored, as those of Carpus are."""
     settings = TrackerSettings() if settings is None else settings
     truth = sequence.truth
     measured, error = measured_and_errors(sequence)
@@ -49,11 +47,9 @@ def informed_run(
     motion = PalmMotion(settings.motion_noise, single_moving_mode(RIGID.tissue), scales)
     estimate = initial_estimate(settings.initial, 1e-14 * np.eye(21))
     mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), estimate.covariance[None], scales.size)
-    steps: list[FilterStep] = []
     estimates: list[PalmEstimate] = []
     as_stated = np.ones(measured.shape[1:])
     times = truth.timestamp_s
-    begin = time.process_time()
     for i, seen in enumerate(measured):
         dt_s = float(times[i] - times[i - 1]) if i else 1e-6
         step = palm_transition(estimate.rate_rad_s, motion, dt_s)
@@ -73,29 +69,21 @@ def informed_run(
             )
             mixture = ModeMixture(mixture.mean * kept, mixture.covariance * np.outer(kept, kept), mixture.probability)
         estimates.append(estimate)
-        steps.append(FilterStep(float(times[i]), estimate, mixture.probability[0], True))
-    ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, begin_s)
-    smoothed = [estimate for estimate in smooth_palm(steps, motion) if estimate is not None]
     true_rad = truth.angles_rad[scored]
     return Run(
         scenario.name,
         truth.spec.seed,
         mode,
         INFORMED,
-        _estimate(_only(estimates, scored), truth.spec.hand, true_rad),
-        _estimate(_only(smoothed, scored), truth.spec.hand, true_rad),
+        _estimate([estimates[i] for i in np.flatnonzero(scored)], truth.spec.hand, true_rad),
+        None,
         np.full(int(scored.sum()), TrackStatus.TRACKED),
         int(np.isfinite(measured[scored, :, 0]).sum()),
         0,
         0.0,
         0.0,
-        ms,
     )
-
-
-def _only(estimates: list[PalmEstimate], scored: np.ndarray) -> list[PalmEstimate]:
-    return [estimate for estimate, keep in zip(estimates, scored, strict=True) if keep]
 
 
 def _estimate(estimates: list[PalmEstimate], side: Side, true_rad: FloatArray) -> Estimate:

@@ -14,9 +14,8 @@ from tqdm import tqdm
 
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import informed_run
-from tests.accuracy.runs import UNTROUBLED, Mode, Run
+from tests.accuracy.runs import Mode, Run
 from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
-from tests.accuracy.sequences import without_false
 from tests.accuracy.simplest import simplest_run
 from tests.simulation.measurements import measurement_sequence
 
@@ -40,12 +39,9 @@ def done(job: Job, *, bound: bool = True) -> list[Run]:
             sequence = measurement_sequence(job.scenario.spec(job.seed, BLOB_SECONDS))
             carpus, begin_s = run_on_blobs(job.scenario, sequence)
             simplest = simplest_run(job.scenario, sequence, begin_s)
-            if not bound:
-                return [carpus, simplest]
-            untroubled, _ = run_on_blobs(job.scenario, without_false(sequence), method=UNTROUBLED)
-            return [carpus, untroubled, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
-        carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
-        simplest = simplest_run(job.scenario, sequence, begin_s, folder)
+        else:
+            carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
+            simplest = simplest_run(job.scenario, sequence, begin_s, folder)
         if not bound:
             return [carpus, simplest]
         return [carpus, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]

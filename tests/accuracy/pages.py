@@ -27,12 +27,6 @@ def ruled(rows: Sequence[Sequence[str]]) -> str:
     return "\n".join([lines[0], "|---" * len(rows[0]) + "|", *lines[1:]])
 
 
-def aligned(rows: Sequence[Sequence[str]]) -> str:
-    """Rows in columns, for the terminal."""
-    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return "\n".join("  ".join(map(str.ljust, row, wide)).rstrip() for row in rows)
-
-
 def tables_in(text: str) -> dict[str, str]:
     """The marked tables of a text, with their marks, by name."""
     return {found["name"]: found[0] for found in _MARKED.finditer(text)}

@@ -22,7 +22,7 @@ from tests.accuracy.carpus import measured_hand, stepped
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, HandScenario, clickable_sequence, seen_joints, with_end_joints
 from tests.accuracy.hand21 import ROWS as HAND
 from tests.accuracy.jobs import BLOB_SECONDS, side_by_side
-from tests.accuracy.pages import aligned, ruled
+from tests.accuracy.pages import ruled
 from tests.accuracy.readings import Reading, read_figures, reading_of, unused_share
 from tests.accuracy.runs import degrees_between, longest_s
 from tests.accuracy.scenarios import TROUBLE, WRIST, Scenario
@@ -166,11 +166,11 @@ def _cells(values: Sequence[float], digits: int = 1) -> str:
     return " / ".join("-" if np.isnan(value) else f"{value:.{digits}f}" for value in values)
 
 
-def report(only: str, seeds: int, processes: int, *, as_markdown: bool) -> str:
+def report(only: str, seeds: int, processes: int) -> str:
     """Run the rows whose name holds ``only``, half as many recordings each as Carpus has there, and tell."""
     wrist = [row for row in WRIST_ROWS if only.lower() in row.name.lower()]
     hand = [row for row in HAND_ROWS if only.lower() in row.name.lower()]
     if not wrist and not hand:
         return ""
     lines = list(lines_of(all_paper_runs(paper_jobs(wrist, hand, max(1, seeds // 2)), processes)))
-    return ruled([HEAD, *lines]) if as_markdown else f"{aligned([HEAD, *lines])}\njoints: {' / '.join(JOINT_GROUPS)}"
+    return ruled([HEAD, *lines])

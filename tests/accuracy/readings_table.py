@@ -1,4 +1,4 @@
-"""The columns that a therapist reads, as text for the terminal and as Markdown."""
+"""The columns that a therapist reads, as Markdown."""
 
 from __future__ import annotations
 
@@ -38,16 +38,6 @@ def _cells(f: ReadFigures) -> list[str]:
 
 def _text(value: float, digits: int = 1) -> str:
     return "-" if np.isnan(value) else f"{value:.{digits}f}"
-
-
-def terminal(rows: Sequence[ReadRow]) -> str:
-    """A block for every row, a line for every group of angles."""
-    lines = ["What a therapist reads, degrees:", f"{'':16}" + "".join(f"{head:>12}" for head in _HEAD)]
-    for row in rows:
-        unused = 100 * unused_share(row.readings)
-        lines.append(f"{row.name}  [{len(row.readings)} recordings; {unused:.1f} % of visible discs unused]")
-        lines += [f"  {name:14}" + "".join(f"{cell:>12}" for cell in _cells(found)) for name, found in row.figures()]
-    return "\n".join(lines)
 
 
 def markdown(rows: Sequence[ReadRow]) -> str:

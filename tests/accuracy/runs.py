@@ -15,8 +15,7 @@ from tests.accuracy.speeds import StrokeSpeeds
 Mode = Literal["blobs", "pictures"]
 """Simulated measurements, or rendered pictures through the whole of Carpus."""
 
-CARPUS, UNTROUBLED, SIMPLEST, INFORMED = "Carpus", "untroubled", "simplest", "informed"
-"""Untroubled: Carpus on the blobs of true markers only, so that what false ones cost can be told."""
+CARPUS, SIMPLEST, INFORMED = "Carpus", "simplest", "informed"
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +32,8 @@ class Run:
 
     ``smoothed`` None where it does not look back; ``status`` (N,) as in a session; ``taken`` measurements were taken
     for a marker, ``wrong`` of them another thing's, for at most ``longest_wrong_s`` on end; ``longest_untracked_s`` it
-    was not tracked while four discs of the palm showed; ``ms`` CPU time per frame;
-    ``speeds`` of its strokes and the therapist's ``reading``, live, where they were looked at.
+    was not tracked while four discs of the palm showed; ``speeds`` of its strokes and the therapist's ``reading``,
+    live, where they were looked at.
     """
 
     scenario: str
@@ -48,7 +47,6 @@ class Run:
     wrong: int
     longest_wrong_s: float
     longest_untracked_s: float
-    ms: float
     speeds: StrokeSpeeds | None = None
     reading: Reading | None = None
 

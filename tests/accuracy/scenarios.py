@@ -26,8 +26,7 @@ class Scenario:
     ``options`` and ``trouble`` go to every :class:`RecordingSpec`; ``speeds_hz`` is the range from which each seed
     draws its repetitions a second; ``columns`` names the column of each angle compared (several may share one);
     ``pool`` is the pooled row that it counts in; ``times_seeds`` recordings for every seed asked for; ``pictures``:
-    also by rendered pictures, where what they show matters; ``has_bound``: also the bound and the run without false
-    blobs.
+    also by rendered pictures, where what they show matters; ``has_bound``: also the bound.
     """
 
     name: str

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from carpus.core.model.errors import CarpusFault
-from carpus.core.model.types import FloatArray, TrackStatus
+from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import TrackSettings
 from tests.accuracy import readings_table
 from tests.accuracy.carpus import measured_session
@@ -36,17 +36,11 @@ _MOST_TRIES = 12
 
 @dataclass(frozen=True, slots=True)
 class SecondRun:
-    """One recording tracked: what a therapist reads live, wrist and joints (None with six discs); ``status`` (N,) and
-    errors ``disc_mm`` of the visible discs; measurements ``taken`` and ``wrong``; ``ms`` of CPU time a frame."""
+    """One recording tracked: what a therapist reads live, wrist and joints (None with six discs)."""
 
     row: str
     wrist: Reading
     joints: Reading | None
-    status: NDArray[np.int64]
-    disc_mm: FloatArray
-    taken: int
-    wrong: int
-    ms: float
 
 
 def tracked_run(row: Row, seed: int, settings: TrackSettings | None = None) -> SecondRun | str:
@@ -71,7 +65,6 @@ def _tracked_run(row: Row, seed: int, settings: TrackSettings | None) -> SecondR
     kept = truth.timestamp_s > found.neutral_ends_s
     kept &= enough_inside(pixel[:, list(truth.protocol.palm)], truth.camera)
     names = names_taken(session.markers.measured_px, found.blobs, labels, kept)
-    off = np.linalg.norm(session.markers.position_cam_m - truth.disc_position_cam_m, axis=-1)[kept][names.present]
 
     time_s = (truth.timestamp_s - truth.timestamp_s[0])[kept]
     posture = motion_of(row.motion, seed).at(time_s)
@@ -94,11 +87,6 @@ def _tracked_run(row: Row, seed: int, settings: TrackSettings | None) -> SecondR
         row.name,
         reading(truth.angles_rad, motion.angles_rad, motion.angles_sd_rad),
         joints,
-        session.status[kept].astype(np.int64),
-        1e3 * off[np.isfinite(off)],
-        int(names.taken.sum()),
-        int(names.wrong.sum()),
-        found.ms,
     )
 
 
@@ -107,7 +95,7 @@ def rows_named(only: str) -> list[Row]:
     return [row for row in ROWS if only.lower() in f"second: {row.name}".lower()]
 
 
-def report(rows: Sequence[Row], recordings: int, processes: int, *, as_markdown: bool) -> tuple[str, list[ReadRow]]:
+def report(rows: Sequence[Row], recordings: int, processes: int) -> tuple[str, list[ReadRow]]:
     """Run ``recordings`` of each of these rows and tell; also what is read off them."""
     jobs = [
         (row, _clickable_seed(row, SECOND_SEEDS + 50 * ROWS.index(row) + i)) for row in rows for i in range(recordings)
@@ -115,10 +103,7 @@ def report(rows: Sequence[Row], recordings: int, processes: int, *, as_markdown:
     done = side_by_side(_tracked, jobs, processes)
     runs, faults = [run for run in done if isinstance(run, SecondRun)], [run for run in done if isinstance(run, str)]
     read = list(_read_rows(runs, rows))
-    if as_markdown:
-        return "\n".join([marked("second", readings_table.markdown(read)), *faults]), read
-    head = "The second patient, for judging only (rendered pictures):"
-    return "\n".join([head, readings_table.terminal(read), *_others(runs, rows), *faults]), read
+    return "\n".join([marked("second", readings_table.markdown(read)), *faults]), read
 
 
 def _clickable_seed(row: Row, seed: int) -> int:
@@ -138,18 +123,3 @@ def _read_rows(runs: Sequence[SecondRun], rows: Sequence[Row]) -> Iterator[ReadR
         joints = tuple(run.joints for run in mine if run.joints is not None)
         if joints:
             yield ReadRow(f"second: {row.name}, joints", groups, joints)
-
-
-def _others(runs: Sequence[SecondRun], rows: Sequence[Row]) -> Iterator[str]:
-    for row in rows:
-        mine = [run for run in runs if run.row == row.name]
-        if not mine:
-            continue
-        status = np.concatenate([run.status for run in mine])
-        disc = np.concatenate([run.disc_mm for run in mine])
-        wrong, taken = sum(run.wrong for run in mine), sum(run.taken for run in mine)
-        yield (
-            f"second: {row.name}: {100 * np.mean(status == TrackStatus.TRACKED):.1f} % tracked; "
-            f"wrong {100 * wrong / max(1, taken):.2f} %; discs {np.percentile(disc, 50):.1f} mm, 95th percentile "
-            f"{np.percentile(disc, 95):.1f}; {np.mean([run.ms for run in mine]):.1f} ms"
-        )

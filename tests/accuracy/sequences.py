@@ -66,14 +66,6 @@ def longest_untracked_s(sequence: MeasurementSequence, tracked: NDArray[np.bool_
     return longest
 
 
-def without_false(sequence: MeasurementSequence) -> MeasurementSequence:
-    """The blobs of true markers only."""
-    kept = [labels >= 0 for labels in sequence.marker]
-    blobs = tuple(b.subset(rows) for b, rows in zip(sequence.detections, kept, strict=True))
-    names = tuple(labels[rows] for labels, rows in zip(sequence.marker, kept, strict=True))
-    return MeasurementSequence(sequence.truth, blobs, names)
-
-
 def measured_and_errors(sequence: MeasurementSequence) -> tuple[FloatArray, FloatArray]:
     """Measured pixels and depths (N, M, 3) by true name, NaN where not seen, and their errors."""
     truth = sequence.truth

@@ -7,7 +7,6 @@ the palm's points in space best, frame by frame (Kabsch).
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -103,14 +102,12 @@ def simplest_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
             spots.extend(blue_spots(frame) for frame in TumFolder(folder).frames())
         yield from spots
 
-    begin = time.process_time()
     pixel, points = nearest_points(seen(), sample_clicks(truth).pixel, truth.camera)
     still = points[times <= begin_s]
     count = np.isfinite(still).sum(axis=0)
     neutral = np.where(count > 0, np.nansum(still, axis=0) / np.maximum(count, 1), np.nan)
     known = np.isfinite(neutral).all()
     rotation = turns(neutral, points) if known else np.full((len(times), 3, 3), np.nan)
-    ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, begin_s)
     error = degrees_between(angles_from_rotation(rotation, truth.spec.hand), truth.angles_rad)[scored]
     wrong = np.zeros(pixel.shape[:2], dtype=bool)
@@ -130,5 +127,4 @@ def simplest_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
         int(wrong[scored].sum()),
         longest_s(wrong[scored], times[scored]),
         longest_untracked_s(sequence, seen_enough),
-        ms,
     )

@@ -1,4 +1,4 @@
-"""The table as text for the terminal and as Markdown for the README."""
+"""The table, as Markdown for the pages."""
 
 from __future__ import annotations
 
@@ -10,23 +10,16 @@ import numpy as np
 from carpus.core.model.types import FloatArray
 from tests.accuracy.pages import ruled
 from tests.accuracy.readings_table import ReadRow
-from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, UNTROUBLED, Mode, Run
+from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, Mode, Run
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.scores import Score, score
 
 _METHODS: tuple[tuple[str, str, bool], ...] = (
     ("Carpus, live", CARPUS, False),
     ("Carpus, looking back", CARPUS, True),
-    ("without false blobs", UNTROUBLED, False),
     ("simplest thing", SIMPLEST, False),
     ("bound, live", INFORMED, False),
-    ("bound, looking back", INFORMED, True),
 )
-_BOUND_OF = {
-    "Carpus, live": "bound, live",
-    "without false blobs": "bound, live",
-    "Carpus, looking back": "bound, looking back",
-}
 _NONE = "-"
 
 
@@ -79,34 +72,6 @@ def _scores(row: Row) -> Iterator[tuple[str, Score]]:
         figures = score([run for run in row.runs if run.method == method], row.columns, smoothed=smoothed)
         if figures is not None:
             yield label, figures
-
-
-def terminal(rows: Sequence[Row]) -> str:
-    """A block for every row, a line for every method."""
-    lines: list[str] = []
-    head = (
-        f"{'':24}{'RMSE, degrees':>22}{'95th percentile':>22}{'tracked %':>11}{'wrong %':>9}{'for s':>7}{'back s':>8}"
-        f"{'within 2 sd, % (worst)':>28}{'mean sd / RMSE':>22}{'RMSE / bound':>22}{'ms':>8}"
-    )
-    columns: tuple[str, ...] = ()
-    for row in rows:
-        if row.columns != columns:
-            columns = row.columns
-            lines += ["", head, f"{'':24}{' / '.join(dict.fromkeys(columns)):>22}"]
-        count = len({run.seed for run in row.runs})
-        source = "simulated measurements" if row.mode == "blobs" else "rendered pictures"
-        lines.append(f"{row.name}  [{count} x {source}]")
-        found = dict(_scores(row))
-        for label, s in found.items():
-            bound = found.get(_BOUND_OF.get(label, ""))
-            over = "" if bound is None else _three(s.rmse / bound.rmse)
-            worst = "" if np.isnan(s.worst_inside) else f" ({100 * s.worst_inside:.0f})"
-            inside = _three(s.inside, 0, 100.0) + worst
-            lines.append(
-                f"  {label:22}{_three(s.rmse):>22}{_three(s.p95):>22}{100 * s.tracked:>11.1f}{100 * s.wrong:>9.2f}"
-                f"{s.longest_wrong_s:>7.2f}{s.longest_untracked_s:>8.2f}{inside:>28}{_three(s.sd_over_rmse):>22}{over:>22}{s.ms:>8.2f}"
-            )
-    return "\n".join(lines)
 
 
 def markdown(rows: Sequence[Row]) -> str:

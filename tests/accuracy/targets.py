@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.accuracy.runs import CARPUS, SIMPLEST, Run
-from tests.accuracy.scenarios import FAST, SLOW, Scenario
+from carpus.core.model.types import FloatArray
+from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, Run
+from tests.accuracy.scenarios import FAST, REACHING, SLOW, TROUBLE, Scenario
 from tests.accuracy.scores import Score, score
 
 MOST_RMSE_DEG: dict[str, tuple[float, float, float]] = {SLOW: (0.3, 1.0, 1.2), FAST: (0.4, 1.0, 1.3)}
@@ -17,6 +18,12 @@ LEAST_INSIDE_OF_ANY = 0.70
 MOST_SD_OVER_RMSE = 1.5
 MOST_WRONG = 0.002
 ENOUGH_RECORDINGS = 30
+HARDER = ("10 false blobs", "30 % hidden")
+MOST_HARDER = 2.0
+MOST_WRONG_OF_ANY = 0.001
+MOST_SWAP_S = MOST_BACK_S = 0.5
+MOST_OVER_BOUND = 1.15
+MOST_SPEED_ERROR = {"angular": 0.05, "linear": 0.03}
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,18 +53,11 @@ def verdicts(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict
         out += _of_pool(pool, figures, columns, limits)
     carpus = [run for run in runs if run.method == CARPUS]
     if carpus:
-        wrong, taken = sum(run.wrong for run in carpus), sum(run.taken for run in carpus)
-        share = wrong / max(1, taken)
-        out.append(
-            Verdict(
-                f"wrong associations below {100 * MOST_WRONG:g} % of measurements",
-                f"{100 * share:.3f} % ({wrong} of {taken})",
-                share < MOST_WRONG,
-            )
-        )
-        lost = [f"{run.scenario} {run.seed}" for run in runs if run.method == CARPUS and run.ends_lost]
+        lost = [f"{run.scenario} {run.seed}" for run in carpus if run.ends_lost]
         out.append(Verdict("no recording ends lost", ", ".join(lost) or "none", not lost))
         out.append(_better_than_simplest(runs, scenarios))
+        out += [*_troubles(carpus, scenarios), *_names(carpus), _smoother(carpus, scenarios)]
+        out += [*_ratios(runs, scenarios), *_speeds(carpus, scenarios)]
     return out
 
 
@@ -112,3 +112,116 @@ def _better_than_simplest(runs: Sequence[Run], scenarios: Sequence[Scenario]) ->
                 worse.append(f"{scenario.name} by {mode}")
     return Verdict("better than the simplest thing in every row", f"{rows - len(worse)} of {rows}" + (
         f"; not in {', '.join(worse)}" if worse else ""), not worse if rows else None)  # fmt: skip
+
+
+def _of(runs: Sequence[Run], scenario: Scenario, *, smoothed: bool = False) -> Score | None:
+    return score([run for run in runs if run.scenario == scenario.name], scenario.columns, smoothed=smoothed)
+
+
+def _text(values: FloatArray) -> str:
+    return " / ".join(f"{value:.2f}" for value in values)
+
+
+def _troubles(carpus: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
+    """Every trouble keeps the limits of the exercises, the two hardest twice those."""
+    limits = np.array(MOST_RMSE_DEG[SLOW])
+    beyond: dict[bool, list[str]] = {False: [], True: []}
+    count = {False: 0, True: 0}
+    for scenario in scenarios:
+        found = _of(carpus, scenario)
+        if scenario not in TROUBLE or found is None:
+            continue
+        hard = scenario.name in HARDER
+        count[hard] += 1
+        if (found.rmse > limits * (MOST_HARDER if hard else 1.0)).any():
+            beyond[hard].append(f"{scenario.name} {_text(found.rmse)}")
+    claim = {
+        False: f"every trouble: RMSE at most {_text(limits)} degrees",
+        True: f"{' and '.join(HARDER)}: at most {MOST_HARDER:g} times those",
+    }
+    return [
+        Verdict(claim[hard], f"{count[hard] - len(beyond[hard])} of {count[hard]} rows" + "".join(
+            f"; {row}" for row in beyond[hard]), not beyond[hard])
+        for hard in (False, True) if count[hard]
+    ]  # fmt: skip
+
+
+def _names(carpus: Sequence[Run]) -> list[Verdict]:
+    rows = sorted({run.scenario for run in carpus})
+    share = {
+        row: sum(run.wrong for run in carpus if run.scenario == row)
+        / max(1, sum(run.taken for run in carpus if run.scenario == row))
+        for row in rows
+    }
+    worst = max(rows, key=lambda row: share[row])
+    swap = max(carpus, key=lambda run: run.longest_wrong_s)
+    back = max(carpus, key=lambda run: run.longest_untracked_s)
+    return [
+        Verdict(
+            f"wrong associations below {100 * MOST_WRONG_OF_ANY:g} % in every row",
+            f"worst {100 * share[worst]:.3f} % ({worst})",
+            share[worst] < MOST_WRONG_OF_ANY,
+        ),
+        Verdict(
+            f"a swap lasts at most {MOST_SWAP_S:g} s",
+            f"longest {swap.longest_wrong_s:.2f} s ({swap.scenario})",
+            swap.longest_wrong_s <= MOST_SWAP_S,
+        ),
+        Verdict(
+            f"tracked again within {MOST_BACK_S:g} s of four discs showing",
+            f"longest {back.longest_untracked_s:.2f} s ({back.scenario})",
+            back.longest_untracked_s <= MOST_BACK_S,
+        ),
+    ]
+
+
+def _smoother(carpus: Sequence[Run], scenarios: Sequence[Scenario]) -> Verdict:
+    above, rows = [], 0
+    for scenario in scenarios:
+        live, back = _of(carpus, scenario), _of(carpus, scenario, smoothed=True)
+        if live is None or back is None:
+            continue
+        rows += 1
+        if (back.rmse >= live.rmse).any():
+            above.append(f"{scenario.name} {_text(back.rmse)} after {_text(live.rmse)}")
+    found = f"{rows - len(above)} of {rows}" + "".join(f"; not {row}" for row in above)
+    return Verdict("looking back below live in every row", found, not above)
+
+
+def _ratios(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
+    """Against the same filter that was told true names, geometry and noise."""
+    out = []
+    slow = [scenario for scenario in scenarios if scenario.pool == SLOW]
+    for name, rows in (("rest", [s for s in scenarios if s.name == "rest"]), (SLOW, slow)):
+        names = {row.name for row in rows}
+        mine, bound = (
+            score([run for run in runs if run.scenario in names and run.method == method], rows[0].columns)
+            if rows
+            else None
+            for method in (CARPUS, INFORMED)
+        )
+        if mine is not None and bound is not None:
+            ratio = mine.rmse / bound.rmse
+            claim = f"{name}: RMSE at most {MOST_OVER_BOUND:g} times the bound's"
+            out.append(Verdict(claim, _text(ratio), bool((ratio <= MOST_OVER_BOUND).all())))
+    return out
+
+
+def _speeds(carpus: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
+    """Peak speeds of the exercises' strokes (turning) and of reaching (linear), looking back, usual troubles only."""
+    usual = {scenario.name for scenario in scenarios if scenario.pool is not None}
+    out = []
+    speeds = [(run.scenario, run.speeds) for run in carpus if run.scenario in usual and run.speeds is not None]
+    for kind, errors in (
+        ("angular", [found.turning for name, found in speeds if name != REACHING]),
+        ("linear", [found.moving for name, found in speeds if name == REACHING]),
+    ):
+        error = np.concatenate(errors) if errors else np.empty(0)
+        if error.size:
+            rms = float(np.sqrt(np.mean(error**2)))
+            most = MOST_SPEED_ERROR[kind]
+            found = (
+                f"{100 * rms:.1f} % (mean {100 * error.mean():+.1f}, sd {100 * error.std():.1f}; {error.size} strokes)"
+            )
+            out.append(Verdict(f"peak {kind} speed of a stroke within {100 * most:g} %, rms", found, rms <= most))
+    return out

@@ -201,6 +201,15 @@ def test_soft_tissue_leaves_home_while_joints_turn() -> None:
     assert FOLLOWING.initial_probability[home].sum() > 0.9
 
 
+def test_tissue_noise_coming_home_is_driven() -> None:
+    home, away = (int(np.flatnonzero((FOLLOWING.tissue_of == HOME) == is_home)[0]) for is_home in (True, False))
+    stayed, came = np.zeros((2, FOLLOWING.modes, FOLLOWING.modes))
+    stayed[home, home] = came[away, home] = 1.0
+    step = palm_transition(np.zeros(3), FOLLOWING, 1.0 / 30.0)
+    rest, push = (FOLLOWING.tissue_noise(went, step) for went in (stayed, came))
+    np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT_TISSUE, SOFT_TISSUE], atol=1e-15)
+
+
 def test_palm_smoother_tissue_uses_the_frames_digit_speeds() -> None:
     vague = np.full(FOLLOWING.modes, 1.0 / FOLLOWING.modes)
     speeds = DigitSpeeds(fingers=2.0), DigitSpeeds(), DigitSpeeds()

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from carpus.core.model.depth_sensor import D435, PRIMESENSE
-from carpus.core.tracking.filter.palm_state import SHAPE, SIZE, PalmEstimate
+from carpus.core.tracking.filter.palm_state import CALIBRATION_ERROR, SHAPE, SIZE, PalmEstimate
 from carpus.core.tracking.filter.predicted_measurement import (
     LOCKED_DEPTH_SHARE,
     compute_fresh_share,
     depth_bias_matrix,
     shape_covariance,
+    shape_partial_update,
 )
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.unscented import UnscentedParameters
@@ -21,6 +22,12 @@ from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.tracker import Tracker
 from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration
 from tests.tracking.test_palm_filter import linearised_about
+
+
+@pytest.mark.parametrize("news", [0.1, 1.0])
+def test_shape_partial_update_takes_its_share(news: float) -> None:
+    mean = shape_partial_update(news)[CALIBRATION_ERROR]
+    np.testing.assert_allclose(2.0 * mean - mean**2, news, err_msg="of the information")
 
 
 def test_shape_learning_still_hand_adds_little() -> None:
