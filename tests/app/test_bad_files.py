@@ -215,12 +215,3 @@ def test_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
         house.patients.change(Patient("Linden 42", "right", patient_id=key))
         found = [path.name for path in tmp_path.iterdir() if path.is_file() and b"Featherstone" in path.read_bytes()]
         assert found == []
-
-
-def test_warnings_between_two_calls_are_all_shown(tmp_path: Path) -> None:
-    assert new_sessions.MAX_LISTED_FILES >= 1
-    for number in range(6):
-        stored(tmp_path / "sessions" / f"{number}.h5").write_bytes(b"x" * 100)
-    (fault,) = started(tmp_path)[1]
-    assert fault.detail == "6 files"
-    assert "0.h5" in fault.subject

@@ -65,38 +65,3 @@ def test_side_by_side_opens_from_two_ticks_and_returns(qtbot: QtBot, desktop: De
     assert len(journey.sessions.screen.list.session_model.ticked) == 2, "they stay ticked"
     deeds = [entry.action for entry in read_log(desktop.library.store)]
     assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 0, 0]
-
-
-def test_side_by_side_from_review_with_missing_file_is_reported(qtbot: QtBot, desktop: Desktop) -> None:
-    journey, screen = desktop.controller, desktop.controller.beside.screen
-    newest, older = (line.entry.session_id for line in journey.sessions.screen.list.session_model.lines)
-    journey.review.open(newest)
-    qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
-    assert journey.review.screen.card.compare_button.isEnabled()
-    qtbot.keyClick(journey.review.screen, Qt.Key.Key_B)
-    assert journey.place == "beside"
-    qtbot.waitUntil(lambda: screen.comparison is not None)
-    assert screen.session_ids == (newest, older)
-    qtbot.keyClick(desktop.shell, Qt.Key.Key_F1)
-    assert journey.place == "help"
-    journey.navigator.navigate_back()
-    assert journey.place == "beside", "as it was left"
-    assert screen.comparison is not None
-    opened = [entry.action for entry in read_log(desktop.library.store)].count("opened")
-    assert opened == 3, "the review's one, and the two once"
-    journey.navigator.navigate_back()
-    assert journey.place == "review"
-    qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
-    bar = desktop.shell.top_bar.camera
-    assert bar.text().startswith("Saved")
-    journey.review.open(older)
-    assert not bar.text().startswith("Saved"), "nothing is said of the one before"
-    qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
-    assert bar.text().startswith("Saved")
-    desktop.library.entry(older).path.unlink()
-    told: list[Exception] = []
-    screen.fault_raised.connect(told.append)
-    journey.beside.open(newest, older)
-    qtbot.waitUntil(lambda: len(told) == 1)
-    assert screen.comparison is None
-    assert "could not be read" in screen.answer.text()

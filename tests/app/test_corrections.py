@@ -7,7 +7,7 @@ import math
 import os
 import shutil
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import closing
 from dataclasses import dataclass, fields, replace
 from datetime import datetime, timedelta
@@ -22,26 +22,20 @@ from pytestqt.qtbot import QtBot
 from carpus.core.model.errors import (
     ConcurrentChange,
     DiskFull,
-    FolderMissing,
     OutputNotWritable,
     PatientListBusy,
-    ServerUnavailable,
     SessionUnreadable,
 )
 from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
 from carpus.core.records.backup import collect_sources
-from carpus.core.records.changes import delete_row
 from carpus.core.records.corrections import Corrections, PendingResult, compare_results, match_exclusions
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.retention import RecordRetention
-from carpus.core.records.schema import SESSION
 from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
-from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
-from carpus.core.results.session_results import compute_session_results
-from carpus.core.session.atomic_files import publish
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.rewriting import rewrite_session
 from carpus.core.session.values import RepetitionRow
@@ -53,7 +47,7 @@ from carpus.ui.screens.sessions.session_store import SessionStore
 from carpus.ui.shell.current_selection import CurrentSelection
 from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.shell.main_window import MainWindow
-from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, wrongly_tracked
+from tests.pipeline.test_correction import Stored, put_right, wrongly_tracked
 from tests.ui.contexts import Told, a_context
 
 
@@ -397,43 +391,6 @@ def test_result_that_did_not_get_its_name_is_in_no_list_and_waits(
     assert len(library.session(new)) == len(library.session(session_id))
 
 
-def test_file_that_took_name_in_the_meantime_is_kept_and_result_has_another_one(
-    kept: Kept, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    library, trial = kept.library, kept.trial()
-    real, taken = library.session_list.add, list[Path]()
-
-    def enter(path: Path, *told: object) -> object:
-        path.write_bytes(b"another one's")
-        taken.append(path)
-        return real(path, *told)  # type: ignore[arg-type]
-
-    with monkeypatch.context() as patched:
-        patched.setattr(library.session_list, "add", enter)
-        new = kept.corrections.accept(kept.session_id, trial)
-    assert taken[0].read_bytes() == b"another one's"
-    assert library.entry(new).path != taken[0]
-    assert len(library.session(new)) == len(library.session(kept.session_id))
-    assert not trial.exists()
-    assert len(list(taken[0].parent.iterdir())) == 3
-
-
-def test_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A look for what waits meets one that is just being taken."""
-    library, trial = kept.library, kept.trial()
-
-    def with_a_look(part: Path, target: Path) -> None:
-        monkeypatch.undo()
-        kept.corrections.list_pending()
-        publish(part, target)
-
-    monkeypatch.setattr("carpus.core.records.corrections.publish", with_a_look)
-    new = kept.corrections.accept(kept.session_id, trial)
-    assert set(kept.path.parent.iterdir()) == {kept.path, library.entry(new).path}
-    assert len(library.session(new)) == len(library.session(kept.session_id))
-    assert not trial.exists()
-
-
 def test_listed_result_is_never_deleted_nor_hides_pending(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     corrections, trial, other = kept.corrections, kept.trial(), kept.trial()
 
@@ -460,20 +417,6 @@ def test_listed_result_is_never_deleted_nor_hides_pending(kept: Kept, monkeypatc
     assert not trial.exists()
 
 
-def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
-    qtbot: QtBot, kept: Kept, correcting: Correcting, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    trial, told = kept.trial(), Told("correct")
-    killed_once_listed(kept, monkeypatch, trial)
-    flow, _ = correcting(told)
-    flow.pending = [PendingResult(kept.session_id, trial)]
-    flow.open_dialog()
-    flow.dialog.keep_button.click()
-    qtbot.waitUntil(lambda: bool(told.faults) and not trial.exists())
-    (new,) = kept.library.history(kept.patient)
-    assert new.session_id != kept.session_id
-
-
 def test_result_decided_during_search_is_not_pending(qtbot: QtBot, kept: Kept, correcting: Correcting) -> None:
     trials, told = [kept.trial() for _ in range(2)], Told("settings", behind="review")
     flow, context = correcting(told)
@@ -491,75 +434,6 @@ def test_result_decided_during_search_is_not_pending(qtbot: QtBot, kept: Kept, c
     qtbot.waitUntil(lambda: len(told.shown) == 2)
     assert [one.session_id for one in kept.library.result_versions(str(new))][1:] == [new, told.shown[1][1]]
     assert told.asked == ["This result is used from now on."]
-
-
-@pytest.mark.parametrize("is_answered", ["before the end", "after the end"])
-def test_result_retracked_during_search_is_pending_once(
-    qtbot: QtBot, kept: Kept, stored: Stored, correcting: Correcting, monkeypatch: pytest.MonkeyPatch, is_answered: str
-) -> None:
-    written, ends, answers = threading.Event(), threading.Event(), threading.Event()
-
-    def beside(task: CorrectionTask, *_: object) -> bool:
-        if is_answered == "after the end":
-            ends.wait(30.0)
-        rewrite_session(kept.corrected, task.output, {})
-        written.set()
-        return ends.wait(30.0)
-
-    monkeypatch.setattr("carpus.ui.screens.correct.flow.correct_in_process", beside)
-    flow, _ = correcting(Told("review"))
-    flow.start(kept.session_id, (put_right(stored),))
-    if is_answered == "before the end":
-        qtbot.waitUntil(written.is_set)
-        flow.refresh_pending()
-        qtbot.waitUntil(lambda: len(flow.pending) == 1)
-        ends.set()
-    else:
-        look = flow._corrections.list_pending
-
-        def slow() -> Sequence[PendingResult]:
-            found = look()
-            answers.wait(30.0)
-            return found
-
-        with monkeypatch.context() as patched:
-            patched.setattr(flow._corrections, "list_pending", slow)
-            flow.refresh_pending()
-        ends.set()
-        qtbot.waitUntil(lambda: len(flow.pending) == 1)
-        answers.set()
-    qtbot.waitUntil(lambda: not (flow.running_session_id or flow._tracking.is_busy or flow._background.is_busy))
-    assert [one.session_id for one in flow.pending] == [kept.session_id]
-
-
-def test_result_of_later_session_waits_and_orphan_is_removed(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
-    corrections, trial, store = kept.corrections, kept.trial(), kept.library.store
-    store.apply([delete_row(SESSION, kept.session_id)])
-    with monkeypatch.context() as patched:
-
-        def away(_: str) -> None:
-            raise ServerUnavailable("records", "no answer")
-
-        patched.setattr(kept.library.session_list, "get", away)
-        assert corrections.list_pending() == []
-    assert trial.exists()
-    assert corrections.list_pending() == []
-    assert not trial.exists()
-
-
-def test_share_that_is_away_is_reported_before_anything_is_done(
-    tmp_path: Path, stored: Stored, corrected: Path
-) -> None:
-    share = tmp_path / "share"
-    share.mkdir()
-    with closing(Library(tmp_path / "data", sessions_folder=share)) as library:
-        kept = entered(library, stored, corrected)
-        trial = kept.trial()
-        share.rename(tmp_path / "away")
-        with pytest.raises(FolderMissing):
-            kept.corrections.accept(kept.session_id, trial)
-        assert kept.corrections.list_pending() == [PendingResult(kept.session_id, trial)]
-        assert kept.listed == [kept.session_id]
 
 
 def test_copy_that_counts_again_is_newest_by_any_clock_and_says_no_other_origin(
@@ -585,21 +459,6 @@ def test_copy_that_counts_again_is_newest_by_any_clock_and_says_no_other_origin(
     assert [entry.session_id for entry in library.result_versions(session_id)] == before
 
 
-@pytest.mark.parametrize("why", ["pain", PASSIVE])
-def test_exclusions_carry_over_to_new_result(kept: Kept, why: str) -> None:
-    """Left out, or moved by another."""
-    library = kept.library
-    figures = compute_session_results(library.session(kept.session_id))
-    number = next(number for number, one in enumerate(figures.repetitions) if one.is_counted)
-    library.save_choices(kept.session_id, RepetitionChoices({number: why}))
-    new = kept.corrections.accept(kept.session_id, kept.trial())
-    again = compute_session_results(library.session(new), library.choices(new))
-    (said,) = [one for one in again.repetitions if (one.is_passive if why == PASSIVE else not one.is_counted)]
-    assert why == PASSIVE or said.exclusion_reason == why
-    assert said.start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
-    assert again.has_passive == (why == PASSIVE)
-
-
 @pytest.mark.parametrize(
     ("before", "after", "left_out"),
     [
@@ -618,9 +477,3 @@ def test_match_exclusions_finds_repetitions_of_the_same_moments(
         return [RepetitionRow(**{**unknown, "start_s": a, "end_s": b}) for a, b in times_s]  # type: ignore[arg-type]
 
     assert set(match_exclusions(dict.fromkeys(range(len(before)), "pain"), rows(before), rows(after))) == left_out
-
-
-def test_moment_is_blobs_where_no_frame_was_kept(kept: Kept) -> None:
-    picture, spots = kept.corrections.read_frame(kept.session_id, WRONG_FROM)
-    assert picture is None
-    assert len(spots) == 7

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from PySide6.QtWidgets import QAbstractButton, QLabel
@@ -11,9 +10,8 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.window import Desktop
-from carpus.core.records.library import Library
 from carpus.ui.screens.settings.camera_card import CameraCard
-from tests.records.samples import HERON, LINDEN, T0, record
+from tests.records.samples import HERON, LINDEN
 
 
 @pytest.fixture
@@ -59,15 +57,3 @@ def test_demo_screens_have_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -
     assert not card.check_button.isVisible()
     assert not card.calibrate_button.isVisible()
     looks_well()
-
-
-def test_last_measured_patient_is_selected_at_next_start(demo: Callable[[], Desktop], tmp_path: Path) -> None:
-    library = Library(tmp_path / "data")
-    linden = library.patients.add(LINDEN)
-    path = library.session_list.new_path(linden, LINDEN.pseudonym, "WRIST_FE", "right", T0)
-    library.session_list.add(record(path, LINDEN.pseudonym, T0, simulated=True), linden)
-    library.patients.add(HERON)
-    library.close()
-    patients = demo().controller.patients.screen
-    assert patients.list.patient_model.find_row(linden) > 0, "what is simulated counts nowhere, also not for the order"
-    assert patients.list.currentIndex().row() == patients.list.patient_model.find_row(linden)

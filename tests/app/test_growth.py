@@ -20,7 +20,6 @@ from carpus.core.formats.export import FORMATS
 from carpus.core.model.hand.exercises import EXERCISES, exercises_for_protocol, get_exercise
 from carpus.core.model.hand.protocols import PALM_MARKERS, PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.simulation.motions import MOTIONS
-from carpus.ui.screens.export.dialog import FORMAT_NAMES
 from tests.sources import ROOT, nodes
 
 GIVEN = {"uri", "camera", "patience_s", "notice"}
@@ -132,15 +131,6 @@ def test_registered_lines_lead_to_their_files() -> None:
     )
     joints = {one.id: one.joint for one in EXERCISES if one.joint and one.joint not in one.protocol.joint_names()}
     assert joints == {}, "joints that their discs do not have"
-
-
-def test_pages_name_every_format_and_camera() -> None:
-    page = (ROOT / "resources" / "formats.md").read_text(encoding="utf-8")
-    assert [name for name in FORMATS if f"| `{name}` |" not in page] == []
-    assert f"--format {','.join(FORMATS)} " in page
-    assert set(FORMAT_NAMES) == set(FORMATS), "the window's words for them"
-    page = (ROOT / "resources" / "camera.md").read_text(encoding="utf-8")
-    assert [name for name in CAMERAS if f"`{name}`" not in page] == []
 
 
 REACHED_OTHERWISE = {

@@ -8,7 +8,7 @@ import shutil
 import uuid
 from collections.abc import Iterator
 from contextlib import closing
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime
 from pathlib import Path
 
 import h5py
@@ -18,13 +18,10 @@ import carpus
 from carpus.app.session_commands import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.model.errors import OutputNotWritable
-from carpus.core.records.changes import update_row
-from carpus.core.records.database import STORE_FILE
 from carpus.core.records.exercise_sets import read_last_setup
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.retention import RecordRetention
-from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
@@ -34,8 +31,6 @@ from tests.app.test_library import set_up, store
 from tests.commands import Command
 from tests.formats.takes import stored
 from tests.records.samples import traces
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -142,69 +137,6 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
     assert counted("Linden 42") == expected
     assert command("progress", "all").code == 1
     assert library.sessions(heron) == []
-
-
-def test_folder_that_can_only_be_read_is_backed_up_and_reported(
-    library: Library, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    session = store(library, set_up(linden, "Linden 42"))
-    path = library.entry(session).path
-    library.save_comment(session, "went well")
-    library.close()
-
-    def refuses(folder: Path) -> None:
-        raise OutputNotWritable(folder, "Read-only file system")
-
-    monkeypatch.setattr("carpus.core.records.store.make_private_folder", refuses)
-    before = (library.folder / STORE_FILE).read_bytes()
-    for words in (
-        ("report", path, "--output", tmp_path / "r.pdf"),
-        ("backup", "--data-folder", library.folder, tmp_path / "b"),
-    ):
-        done = command(*words)
-        assert (done.code, done.err.count("\n"), "Read-only file system" in done.err) == (0, 1, True), done.err
-    assert (read_comment(path), (tmp_path / "r.pdf").exists()) == ("went well", True)
-    assert (library.folder / STORE_FILE).read_bytes() == before
-
-
-@pytest.mark.parametrize("is_read_only", [False, True])
-def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_read(
-    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, is_read_only: bool
-) -> None:
-    share = tmp_path / "share"
-    share.mkdir()
-    library = Library(tmp_path / "data", sessions_folder=share)
-    linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    path = library.session_list.new_path(linden, "Linden 42", "WRIST_FE", "right", datetime.now(UTC))
-    shutil.copy(stored(tmp_path, frames=120, moving=True), path)
-    session = library.session_list.add(path, linden).session_id
-    library.close()
-
-    def refuses(folder: Path) -> None:
-        raise OutputNotWritable(folder, "Read-only file system")
-
-    monkeypatch.setenv("CARPUS_DATA", str(library.folder))
-    monkeypatch.setattr("carpus.app.session_commands.sessions_folder", lambda _: share)
-    if is_read_only:
-        monkeypatch.setattr("carpus.core.records.store.make_private_folder", refuses)
-    done = command("progress", "linden 42")
-    assert (done.code, session in done.out, done.err) == (0, True, "")
-
-
-def test_deleting_that_was_cut_short_is_reported_as_finished(library: Library, command: Command) -> None:
-    linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    kept, other = (store(library, set_up(linden, "Linden 42"), after=timedelta(hours=hours)) for hours in range(2))
-    paths = [library.entry(one).path for one in (kept, other)]
-    for path, cut in (
-        (paths[0], update_row(SESSION, kept, erasing=1)),
-        ("linden 42", update_row(PATIENT, linden, erasing=1)),
-    ):
-        library.store.apply([cut])
-        done = command("erase", path, "--data-folder", library.folder)
-        assert (done.code, "begun before is finished" in done.out, done.err) == (0, True, "")
-        assert (paths[0].exists(), paths[1].exists()) == (False, path == paths[0])
-    assert command("erase", "linden 42", "--data-folder", library.folder).code == 1
 
 
 def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -> None:

@@ -8,7 +8,6 @@ import pytest
 
 from carpus.core.model.errors import DiskFull
 from carpus.core.records import clinic_records
-from carpus.ui.shell import recent_locations
 from carpus.ui.shell.recent_locations import RecentLocations
 
 
@@ -17,14 +16,6 @@ def data(tmp_path: Path) -> Path:
     folder = tmp_path / "data"
     folder.mkdir()
     return folder
-
-
-def test_first_time_it_is_documents_or_home(tmp_path: Path, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    papers = tmp_path / "papers"
-    monkeypatch.setattr(recent_locations, "documents_folder", lambda: str(papers))
-    assert RecentLocations(data).folder("reports") == str(Path.home()), "the folder for papers is not there"
-    papers.mkdir()
-    assert RecentLocations(data).folder("reports") == str(papers)
 
 
 def test_recent_locations_are_kept_per_kind_until_missing(tmp_path: Path, data: Path) -> None:

@@ -17,7 +17,6 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.records import session_records
-from carpus.core.records.exercise_sets import read_last_setup
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.retention import RecordRetention
@@ -119,18 +118,6 @@ def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(li
     assert card.note_date == library.entry(real).created
     assert not any("imulated" in said for said in card.warnings)
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
-
-
-def test_last_set_up_comes_back_with_its_targets(library: Library) -> None:
-    linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    assert read_last_setup(library.store, linden) is None
-    wanted = set_up(linden, "Linden 42")
-    store(library, wanted)
-    found = read_last_setup(library.store, linden)
-    assert np.isnan(found.target_negative_deg)
-    assert (found.exercise, found.repetitions, found.target_positive_deg, found.stores_frames) == (
-        wanted.exercise, 8, 25.0, True,
-    )  # fmt: skip
 
 
 def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:

@@ -7,7 +7,6 @@ import signal
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -150,15 +149,6 @@ def test_session_whose_looking_back_is_killed_is_whole_as_tracked(
     assert "Smoothing of this session failed" in line.getMessage()
     assert "killed.h5" in line.getMessage()
     assert line.exc_info is None
-
-
-def test_walk_keeps_no_steps() -> None:
-    pipeline, kept = live_pipeline(), []
-    for frame in islice(frames(), 60):
-        pipeline.on_steps = kept.append if frame.index in (3, 4) else None
-        pipeline(frame)
-        assert not pipeline._pipeline.tracker.record.history
-    assert [[step.timestamp_s for step in steps.steps] for steps in kept] == [[10.0 + 3 * DT_S], [10.0 + 4 * DT_S]]
 
 
 def test_operator_label_reaches_tracker_and_file(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import threading
 from dataclasses import replace
 from typing import Any
@@ -11,25 +10,16 @@ import numpy as np
 import pytest
 
 from carpus.app.desktop.practice import PracticeRenderer, practice_spec, render_practice_start
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.playback_sources import PracticeSource
 from carpus.core.capture.source import is_simulated
-from carpus.core.measures.reach import find_reaches
-from carpus.core.measures.signals import low_pass, resample_evenly
-from carpus.core.model.errors import CarpusFault, DiskFull
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.model.hand.protocols import HAND21
-from carpus.core.model.types import Side
-from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
+from carpus.core.records.session_setup import SessionSetup
 from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedRecording
-from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import Truth
 from carpus.ui.shell.source_opener import OpeningCancelledError, Progress
-from tests.accuracy.carpus import measured_hand
 from tests.capture.test_practice import Take
 from tests.pipeline.live_fakes import wait_until
-from tests.simulation.measurements import measurement_sequence
 from tests.ui.fakes import set_up
 
 FIRST, SECOND = (replace(set_up("FIST_COMPOSITE"), exercise=get_exercise(name)) for name in ("WRIST_FE", "WRIST_RU"))
@@ -85,13 +75,6 @@ def test_drawing_ends_when_no_one_looks_any_more() -> None:
     assert drawn.asked == ["WRIST_FE"]
 
 
-def test_drawing_failure_is_reported() -> None:
-    drawn = Drawn(DiskFull("cache"))
-    drawn.go_on.release()
-    wait_until(lambda: drawn.told)
-    assert isinstance(drawn.told[0], DiskFull)
-
-
 def test_beginning_is_what_whole_take_begins_with_and_dozen_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     """A second of drawing, not a minute: the first live picture waits for nothing else."""
     whole = SimulatedRecording(practice_spec(FIRST))
@@ -109,33 +92,3 @@ def test_beginning_is_what_whole_take_begins_with_and_dozen_frames(monkeypatch: 
     assert frames[-1].timestamp_s - frames[0].timestamp_s == pytest.approx(still_s, abs=1.0 / 15.0)
     monkeypatch.setattr(recording, "is_cached", lambda _: True)
     assert render_practice_start(FIRST) is None, "nothing to draw: the whole take is there"
-
-
-def spec_of(exercise: str, side: Side = "right") -> RecordingSpec:
-    return practice_spec(
-        SessionSetup(PRACTICE_PATIENT, "Practice", side, get_exercise(exercise), 3, math.nan, math.nan)
-    )
-
-
-def truth_of(exercise: str) -> Truth:
-    return SimulatedRecording(spec_of(exercise)).truth
-
-
-@pytest.mark.parametrize("side", ["right", "left"])
-def test_its_hand_lies_as_flat_as_the_calibration_asks(side: Side) -> None:
-    still = replace(spec_of("FIST_COMPOSITE", side), hidden_share=0.0)
-    calibrated, _ = measured_hand(measurement_sequence(still), CalibrationSettings())
-    assert calibrated.verdict.is_good
-    assert calibrated.verdict.tilt_deg < CalibrationSettings().most_tilt_deg - 1.0
-
-
-def test_its_thumb_touches_every_finger_tip_and_it_reaches_out_and_back_twice() -> None:
-    joints = truth_of("THUMB_OPP").joint_position_w0_m
-    thumb = joints[:, HAND21.markers.index("TIP1")]
-    for finger in (2, 3, 4, 5):
-        away = np.linalg.norm(joints[:, HAND21.markers.index(f"TIP{finger}")] - thumb, axis=1)
-        assert away.min() < 0.015
-    truth = truth_of("REACH_GRASP")
-    reaches = find_reaches(low_pass(resample_evenly(truth.timestamp_s - truth.timestamp_s[0], truth.position_m)))
-    assert [reach.is_outward for reach in reaches] == [True, False, True, False]
-    assert all(0.2 < reach.path.length_m < 0.3 for reach in reaches)

@@ -20,7 +20,6 @@ from carpus.core.model.errors import RecordingUnreadable, SettingsInvalid
 from carpus.core.records.library import Library
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.kit.text import plain_tooltip
 from tests.commands import Command
 from tests.formats.takes import stored
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, stored_journal
@@ -68,18 +67,6 @@ def test_log_names_no_one(tmp_path: Path, own_folders: Path) -> None:
     assert "SettingsInvalid" in said
     for part in ("linden", "miller", "birke"):
         assert part not in said.casefold()
-
-
-def test_tooltip_shows_tags_and_does_not_follow_them() -> None:
-    evil = "<img src='/etc/passwd'><b>Linden</b>"
-    shown = plain_tooltip(evil)
-    assert ("<img" in shown, "&lt;img" in shown) == (False, True)
-    assert plain_tooltip("Linden 42 · Ada & Bo") == "Linden 42 · Ada & Bo"
-
-
-@pytest.mark.parametrize("start", list("=+-@\t\r"))
-def test_text_of_table_is_not_calculated(start: str) -> None:
-    assert escape_formula(f"{start}cmd|' /C calc'!A0").startswith("'")
 
 
 @pytest.mark.parametrize("text", ["-1.5", "+2", "-.5e-3", "n/a", "'=x", "", "2026-11-13"])

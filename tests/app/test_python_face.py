@@ -128,11 +128,6 @@ def test_non_path_argument_is_refused() -> None:
                 refused(function, {name: [value] if name == "sessions" else value}, ", a path expected")
 
 
-def test_name_that_package_does_not_have_is_none_of_it() -> None:
-    with pytest.raises(AttributeError):
-        _ = carpus.no_such_thing
-
-
 def test_listing_its_functions_loads_nothing_and_opening_a_session_nothing_of_the_window(folder: Path) -> None:
     script = "import sys, carpus; print(*dir(carpus)); print('numpy' in sys.modules)\n"
     script += "session = carpus.open_session(sys.argv[1])\n"
@@ -285,34 +280,3 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     assert max(pair.figures_deg.rmse for pair in found.pairs) < 0.1
     given = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot", lag_s=0.1, drift_percent=1.0).shift
     assert (given.lag_s, given.is_given, given.drift) == (0.1, True, pytest.approx(0.01))
-
-
-@pytest.mark.parametrize(("sessions", "formats", "name"), [([], "csv", "sessions"), ("s.h5", (), "formats")])
-def test_export_of_nothing_is_mistake(
-    sessions: str | list[str], formats: str | tuple[str, ...], name: str, tmp_path: Path
-) -> None:
-    with pytest.raises(SettingsInvalid, match=f"{name} is empty"):
-        carpus.export(sessions, tmp_path / "out", formats)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_page_of_python_names_every_function_and_its_lines_compile() -> None:
-    page = (ROOT / "resources" / "api.md").read_text(encoding="utf-8")
-    for name in set(carpus.__all__) - {"__version__"}:
-        assert f"`{name}(" in page or f"carpus.{name}(" in page, name
-    lines = "".join(part.split("```")[0] for part in page.split("```python")[1:])
-    compile(lines, "api.md", "exec")
-    called = set(re.findall(r"carpus\.(\w+)\(", lines))
-    assert called <= set(carpus.__all__)
-
-
-def test_unit_that_is_assumed_is_warned_of_before_tracking(folder: Path, tmp_path: Path) -> None:
-    for path in folder.iterdir():
-        if path.name in ("rgb.txt", "depth.txt"):
-            lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
-            times = "".join(f"{float(time_s) * 1e3:.3f} {picture}\n" for time_s, picture in lines)
-            (tmp_path / path.name).write_text(times, encoding="utf-8")
-        else:
-            (tmp_path / path.name).symlink_to(path)
-    with pytest.warns(UserWarning, match="times in ms"):
-        next(carpus.track(tmp_path, folder / "calibration.json"))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import os
 import shutil
@@ -153,16 +152,6 @@ def folder(tmp_path: Path) -> Path:
     shutil.copy(stored(tmp_path, frames=3), tmp_path / "sessions" / "two.h5")
     (tmp_path / "sessions" / "broken.h5").write_bytes(b"nothing")
     return tmp_path / "sessions"
-
-
-def test_patients_values_are_table(folder: Path, command: Command) -> None:
-    done = command("progress", "linden 42", "--sessions", folder / "one.h5")
-    rows = list(csv.DictReader(io.StringIO(done.out)))
-    assert (done.code, tuple(rows[0])) == (0, MEASURES_HEADER)
-    assert {row["subject_id"] for row in rows} == {"Linden 42"}
-    assert any(row["of"] == "flexion" and row["measure"] == "arc" for row in rows)
-    nobody = command("progress", "Heron 17", "--sessions", folder)
-    assert (nobody.code, "Heron 17" in nobody.err) == (1, True)
 
 
 def test_figures_are_written_as_csv_parquet_and_pdf(folder: Path, tmp_path: Path, command: Command) -> None:

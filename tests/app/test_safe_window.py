@@ -20,8 +20,7 @@ from PySide6.QtWidgets import QAbstractItemView, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
-from carpus.app.settings import RecordsSettings, Settings
-from carpus.core.records.backup import list_backups
+from carpus.app.settings import Settings
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.library import Library
@@ -115,61 +114,6 @@ def test_session_is_looked_at_given_away_archived_and_deleted_from_list(qtbot: Q
     assert [entry.action for entry in read_log(desktop.library.store)][-3:] == [
         "archived", "erase_begun", "erased",
     ]  # fmt: skip
-
-
-def test_archived_patient_is_restored_from_archive(qtbot: QtBot, opened: Open) -> None:
-    desktop = opened()
-    journey, sheet, who = desktop.controller, desktop.data_protection.erasing.dialog, linden(desktop)
-
-    def told() -> list[NoticeStrip]:
-        return [one for one in desktop.shell.findChildren(NoticeStrip) if one.isVisible()]
-
-    def archive(ask: QPushButton, gone: Callable[[], bool]) -> NoticeStrip:
-        ask.click()
-        qtbot.waitUntil(sheet.isVisible)
-        sheet.archive_button.click()
-        qtbot.waitUntil(lambda: gone() and bool(told()))
-        (strip,) = told()
-        assert ("in the archive" in strip.words.summary, strip.button.text()) == (True, "&Undo")
-        return strip
-
-    def archive_patient() -> NoticeStrip:
-        journey.patients.screen.change_patient(who)
-        return archive(journey.patients.screen.form.remove_button, lambda: names(desktop) == ["Heron 17"])
-
-    archive_patient().button.click()
-    qtbot.waitUntil(lambda: journey.patients.screen.list.patient_model.find_row(who) >= 0)
-    archive_patient().later_button.click()
-    journey.patients.screen.search.setText("linden")
-    assert journey.patients.screen.archive_button.isVisible()
-    assert "Linden 42" in journey.patients.screen.archive_button.text()
-    journey.patients.screen.archive_button.click()
-    lists = desktop.data_protection.lists
-    qtbot.waitUntil(lists.records_dialog.isVisible)
-    assert [one.accessibleName() for one in lists.records_dialog.buttons] == [
-        "Restore Linden 42",
-        "Delete… Linden 42",
-    ]
-    lists.records_dialog.buttons[0].click()
-    qtbot.waitUntil(lambda: lists.records_dialog.buttons == [])
-    lists.records_dialog.close_dialog()
-    assert not journey.patients.screen.archive_button.isVisible()
-    assert journey.patients.screen.list.patient_model.find_row(who) >= 0, "the list below knows it too"
-    journey.patients.screen.search.clear()
-
-    journey.sessions.open(who)
-    lines = journey.sessions.screen.list.session_model
-    archive(journey.sessions.screen.delete_button, lambda: len(lines.lines) == 1).button.click()
-    qtbot.waitUntil(lambda: len(lines.lines) == 2)
-    strip = archive(journey.sessions.screen.delete_button, lambda: len(lines.lines) == 1)
-    journey.navigator.navigate_back()
-    assert journey.place == "sessions", "Esc closes what is told, then leaves"
-    assert not strip.isVisible()
-    assert journey.sessions.screen.archive_button.isVisible()
-    journey.sessions.screen.archive_button.click()
-    qtbot.waitUntil(lists.records_dialog.isVisible)
-    lists.records_dialog.buttons[0].click()
-    qtbot.waitUntil(lambda: len(lines.lines) == 2)
 
 
 def test_patient_is_deleted_from_form(qtbot: QtBot, opened: Open, data: Path) -> None:
@@ -273,28 +217,6 @@ def test_lock_by_key_and_timeout_never_during_recording(
     assert journey.sessions.screen.exercise_dialog.isVisible(), "what was open is open again"
 
 
-def test_pin_is_set_changed_and_removed_in_settings(qtbot: QtBot, opened: Open, data: Path) -> None:
-    desktop = opened()
-    locking = desktop.data_protection.locking
-    locking.lock_or_set_pin()
-    assert desktop.controller.place == "settings", "without a PIN the key leads to where one is set"
-    sheet = locking.pin_dialog
-    for new, again, is_set in (("4821", "4822", False), ("99", "99", False), ("4821", "4821", True)):
-        locking.card.pin_button.click()
-        sheet.new_pin.setText(new)
-        sheet.repeated_pin.setText(again)
-        sheet.save_button.click()
-        assert Pin(data).is_set == is_set
-        sheet.close_dialog()
-    locking.card.pin_button.click()
-    locking.pin_dialog.current_pin.setText("0000")
-    locking.pin_dialog.remove_button.click()
-    assert Pin(data).is_set
-    locking.pin_dialog.current_pin.setText("4821")
-    locking.pin_dialog.remove_button.click()
-    assert not Pin(data).is_set
-
-
 def test_back_up_now_reminder_and_restore(
     qtbot: QtBot, opened: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -330,28 +252,6 @@ def test_back_up_now_reminder_and_restore(
         assert {one.pseudonym for one in restored.patients.search()} == {"Heron 17"}
 
 
-def test_back_up_now_without_a_folder_asks_for_one_and_backs_up(
-    qtbot: QtBot, opened: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    desktop = opened()
-    backing = desktop.data_protection.backing_up
-    disk = tmp_path / "disk"
-    disk.mkdir()
-    chosen = ["", str(disk)]
-    monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getExistingDirectory", lambda *_: chosen.pop(0))
-    backing.card.now_button.click()
-    assert not backing._is_running, "nothing was chosen"
-    backing.card.now_button.click()
-    qtbot.waitUntil(lambda: backing.last_backup is not None and not backing._is_running)
-    assert len(list_backups(disk)) == 1
-    facts = backing._facts()
-    assert (facts.state, facts.folder_state) == ("warn", "warn"), "the same disk is no safe place"
-    assert "same disk" in facts.folder_text
-    monkeypatch.setattr("carpus.ui.screens.records.backup.is_same_disk", lambda *_: False)
-    facts = backing._facts()
-    assert (facts.state, facts.folder_state) == ("good", "good")
-
-
 def test_automatic_backup_runs_daily_and_not_during_recording(
     qtbot: QtBot, opened: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -377,32 +277,6 @@ def test_automatic_backup_runs_daily_and_not_during_recording(
     qtbot.waitUntil(lambda: not backing._is_running)
 
 
-def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) -> None:
-    desktop = opened(replace(Settings(), records=RecordsSettings(10)))
-    lists = desktop.data_protection.lists
-    desktop.controller.context.today = lambda: date(2040, 1, 1)
-    lists.card.due_button.click()
-    qtbot.waitUntil(lists.records_dialog.isVisible)
-    assert [button.accessibleName() for button in lists.records_dialog.buttons] == [
-        "Archive Linden 42",
-        "Delete… Linden 42",
-    ]
-    lists.records_dialog.buttons[0].click()
-    qtbot.waitUntil(lambda: [one.text() for one in lists.records_dialog.buttons] == ["Restore", "Delete…"])
-    lists.records_dialog.close_dialog()
-    lists.card.archive_button.click()
-    qtbot.waitUntil(lists.records_dialog.isVisible)
-    lists.records_dialog.buttons[0].click()
-    qtbot.waitUntil(lambda: lists.records_dialog.buttons == [])
-    lists.records_dialog.close_dialog()
-    lists.card.log_button.click()
-    qtbot.waitUntil(lists.log_dialog.isVisible)
-    table = lists.log_dialog.table
-    assert [table.item(row, 2).text() for row in range(2)] == ["restored from archive", "archived"]
-    assert table.item(0, 3).text() == "Linden 42"
-    assert lists.log_dialog.title.text() == f"Log: {table.rowCount()} entries"
-
-
 def test_garbage_is_collected_in_the_windows_thread_once_the_first_picture_is_there(opened: Open, qtbot: QtBot) -> None:
     frozen = gc.get_freeze_count()
     desktop = opened()
@@ -415,3 +289,25 @@ def test_garbage_is_collected_in_the_windows_thread_once_the_first_picture_is_th
     del item
     others: list[list[int]] = []
     qtbot.waitUntil(lambda: others.extend([] for _ in range(2000)) is None and gone() is None)
+
+
+def test_pin_is_set_changed_and_removed_in_settings(qtbot: QtBot, opened: Open, data: Path) -> None:
+    desktop = opened()
+    locking = desktop.data_protection.locking
+    locking.lock_or_set_pin()
+    assert desktop.controller.place == "settings", "without a PIN the key leads to where one is set"
+    sheet = locking.pin_dialog
+    for new, again, is_set in (("4821", "4822", False), ("99", "99", False), ("4821", "4821", True)):
+        locking.card.pin_button.click()
+        sheet.new_pin.setText(new)
+        sheet.repeated_pin.setText(again)
+        sheet.save_button.click()
+        assert Pin(data).is_set == is_set
+        sheet.close_dialog()
+    locking.card.pin_button.click()
+    locking.pin_dialog.current_pin.setText("0000")
+    locking.pin_dialog.remove_button.click()
+    assert Pin(data).is_set
+    locking.pin_dialog.current_pin.setText("4821")
+    locking.pin_dialog.remove_button.click()
+    assert not Pin(data).is_set

@@ -21,9 +21,7 @@ from carpus.app.desktop import window
 from carpus.app.desktop.screens import PLACES, SLOW_CORE_MODULES, load_core, load_screens
 from carpus.app.desktop.window import Desktop
 from carpus.ui.screens.help import guide
-from carpus.ui.shell.current_selection import SourceChoice
 from carpus.ui.shell.flow import OVERLAYS, PATIENT_TABS, SETUP_STEPS
-from tests.ui.fakes import FakeFeed
 from tests.ui.gallery import STATES
 
 ROOT = Path(__file__).parents[2]
@@ -72,39 +70,6 @@ class ShownWindows(QObject):
         if event.type() == QEvent.Type.Show and isinstance(watched, QWidget) and watched.isWindow():
             self.seen.append(type(watched).__name__)
         return False
-
-
-def test_esc_closes_the_patients_view_and_a_slow_source_is_said_of_the_simulated_one_too(
-    open_desktop: Callable[..., Desktop],
-) -> None:
-    desktop = open_desktop()
-    journey = desktop.controller
-    journey.navigator.open_screen("help")
-    journey.live.patient_view.toggle()
-    journey._handle_key("back")
-    assert not journey.live.patient_view.is_open
-    assert journey.place == "help", "over the window, and goes nowhere"
-    journey._handle_key("back")
-    assert journey.place == "patients"
-    journey.patients.screen.search.setText("Fern")
-    for _ in range(2):  # what lies over the screen goes first
-        journey._handle_key("back")
-    assert journey.patients.screen.search.text() == ""
-    for kind, slow_hz in (("practice", 11.0), ("camera", 24.0)):
-        journey.current.source_choice = SourceChoice(kind)  # type: ignore[arg-type]
-        for fps, state in ((slow_hz + 2.0, "good"), (slow_hz, "warn")):
-            journey.top_bar.show_counters(replace(FakeFeed().counters(), fps=fps))
-            assert desktop.shell.top_bar.camera.state == state
-    before, during = (
-        replace(FakeFeed().counters(), missing=383, is_recording=False),
-        replace(FakeFeed().counters(), is_recording=True),
-    )
-    for counters, lost in ((before, ""), (replace(during, missing=383), ""), (replace(during, missing=385), "2 lost")):
-        journey.top_bar.show_counters(counters)
-        assert ("lost" in desktop.shell.top_bar.camera.text(), lost in desktop.shell.top_bar.camera.text()) == (
-            bool(lost),
-            True,
-        )
 
 
 def test_start_makes_no_screen_but_first_and_loads_others_in_windows_thread(

@@ -80,10 +80,6 @@ def test_shipped_file_has_each_setting_with_a_sentence() -> None:
     assert explained == settable_places(Settings) | tracking
 
 
-def test_settings_without_files_are_defaults(tmp_path: Path) -> None:
-    assert load_settings(tmp_path / "nothing") == Settings()
-
-
 def test_persons_file_goes_over_defaults_and_leaves_rest(tmp_path: Path) -> None:
     text = '[tracker]\nprofile = "slow"\nlost_after_s = 2\n[live]\nrows_waiting = 800\n'
     settings = load_settings(written(tmp_path, text))
@@ -175,36 +171,12 @@ def test_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..
     assert "folder" not in (tmp_path / "settings" / PREFERENCES_FILE).read_text(encoding="utf-8")
 
 
-def test_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
-    desktop = open_desktop(is_demo=True)
-    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
-    assert not (tmp_path / "settings").exists()
-
-
-def test_data_folder_chosen_and_taken_back_is_one_of_before(
-    open_desktop: Callable[..., Desktop], tmp_path: Path
-) -> None:
-    keeper = open_desktop().preferences
-    shown = keeper.screen.preferences
-    keeper.apply(dataclasses.replace(shown, data_folder="/another"))
-    assert load_settings(tmp_path / "settings").data_folder == Path("/another")
-    keeper.apply(shown)
-    assert load_settings(tmp_path / "settings").data_folder == tmp_path / "data"
-
-
 def test_data_folder_that_changes_is_noticed_at_next_start(tmp_path: Path) -> None:
     one, other = tmp_path / "one", tmp_path / "other"
     assert save_last_data_folder(one, tmp_path) is None, "nobody knows of any before"
     assert save_last_data_folder(one, tmp_path) is None
     assert save_last_data_folder(other, tmp_path) == one
     assert save_last_data_folder(other, tmp_path) is None
-
-
-def test_hidden_settings_stay_as_in_file(open_desktop: Callable[..., Desktop]) -> None:
-    desktop = open_desktop(Settings(screen=ScreenSettings("light"), report=ReportSettings("AB", "isb")))
-    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
-    assert desktop.controller.context.patient_sound
-    assert desktop.controller.context.report_settings == ReportSettings("AB", "isb")
 
 
 GOLDEN = Path(__file__).parent / "golden"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import shutil
@@ -17,8 +16,6 @@ import numpy as np
 import pytest
 
 from carpus import __version__
-from carpus.app.commands import track
-from carpus.app.settings import StreamSettings, load_settings, save_preferences, settings_folder
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.pipeline.track import NeutralNoise, TrackSettings, format_parameters
@@ -31,13 +28,6 @@ from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
 
 
-@pytest.mark.parametrize(("option", "warned"), [("--depth", False), ("--no-depth", True)])
-def test_colour_alone_is_warned_of(option: str, warned: bool, tmp_path: Path, command: Command) -> None:
-    missing = tmp_path / "none"
-    done = command("track", missing, "--calibration", missing, "--output", tmp_path / "out.h5", option)
-    assert (done.code, "mirror image" in done.err, str(missing) in done.err) == (1, warned, True)
-
-
 def stored(path: Path, protocol: MarkerProtocol = WRIST6, version: str = __version__, **header: Any) -> Path:
     """A session without a frame."""
     made = replace(new_header(hand="right", protocol=protocol, **header), software_version=version)
@@ -48,17 +38,6 @@ def stored(path: Path, protocol: MarkerProtocol = WRIST6, version: str = __versi
 def said_of(settings: TrackSettings) -> str:
     """As a session keeps them."""
     return format_parameters(settings, {}, NeutralNoise(0.1, 1.0, 0.0))
-
-
-@pytest.mark.parametrize(
-    ("protocol", "option", "warned"),
-    [(HAND21, "--no-depth", True), (HAND21, "--depth", False), (WRIST6, "--no-depth", False)],
-)
-def test_fingers_by_colour_alone_are_called_an_experiment(
-    protocol: MarkerProtocol, option: str, warned: bool, tmp_path: Path, command: Command
-) -> None:
-    done = command("track", stored(tmp_path / "s.h5", protocol), "--output", tmp_path / "again.h5", option)
-    assert ("experimental" in done.err) == warned
 
 
 @pytest.mark.parametrize(
@@ -104,21 +83,6 @@ def test_other_version_and_removed_setting_are_reported(tmp_path: Path, command:
     assert done.code == 0
     assert "was 0.0.9" in done.out
     assert "no settings any more: tracker.oracle" in done.out
-
-
-def test_recording_is_tracked_with_settings_of_person_and_streamed_when_chosen(tmp_path: Path) -> None:
-    (settings_folder() / "settings.toml").parent.mkdir(parents=True, exist_ok=True)
-    (settings_folder() / "settings.toml").write_text('[tracker]\nprofile = "slow"\n', encoding="utf-8")
-    arguments = argparse.ArgumentParser()
-    track.add_arguments(arguments)
-    own = load_settings().track
-    for told, profile in (((), "slow"), (("--profile", "brisk"), "brisk")):
-        chosen = track.apply_options(arguments.parse_args(["r", "--output", "o", *told]), own)
-        assert chosen.tracker.profile == profile
-    settings = load_settings(tmp_path)
-    assert not settings.stream.on
-    save_preferences(settings, replace(settings, stream=StreamSettings(True)), tmp_path)
-    assert load_settings(tmp_path).stream.on
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,6 @@ import pytest
 from carpus.app.__main__ import build_parser
 from carpus.app.command_line import CommandParser
 from carpus.app.commands import COMMANDS
-from carpus.core.capture.devices import cameras
 from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.values import Patient
@@ -41,25 +40,12 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{file} --output {new}.h5 --calibraton x", 2, "did you mean “--calibration”"),
         ("{file} --output {new}.h5 --recorded yesterday", 2, "2023-04-05"),
         ("{gone}.h5 --output {new}.h5", 1, "gone.h5"),
-        *(
-            (f"{{session}} --output {{new}}.h5 {option} {value}", 2, f"leave out {option}")
-            for option, value in (
-                ("--subject", "A"),
-                ("--exercise", "WRIST_FE"),
-                ("--start-angles", "5 0 0"),
-                ("--calibration", "c.json"),
-            )
-        ),
-        *(
-            (f"{{file}} --output {{new}}.h5 --start-angles {angle} 0 0", 2, "--start-angles")
-            for angle in ("nan", "inf", "1000")
-        ),
+        ("{session} --output {new}.h5 --subject A", 2, "leave out --subject"),
+        ("{file} --output {new}.h5 --start-angles nan 0 0", 2, "--start-angles"),
         ("{file} --output {new}.h5 --subject ' '", 2, "pseudonym"),
         ("{file} --output {new}.h5 --jobs 2", 2, "many recordings"),
         ("{file} {session} --output {new}.h5", 2, "folder"),
         ("{file} {session} --output {new} --stream", 2, "one recording"),
-        ("{file} {session} --output {new} --calibration c.json", 2, "--calibration"),
-        ("{file} {session} --output {new} --recorded 2023-04-05", 2, "--recorded"),
         ("{gone} {empty} --output {new}", 1, "gone"),
     ],
     "record": [
@@ -67,10 +53,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("--output {file}", 1, "A file with this name already exists"),
         ("--output {new} --from {gone}", 1, "Recording not found"),
         ("--output {new} --from {file}", 1, "{file}"),
-        *(
-            (f"--output {{new}} --seconds {text}", 2, f"“{text}” is no number from 0.1 to 86400")
-            for text in ("soon", "nan", "inf", "0", "-1", "1e9")
-        ),
+        ("--output {new} --seconds nan", 2, "“nan” is no number from 0.1 to 86400"),
         ("--output {new} --lossless --format tum", 2, "--lossless is for --format raw"),
         ("--output {new} --camera realsnse", 2, "did you mean “realsense”? There are: xtion, realsense, orbbec"),
     ],
@@ -78,19 +61,8 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("", 2, "--output"),
         ("--output {file}", 1, "{file}"),
         ("--output {new} --motion flexon", 2, "did you mean “flexion”"),
-        ("--output {new} --habit tenodesi", 2, "did you mean “tenodesis”"),
-        ("--output {new} --seed many", 2, "“many” is no whole number"),
         ("--output {new} --skin-glide-mm much", 2, "“much” is no number, and not “drawn”"),
-        *(
-            (f"--output {{new}} --{option} {value}", 1, option.replace("-", "_"))
-            for option, value in (
-                ("seconds", "-1"),
-                ("seconds", "inf"),
-                ("fps", "inf"),
-                ("tremor-deg", "inf"),
-                ("distance-m", "0"),
-            )
-        ),
+        ("--output {new} --fps inf", 1, "fps"),
     ],
     "info": [("", 2, "FILE"), ("{gone}", 1, "{gone}"), ("{junk}", 1, "{junk}"), ("{empty}", 1, "{empty}")],
     "verify": [("", 2, "FILE"), ("{gone}", 1, "{gone}"), ("{junk}", 1, "{junk}"), ("{empty}", 1, "{empty}")],
@@ -113,7 +85,6 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("nobody --sessions {empty}", 1, "There is no patient called nobody (there are none yet)"),
         ("'fern 12'", 1, "There is no session in {data}"),
         ("all --sessions {empty}", 1, "There is no session in {empty}"),
-        ("all --sessions {gone}", 1, "There is no folder {gone}"),
         ("all --output {new}.pdf", 2, "one patient"),
         ("all --sessions {session} --output {file}", 1, "A file with this name already exists"),
     ],
@@ -129,13 +100,9 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{session}", 2, "a session and its reference"),
         ("--study {gone}", 1, "gone"),
         ("{session} {session} --drift 50", 2, "“50” is no number from -10 to 10 percent"),
-        ("{gone} {session}", 1, "gone"),
-        ("{session} {gone}", 1, "gone"),
         ("{loop} {session}", 1, "{loop}"),
         ("{session} {junk}", 1, "{junk}"),
         ("{session} {session} --markers WRST=a", 2, "did you mean “WRIST”"),
-        ("{session} {session} --columns flexion", 2, "NAME=THEIRS"),
-        ("{session} {session} --max-shift x", 2, "“x” is no number"),
     ],
     "retest": [
         ("", 2, "SESSION.h5"),
@@ -184,11 +151,6 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
 """Of each command the words after it, the exit code, and what stderr says (one of several, by |)."""
 
 ROWS = [(name, *row) for name, rows in WRONG.items() for row in rows]
-METAVAR = re.compile(
-    r"(RECORDING|SESSION\.h5(\|PSEUDONYM)?|FILE|FOLDER|REFERENCE|PSEUDONYM|EXERCISE|DATE|ADDRESS|SERIAL|BACKUP|N|SECONDS|MINUTES|PERCENT|"
-    r"METRES|MM|DEGREES|PIXELS|HZ|SHARE|REGION|KIND\[:WHICH\]|DEVIATION|FLEXION|PRONOSUPINATION|"
-    r"(CLICKS|REPORT|TABLE|BOARD|CARD|RESULT|CAMERA)\.[a-z]+|[A-Z]+(=[A-Z]+)?(,|\+)\.\.\.)"
-)
 
 
 @pytest.fixture(scope="module")
@@ -275,17 +237,6 @@ def test_help_shows_examples_that_can_be_typed(name: str, command: Command) -> N
         assert all(exercise.id in told.out for exercise in EXERCISES)
 
 
-@pytest.mark.parametrize("name", COMMANDS)
-def test_options_say_what_they_are_and_what_they_take_in_the_same_words(name: str) -> None:
-    for option in options(name):
-        if option.nargs == 0 or option.choices or isinstance(option, argparse.BooleanOptionalAction):
-            assert option.help, option.dest
-            continue
-        metavars = option.metavar if isinstance(option.metavar, tuple) else (option.metavar,)
-        assert all(one and METAVAR.fullmatch(one) for one in metavars), (option.dest, option.metavar)
-        assert option.help or not option.option_strings, option.dest
-
-
 def test_unknown_command_is_reported_with_what_was_meant(command: Command) -> None:
     done = command("trak", "recording")
     assert (done.code, done.err.count("\n")) == (2, 1)
@@ -308,10 +259,3 @@ def test_list_of_patients_that_another_program_holds_is_left_where_it_is(
     assert (done.code, done.err.count("\n")) == (1, 1)
     assert "Close it there" in done.err
     assert "move" not in done.err
-
-
-def test_address_of_openni2_needs_no_kind() -> None:
-    for address in ("", "xtion", "realsense:123", "1d27/0601@1/7", "xtion:1d27/0601@1/7"):
-        cameras.validate_address(address)
-    with pytest.raises(cameras.CameraUnknown):
-        cameras.open_camera("relsense")

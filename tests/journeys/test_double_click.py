@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import lzma
-import shutil
 from pathlib import Path
 
 import pytest
@@ -53,18 +52,6 @@ def test_session_of_no_one_here_is_shown_once_someone_has_pin_and_stays_where_it
     assert not list((data / "sessions").rglob("*.h5"))
     assert session.read_bytes() == before
     assert [path.name for path in session.parent.iterdir()] == [session.name]
-
-
-def test_session_of_patient_is_opened_as_theirs_also_by_copy(
-    qtbot: QtBot, open_desktop: Open, session: Path, data: Path
-) -> None:
-    (data / "sessions").mkdir(parents=True)
-    shutil.copyfile(session, data / "sessions" / "copied.h5")
-    journey = (desktop := open_desktop()).controller
-    desktop.on_second_instance(session)
-    qtbot.waitUntil(lambda: journey.review.screen.is_loaded, timeout=30_000)
-    assert journey.current.patient.patient_id
-    assert journey.current.patient.session_count == 1
 
 
 def test_file_alone_is_as_good_as_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

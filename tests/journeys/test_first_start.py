@@ -5,15 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop import first_start
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import load_settings
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
-from carpus.core.model.errors import OutputNotWritable
 from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import at, click, click_discs, still_hand
@@ -98,42 +95,6 @@ def test_first_start_is_skipped_with_patients(open_desktop: Open) -> None:
     first.close()
     again = open_desktop()
     assert again.welcome.panel is None
-
-
-def test_first_start_folder_choice_search_and_escape(
-    qtbot: QtBot, open_desktop: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    desktop = open_desktop()
-    panel, search = desktop.welcome.panel, desktop.controller.patients.screen.search
-    qtbot.waitUntil(lambda: bool(panel.check_rows))
-    other = tmp_path / "elsewhere" / "Carpus"
-    monkeypatch.setattr("carpus.ui.screens.settings.screen.QFileDialog.getExistingDirectory", lambda *_: str(other))
-    panel.show_checks([])
-    click(qtbot, panel.folder_button)
-    assert panel.folder_label.text() == str(other)
-    assert panel.close_button.isVisible()
-    assert not panel.close_button.visibleRegion().isEmpty(), "it is not scrolled away"
-    qtbot.waitUntil(lambda: any(str(other) in row.check.found for row in panel.check_rows))
-    assert load_settings(tmp_path / "settings").data_folder == other
-    assert desktop.library.folder != other, "it counts from the next start"
-    QTest.keyClicks(search, "prac")
-    assert search.text() == "prac"
-    desktop.shell.key_pressed.emit("back")
-    assert (desktop.welcome.panel, desktop.controller.patients.screen.welcome) == (None, None)
-    assert load_settings(tmp_path / "settings").first_start.answered
-
-
-def test_first_start_unreadable_folder_is_reported(
-    qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fails(folder: Path) -> list[object]:
-        raise OutputNotWritable(folder, "gone")
-
-    monkeypatch.setattr(first_start, "examine_at_start", fails)
-    desktop = open_desktop()
-    qtbot.waitUntil(lambda: desktop.controller.messages.is_busy)
-    panel = desktop.welcome.panel
-    assert panel.again_button.isEnabled()
 
 
 def _somebody() -> Patient:

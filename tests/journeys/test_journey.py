@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import shutil
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,20 +19,17 @@ from carpus.app.desktop.main_controller import MainController
 from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.source_factory import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop
-from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.capture.devices.cameras import CameraKind
-from carpus.core.model.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
+from carpus.core.model.errors import CameraLost, CameraReturned, DiskFull
 from carpus.core.pipeline import measurement
 from carpus.core.pipeline.smoothing import SmoothingProcess
 from carpus.core.records.recordings import spool_folder
 from carpus.core.records.session_setup import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_session
-from carpus.ui.shell.current_selection import SourceChoice
 from carpus.ui.shell.messages import MessageDialog, NoticeStrip
 from tests.journeys.conftest import Open
 from tests.journeys.takes import RANGE_DEG, SPEED, clicks_of
-from tests.session.samples import journal_of, make_calibration, make_header
+from tests.session.samples import journal_of, make_header
 from tests.ui.printed import words_of
 
 PATIENCE_MS = 60_000
@@ -223,46 +219,6 @@ def test_recording_is_measured_from_its_first_frame_to_its_last_in_real_time(
     assert (times[0], times[-1]) == (pytest.approx(stored[0]), pytest.approx(stored[-1]))
 
 
-def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_that_is_not_there_is_told(
-    qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    journey = (desktop := open_desktop()).controller
-    journey.camera.open(PRACTICE_PATIENT)
-    at(qtbot, desktop.controller, "markers")
-    assert journey.current.source is not None
-    verdict = make_calibration().verdict
-    off = replace(verdict, findings=(CalibrationFinding("depth_off", (), 11.0, 3.0, "px"),))
-    journey.markers.check_registration(off)
-    assert not journey.messages.is_busy, "a camera says it itself"
-    journey.current.source = replace(journey.current.source, is_registration_unknown=True)
-    journey.current.source_choice = SourceChoice("file", str(take))
-    journey.markers.check_registration(replace(verdict, findings=()))
-    assert not journey.messages.is_busy
-    wanted: list[SourceChoice] = []
-    with monkeypatch.context() as instead:
-        instead.setattr(journey.opener, "open", wanted.append)
-        journey.markers.check_registration(off)
-        assert "11 pixels" in journey.messages.dialog.happened.text()
-        click(qtbot, journey.messages.dialog.answer_buttons[-1])
-    assert wanted == [SourceChoice("file", str(take), is_depth_registered=False)]
-    assert journey.place == "camera"
-
-    def missing(*_: object, **__: object) -> None:
-        raise CameraMissing("", "no device")
-
-    monkeypatch.setattr(CameraKind, "open", missing)
-    journey.camera.context.camera.stop()  # its next look would find none
-    journey.camera.screen.set_camera_ready(True)
-    click(qtbot, journey.camera.screen.sources.option("camera"))
-    click(qtbot, journey.camera.screen.primary_button)
-    wait(qtbot, journey.messages.dialog.isVisible)
-    assert "camera" in journey.messages.dialog.happened.text()
-    assert journey.messages.dialog.action.text().startswith("Plug")
-    click(qtbot, journey.messages.dialog.answer_buttons[-1])
-    assert journey.place == "camera"
-    assert journey.current.source is None
-
-
 def test_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_stopped_again_by_closing(
     qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -389,16 +345,6 @@ def cut_short(data_folder: Path) -> None:
     folder = spool_folder(data_folder) / "someone"
     folder.mkdir(parents=True)
     journal_of(folder / "cut.journal", 60).abandon()
-
-
-def test_session_rescued_later_is_in_list_as_soon_as_list_is_shown(open_desktop: Open) -> None:
-    journey = (desktop := open_desktop()).controller
-    linden = desktop.library.patients.add(Patient("Linden 42", "right"))
-    journey.patients.open()
-    cut_short(desktop.library.folder)
-    journey.patients.open(linden)
-    row = journey.patients.screen.list.patient_model.row(0)
-    assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
 
 
 def test_simulated_camera_is_practice_patient_s_and_no_one_else_s(

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
@@ -46,33 +42,3 @@ def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: Qt
     assert journey.messages.dialog.isVisible()
     journey.messages.dialog.answer_buttons[-1].click()
     assert not journey.messages.is_busy
-
-
-def test_theme_change_reaches_all_labels_and_keeps_recording_keys(qtbot: QtBot, open_desktop: Open) -> None:
-    desktop = open_desktop()
-    journey, theme = desktop.controller, desktop.theme
-
-    def check_all() -> None:
-        labels = 0
-        for place in ("markers", "live", "review", "help", "settings", "progress", "report", "patients"):
-            journey.navigator.switch_screen(place)  # type: ignore[arg-type]
-            for label in desktop.shell.findChildren(QLabel):
-                if label.isVisible() and label.text():
-                    shown = label.palette().color(QPalette.ColorRole.WindowText).name().upper()
-                    assert shown in set(asdict(theme.tokens).values()), (place, label.text())
-                    labels += 1
-        assert labels > 15, labels
-
-    theme.choose("dark")
-    check_all()
-    theme.choose("light")
-    check_all()
-    bar = desktop.shell.top_bar
-    bar.lock_overlays(True)
-    for button in (bar.help_button, bar.settings_button):
-        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-        assert not button.hasFocus(), "it would take the keys and the pedal from a running recording"
-        assert "recording" in button.toolTip()
-    bar.lock_overlays(False)
-    assert bar.settings_button.isEnabled()
-    assert "recording" not in bar.settings_button.toolTip()

@@ -8,21 +8,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.commands import desktop
 from carpus.app.desktop import folder_window, log, window
-from carpus.app.desktop.folder_window import FolderWindow
 from carpus.app.desktop.single_instance import SingleInstance
-from carpus.app.settings import load_settings, settings_folder
-from carpus.core.model.errors import CarpusFault, DataFolderChanged
-from carpus.core.model.fault_text import MessageText
+from carpus.app.settings import load_settings
 from carpus.ui.kit import language
 from carpus.ui.kit.text import Text
-from carpus.ui.kit.theme import Theme
 
 ROOT = Path(__file__).parents[2]
 CALL = """
@@ -54,37 +49,6 @@ def test_second_carpus_does_not_get_folder_and_calls_first(
     third.release()
 
 
-def test_second_data_folder_starts_second_instance(tmp_path: Path) -> None:
-    folders = [tmp_path / name for name in "ab"]
-    for folder in folders:
-        folder.mkdir()
-    both = [SingleInstance(folder) for folder in folders]
-    assert all(one.acquire() for one in both)
-    assert not both[0].notify_running_instance(), "nobody listens"
-    for one in both:
-        one.release()
-
-
-@pytest.mark.parametrize("answer", ["close", "choose", "think again"])
-def test_folder_that_cannot_be_used_is_reported_in_window(
-    qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answer: str
-) -> None:
-    asking = FolderWindow(Theme(), MessageText("It cannot be written.", "All is safe.", "Choose another."), tmp_path)
-    named = ["", str(tmp_path)] if answer == "think again" else [str(tmp_path)]
-    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: named.pop(0))
-    presses = {"close": [0], "choose": [1], "think again": [1, 1]}[answer]
-    timer = QTimer(asking.shell)
-
-    def press() -> None:
-        if presses and asking.card.isVisible():
-            asking.card.answer_buttons[presses.pop(0)].click()
-
-    timer.timeout.connect(press)
-    timer.start(20)
-    assert asking.run() == (None if answer == "close" else tmp_path)
-    assert "cannot be written" in asking.card.happened.text()
-
-
 @pytest.fixture
 def quiet(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> None:
     """A window with a display, which takes no signals and changes no language of this process."""
@@ -111,35 +75,6 @@ def test_window_opens_on_folder_that_was_chosen_instead(
     assert "blocked" in capsys.readouterr().err
     assert (good / "records.sqlite3").exists()
     assert load_settings().data_folder == good, "also from the next start on"
-
-
-@pytest.mark.usefixtures("quiet")
-@pytest.mark.parametrize("is_demo", [False, True])
-def test_folder_named_for_one_start_is_reported_on_first_screen(
-    is_demo: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(QApplication, "exec", lambda *_: 0)
-    told: list[CarpusFault] = []
-    composed = compose.compose
-    monkeypatch.setattr(
-        compose, "compose", lambda *given, **named: told.extend(named["startup_faults"]) or composed(*given, **named)
-    )
-    assert desktop.open_window(tmp_path / "named", is_demo=is_demo) == 0
-    assert not told, "there was no folder before"
-    load_settings().data_folder.mkdir(parents=True)
-    assert desktop.open_window(tmp_path / "named", is_demo=is_demo) == 0
-    assert [(type(one), one.subject) for one in told] == [(DataFolderChanged, str(tmp_path / "named"))]
-    assert not settings_folder().exists(), "nothing of it is stored"
-
-
-@pytest.mark.usefixtures("quiet")
-def test_start_without_choice_ends_with_message(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "blocked").write_text("")
-    monkeypatch.setattr(folder_window, "choose_data_folder", lambda *_: None)
-    assert desktop.open_window(tmp_path / "blocked", is_demo=False) == 1
-    assert capsys.readouterr().err.count("\n") == 1
 
 
 @pytest.mark.usefixtures("quiet")

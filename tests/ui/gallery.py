@@ -76,7 +76,6 @@ from carpus.ui.shell.messages import Answer, MessageDialog, NoticeStrip
 from carpus.ui.shell.view_models import Preferences
 from carpus.ui.words.camera_check import camera_words
 from carpus.ui.words.fault_words import fault_words
-from tests.moments import with_moment
 from tests.ui.camera_fakes import board_progress, board_result, card_progress, checked
 from tests.ui.fake_stored_sessions import FakeStoredSessions
 from tests.ui.fakes import (
@@ -296,8 +295,6 @@ class Gallery(GalleryWindow):
     def patients_empty(self) -> None:
         self._patients(FakeStore([]))
 
-    patients_not_found = _then("patients", lambda screen: screen.search.setText("Fir 12"))
-
     def patients_recovered(self) -> None:
         self.patients().notice_layout.addWidget(NoticeStrip(self.theme, RECOVERED, "Re&view it"))
 
@@ -341,7 +338,6 @@ class Gallery(GalleryWindow):
         screen.picture.set_cursor(calibrator.disc_px[4] + 2.0)
 
     markers_ready = partialmethod(_markers, 6)
-    markers_swapped = partialmethod(_markers, 6, CalibrationFinding("swapped", ("MCP2", "MCP3")))
     markers_doubtful = partialmethod(_markers, 6, CalibrationFinding("tilt", (), 19.0, 15.0, "deg"))
 
     def markers_start_angle(self) -> None:
@@ -355,7 +351,6 @@ class Gallery(GalleryWindow):
 
     markers_proposed = partialmethod(_proposed)
     markers_proposed_doubtful = partialmethod(_proposed, doubtful=("DIP4", "TIP4"))
-    markers_proposed_incomplete = partialmethod(_proposed, not_found=("TIP1",))
 
     def markers_straight(self) -> None:
         screen = self._proposed()
@@ -437,22 +432,6 @@ class Gallery(GalleryWindow):
 
     live_hand_lost = partialmethod(_live, lost=[(23.5, 30.0)])
     live_hand = partialmethod(_live, whole_hand=True)
-    live_hand_thumb_hidden = partialmethod(
-        _live, hidden=[(22.5, 30.0, name) for name in ("MCP1", "IP1", "TIP1")], whole_hand=True
-    )
-    live_hand_not_found = partialmethod(_live, lost=[(23.5, 30.0)], whole_hand=True)
-
-    def live_hand_fist(self) -> None:
-        ends = [f"{joint}{k}" for k in (2, 3, 4, 5) for joint in ("DIP", "TIP")]
-        hidden = [(start, start + 2.6, name) for name in [*ends, "TIP1"] for start in (15.1, 21.1)]
-        self._live(seconds=22.3, hidden=hidden, whole_hand=True)
-
-    def live_arm_moved(self) -> None:
-        feed = FakeFeed(seconds=32.0)
-        for number, frame in enumerate(feed.frames):
-            if number > 30 * 23.5:
-                feed.frames[number] = with_moment(frame, position_m=frame.kinematics.position_m + [0.0, 0.021, 0.004])
-        self._live(feed)
 
     def live_disk_full(self) -> None:
         screen = self._live(feed := FakeFeed(seconds=32.0))
@@ -466,7 +445,6 @@ class Gallery(GalleryWindow):
         MessageDialog(screen.stage, self.theme).show_words(words, answers, icon="hard-drive")
 
     live_note = _then("_live", lambda screen: screen.note_dialog.open_note())
-    live_pain = _then("_live", lambda screen: screen.pain_dialog.open_pain())
 
     def live_camera_lost(self) -> None:
         screen = self._live()
@@ -487,9 +465,7 @@ class Gallery(GalleryWindow):
     patient_view_goal = _patient_view(
         "FIST_COMPOSITE", GuideScene("there", 1, 81.0, 80.0, done=5, asked=10), side="left"
     )
-    patient_view_child = _patient_view("WRIST_RU", GuideScene("out", 1, 14.0, 20.0, done=5, asked=10), for_child=True)
     patient_view_lost = _patient_view("FOREARM_PS", GuideScene("lost", 1, goal_deg=70.0, done=5, asked=10))
-    patient_view_rest = _patient_view("WRIST_RU", GuideScene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
     exercise_sets = _under("exercise", SetDialog, SetDialog.open_sets, DEFAULT_SETS, "wrist6")
 
     def exercise_goals(self) -> None:
@@ -517,17 +493,12 @@ class Gallery(GalleryWindow):
     review = partialmethod(_review)
     review_hand = partialmethod(_review_hand)
 
-    def _review_passive(self, store: FakeSessions, session_id: str, passive: Sequence[int], at_s: float) -> None:
-        """Some repetitions were passive, and the goniometer was at hand."""
-        store.kept = {session_id: RepetitionChoices(dict.fromkeys(passive, PASSIVE))}
-        store.hand_values = hand_values_today()
-        self._review(store, session_id, at_s=at_s)
-
-    def review_passive(self) -> None:
-        self._review_passive(FakeSessions(), "session-7", (6, 7, 8), 20.6)
-
     def review_passive_hand(self) -> None:
-        self._review_passive(FakeHandSessions(), "hand-7", (3, 4, 5), 0.0)
+        """Some repetitions were passive, and the goniometer was at hand."""
+        store = FakeHandSessions()
+        store.kept = {"hand-7": RepetitionChoices(dict.fromkeys((3, 4, 5), PASSIVE))}
+        store.hand_values = hand_values_today()
+        self._review(store, "hand-7", at_s=0.0)
 
     review_reason = _then("review", lambda screen: screen.exclusion_dialog.open_form(4))
     review_angle = _then("review", lambda screen: screen.frame_view.angle_button.click())
@@ -538,24 +509,17 @@ class Gallery(GalleryWindow):
         screen.hand_image_dialog.consent_check.click()
 
     review_path = partialmethod(_review, view="path")
-    review_speeds = partialmethod(_review, view="place")
     review_zyz = partialmethod(_review, view="zyz")
-    review_hand_finger = partialmethod(_review_hand, 4)
 
-    def _review_exercise(self, exercise: str, motion: str, finger: int) -> None:
+    def review_reach(self) -> None:
         store = FakeHandSessions()
         store.sessions = {
             f"hand-{number}": hand_session(
-                NOW - timedelta(days=days), share, exercise, f"hand-{number}", motion,
-                hidden=[(8.0, 9.0, name) for name in ("IP1", "TIP1")],
+                NOW - timedelta(days=days), share, "REACH_GRASP", f"hand-{number}", "reach_grasp"
             )
             for number, days, share in ((6, 7, 0.9), (7, 0, 1.0))
-        }  # fmt: skip
-        self._review(store, "hand-7", view="path", finger=finger, at_s=9.5)
-
-    review_reach = partialmethod(_review_exercise, "REACH_GRASP", "reach_grasp", 6)
-    review_opposition = partialmethod(_review_exercise, "THUMB_OPP", "opposition", 0)
-    review_finger_ways = partialmethod(_review_exercise, "THUMB_OPP", "opposition", 1)
+        }
+        self._review(store, "hand-7", view="path", finger=6, at_s=9.5)
 
     def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectionScreen:
         """With ``wrong_px``, where the middle knuckle was taken to be."""
@@ -576,7 +540,6 @@ class Gallery(GalleryWindow):
         self._correct(wrong_px=(right_px[0] - 10.0, right_px[1] + 36.0)).place_marker("MCP3", right_px)
 
     correct_spots = partialmethod(_correct, pictures=False)
-    correct_exchanged = _then("_correct", lambda screen: screen.place_marker("MCP3", screen.edits.original_px(620)[4]))
 
     def _results(self, old: Session, new: Session) -> None:
         self.place(tab=1, camera=SAVED)
@@ -598,17 +561,6 @@ class Gallery(GalleryWindow):
         shift = np.where(new.timestamp_s - new.timestamp_s[0] > 20.0, 0.3, 0.0)[:, None]
         self._results(replace(new, motion=replace(new.motion, angles_rad=new.motion.angles_rad - shift)), new)
 
-    def correct_results_hand(self) -> None:
-        self.review_hand()
-        self._results(hand_session(share=0.8), hand_session())
-
-    def correct_running(self) -> None:
-        self.show_state("correct")
-        self.shell.top_bar.reanalysis_button.show_text("Tracking again 63 %", "63 %")
-        sheet = self.sheet(ResultsDialog)
-        sheet.show_running(CORRECTED, 63)
-        sheet.open()
-
     def _beside(self, store: FakeSessions, one: str, other: str) -> ComparisonScreen:
         screen = self.show(ComparisonScreen(self.theme, self.background, store), tab=1, camera="")
         screen.load_sessions((one, other), "right")
@@ -627,22 +579,10 @@ class Gallery(GalleryWindow):
         store.sessions["session-left"] = left
         return self._beside(store, "session-7", "session-left")
 
-    def beside_dates(self) -> None:
-        self._beside(self.sessions, "session-1", "session-7")
-
-    def beside_unfair(self) -> None:
-        self._beside(FakeSessions(pictures=False), "session-4", "session-left")
-
     def beside_hand(self) -> None:
         store = FakeHandSessions()
         store.sessions["hand-left"] = hand_session(NOW - timedelta(hours=1), session_id="hand-left", side="left")
         self._beside(store, "hand-3", "hand-left")
-
-    def beside_reading(self) -> None:
-        never = Background()
-        never.run = lambda *_: None  # type: ignore[method-assign]
-        screen = ComparisonScreen(self.theme, never, self.sessions)
-        self.show(screen, tab=1, camera="").load_sessions(("session-1", "session-7"))
 
     def progress(self, store: FakeSessions | None = None, session_id: str = "session-7") -> None:
         screen = ProgressScreen(self.theme, self.background, store or self.sessions)
@@ -753,14 +693,7 @@ class Gallery(GalleryWindow):
     patients_welcome_good = partialmethod(
         _welcome, [replace(check, state="good", remedy="") for check in CHECKS], counts_later=True
     )
-    patients_guided = _guided("patients", "patient")
-    camera_guided = _guided("camera", "camera")
     markers_guided = _guided("markers_clicking", "click")
-    markers_ready_guided = _guided("markers_ready", "check")
-    live_guided = _guided("live", "stop")
-    live_hand_guided = _guided("live_hand", "stop")
-    review_guided = _guided("review", "results")
-    report_guided = _guided("report", "end")
 
     def _board(self) -> CameraCalibrationScreen:
         self.place(where="")
@@ -782,7 +715,6 @@ class Gallery(GalleryWindow):
         screen.capture_view.show_frame(frame.color_rgb)
 
     board_result = _then("_board", lambda screen: screen.show_result(board_result()))
-    board_poor = _then("_board", lambda screen: screen.show_result(board_result(poor=True)))
 
     def _card(self, status: CheckStatus) -> CheckCardScreen:
         self.place(where="")
@@ -795,7 +727,6 @@ class Gallery(GalleryWindow):
 
     card = partialmethod(_card, checked())
     card_out = partialmethod(_card, checked(out=True))
-    card_none = partialmethod(_card, CheckStatus(""))
 
     def card_measuring(self) -> None:
         screen = self._card(CheckStatus(""))

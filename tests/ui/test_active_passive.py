@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import timedelta
 from functools import cache
 from pathlib import Path
 
@@ -11,15 +10,12 @@ import numpy as np
 import pytest
 
 from carpus.core.results.measures_table import build_measure_rows
-from carpus.core.results.progress import compute_progress, find_previous, incomparable_reasons
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
 from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Event, Session
 from carpus.ui.report.builders import write_session_report
 from carpus.ui.words.active_passive import MANUAL_SIGN, build_active_passive
-from carpus.ui.words.progress import exclusion_words
 from carpus.ui.words.ranges import repetition_words
-from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.printed import words_of
@@ -69,29 +65,6 @@ def test_passive_range_without_repetitions_is_unknown(exercise: str) -> None:
     assert "passive" not in repetition_words(free())
 
 
-def test_session_that_is_passive_only_is_named_so_and_has_no_empty_column() -> None:
-    helped = figures_once(helped_session((0.0, PASSIVE)))
-    later = replace(
-        figures_once(session()), when=helped.when + timedelta(days=7), session_id="later", recording_id="later"
-    )
-    assert incomparable_reasons(helped, helped) == ("only_passive",)
-    found = compute_progress([helped, later])
-    words = exclusion_words(found.points[0], found)
-    assert "no active repetition" in words
-    assert "ring" not in words, "there is none"
-    assert find_previous([helped, later], later) is None, "it has nothing to be beside"
-
-
-def test_passive_repetition_that_was_hidden_says_that() -> None:
-    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    number = next(number for number, one in enumerate(figures.repetitions) if one.is_passive)
-    shown = list(figures.repetitions)
-    shown[number] = replace(shown[number], unmeasured_reason="hidden")
-    assert f"number {number + 1} excluded: not visible enough" in repetition_words(
-        replace(figures, repetitions=tuple(shown))
-    )
-
-
 def test_fist_measures_exclude_passive_repetitions() -> None:
     made = FakeHandSessions().session("hand-7")
     assert figures_once(made).measures_in_group("task")
@@ -127,16 +100,6 @@ def test_table_has_active_passive_and_manually_in_one_row() -> None:
     assert "MDC" in flexion[3]
     assert ", passive " in found.sentence
     assert build_active_passive(figures_once(session()), ()) is None, "one way alone has no table"
-
-
-def test_passive_range_below_active_is_reported_with_sign() -> None:
-    found = build_active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
-    arc = next(row for row in found.table.rows if row[0] == "Total arc")
-    assert arc[3].startswith("\N{MINUS SIGN}")
-    assert "MDC" in arc[3]
-    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    made = with_ranges(figures, lambda row: {"mean": -12.0} if row.quantity == "flexion" and not row.is_passive else {})
-    assert "active \N{MINUS SIGN}12°" in build_active_passive(made, ()).sentence, "it does not reach neutral"
 
 
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:

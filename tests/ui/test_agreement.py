@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QRectF
 
 from carpus.core.research.agreement.compare import AnglePairs
 from carpus.core.research.agreement.statistics import compute_agreement, judge_agreement
-from carpus.ui.charts.agreement import AgreementPlot
-from carpus.ui.charts.style import screen_style
-from carpus.ui.kit.theme import Theme
 from carpus.ui.words.agreement import angle_name, format_difference, format_interval
 
 
@@ -48,20 +44,3 @@ def test_agreement_verdict_needs_both_limits_and_enough_readings(
     bias: float, sd: float, count: int, limit: float, verdict: str
 ) -> None:
     assert judge_agreement(of("flexion", bias, sd, count).figures_deg, limit) == verdict
-
-
-def test_agreement_points_match_axis(theme: Theme) -> None:
-    pairs = of("flexion", 2.0, 1.0)
-    plot = AgreementPlot(pairs, 5.0, is_time_series=False)
-    panel = plot.panel(screen_style(theme), QRectF(0, 0, 900, 300))
-    shown = pairs.figures_deg.limits
-    assert float(panel.y(shown[1])) < float(panel.y(shown[0])), "more flexion is above"
-    assert panel.scale.low < shown[0]
-    assert shown[1] < panel.scale.high
-    start, end = plot.extent()
-    assert start < np.degrees(pairs.measured_rad).min()
-    assert end > np.degrees(pairs.reference_rad).max()
-    words = [text for _, text in plot.x_labels(start, end)]
-    assert words[0].startswith("extension")
-    assert words[-1].startswith("flexion")
-    assert not any("-" in text for text in words)

@@ -16,11 +16,9 @@ from carpus.ui.kit.cells import cell_text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.beside.screen import ComparisonScreen
 from carpus.ui.screens.beside.words import (
-    comparison_choices,
     difference_table,
     facts_words,
     headline,
-    measure_keys,
     unfair_words,
 )
 from carpus.ui.words.fingers import progress_keys
@@ -74,17 +72,6 @@ def test_comparison_of_fingers_partly_occluded_shows_a_lower_bound() -> None:
     assert rows["Middle finger, TAM"][3].startswith("≥")
     assert rows["Index finger, TAM"][5] == "not compared: partly occluded"
     assert rows["Index finger, TAM"][3] == "–"
-
-
-def test_comparison_choices_of_a_hook_fist_offer_pip_joints_first() -> None:
-    hands = [
-        hand_session(session_id=side, side=side, exercise="FIST_HOOK", motion="hook") for side in ("right", "left")
-    ]
-    first, second = map(figures_once, hands)
-    offered = [value for value, _ in comparison_choices(first, second)]
-    assert offered[:2] == ["middle", "1"]
-    both = compare_pair(first, second, measure_keys(offered[0]))
-    assert [one.after.subject for one in both.ranges] == [f"PIP{finger}_flexion" for finger in (2, 3, 4, 5)]
 
 
 def test_comparison_not_comparable_states_the_reason_once_and_no_assessment(

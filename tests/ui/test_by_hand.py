@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 from types import SimpleNamespace
@@ -103,18 +102,6 @@ def test_manual_form_edited_saves_only_changes_and_hides_carpus_value_before(
     assert flexion.fields[0][1].is_empty
     assert screen.form.rows["GRIP"].last_text.text() == "2 Oct: 34.0 kg"
     assert screen.form.rows["PRWE"].fields[0][1].value() == 46.5, "a score is of the person"
-
-
-def test_manual_form_simulated_session_only_is_stated(screen: ManualMeasurementsScreen) -> None:
-    figures = max(FakeSessions().history("linden"), key=lambda one: one.when)
-    for simulated in (False, True):
-        shown = (replace(figures, is_simulated=simulated),)
-        screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), shown, "MK"))
-        assert ("47°" in screen.form.rows["FLEXION"].side_text.text()) is not simulated
-        assert ("is simulated" in screen.basis_text.text()) is simulated
-    screen.hand_choice.choose("left")
-    screen.hand_choice.chosen.emit("left")
-    assert "is simulated" not in screen.basis_text.text(), "the other hand has none"
 
 
 def test_manual_form_invalid_value_is_refused_and_unusual_one_confirmed(

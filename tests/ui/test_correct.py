@@ -7,23 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.session_results import compute_session_results
-from carpus.core.results.valid_data import joint_curves, wrist_curves
 from carpus.core.session.label_checks import Correction, find_label_doubt
-from carpus.ui.charts.result_comparison import OLD_WIDTH_FACTOR, ComparisonPlot, HandComparisonPlot
-from carpus.ui.charts.session import HandPlot
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.correct.frame_view import RING_RADIUS_PX
 from carpus.ui.screens.correct.marker_edits import MarkerEdits
-from carpus.ui.screens.correct.results_dialog import ResultPair, ResultsDialog
 from carpus.ui.screens.correct.screen import CorrectionScreen
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCorrections, FakeSessions, session
-from tests.ui.hand_fakes import FakeHandSessions, hand_session
+from tests.ui.hand_fakes import hand_session
 
 ROW = 620
 
@@ -120,43 +113,6 @@ def test_correction_labels_on_crossed_fingers_are_reported() -> None:
         assert told.swapped == (one, other)
 
 
-def test_correction_label_is_nearest_to_its_marker_or_has_a_line(screen: CorrectionScreen) -> None:
-    """Discs so near to each other that there is no room beside each: at the worst a name goes further off."""
-    screen.grab()
-    now = screen.edits.current_px(ROW)
-    rings = {name: on_screen(screen, now[number]) for number, name in enumerate(screen.edits.markers)}
-    assert set(screen.frame_view.label_boxes) == set(rings)
-    beside = 2 * RING_RADIUS_PX + 5
-    for name, plate in screen.frame_view.label_boxes.items():
-        off = {
-            other: np.hypot(
-                max(plate.left() - at.x(), 0.0, at.x() - plate.right()),
-                max(plate.top() - at.y(), 0.0, at.y() - plate.bottom()),
-            )
-            for other, at in rings.items()
-        }
-        assert min(off, key=lambda one: off[one]) == name or off[name] > beside, name
-
-
-def test_correction_click_without_drag_only_selects(qtbot: QtBot, screen: CorrectionScreen) -> None:
-    left, picture = Qt.MouseButton.LeftButton, screen.frame_view
-    before = screen.edits.original_px(ROW).copy()
-    screen.grab()
-    qtbot.mouseClick(picture, left, pos=picture.label_boxes["MCP4"].center().toPoint())
-    assert picture.current_marker == "MCP4"
-    qtbot.mouseClick(picture, left, pos=on_screen(screen, before[5]))
-    assert screen.current_marker == "MCP5"
-    assert corrections(screen) == ()
-    qtbot.mouseClick(picture, left, pos=on_screen(screen, np.array([420.0, 120.0])))
-    assert corrections(screen)[0].places["MCP5"] == (420.0, 120.0)
-    screen.undo()
-    screen.grab()
-    qtbot.mousePress(picture, left, pos=picture.label_boxes["MCP4"].center().toPoint())
-    qtbot.mouseMove(picture, on_screen(screen, before[5]))
-    qtbot.mouseRelease(picture, left, pos=on_screen(screen, before[5]))
-    np.testing.assert_allclose(screen.edits.current_px(ROW)[screen.edits.markers.index("MCP4")], before[5])
-
-
 def test_correction_keys_do_the_same_as_the_mouse(qtbot: QtBot, screen: CorrectionScreen) -> None:
     before = screen.edits.original_px(ROW).copy()
     screen.rows["MCP4"].click()
@@ -191,53 +147,6 @@ def test_correction_residual_flags_the_wrong_marker_only(sessions: FakeSessions)
     assert all(places.residual_mm(ROW, name) < 6.0 for name in places.markers if name != "MCP3")
     assert places.undo() == ROW
     assert places.undo() == -1
-
-
-def test_correction_curve_follows_the_selected_finger(qtbot: QtBot, theme: Theme) -> None:
-    background, sessions = Background(), FakeHandSessions()
-    shown = CorrectionScreen(theme, background, FakeCorrections(sessions, pictures=False))
-    qtbot.addWidget(shown)
-    session = hand_session()
-    for doubted, named in ((False, "H , . Z"), (True, "H , . Z D")):
-        session = replace(session, markers=replace(session.markers, doubted=session.markers.doubted | doubted))
-        shown.show_session("hand-7", session, 200)
-        assert " ".join(name for name, _ in shown._key_caps._keys[1:]) == named
-    plot = shown.curves._plot
-    assert isinstance(plot, HandPlot)
-    assert plot.finger == 3, "what the exercise is about"
-    for marker, finger in (("PIP5", 5), ("CMC1", 1)):
-        shown.select_marker(marker)
-        assert isinstance(shown.curves._plot, HandPlot)
-        assert shown.curves._plot.finger == finger
-    shown.select_marker("WRIST")
-    assert not isinstance(shown.curves._plot, HandPlot)
-    qtbot.waitUntil(lambda: not background.is_busy)
-
-
-def test_results_dialog_shows_the_corrected_finger(qtbot: QtBot, theme: Theme) -> None:
-    session = hand_session()
-    curves, joints = wrist_curves(session), joint_curves(session)
-    host = QWidget()
-    qtbot.addWidget(host)
-    sheet = ResultsDialog(host, theme)
-    assert joints is not None
-    other = replace(joints, angles_deg=joints.angles_deg + 90.0 * (np.arange(len(joints.names)) == 0))
-    both = ResultPair(compute_session_results(session), curves, curves, joints, other)
-    for finger, opens_on in ((4, 4), (0, 1)):
-        sheet.show_results("", "", replace(both, finger=finger))
-        assert sheet.finger.value() == opens_on
-
-
-def test_results_dialog_old_and_new_curves_differ_in_width() -> None:
-    session = hand_session(hidden=[(4.0, 5.0, "TIP3")])
-    curves, joints = wrist_curves(session), joint_curves(session)
-    shown = (curves, compute_session_results(session).exercise, ())
-    hand = HandComparisonPlot(*shown, joints=joints, finger=3, old=joints)
-    for drawn in (ComparisonPlot(*shown, old=curves).visible_curves(1, 400), hand.visible_curves(0, 400)):
-        old, new = drawn[: len(drawn) // 2], drawn[len(drawn) // 2 :]
-        assert {curve.width_factor for curve in old} == {OLD_WIDTH_FACTOR}
-        assert {curve.width_factor for curve in new} == {1.0}
-    assert any(0 < curve.series.predicted.sum() < len(curve.series.predicted) for curve in old), "as it was predicted"
 
 
 def test_correction_frames_are_corrected_independently_in_a_shorter_session(

@@ -6,10 +6,9 @@ button alone; Enter presses it and nothing else; and it is the answer that loses
 
 from __future__ import annotations
 
-import ast
 import importlib
 import pkgutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from datetime import date
 from typing import TypeVar
 
@@ -18,7 +17,6 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
-    QApplication,
     QComboBox,
     QLineEdit,
     QPlainTextEdit,
@@ -53,7 +51,6 @@ from carpus.ui.screens.settings.retest_dialog import RetestDialog
 from carpus.ui.screens.setup.set_dialog import SetDialog
 from carpus.ui.shell.camera_name_dialog import CameraNameDialog
 from carpus.ui.shell.messages import Answer, MessageDialog
-from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
 from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY
 
@@ -210,69 +207,8 @@ def test_dialog_esc_after_typing_warns_first(qtbot: QtBot, theme: Theme, host: Q
         dialog.close_dialog()
 
 
-def test_dialog_focused_button_takes_enter_and_its_hint(qtbot: QtBot, theme: Theme, host: QWidget) -> None:
-    dialog, _ = _card(host, theme)
-    other, default = dialog.findChildren(Button)[-2:]
-    other.setFocus()
-    QApplication.processEvents()
-    assert default.visible_key == "", "the label would lie"
-    said = _pressed(dialog)
-    qtbot.keyClick(other, Qt.Key.Key_Return)
-    assert said == [other.text()]
-
-
-@pytest.mark.parametrize(("alarm", "pressed"), [(False, ["Continue"]), (True, [])])
-def test_message_dialog_esc_without_alarm_gives_the_last_answer(
-    qtbot: QtBot, theme: Theme, host: QWidget, alarm: bool, pressed: list[str]
-) -> None:
-    card, found = MessageDialog(host, theme), []
-    answers = [Answer(name, lambda name=name: found.append(name)) for name in ("Open folder", "Continue")]
-    card.show_words(MessageText("2 files were saved.", "", ""), answers, is_alarm=alarm)
-    qtbot.keyClick(card, Qt.Key.Key_Escape)
-    assert found == pressed
-
-
 def test_message_dialog_risky_default_is_refused(theme: Theme, host: QWidget) -> None:
     with pytest.raises(ValueError, match="Erase it"):
         MessageDialog(host, theme).show_words(
             MessageText("", "", ""), [Answer("Erase it", lambda: None, is_risky=True)]
         )
-
-
-def _cards() -> Iterator[tuple[str, list[ast.Call]]]:
-    """The answers of every card that the program shows, as written."""
-    for path in modules("app", "ui"):
-        for node in nodes(path):
-            if isinstance(node, ast.Tuple | ast.List):
-                calls = [
-                    one for one in node.elts
-                    if isinstance(one, ast.Call) and isinstance(one.func, ast.Name) and one.func.id == "Answer"
-                ]  # fmt: skip
-                if calls:
-                    yield f"{path.name}:{node.lineno}", calls
-
-
-HARMLESS = {
-    "Continue", "Leave it as it is", "Continue measuring", "Cancel", "Back to the form",
-    "Choose the source again", "Open it again",
-    "Stay here", "Choose another folder", "Close Carpus",
-}  # fmt: skip
-"""Last answers of cards: each leaves everything as it is, or only reads something again."""
-
-
-@SOURCES
-def test_message_dialogs_last_answers_lose_nothing() -> None:
-    seen = 0
-    for place, calls in _cards():
-        seen += 1
-        last = calls[-1]
-        assert not any(one.arg == "is_risky" for one in last.keywords), place
-        assert len(last.args) == 2, f"{place}: the default answer's key is Enter"
-        words = [node.value for node in ast.walk(last.args[0]) if isinstance(node, ast.Constant)]
-        if words:
-            assert words[0] in HARMLESS, place
-        for other in calls[:-1]:
-            risky = any(one.arg == "is_risky" for one in other.keywords)
-            text = [node.value for node in ast.walk(other.args[0]) if isinstance(node, ast.Constant)]
-            assert risky or not text or text[0] in HARMLESS | {"Open folder"}, f"{place}: {text}"
-    assert seen >= 8

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, cast
 
 import pytest
 from PySide6.QtCore import Qt
@@ -14,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.records.deletion import DeleteDialog, DeletionController
+from carpus.ui.screens.records.deletion import DeleteDialog
 from tests.ui.gallery import ERASED_PATIENT, ERASED_SESSION, LAST_BACKUP, TODAY
 
 
@@ -32,12 +30,6 @@ def done(dialog: DeleteDialog) -> list[str]:
     dialog.delete_confirmed.connect(lambda: answers.append("erase"))
     dialog.archive_confirmed.connect(lambda: answers.append("archive"))
     return answers
-
-
-def test_delete_dialog_enter_archives(qtbot: QtBot, dialog: DeleteDialog, done: list[str]) -> None:
-    qtbot.keyClick(dialog.archive_button, Qt.Key.Key_Return)
-    assert done == ["archive"]
-    assert not dialog.isVisible()
 
 
 def test_delete_dialog_typed_pseudonym_presses_no_button(qtbot: QtBot, dialog: DeleteDialog, done: list[str]) -> None:
@@ -70,12 +62,6 @@ def test_delete_dialog_delete_button_needs_the_pseudonym_and_ignores_enter(
     assert not dialog.delete_button.isEnabled(), "the next one is asked anew"
 
 
-def test_delete_dialog_esc_changes_nothing(qtbot: QtBot, dialog: DeleteDialog, done: list[str]) -> None:
-    qtbot.keyClick(dialog.archive_button, Qt.Key.Key_Escape)
-    assert not dialog.isVisible()
-    assert done == []
-
-
 def test_delete_dialog_states_what_is_deleted_kept_and_too_early(dialog: DeleteDialog) -> None:
     assert "38 MB, files: 4" in dialog.deleted_text.text()
     assert (
@@ -95,34 +81,3 @@ def test_delete_dialog_states_what_is_deleted_kept_and_too_early(dialog: DeleteD
     assert "All sessions (9)" in dialog.deleted_text.text()
     assert "other sessions" not in dialog.kept_text.text()
     assert dialog.consequence_text.text() == "It cannot be restored."
-
-
-@pytest.mark.parametrize(
-    ("kind", "open_patient", "behind", "is_recording", "shown"),
-    [
-        ("patient", None, "patients", False, ("patients",)),
-        ("patient", "erased", "live", False, ("patients",)),
-        ("patient", "erased", "live", True, None),
-        ("patient", "other", "live", False, None),
-        ("session", "erased", "sessions", False, ("sessions", "erased")),
-        ("session", "erased", "review", False, ("sessions", "erased")),
-        ("session", "erased", "live", False, None),
-        ("session", "other", "sessions", False, None),
-    ],
-)
-def test_deletion_done_leaves_measuring_and_other_patients_alone(
-    kind: str, open_patient: str | None, behind: str, is_recording: bool, shown: tuple[str, ...] | None
-) -> None:
-    ways: list[tuple[str, ...]] = []
-    navigator = SimpleNamespace(
-        underlying_screen=behind, is_recording=lambda: is_recording, open_screen=lambda *to: ways.append(to)
-    )
-    patient = None if open_patient is None else SimpleNamespace(patient_id=open_patient)
-    context = SimpleNamespace(navigator=navigator, current=SimpleNamespace(patient=patient))
-    lists = SimpleNamespace(sessions_changed=SimpleNamespace(emit=lambda: None))
-    own, plan = (
-        SimpleNamespace(_context=context, _sessions=lambda: lists),
-        SimpleNamespace(kind=kind, patient_id="erased"),
-    )
-    DeletionController._refresh_after_removal(cast("Any", own), cast("Any", plan))
-    assert ways == ([] if shown is None else [shown])

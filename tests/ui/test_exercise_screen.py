@@ -7,12 +7,10 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.records.values import Patient
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.setup.camera import CameraScreen
 from carpus.ui.screens.setup.exercise import ExerciseScreen
 from tests.ui.conftest import Show
 from tests.ui.fakes import set_up
@@ -25,14 +23,6 @@ def screen(show: Show[ExerciseScreen]) -> ExerciseScreen:
     screen = ExerciseScreen(Theme())
     screen.show_patient(LINDEN, None, "right", False)
     return show(screen)
-
-
-def test_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen) -> None:
-    for typed, degrees in (("37,5", 37.5), ("37.5", 37.5), ("40", 40.0), ("40°", 40.0), (" ", math.nan)):
-        screen.target_fields[0].clear()
-        qtbot.keyClicks(screen.target_fields[0], typed)
-        assert screen.primary_button.isEnabled()
-        assert screen.set_up().target_positive_deg == pytest.approx(degrees, nan_ok=True)
 
 
 def test_target_that_cannot_be_stays_is_marked_and_stops_way(qtbot: QtBot, screen: ExerciseScreen) -> None:
@@ -69,36 +59,3 @@ def test_exercise_screen_of_both_hands_requires_choice(qtbot: QtBot, screen: Exe
     qtbot.mouseClick(screen.form["side"].buttons()[1], Qt.MouseButton.LeftButton)
     assert screen.primary_button.isEnabled()
     assert screen.set_up().side == "left"
-
-
-def test_enter_goes_on_from_every_field_and_after_the_targets_were_taken(qtbot: QtBot, screen: ExerciseScreen) -> None:
-    sent: list[object] = []
-    screen.set_up_chosen.connect(sent.append)
-    screen.proposal_button.show()
-    qtbot.mouseClick(screen.proposal_button, Qt.MouseButton.LeftButton)
-    assert screen.window().focusWidget() is screen.primary_button, "where Enter stands"
-    for field in (
-        screen.primary_button,
-        screen.target_fields[0],
-        screen.form["repetitions"],
-        screen.form["side"].buttons()[0],
-    ):
-        before = len(sent)
-        field.setFocus()
-        qtbot.keyClick(field, Qt.Key.Key_Return)
-        assert len(sent) == before + 1, field
-
-
-def test_while_a_source_is_opened_the_keyboard_leads_nowhere_else(theme: Theme, show: Show[QWidget]) -> None:
-    """The button that was pressed can no longer be: Qt would go on to what comes next, the way back."""
-    host, screen = QWidget(), CameraScreen(theme)
-    column = QVBoxLayout(host)
-    for part in (QPushButton("Exercise"), screen):
-        column.addWidget(part)
-    show(host, active=True)
-    screen.show_set_up(set_up(), "practice")
-    screen.primary_button.setFocus()
-    screen.show_opening(True, "The simulated patient is being drawn.")
-    assert host.focusWidget() is screen
-    screen.show_opening(False)
-    assert screen.primary_button.isEnabled()

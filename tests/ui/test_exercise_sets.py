@@ -18,23 +18,17 @@ from carpus.core.records.changes import delete_row
 from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets, save_setup
 from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, GOAL, PATIENT
-from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart, next_part, start_set
+from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart, start_set
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
-from carpus.core.results.progress import compute_progress
-from carpus.core.results.session_results import compute_session_results
-from carpus.ui.charts.progress import goals_deg
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.movement_guide import ExerciseSnapshot, GuideScene
 from carpus.ui.screens.live.course import STOP_DELAY_S, CourseRunner
 from carpus.ui.screens.live.screen import LiveScreen
 from carpus.ui.screens.patient.view_controller import PatientViewController
-from carpus.ui.screens.setup.exercise import ExerciseScreen
-from carpus.ui.screens.setup.set_dialog import SetDialog
-from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
-from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, session, set_up
+from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 
 PARTS = (SetPart(get_exercise("WRIST_FE"), 2, 0, 20), SetPart(get_exercise("FREE"), 0, 8, 0))
 OWN = ExerciseSet("own", "Short", "wrist6", PARTS)
@@ -55,23 +49,6 @@ def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tm
         assert set(read_sets(store)) == {longer, other}, "what somebody else added stays"
         store.execute_local(update(EXERCISE_SET).where(EXERCISE_SET.c.id == "other").values(discs="wrist7"))
         assert read_sets(store) == (longer,)
-
-
-def test_next_session_begins_with_set_of_last_one(tmp_path: Path) -> None:
-    library = Library(tmp_path)
-    patient = library.patients.add(Patient("Heron 3", "left"))
-    save_sets(library.store, (OWN,), DEFAULT_SETS)
-    first = start_set(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True), {})
-    second = next_part(first)
-    assert second is not None
-    assert next_part(second) is None
-    save_setup(library.store, second)
-    again = read_last_setup(library.store, patient)
-    assert (again.exercise.id, again.repetitions, again.for_child) == ("WRIST_FE", 2, True)
-    assert again.set_run.run_id != first.set_run.run_id
-    save_sets(library.store, DEFAULT_SETS, (OWN,))
-    assert read_last_setup(library.store, patient).set_run is None  # type: ignore[union-attr]
-    library.close()
 
 
 def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Path) -> None:
@@ -103,32 +80,6 @@ def test_goal_of_supination_is_read_from_thumb_up_and_one_of_older_version_is_co
     assert again is not None
     assert again.target_positive_deg == -30.0
     library.close()
-
-
-def test_proposed_goal_is_taken_over_or_changed_and_shown_over_weeks(theme: Theme, show: Show[ExerciseScreen]) -> None:
-    screen = show(ExerciseScreen(theme))
-    row = FakeStore().rows[5]
-    last = set_up(target_deg=math.nan)
-    screen.show_patient(row, last, "right", False, goals={("WRIST_RU", "right"): (15.0, math.nan)})
-    assert not screen.proposal_button.isVisible()
-    figures = compute_session_results(session(seconds=26.0))
-    screen.show_history("somebody else", [figures])
-    assert not screen.proposal_button.isVisible()
-    screen.show_history(row.patient_id, [replace(figures, is_simulated=True)])
-    assert not screen.proposal_button.isVisible(), "what a simulated hand did is no measure of this patient"
-    screen.show_history(row.patient_id, [figures])
-    mean_deg = figures.find("flexion", "flexion").mean  # type: ignore[union-attr]
-    assert "from the last session" in screen.proposal_label.text()
-    screen.proposal_button.click()
-    goal_deg = screen.set_up().target_positive_deg
-    assert mean_deg + 3.0 < goal_deg <= mean_deg + 5.0
-    screen.choose_exercise(get_exercise("WRIST_RU"))
-    assert screen.set_up().target_positive_deg == 15.0
-    screen.form["side"].buttons()[1].click()
-    assert math.isnan(screen.set_up().target_positive_deg)
-    shown = compute_progress([replace(figures, targets_deg=(goal_deg, math.nan))])
-    assert goals_deg(shown, ("flexion", "flexion")) == [goal_deg]
-    assert goals_deg(shown, ("flexion", "extension")) == []
 
 
 def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
@@ -181,37 +132,3 @@ def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> N
     live.snapshot_taken.emit(told)
     assert patient.window.view.scene.phase != GuideScene().phase
     patient.close()
-
-
-def test_therapist_makes_names_and_chooses_set(qtbot: QtBot, theme: Theme) -> None:
-    screen = ExerciseScreen(theme)
-    qtbot.addWidget(screen)
-    screen.show_sets(DEFAULT_SETS)
-    screen.show_patient(FakeStore().rows[5], set_up(), "right", False)
-    sheet = SetDialog(screen, theme)
-    sheet.sets_saved.connect(screen.show_sets)
-    screen.show()
-    sheet.open_sets(DEFAULT_SETS, "wrist6")
-    sheet.set_choice.setCurrentIndex(sheet.set_choice.count() - 1)
-    assert not sheet.save_button.isEnabled(), "it has no name"
-    sheet.name_field.setText("Wrist, all movements")
-    sheet._validate()
-    assert not sheet.save_button.isEnabled(), "another one has this name"
-    sheet.name_field.setText("Mine")
-    sheet.add_button.click()
-    free = sheet.rows[1].exercise
-    free.setCurrentIndex(free.findData("FREE"))
-    assert sheet.rows[1].part().seconds == 60, "what has no repetitions goes by time"
-    sheet.rows[1].move_up_button.click()
-    sheet._validate()
-    sheet.save_button.click()
-    chosen = screen.set_up()
-    assert [part.exercise.id for part in chosen.set_run.parts] == ["FREE", "WRIST_FE"]
-    assert chosen.exercise.id == "FREE"
-    assert chosen.set_run.name == "Mine"
-    sheet.open_sets((*DEFAULT_SETS, OWN), "wrist6", "own")
-    sheet.delete_button.click()
-    assert "Press again" in sheet.delete_button.text()
-    with qtbot.waitSignal(sheet.sets_saved) as kept:
-        sheet.delete_button.click()
-    assert kept.args[0] == DEFAULT_SETS

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.formats.export import FORMATS
-from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
+from carpus.core.formats.output_files import TableDialect
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.export.flow import ExportController
@@ -71,27 +71,6 @@ def test_export_dialog_offers_every_format_and_exports_the_ticked(qtbot: QtBot, 
     assert stored.calls == [(["c3d"], True)]
     assert not exporting.dialog.isVisible()
     assert not told.faults
-
-
-def test_export_dialog_region_chosen_sets_the_table_format(qtbot: QtBot, parts: Parts) -> None:
-    exporting, stored, told = parts
-    choice = exporting.dialog.region_choice
-    for words, form in (("1,5", TableDialect(";", ",", has_bom=True)), ("programs", MACHINE_DIALECT)):
-        exporting.choose_formats("s1")
-        choice.setCurrentIndex(next(k for k in range(choice.count()) if words in choice.itemText(k)))
-        before = len(told.asked)
-        exporting.dialog.folder_button.click()
-        qtbot.waitUntil(lambda before=before: len(told.asked) > before)
-        assert stored.forms[-1] == form
-
-
-def test_export_dialog_enter_continues_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None:
-    exporting, stored, told = parts
-    exporting.choose_formats("s1")
-    exporting.dialog.format_ticks["trc"].click()
-    qtbot.keyClick(exporting.dialog.format_ticks["trc"], Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: bool(told.asked))
-    assert stored.calls == [(["csv", "trc"], False)]
 
 
 def test_export_dialog_running_shows_progress_and_stops(qtbot: QtBot, parts: Parts, background: Background) -> None:

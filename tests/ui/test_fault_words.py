@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.errors import DiskFull
-from carpus.core.model.fault_text import shorten
 from carpus.core.records.new_sessions import RecoveredSession
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.ui.kit.language import use_language
@@ -27,21 +26,6 @@ def test_long_path_is_reported_by_its_end(root: str) -> None:
     assert max(len(part) for part in words.summary.split("/")) < 48
     assert "someone" not in words.summary
     assert "right.h5" in words.summary
-
-
-def test_fault_text_keeps_non_paths() -> None:
-    assert "take 7" in fault_words(DiskFull("take 7", "1/2 full")).summary
-    assert "1/2 full" in fault_words(DiskFull("take 7", "1/2 full")).details
-
-
-@pytest.mark.parametrize("most", [8, 9, 30])
-def test_shortened_name_keeps_both_ends(most: int) -> None:
-    name = "abcdefghijklmnopqrstuvwxyz0123456789"
-    short = shorten(name, most)
-    assert len(short) == most
-    assert short[0] == "a"
-    assert short[-1] == "9"
-    assert shorten("short", most) == "short"
 
 
 def test_recovered_practice_session_names_patient_in_persons_language(qtbot: QtBot) -> None:

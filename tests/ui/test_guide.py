@@ -11,10 +11,8 @@ from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.errors import OutputNotWritable
-from carpus.core.model.hand.protocols import HAND21
 from carpus.ui.kit.language import LANGUAGES, load_texts, use_language
 from carpus.ui.kit.theme import Theme
-from carpus.ui.picture.hand_drawing import MARKER_POSITIONS
 from carpus.ui.screens.help import guide
 from carpus.ui.screens.help.cards import write_cards
 from carpus.ui.screens.help.screen import HelpScreen
@@ -113,10 +111,6 @@ def test_page_html_escapes_text(theme: Theme) -> None:
         assert body.count("<ol>") == body.count("</ol>")
         plain = re.sub(r"<[^>]*>", "", body)
         assert "<" not in plain
-
-
-def test_hand_drawing_has_a_position_for_every_marker() -> None:
-    assert set(MARKER_POSITIONS) >= set(HAND21.markers)
 
 
 def test_write_cards_makes_two_pages_with_their_texts(qtbot: QtBot, tmp_path: Path) -> None:

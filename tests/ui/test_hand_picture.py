@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from dataclasses import replace
@@ -18,14 +17,13 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.model.errors import OutputNotWritable
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.model.types import SIMULATED, ByteImage, TrackStatus
+from carpus.core.model.types import ByteImage, TrackStatus
 from carpus.core.results.hand_cutout import BACKGROUND_GREY, angle_overlay, cut_out_hand
-from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.review.flow import ReviewFlow
-from carpus.ui.screens.review.hand_image import HandImage, build_hand_image
+from carpus.ui.screens.review.hand_image import HandImage
 from tests.ui.conftest import Reviewing
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeSessions, session
@@ -97,18 +95,6 @@ def test_hand_picture_without_consent_or_frames_is_not_saved(qtbot: QtBot, revie
     assert not sheet.consent_check.isChecked(), "agreement is given each time"
     sheet.open_form(refused=True)
     assert not sheet.consent_check.isEnabled()
-
-
-def test_words_on_a_picture_say_where_the_angle_is_not_the_patients_own(qtbot: QtBot, review: Reviewing) -> None:
-    screen = review(FakeSessions(), "session-7")
-    screen.select_repetition(3)
-    row, time_s = screen.frame_view.row, screen.playing.time_s
-    screen._exclude_repetition(screen.current + 1, PASSIVE, and_after=False)
-    reviewed = screen.reviewed
-    assert build_hand_image(reviewed, row, time_s).words.endswith("°, passive")
-    header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
-    simulated = replace(reviewed, session=replace(reviewed.session, header=header))
-    assert build_hand_image(simulated, row, time_s).words.endswith("°, passive · Simulated hand")
 
 
 def test_saved_frame_shows_hand_alone_is_reported_and_noted(

@@ -46,17 +46,3 @@ def test_place_label_is_nearest_to_its_ring_or_has_a_line() -> None:
             taken.append(plate)
             placed += 1
         assert placed >= 3, seed
-
-
-def test_place_label_four_markers_in_a_row_all_get_one() -> None:
-    points = [QPointF(298, 155), QPointF(336, 152), QPointF(368, 159), QPointF(394, 172)]
-    taken = [QRectF(at.x() - RADIUS, at.y() - RADIUS, 2 * RADIUS, 2 * RADIUS) for at in points]
-    for number, at in enumerate(points):
-        others = [other for one, other in enumerate(points) if one != number]
-        found = place_label(QSizeF(130.0, 26.0), at, RADIUS, taken, others, INSIDE)
-        assert found is not None, number
-        taken.append(found[0])
-
-
-def test_place_label_without_room_returns_none() -> None:
-    assert place_label(QSizeF(130, 26), QPointF(50, 50), RADIUS, [INSIDE], [], INSIDE) is None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import threading
 import time
 from dataclasses import replace
 from functools import lru_cache
@@ -12,29 +11,26 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from PySide6.QtCore import QRectF, Qt
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import resample_evenly
-from carpus.core.model.errors import DiskFull
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import Detections, TrackedFrame, TrackStatus
 from carpus.core.pipeline.live_values import StartMode
 from carpus.ui.charts.history import BUFFER_S, History
-from carpus.ui.charts.live_curves import LiveCurves
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.live import recording as live_recording
-from carpus.ui.screens.live.controls import HEIGHT_PX, StatusLightView
 from carpus.ui.screens.live.marker_doubt import MarkerDoubt, SteadyDoubt, find_doubt, question_light
 from carpus.ui.screens.live.number_card import NumberCard, Reading
 from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
 from carpus.ui.screens.live.repetition_counter import RepetitionCounter
-from carpus.ui.screens.live.status_light import StatusLight, SteadyLight, wrist_light
+from carpus.ui.screens.live.status_light import StatusLight, SteadyLight
 from tests.moments import with_moment
-from tests.ui.conftest import Live, Show
-from tests.ui.fakes import FakeFeed, FakeMeasuring, LateFeed, with_other_spot
+from tests.ui.conftest import Live
+from tests.ui.fakes import FakeFeed, LateFeed, with_other_spot
 from tests.ui.live_tried import TriedLive
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
@@ -99,15 +95,6 @@ def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(live:
     assert tried.screen.recording.duration_s == pytest.approx(10 / 30, abs=0.05)
 
 
-def test_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, live: Live) -> None:
-    tried = live(FakeFeed(), 1.0)
-    tried.measuring.fault = DiskFull("disk")
-    with qtbot.waitSignal(tried.screen.event_received) as told:
-        tried.press(Qt.Key.Key_Space)
-    assert isinstance(told.args[0], DiskFull)
-    assert tried.screen.recording.state == "off"
-
-
 def test_lost_frames_show_no_number_and_a_red_light(live: Live) -> None:
     tried = live(FakeFeed(lost=[(3.0, 20.0)]), 5.0)
     assert math.isnan(tried.reading().value_deg)
@@ -153,31 +140,6 @@ def test_new_frame_is_drawn_at_once_but_drawing_never_takes_all_time(live: Live)
         tried.screen._drawn_at_s, tried.screen._drawing_ms = time.monotonic() - since_s, drawing_ms
         tried.screen.draw_if_due()
         assert (tried.screen.history.last_index == tried.feed.place) == drawn
-
-
-def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(live: Live, theme: Theme) -> None:
-    tried = live(FakeFeed())
-    theme.choose(text_scale=1.5)
-    tried.run(1.0)
-    screen = tried.screen
-    assert screen.number_card.isVisible()
-    assert screen.controls.light_view.isVisible()
-
-
-@pytest.mark.parametrize(("width", "scale"), [(620, 1.0), (430, 1.5)])
-def test_light_is_read_whole_however_narrow_it_is(
-    theme: Theme, show: Show[StatusLightView], width: int, scale: float
-) -> None:
-    theme.choose(text_scale=scale)
-    light = show(StatusLightView(theme))
-    light.show_light(
-        StatusLight("warn", "Mittelfinger-MCP nur zeitweise sichtbar", "Drehen Sie den Handrücken zur Kamera")
-    )
-    room = QRectF(106, 4, width - 118, theme.px(HEIGHT_PX) - 8)
-    (_, _, state), (_, _, remedy) = light._place_lines(room)
-    assert room.contains(state)
-    assert room.contains(remedy)
-    assert not state.intersects(remedy)
 
 
 def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Live) -> None:
@@ -336,31 +298,6 @@ def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Liv
     assert "late" not in screen.controls.light_view.status_light.state
 
 
-def test_stop_says_how_long_catching_up_takes(qtbot: QtBot, live: Live) -> None:
-    tried = live(LateFeed(), 1.0)
-    tried.record()
-    feed, screen = tried.feed, tried.screen
-    caught_up = threading.Event()
-    tried.measuring.stop_recording = lambda: "session-7" if caught_up.wait(60.0) else ""  # type: ignore[method-assign]
-    feed.waiting = 1200
-    with qtbot.waitSignal(screen.recording.stopped):
-        screen.recording.stop()
-        screen._show_values()
-        assert screen.controls.main_button.text() == "Catching up: 12 s left"
-        assert screen.catch_up_bar.isVisible()
-        assert not screen.controls.note_button.isEnabled()
-        assert not screen.controls.pause_button.isEnabled()
-        feed.waiting = 300
-        screen._show_values()
-        assert screen.controls.main_button.text() == "Catching up: 3 s left"
-        assert (screen.catch_up_bar.value(), screen.catch_up_bar.maximum()) == (900, 1200)
-        feed.waiting = 0
-        screen._show_values()
-        assert screen.controls.main_button.text() == "Storing…"
-        caught_up.set()
-    assert not screen.catch_up_bar.isVisible()
-
-
 # --- pieces -----------------------------------------------------------------------------------------------
 def test_history_keeps_ten_seconds_whatever_comes() -> None:
     feed = FakeFeed()
@@ -398,28 +335,6 @@ def test_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_does_a
     assert light.update(StatusLight("bad", "c", ""), 4.0).rank == "bad"
 
 
-def test_light_names_one_hidden_marker_and_its_remedy() -> None:
-    frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
-    lamp = wrist_light(frame, MARKERS, False)
-    assert lamp.state == "Thumb CMC occluded"
-    assert lamp.remedy == "Turn the thumb side up"
-    assert wrist_light(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
-    assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Forearm moved"
-
-
-def test_curves_scroll_on_fixed_scales(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    history = History(WRIST6)
-    curves = LiveCurves(theme, history)
-    qtbot.addWidget(curves)
-    curves.resize(696, 396)
-    scales = []
-    for end in (60, 200, 590):
-        history.append(feed.frames[:end])
-        scales.append([(panel.scale.low, panel.scale.high, panel.box) for panel, _ in curves.panels()])
-    assert scales[0] == scales[1] == scales[2]
-
-
 # --- begun with no hand at the keyboard: over a still hand, counted down, taken back by one key ----------
 FPS = 30.0
 
@@ -454,13 +369,6 @@ def test_hand_that_moves_or_goes_while_it_is_counted_waits_again(what: str) -> N
     assert math.isnan(begun(beginning, lambda _: disturbed, STILL_S + 1.2, STILL_S + 1.0))
     assert (beginning.is_waiting, beginning.is_counting) == (True, False)
     assert begun(beginning, lambda _: 0.0, 60.0, STILL_S + 1.2) >= 2.0 * STILL_S + COUNTDOWN_S
-
-
-def test_after_the_key_it_is_counted_whatever_the_hand_does() -> None:
-    beginning = StartTrigger()
-    beginning.start_countdown(5.0)
-    assert [beginning.remaining_s(time_s) for time_s in (5.0, 6.5, 7.9)] == [3, 2, 1]
-    assert begun(beginning, lambda t: 40.0 * math.sin(3.0 * t), 60.0, 5.0) == pytest.approx(5.0 + COUNTDOWN_S, abs=0.05)
 
 
 def waiting(live: Live, mode: StartMode) -> TriedLive:
@@ -502,14 +410,6 @@ def test_over_a_still_hand_a_recording_begins_by_itself_but_in_no_rest(qtbot: Qt
     tried.run(STILL_S + COUNTDOWN_S)
     qtbot.waitUntil(lambda: feed.is_recording and screen.recording.counter is not None)
     assert screen.controls.main_button.text() == "Stop and review"
-
-
-def test_stored_recording_is_played_at_once(qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(FakeMeasuring, "is_playback", True)
-    tried = waiting(live, "countdown")
-    tried.run(1.0)
-    tried.press(Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: tried.feed.is_recording)
 
 
 # --- the live count: whenever it is asked for, what the measures find in all that was recorded -----------

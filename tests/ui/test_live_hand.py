@@ -8,8 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from pytestqt.qtbot import QtBot
 
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import HAND21, joint_angle_names
@@ -17,17 +15,15 @@ from carpus.core.model.types import TrackedFrame, TrackStatus
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.values import Session
-from carpus.ui.charts.finger_curves import angle_suffix
 from carpus.ui.charts.history import History
-from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.live.number_card import NumberCard, Reading
+from carpus.ui.screens.live.number_card import Reading
 from carpus.ui.screens.live.repetition_counter import RepetitionCounter
-from carpus.ui.screens.live.status_light import hand_light, hand_map_words
+from carpus.ui.screens.live.status_light import hand_light
 from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
 from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle, find_finger_angle
 from tests.moments import with_moment
 from tests.ui.conftest import Live
-from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
+from tests.ui.fakes import FakeFeed
 from tests.ui.hand_fakes import hand_session
 
 MARKERS = HAND21.markers
@@ -79,22 +75,6 @@ def test_live_hand_values_match_joint_and_abduction_sign() -> None:
     assert sd[0, column] == pytest.approx(math.hypot(sds["MCP3_flexion"], 5 / 3 * sds["PIP3_flexion"]))
 
 
-def test_live_hand_with_free_dip_infers_nothing() -> None:
-    frame = feed_of().frames[10]
-    free = joint_angle_names(dip_free=True)
-    frame = with_moment(
-        frame,
-        joint_angles_rad=np.radians(np.arange(21.0)),
-        joint_angles_sd_rad=np.full(21, 0.1),
-        joint_velocity_rad_s=np.zeros(21),
-    )
-    history = History(HAND21)
-    history.append([frame])
-    end = FINGER_ANGLES.index(FingerAngle(4, "end"))
-    assert history.angle_value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
-    assert not history.is_inferred(end)
-
-
 def test_joint_counts_as_measured_only_while_marker_beyond_it_is_seen() -> None:
     hidden = [(0.0, 9.0, name) for name in ("DIP4", "TIP4", "MCP1")]
     history = History(HAND21)
@@ -126,14 +106,6 @@ def test_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s: 
     assert len(history.angle_block().series(0).gaps_s()) == 1
 
 
-def test_band_of_hidden_joint_grows() -> None:
-    history = History(HAND21)
-    history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])
-    sd = history.angle_block().series(FINGER_ANGLES.index(FingerAngle(2, "middle"))).sd
-    assert sd[-1] > 3.0 * sd[0]
-    assert np.all(np.diff(sd[len(sd) // 2 :]) >= 0.0)
-
-
 def test_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: Live) -> None:
     tried = live(feed_of([(1.0, 9.0, "PIP3"), (1.0, 9.0, "DIP3")]))
     tried.record()
@@ -153,61 +125,11 @@ def test_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: Liv
     assert "no value" not in screen.number_card.movement_name()
 
 
-def test_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
-    tried = live(feed_of(), CLOSED_S)
-    feed, screen = tried.feed, tried.screen
-    assert screen.number_card.movement_name() == "Middle finger, MCP"
-    assert screen.number_card.reading.target_positive_deg == 90.0
-    spot = screen.finger_curves.cell(FingerAngle(4, "knuckle")).center().toPoint()
-    qtbot.mouseClick(screen.finger_curves.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
-    assert screen.number_card.movement_name() == "Ring finger, MCP"
-    assert math.isnan(screen.number_card.reading.target_positive_deg)  # the target is the trained joint's
-    angle = feed.frames[feed.place].kinematics.joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
-    assert screen.number_card.reading.value_deg == pytest.approx(math.degrees(angle))
-    screen.show_angle(screen.number_card.reading.with_next_angle())
-    screen.show_angle(screen.number_card.reading.with_next_finger())
-    assert screen.number_card.movement_name() == "Little finger, PIP"
-    for _ in range(3):
-        screen.show_angle(screen.number_card.reading.with_next_angle())
-    assert screen.number_card.movement_name() == "Little finger, total active motion (TAM)"
-
-
-def test_spreading_says_its_side_and_the_thumbs_lift_runs_from_the_palms_plane(qtbot: QtBot, theme: Theme) -> None:
-    card = NumberCard(theme)
-    qtbot.addWidget(card)
-    for value, words in (
-        (2.0, "Ring finger, spread, out"),
-        (-2.0, "Ring finger, spread, in"),
-        (0.2, "Ring finger, spread"),
-    ):
-        card.show_reading(Reading(figure=FingerAngle(4, "spread"), value_deg=value, sd_deg=1.0))
-        assert card.movement_name() == words
-        assert angle_suffix(FingerAngle(4, "spread"), value) == words.removeprefix("Ring finger, spread").removeprefix(
-            ", "
-        )
-    lift = FingerAngle(1, "middle")
-    assert lift.joint == "CMC1_abduction"
-    assert (lift.range_deg, lift.range_end_names) == (
-        (0.0, 60.0),
-        ("In the plane of the palm (0°)", "Palmar abduction 60°"),
-    )
-    assert angle_suffix(lift, 20.0) == "palm. abd."
-
-
 def test_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
     tried = live(feed_of(lost=[(1.0, 9.0)]), 2.0)
     assert math.isnan(tried.reading().value_deg)
     assert all(math.isnan(value) for value, _, _ in tried.screen.finger_curves._values.values())
     assert tried.screen.controls.light_view.status_light.rank == "bad"
-
-
-def test_wrist_keeps_its_own_screen(live: Live) -> None:
-    screen = live(feed_of()).screen
-    parts = (screen.finger_curves, screen.hand_map, screen.curves)
-    assert [part.isVisible() for part in parts] == [True, True, False]
-    screen.open_source(FakeMeasuring(FakeFeed(seconds=8.0)), set_up())
-    screen._timer.stop()
-    assert [part.isVisible() for part in parts] == [False, False, True]
 
 
 @pytest.mark.parametrize(
@@ -227,21 +149,6 @@ def test_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], stat
     lamp = hand_light(frame, {name: "hidden" if name in hidden else "seen" for name in MARKERS})
     assert (lamp.state, lamp.remedy) == (state, remedy)
     assert lamp.rank == ("warn" if hidden else "good")
-
-
-def test_map_says_it_in_one_sentence() -> None:
-    seen = dict.fromkeys(MARKERS, "seen")
-    assert hand_map_words(seen) == "All markers visible. Every joint is measured."  # type: ignore[arg-type]
-    assert "follow the PIP joints" in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
-    assert "Every joint is measured" not in hand_map_words(seen, dip_inferred=True)  # type: ignore[arg-type]
-    sentence = hand_map_words(seen | {"TIP4": "hidden"})  # type: ignore[arg-type]
-    assert sentence == "Ring fingertip occluded: raise the hand. Occluded joints are not analysed."
-    assert "only at times" in hand_map_words(seen | {"TIP4": "partly"})  # type: ignore[arg-type]
-
-
-def test_predicted_frame_supports_no_joint() -> None:
-    frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
-    assert not estimate_finger_angles(HAND21, [frame])[3].any()
 
 
 @pytest.mark.parametrize("exercise", ["FIST_COMPOSITE", "FIST_HOOK"])

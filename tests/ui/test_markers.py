@@ -7,13 +7,12 @@ import threading
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.calibration.result import CalibrationFinding, Clicks
 from carpus.core.model.hand.protocols import HAND21, WRIST6
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.language import use_language
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.markers.label_state import LabelState
 from carpus.ui.screens.markers.marker_frame import MarkerFrameView
@@ -21,7 +20,6 @@ from carpus.ui.screens.markers.screen import MarkersScreen
 from carpus.ui.shell.view_models import CalibrationAssessment, LabelProposal
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCalibrator
-from tests.ui.geometry import painted_texts
 
 
 def walk(qtbot: QtBot, picture: MarkerFrameView, pixel: np.ndarray) -> None:
@@ -139,57 +137,6 @@ def test_whole_way_by_keyboard_alone(qtbot: QtBot, marking: Marking) -> None:
     assert marking.started
 
 
-def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking) -> None:
-    discs_px = marking.begin().disc_px
-    marking.click(*discs_px[:3])
-    assert marking.clicking.current == WRIST6.markers[3]
-    marking.press(Qt.Key.Key_Backspace)
-    assert (marking.clicking.current, set(marking.clicking.confirmed_px)) == (
-        WRIST6.markers[2],
-        set(WRIST6.markers[:2]),
-    )
-    assert "index MCP" in marking.screen.guidance.title_label.text(), "it is asked for again"
-    for _ in range(2):
-        marking.press(Qt.Key.Key_Backspace)
-    assert marking.clicking.current == "WRIST"
-    marking.press(Qt.Key.Key_Tab)
-    marking.click(discs_px[1])
-    assert list(marking.clicking.confirmed_px) == ["CMC1"], "Tab chooses which is clicked next"
-    assert marking.clicking.missing[0] == "WRIST"
-    marking.press(Qt.Key.Key_Backspace)
-    marking.clicking.current = "WRIST"
-    marking.click(discs_px[1])
-    np.testing.assert_allclose(marking.clicking.confirmed_px["WRIST"], discs_px[1])
-    marking.drag(discs_px[1], discs_px[0])
-    np.testing.assert_allclose(marking.clicking.confirmed_px["WRIST"], discs_px[0])
-    marking.screen.picture.set_cursor(discs_px[0])
-    for _ in range(3):
-        marking.press(Qt.Key.Key_Space)
-        assert (set(marking.clicking.confirmed_px), marking.clicking.current) == ({"WRIST"}, "CMC1")
-        assert marking.screen.picture.no_marker_words == "Already the wrist"
-
-
-def test_cursor_of_last_frame_is_forgotten(qtbot: QtBot, marking: Marking) -> None:
-    picture = marking.screen.picture
-    qtbot.mouseMove(picture, marking.at(marking.begin().disc_px[0]))
-    marking.press(Qt.Key.Key_Right)
-    assert picture.cursor_px is not None
-    marking.begin()
-    assert picture.cursor_px is None
-    marking.press(Qt.Key.Key_Space)
-    assert not marking.clicking.confirmed_px
-
-
-def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, marking: Marking) -> None:
-    marking.begin()
-    marking.judge_all()
-    marking.screen.close_calibrator()
-    following = marking.begin()
-    assert marking.clicking is None or not marking.clicking.confirmed_px
-    qtbot.wait(50)
-    assert not following.judged
-
-
 def test_markers_pending_result_is_dropped_for_new_frame(
     qtbot: QtBot, screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -214,20 +161,6 @@ def test_markers_pending_result_is_dropped_for_new_frame(
     assert calibrator.begun is None
 
 
-def test_click_next_to_every_marker_sets_nothing_and_says_so(qtbot: QtBot, marking: Marking) -> None:
-    marking.begin()
-    screen = marking.screen
-    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))
-    assert not screen.labels.confirmed_px
-    assert "No blue marker" in screen.picture.no_marker_words
-    with painted_texts(screen) as painted:
-        screen.grab()
-    shift, loupe = screen.picture.mapTo(screen, QPoint()), screen.picture.loupe_box()
-    told = [one for one in painted if one.text in screen.picture.no_marker_words]
-    assert " ".join(one.text for one in told) == screen.picture.no_marker_words
-    assert all(loupe.translated(shift).contains(one.box) for one in told), "within the loupe"
-
-
 def test_swapped_markers_are_exchanged_by_enter_and_judged_again(marking: Marking) -> None:
     calibrator = marking.begin(CalibrationFinding("swapped", ("MCP2", "MCP3")))
     marking.judge_all()
@@ -237,19 +170,6 @@ def test_swapped_markers_are_exchanged_by_enter_and_judged_again(marking: Markin
     marking.enter()
     np.testing.assert_allclose(marking.judge().pixel[2:4], calibrator.disc_px[[3, 2]])
     assert calibrator.begun is None
-
-
-def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: Marking) -> None:
-    marking.begin(CalibrationFinding("shifted", WRIST6.markers))
-    marking.judge_all()
-    screen = marking.screen
-    assert screen.guidance.verdict_panel.states()[0] == "bad"
-    assert screen.guidance.step_label.text() == "Cannot start yet"
-    assert not screen.second_button.isVisible()
-    screen.start_anyway()
-    marking.enter()
-    assert not marking.started
-    assert marking.clicking.missing == WRIST6.markers
 
 
 def test_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, marking: Marking) -> None:
@@ -287,23 +207,6 @@ def test_given_start_angle_reaches_calibration_with_its_sign(qtbot: QtBot, marki
     assert "Extension 20°" in screen.start_angle_button.text()
 
 
-def test_live_camera_shows_frames_until_one_is_taken(qtbot: QtBot, marking: Marking) -> None:
-    marking.begin(is_live=True)
-    assert marking.clicking is None
-    marking.press(Qt.Key.Key_Space)
-    assert marking.clicking is not None
-    qtbot.mouseClick(marking.screen.new_frame_button, Qt.MouseButton.LeftButton)
-    assert marking.clicking is None
-
-
-def test_undo_walks_back_through_any_order() -> None:
-    clicking = LabelState(WRIST6, "right")
-    for name in ("MCP4", "WRIST", "MCP2"):
-        clicking.current = name
-        clicking.set_label(np.zeros(2), 9.0)
-    assert [clicking.undo() for _ in range(4)] == ["MCP2", "WRIST", "MCP4", ""]
-
-
 # --- names proposed by the program ------------------------------------------------------------------------
 def test_enter_takes_all_proposed_names_and_enter_starts(marking: Marking) -> None:
     calibrator = marking.propose()
@@ -316,27 +219,6 @@ def test_enter_takes_all_proposed_names_and_enter_starts(marking: Marking) -> No
     assert marking.started
 
 
-def test_doubtful_names_are_said_in_words_and_one_click_settles_each(marking: Marking) -> None:
-    marking.propose(doubtful=("TIP4", "DIP4"))
-    assert "Ring finger DIP, ring fingertip" in marking.screen.guidance.instruction_label.text()
-    marking.click(marking.disc_px("DIP4"), marking.disc_px("TIP4"))
-    assert set(marking.clicking.confirmed_px) == {"DIP4", "TIP4"}
-    assert not marking.clicking.doubtful
-
-
-def test_wrong_proposal_is_dragged_to_its_marker_and_names_change_places(marking: Marking) -> None:
-    marking.propose()
-    clicking, tip, other = marking.clicking, marking.disc_px("TIP2"), marking.disc_px("TIP3")
-    marking.drag(tip, other)
-    np.testing.assert_allclose(clicking.confirmed_px["TIP2"], other)
-    clicking.current = "TIP3"
-    clicking.set_label(tip, 10.0)
-    assert {"TIP2", "TIP3"} <= set(clicking.confirmed_px)
-    clicking.current = "TIP2"
-    clicking.set_label(tip, 10.0)  # onto a disc that has a name: the two change places
-    np.testing.assert_allclose(clicking.confirmed_px["TIP3"], other)
-
-
 def test_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
     calibrator = marking.propose(not_found=("TIP1",))
     assert "thumb tip" in marking.screen.guidance.title_label.text()
@@ -344,92 +226,6 @@ def test_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
     assert marking.clicking.missing == ("TIP1",)
     marking.click(marking.disc_px("TIP1"))
     np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
-
-
-def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(marking: Marking) -> None:
-    calibrator, screen = marking.propose("wrist6"), marking.screen
-    assert not screen.has_labels, "proposals come back by themselves: only what a person named is missed"
-    assert screen.primary_button.text() == "Labels are correct"
-    assert screen.primary_button.visible_key == "Enter"
-    marking.press(Qt.Key.Key_Return)
-    assert screen.has_labels
-    np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
-    assert screen.primary_button.text() == "Start measuring"
-
-
-@pytest.mark.parametrize("scale", [1.0, 1.5])
-def test_markers_labels_do_not_cover_targets(qtbot: QtBot, screen: MarkersScreen, theme: Theme, scale: float) -> None:
-    theme.choose(text_scale=scale)
-    calibrator = FakeCalibrator()
-    screen.open_calibrator(calibrator)
-    picture = screen.picture
-    qtbot.waitUntil(lambda: picture.width() > 400)
-    discs = [picture.to_screen(*map(float, pixel)) for pixel in calibrator.disc_px]
-    for named in (0, 1, 3, 6):
-        rings = []
-        for name, pixel, at in zip(calibrator.protocol.markers[:named], calibrator.disc_px, discs, strict=False):
-            screen.labels.confirmed_px[name], screen.labels.widths_px[name] = pixel, 10.0
-            rings.append((name, at, 13.0))
-        plates = picture.label_plates(rings, "")
-        assert [one.name for one in plates] == list(calibrator.protocol.markers[:named]), "every name has its place"
-        for one in plates:
-            assert not any(one.plate.adjusted(-8, -8, 8, 8).contains(at) for at in discs), one.name
-            assert not any(one.plate.intersects(other.plate) for other in plates if other is not one)
-
-
-def test_markers_long_labels_shorten_to_finger(qtbot: QtBot, screen: MarkersScreen, theme: Theme) -> None:
-    theme.choose(text_scale=1.5)
-    calibrator = FakeCalibrator()
-    screen.open_calibrator(calibrator)
-    picture = screen.picture
-    qtbot.waitUntil(lambda: picture.width() > 400)
-    picture.resize(485, 452)
-    picture.blobs_px = np.empty((0, 2))
-    # the hand as the simulated camera shows it enlarged, from wrist and thumb to the little finger
-    at = [(280, 361), (242, 335), (225, 189), (271, 185), (311, 193), (341, 211)]
-    rings = [(name, QPointF(*one), 17.0) for name, one in zip(calibrator.protocol.markers, at, strict=True)]
-    with use_language("de"):
-        plates = picture.label_plates(rings, "")
-    assert [one.name for one in plates] == list(calibrator.protocol.markers), "every name has its place"
-    assert plates[-1].words == "Kleinfinger"
-
-
-def test_markers_can_all_be_clicked_manually(qtbot: QtBot, marking: Marking) -> None:
-    calibrator = marking.propose()
-    qtbot.mouseClick(marking.screen.second_button, Qt.MouseButton.LeftButton)
-    assert not marking.clicking.proposals
-    np.testing.assert_allclose(marking.judge_all(off_px=1.0).pixel, calibrator.disc_px)
-
-
-def test_bad_frame_is_taken_again_by_enter_and_wrong_names_are_not(marking: Marking) -> None:
-    calibrator, screen = marking.begin(TILT, is_live=True), marking.screen
-    marking.press(Qt.Key.Key_Space)
-    marking.judge_all()
-    assert screen.primary_button.text() == "New picture"
-    assert screen.click_again_button.isVisible()
-    marking.enter()
-    assert screen.labels is None
-    calibrator.findings = (CalibrationFinding("misnamed", ("MCP4",)),)
-    marking.press(Qt.Key.Key_Space)
-    marking.judge_all()
-    assert screen.primary_button.text() == "Correct labels"
-    assert screen.picture.wrong_labels == {"MCP4"}
-    marking.enter()
-    assert screen.picture.hasFocus()
-    assert screen.labels.is_complete
-
-
-def test_markers_swapped_fingers_are_exchanged_by_key(qtbot: QtBot, marking: Marking) -> None:
-    names = [f"{joint}{k}" for k in (3, 4) for joint in ("MCP", "PIP", "DIP", "TIP")]
-    calibrator = marking.propose()
-    calibrator.findings = (CalibrationFinding("swapped", tuple(names)),)
-    marking.press(Qt.Key.Key_Return)
-    marking.judge()
-    calibrator.findings = ()
-    qtbot.keyClick(marking.screen.focusWidget(), Qt.Key.Key_S)
-    judged = marking.judge().pixel
-    rows = [marking.clicking.order.index(name) for name in names]
-    np.testing.assert_allclose(judged[rows], calibrator.disc_px[[*rows[4:], *rows[:4]]])
 
 
 def test_enter_never_takes_a_doubtful_name_unseen(marking: Marking) -> None:
@@ -463,27 +259,6 @@ def test_proposed_name_dropped_on_taken_marker_changes_places_with_it() -> None:
     assert not clicking.set_label(places["WRIST"], 9.0), "one that was nowhere takes the disc: names are asked for anew"
 
 
-def test_names_that_are_proposed_leave_the_marker_that_a_person_has_gone_to() -> None:
-    clicking = LabelState(HAND21, "right")
-    proposed = {"WRIST": LabelProposal(np.array([20.0, 0.0]), 9.0, True)}
-    clicking.set_proposals(proposed)
-    assert clicking.current == HAND21.markers[1], "the first that has no name"
-    clicking.step(3)
-    gone_to = clicking.current
-    clicking.set_proposals(proposed)
-    assert clicking.current == gone_to
-    clicking.set_label(np.array([90.0, 0.0]), 9.0)
-    clicking.set_proposals(proposed)
-    assert clicking.current == HAND21.markers[1]
-
-
-def test_loupe_keeps_off_markers(marking: Marking) -> None:
-    picture = marking.screen.picture
-    for pixel in marking.propose().disc_px:
-        picture.set_cursor(pixel)
-        assert not picture.loupe_box().adjusted(-30, -20, 30, 20).contains(picture.to_screen(*map(float, pixel)))
-
-
 def test_markers_alternative_blob_is_shown_and_accepted(qtbot: QtBot, marking: Marking) -> None:
     spot = tuple(map(float, FakeCalibrator().disc_px[3] + 25.0))
     calibrator = marking.begin(CalibrationFinding("other_spot", ("MCP3",), spot_px=spot))
@@ -496,14 +271,6 @@ def test_markers_alternative_blob_is_shown_and_accepted(qtbot: QtBot, marking: M
     qtbot.keyClick(screen.primary_button, Qt.Key.Key_Return)
     assert tuple(marking.judge().pixel[3]) == spot
     assert screen.picture.questioned_blobs == []
-
-
-def test_frame_without_markers_says_so(screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch) -> None:
-    calibrator = FakeCalibrator()
-    for seen, said in ((0, True), (6, False)):
-        monkeypatch.setattr(calibrator, "count_candidates", lambda seen=seen: seen)
-        screen.open_calibrator(calibrator) if said else screen.freeze_frame()
-        assert ("No blue marker" in screen.guidance.title_label.text()) is said
 
 
 def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, marking: Marking) -> None:
@@ -534,3 +301,16 @@ def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, marking: Ma
     marking.judge()
     marking.enter()
     assert marking.started
+
+
+def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: Marking) -> None:
+    marking.begin(CalibrationFinding("shifted", WRIST6.markers))
+    marking.judge_all()
+    screen = marking.screen
+    assert screen.guidance.verdict_panel.states()[0] == "bad"
+    assert screen.guidance.step_label.text() == "Cannot start yet"
+    assert not screen.second_button.isVisible()
+    screen.start_anyway()
+    marking.enter()
+    assert not marking.started
+    assert marking.clicking.missing == WRIST6.markers

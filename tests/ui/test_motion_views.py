@@ -7,29 +7,22 @@ from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
-import pytest
 from PySide6.QtCore import QRectF
-from PySide6.QtGui import QColor, QFontMetricsF
 from pytestqt.qtbot import QtBot
 
 from carpus.core.results.motion_curves import compute_motion_curves
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.valid_data import wrist_curves
-from carpus.ui.charts.axes import Panel
 from carpus.ui.charts.motion import MotionPlot
-from carpus.ui.charts.paths import MIN_SPAN_MM, PathsChart, finger_paths, has_title, plane_panels, wrist_path
-from carpus.ui.charts.style import screen_style
+from carpus.ui.charts.paths import PathsChart, finger_paths
 from carpus.ui.kit.cells import Cell
-from carpus.ui.kit.text import Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.builders import write_session_report
-from carpus.ui.screens.patients.card import PatientCardView
 from carpus.ui.screens.review.charts import WRIST
-from carpus.ui.shell.view_models import PatientCard
-from carpus.ui.words.fingers import finger_table, main_result_words
+from carpus.ui.words.fingers import finger_table
 from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
-from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
+from tests.ui.fakes import NOW, FakeSessions, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.printed import words_of
 
@@ -37,27 +30,6 @@ BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 
 
 # --- ways -------------------------------------------------------------------------------------------------
-@pytest.fixture
-def panels(theme: Theme) -> list[Panel]:
-    return plane_panels(screen_style(theme), BOX, 12.0)
-
-
-def test_paths_chart_fits_panel_with_one_scale(qtbot: QtBot, theme: Theme) -> None:
-    curves = compute_motion_curves(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    chart = shown(qtbot, theme)
-    for plot in (wrist_path(curves), finger_paths(curves, 0), finger_paths(curves, 1), finger_paths(curves, 3)):
-        chart.show_plot(plot)
-        scales = set()
-        for item in chart._planes:
-            panel = item.plot.local_panel
-            for way in plot.paths:
-                x, y = item._project_positions(panel, way.position_mm)
-                room = panel.box.adjusted(-1, -1, 1, 1)
-                assert all(room.contains(float(end(x)), float(end(y))) for end in (np.nanmin, np.nanmax))
-            scales.add(round(plot.per_mm(panel.box), 9))
-        assert len(scales) == 1
-        box = chart.panels()[0].box
-        assert plot.bar_mm(box) * scales.pop() <= 0.31 * box.width()
 
 
 def shown(qtbot: QtBot, theme: Theme) -> PathsChart:
@@ -66,24 +38,6 @@ def shown(qtbot: QtBot, theme: Theme) -> PathsChart:
     chart.resize(720, 300)
     chart.show()
     return chart
-
-
-def test_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> None:
-    style = screen_style(theme)
-    line = QFontMetricsF(style.label_font).height() + 4 * style.unit
-    seen = set()
-    for height in range(60, 320):
-        box = QRectF(0.0, 0.3, 700.0, float(height))
-        panel = plane_panels(style, box, 14.0)[0]
-        seen.add(has_title(style, panel))
-        assert panel.box.bottom() + (line if has_title(style, panel) else 0.0) <= box.bottom() + 1.0, height
-    assert seen == {True, False}
-
-
-def test_still_hand_is_not_blown_up(panels: list[Panel]) -> None:
-    plot = wrist_path(compute_motion_curves(hand_session(exercise="THUMB_OPP", motion="opposition")))
-    assert float((plot.high_mm - plot.low_mm).max()) < MIN_SPAN_MM
-    assert plot.per_mm(panels[0].box) * MIN_SPAN_MM <= panels[0].box.width() + 1e-9
 
 
 def test_thumb_side_is_on_its_side_of_panel_for_both_hands(qtbot: QtBot, theme: Theme) -> None:
@@ -98,16 +52,6 @@ def test_thumb_side_is_on_its_side_of_panel_for_both_hands(qtbot: QtBot, theme: 
             float(np.nanmean(item._project_positions(item.plot.local_panel, way.position_mm)[0])) for way in plot.paths
         ]
         assert (x[0] < x[4]) is thumb_left
-
-
-def test_way_and_hand_s_axes_are_really_drawn(qtbot: QtBot, theme: Theme) -> None:
-    chart = shown(qtbot, theme)
-    chart.show_plot(wrist_path(compute_motion_curves(session())))
-    chart.set_time(20.0)
-    picture, box = chart.grab().toImage(), chart.panels()[0].box.toRect()
-    rows, columns = range(box.top(), box.bottom()), range(box.left(), box.right())
-    seen = {picture.pixelColor(x, y).name() for x in columns for y in rows}
-    assert {QColor(token).name() for token in (theme.tokens.accent, theme.tokens.curve_a)} <= seen
 
 
 # --- curves -----------------------------------------------------------------------------------------------
@@ -183,17 +127,6 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     assert task_summary(touched) == "The thumb touched 4 of 4 fingertips"
     assert task_summary(figures_once(hand_session())) == ""
-
-
-def test_list_and_card_say_of_a_reach_what_it_is_about(theme: Theme) -> None:
-    reach = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    assert main_result_words(reach).startswith("Reach 1.")
-    touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
-    assert main_result_words(touched) == "Touched 4 of 4"
-    assert "°" in main_result_words(figures_once(hand_session()))
-    card, said = PatientCardView(theme, NOW.date), task_summary(reach)
-    card.show_card(PatientCard(FakeStore().rows[0], task_summary=said), is_camera_ready=True)
-    assert said in [text.text() for text in card.findChildren(Text) if text.isVisibleTo(card)]
 
 
 def shares_of(figures: SessionResults, other: SessionResults | None = None) -> list[Cell]:

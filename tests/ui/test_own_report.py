@@ -8,32 +8,21 @@ from datetime import date, timedelta
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QImage, QPageSize
-from PySide6.QtPrintSupport import QPrinter
-from PySide6.QtWidgets import QWidget
-from pytestqt.qtbot import QtBot
+from PySide6.QtGui import QColor, QImage
 
 from carpus.app.session_commands import read_report_form
 from carpus.core.model.errors import ConcurrentChange
 from carpus.core.records.clinic_records import read_form, save_form
 from carpus.core.records.store import Store
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
-from carpus.ui.kit.background import Background
 from carpus.ui.kit.language import use_language
-from carpus.ui.kit.theme import Theme
 from carpus.ui.report.builders import build_session_report, write_session_report
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pdf import write_report
-from carpus.ui.report.report import layout_pages as pages_of_report
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.screens.report.dialogs import HomeDialog
-from carpus.ui.screens.report.panel import fill_sentence
-from carpus.ui.screens.report.screen import PAGE_SIZES, ReportScreen, default_file_name, make_printer, print_pages
 from carpus.ui.screens.settings.report_card import LogoError, logo_png
 from carpus.ui.words.patient import task_words
-from carpus.ui.words.session import warning_lines
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
@@ -73,20 +62,6 @@ def test_report_is_not_cut_on_a4_or_letter(paper: Paper, tmp_path: Path) -> None
     for number in range(120):
         assert f"Line {number} of what" in words
     assert tool("pdfimages", "-list", str(path)).count("image") >= 1
-
-
-@pytest.mark.parametrize("printed", PAPERS)
-def test_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
-    made = report(form=ReportForm(paper="a4"), comment="Splint.")
-    pages = pages_of_report(made)
-    printer = make_printer(made, len(pages))
-    printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
-    printer.setOutputFileName(str(tmp_path / "p.pdf"))
-    printer.setPageSize(QPageSize(PAGE_SIZES[printed]))
-    print_pages(printer, pages)
-    assert pages_of(tmp_path / "p.pdf") == 2
-    assert reach_of(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
-    assert "as measured live" in words_of(tmp_path / "p.pdf")
 
 
 def test_report_mandatory_sections_stay(tmp_path: Path) -> None:
@@ -133,26 +108,6 @@ def test_report_invalid_logo_is_refused(tmp_path: Path) -> None:
     for name, said in refused.items():
         with pytest.raises(LogoError, match=said):
             logo_png(tmp_path / name)
-
-
-def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured() -> None:
-    made = report()
-    assert re.fullmatch(
-        r"\d+° ± \d+° and not measured, {other}",
-        fill_sentence("{flexion} and {radial}, {other}", made).replace("\u202f", " ").replace("\xa0", " "),
-    )
-    assert "13 Nov" in fill_sentence("{change}", made)
-    assert fill_sentence("{change}", replace(made, previous=None)) == "Not measured."
-
-
-def test_report_of_older_result_says_that_newer_one_counts() -> None:
-    store = FakeSessions()
-    session = store.session("session-7")
-    made = build_session_report(session).results
-    newer = replace(made, session_id="newer", created=made.when + timedelta(days=1))
-    said = "An older result: there is a newer one of the same recording."
-    for history, is_older in (((), False), ((newer,), True), ((made, replace(newer, recording_id="another")), False)):
-        assert (said in warning_lines(build_session_report(session, history=history).results)) is is_older
 
 
 @pytest.mark.parametrize(("language", "hand"), [("en", False), ("de", False), ("de", True)])
@@ -227,91 +182,11 @@ def test_dialog_for_home_has_no_bad_news() -> None:
     assert build_home_progress(worse, history, {}) is None
 
 
-def test_dialog_for_home_asks_in_window_and_goes_back(
-    qtbot: QtBot, theme: Theme, host: QWidget, tmp_path: Path
-) -> None:
-    sheet, asked = HomeDialog(host, theme), []
-    sheet.requested.connect(asked.append)
-    sheet.open_form(report(), date(2026, 11, 20))
-    for name in ("FIST_COMPOSITE", "THUMB_OPP"):
-        sheet.exercise_checks[name].click()
-    assert not sheet.exercise_checks["FIST_HOOK"].isEnabled(), "there is room for three"
-    qtbot.keyClick(sheet, Qt.Key.Key_Return)
-    assert [task.exercise.id for task in asked[0].tasks] == ["WRIST_FE", "FIST_COMPOSITE", "THUMB_OPP"]
-    assert asked[0].next_appointment is None, "nobody chose a day"
-    sheet.form["times"].setValue(42)
-    sheet.open_form(report(), date(2026, 11, 20))
-    assert sheet.form["times"].value() == 10, "what the last patient was told is nobody else's"
-    for typed, asked_for in (("31.2.2027", "Day, month, year"), ("1.11.2026", "over"), ("soon", "Day, month, year")):
-        sheet.appointment.setEditText(typed)
-        assert asked_for in sheet.accept_button.text()
-        assert not sheet.accept_button.isEnabled(), typed
-    sheet.appointment.setEditText("3.2.2027")
-    sheet.form["note"].setText("n" * 170)
-    assert (sheet.accept_button.text(), len(sheet.form["note"].text())) == ("Line: 10 characters too long", 170)
-    sheet.form["note"].setText("Bring the splint")
-    sheet.form["language"].choose("it")
-    sheet.accept_button.click()
-    plan = asked[-1].plan
-    assert (plan.again, plan.note, plan.language) == (date(2027, 2, 3), "Bring the splint", "it")
-    sheet.open_form(report(), date(2026, 12, 20), plan)
-    sheet.accept_button.click()
-    assert asked[-1].plan == replace(plan, made=date(2026, 12, 20)), "until that day has come"
-    sheet.open_form(report(), date(2027, 2, 3), plan)
-    assert (sheet.form["note"].text(), sheet.form["language"].value()) == ("", "it")
-    sheet.appointment.setCurrentIndex(0)
-    sheet.accept_button.click()
-    assert asked[-1].next_appointment is None
-    sheet.open_form(report(), date(2026, 11, 20))
-    assert (sheet.form["note"].text(), sheet.form["language"].value()) == ("", "en"), "the language is the patient's"
-    sheet.close_dialog()
-    background = Background()
-    screen = ReportScreen(theme, background)
-    qtbot.addWidget(screen)
-    wanted = []
-    screen.home_sheet_requested.connect(wanted.append)
-    screen.show_report(asked[0].report, "")
-    screen.show()
-    before = screen.save_button.geometry()
-    with qtbot.waitSignal(screen.saved):
-        screen.save(str(tmp_path / "report"))
-    qtbot.waitUntil(screen.path_text.isVisible)
-    assert screen.save_button.geometry() == before, "what was pressed stays where it was"
-    screen.home_button.click()
-    assert wanted == [asked[0].report]
-    screen.show_report(asked[0], "")
-    assert screen.save_state.text() == "Not saved yet"
-    assert default_file_name(asked[0]).endswith("_wrist-fe_home.pdf")
-    screen.back_button.click()
-    assert screen.report == asked[0].report
-    assert (screen.save_state.text(), screen.path_text.text()) == ("Saved", str(tmp_path / "report.pdf"))
-    assert not screen.show_parent_report(), "from the report itself Esc leads on"
-
-
 def test_letter_names_no_one_unless_asked(tmp_path: Path) -> None:
     made = report()
     words = words_of(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
     kept = ("Dr A", "Vienna", "22 Nov 2026", "Total arc", "± ", "first session on", LEGAL_SENTENCE[:60])
     assert all(one in words for one in (f"camera: {made.pseudonym} Dear", *kept))
-
-
-def test_comment_next_to_preview_is_reported_once_it_is_written(theme: Theme) -> None:
-    screen = ReportScreen(theme, Background())
-    told: list[tuple[str, str]] = []
-    screen.panel.comment_saved.connect(lambda session, text: told.append((session, text)))
-    screen.show_report(report(), "")
-    screen.panel.comment.setPlainText("Before.")
-    screen.panel.comment.moveCursor(screen.panel.comment.textCursor().MoveOperation.End)
-    screen.panel.sentence_box.setEditText("Flexion {radial}.")
-    screen.panel.insert_button.click()
-    screen.panel.save_comment()
-    screen.panel.save_comment()
-    assert [text for _, text in told] == ["Before. Flexion not measured."]
-    screen.panel.section_checks["bars"].setChecked(False)
-    shown = screen.report
-    assert isinstance(shown, SessionReport)
-    assert shown.comment == "Before. Flexion not measured."
-    assert shown.form.excluded_sections == {"bars", "diagnosis"}
 
 
 def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None:

@@ -11,15 +11,12 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.hand.exercises import EXERCISES, get_exercise
-from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.hand_pose import build_pose, find_arc
 from carpus.ui.picture.movement_guide import LOST_AFTER_S, ExerciseGuide, ExerciseSnapshot, GuideScene
-from carpus.ui.screens.live.screen import LiveScreen
 from carpus.ui.screens.patient.view import PatientView
-from carpus.ui.screens.patient.view_controller import PatientViewController, PatientWindow
-from carpus.ui.words.patient import PatientWords, patient_words
-from tests.ui.contexts import Told, a_context
+from carpus.ui.screens.patient.view_controller import PatientWindow
+from carpus.ui.words.patient import patient_words
 from tests.ui.fakes import set_up
 
 NONE = math.nan
@@ -72,12 +69,6 @@ def test_missed_goal_is_not_said_and_way_just_empties() -> None:
     assert words <= {"One moment.", "", "A little further", "And back"}
 
 
-def test_small_movements_without_a_goal_are_followed_too() -> None:
-    guide = ExerciseGuide(get_exercise("FINGER_ABAD"), NONE, NONE)
-    values = [2 + 8 * math.sin(0.25 * k) ** 2 for k in range(40)]
-    assert phases(walk(guide, values))[1:4] == [("out", 1), ("back", 1), ("out", 1)]
-
-
 @pytest.mark.parametrize("sure", [True, False])
 def test_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
     guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, NONE)
@@ -88,16 +79,6 @@ def test_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
     gone = [scene for k, scene in enumerate(unsure) if 0.1 * k >= LOST_AFTER_S]
     assert all(scene.phase == "lost" and math.isnan(scene.value_deg) for scene in gone)
     assert walk(guide, [22.0] * 5, from_s=1.4)[-1].phase == "out"
-
-
-def test_patient_view_with_lag_does_not_ask_for_dots() -> None:
-    guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, NONE)
-    walk(guide, [20.0] * 5)
-    scenes = [
-        guide.update(ExerciseSnapshot(0.5 + 0.1 * k, state="recording", asked=10, is_late=True)) for k in range(8)
-    ]
-    assert {scene.phase for scene in scenes[int(10 * LOST_AFTER_S) + 1 :]} == {"away"}
-    assert patient_words("WRIST_FE", scenes[-1], "adult") == PatientWords("", "One moment.")
 
 
 def test_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:
@@ -131,23 +112,6 @@ def test_patient_view_covers_every_exercise_and_mirrors_left(qtbot: QtBot, theme
             assert not build_pose(exercise, 25.0).hand.isEmpty()
             arc = find_arc(exercise)
             assert (arc.point(0.0) - arc.point(30.0)).manhattanLength() > 40.0
-
-
-def test_esc_closes_a_view_that_lies_over_the_window(qtbot: QtBot, theme: Theme) -> None:
-    live = LiveScreen(theme, Background())
-    qtbot.addWidget(live)
-    viewing = PatientViewController(
-        a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view
-    )
-    assert not viewing.close_if_covering()
-    viewing.toggle()
-    assert viewing.window is not None
-    qtbot.addWidget(viewing.window)
-    assert viewing.close_if_covering()
-    assert not viewing.is_open
-    viewing.toggle()
-    qtbot.keyClick(viewing.window, Qt.Key.Key_Escape)
-    assert not viewing.is_open
 
 
 def test_window_that_receives_nothing_more_shows_no_hand(qtbot: QtBot, theme: Theme) -> None:

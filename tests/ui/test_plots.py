@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
+from PySide6.QtGui import QColor, QGuiApplication, QImage, QMouseEvent, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -24,14 +24,12 @@ from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.results.valid_data import WristCurves, joint_curves, wrist_curves
-from carpus.ui.charts.axes import Panel, Scale, time_labels
-from carpus.ui.charts.chart import ChartText
+from carpus.ui.charts.axes import Panel, Scale
 from carpus.ui.charts.history import History
 from carpus.ui.charts.live_curves import LiveCurves
-from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate, find_max_step_s
+from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate
 from carpus.ui.charts.session import SessionChart, SessionPlot
-from carpus.ui.charts.style import RIGHT_MIDDLE, draw_text, paper_style, screen_style
-from carpus.ui.kit.numbers import format_with_sd
+from carpus.ui.charts.style import screen_style
 from carpus.ui.kit.theme import Theme
 from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
 from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle
@@ -95,70 +93,6 @@ def test_zoomed_in_a_drag_moves_along_and_all_panels_go_together(qtbot: QtBot, v
     drag(qtbot, view.mouse_target, center(view), 10 * round(box.width()))
     assert view.zoom_range == pytest.approx((0.0, 10.0), abs=1e-6), "no further than the beginning"
     assert [tuple(own.viewRange()[0]) for own in view.plots] == [pytest.approx(view.zoom_range)] * 3
-
-
-def test_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: SessionChart) -> None:
-    panel = view.panels()[0][0]
-    view.set_time(8.0)
-    moved: list[float] = []
-    view.cursor_moved.connect(moved.append)
-    drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
-    assert moved[-1] == pytest.approx(view.to_time(float(panel.x(8.0)) + 60), abs=0.2)
-    assert view.zoom_range is None
-    view.show_window((5.0, 15.0))
-    moved.clear()
-    panel = view.panels()[0][0]
-    drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
-    assert moved
-    assert view.zoom_range == (5.0, 15.0)
-
-
-def test_wheel_alone_is_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
-    assert not wheel(view.mouse_target, center(view), 120), "the page that it lies on scrolls"
-    assert view.zoom_range is None
-    assert wheel(view.mouse_target, center(view), 120, Qt.KeyboardModifier.ControlModifier)
-    assert view.zoom_range is not None
-    view.show_window((20.0, 30.0))
-    wheel(view.mouse_target, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
-    assert view.zoom_range == pytest.approx((21.0, 31.0))
-
-
-def test_keys_zoom_about_the_cursor_and_show_all(view: SessionChart) -> None:
-    view.set_time(10.0)
-    view.zoom_in()
-    start_s, end_s = view.x_range()
-    whole = view.extent()
-    assert end_s - start_s == pytest.approx(whole[1] / 1.25)
-    assert (10.0 - start_s) / (end_s - start_s) == pytest.approx(10.0 / whole[1])
-    for _ in range(40):
-        view.zoom_in()
-    assert np.ptp(view.x_range()) == pytest.approx(2.0)
-    view.show_all()
-    assert view.zoom_range is None
-
-
-def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None:
-    panel, column = view.panels()[0]
-    plot = view._plot
-    at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))
-    time_s, *values = view.describe_values(at)
-    shown = plot.read_values(column, view.to_time(at.x()))[0]
-    assert time_s.startswith("00:1")
-    assert values == [f"{shown.name} {format_with_sd(shown.value_deg, shown.sd_deg)}"]
-    assert "±" in values[0]
-    move(view.mouse_target, at)
-    assert view._hover_label.isVisible()
-    QApplication.sendEvent(view.mouse_target, QEvent(QEvent.Type.Leave))
-    assert not view._hover_label.isVisible()
-
-
-def test_menu_speaks_our_words_and_has_no_other(view: SessionChart) -> None:
-    words = [action.text().split("\t")[0] for action in view.menu.build_menu().actions() if action.text()]
-    assert words == [
-        "Show all", "Zoom in", "Zoom out", "Copy picture", "Save picture (PNG)…", "Save drawing (SVG)…",
-        "Save values (CSV)…",
-    ]  # fmt: skip
-    assert all(box.menu is None for box in view.plots)
 
 
 def test_frame_is_of_print_size_drawing_of_lines_and_folder_that_is_not_there_is_reported(
@@ -234,37 +168,6 @@ def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, rat
     return pixels(image)[..., :3].astype(np.float64)
 
 
-@pytest.mark.parametrize("ratio", [1.0, 1.5])
-def test_curve_in_pieces_looks_like_stroked_one_and_keeps_every_peak(
-    qapp: QApplication, theme: Theme, ratio: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Up and down every dozen pixels, with one sample far out, a gap, and a stretch that is predicted."""
-    time_s = np.arange(0.0, 60.0, 1.0 / 30.0)
-    value = 20.0 * np.sin(3.0 * time_s)
-    value[900] = 83.0
-    value[1200:1230] = math.nan
-    predicted = (time_s > 50.0) & (time_s < 55.0)
-    series = Series(time_s, value, np.full(len(time_s), 2.0), predicted)
-    in_pieces = drawn_series(theme, series, 0.0, 60.0, ratio)
-    monkeypatch.setattr("carpus.ui.charts.series._is_raster", lambda painter: False)
-    stroked = drawn_series(theme, series, 0.0, 60.0, ratio)
-    assert np.abs(in_pieces - stroked).mean() < 5.0
-    tops = [np.flatnonzero((picture < 128).any(axis=(1, 2)))[0] for picture in (in_pieces, stroked)]
-    assert abs(int(tops[0]) - int(tops[1])) <= 1 + round(ratio)
-    ink = [(255 - picture).sum() for picture in (in_pieces, stroked)]
-    assert ink[0] == pytest.approx(ink[1], rel=0.2), "square ends make steep parts a little heavier"
-
-
-def test_dashes_are_half_of_a_line_whether_level_or_steep_and_run_with_it(qapp: QApplication, theme: Theme) -> None:
-    time_s = np.arange(0.0, 30.0, 0.1)
-    for value in (0.0 * time_s, 60.0 * np.sin(3.0 * time_s)):
-        whole, dashed = (Series(time_s, value, None, np.full(len(time_s), on)) for on in (False, True))
-        ink = [(255 - drawn_series(theme, one, 0.0, 30.0, 1.0)).sum() for one in (whole, dashed)]
-        assert 0.4 < ink[1] / ink[0] < 0.85
-        now, later = (drawn_series(theme, dashed.shift_time(now_s), -10.0, 0.0, 1.0) for now_s in (15.0, 16.0))
-        assert np.abs(now[:, 70:590] - later[:, 10:530]).max() <= 8, "a second is 60 pixels"
-
-
 @pytest.mark.parametrize("on_pixels", [True, False])
 @pytest.mark.parametrize("seen", [range(100), range(7, 8), range(0)])
 def test_chart_curve_points_lie_on_data(
@@ -280,24 +183,6 @@ def test_chart_curve_points_lie_on_data(
     assert np.abs(down - expected).max() < 4.0
     reached = np.histogram(across, bins=20, range=(0, 600))[0]
     assert (reached > 20).all(), "no stretch of it is left out"
-
-
-def test_words_stand_at_a_point_or_on_their_side_of_a_box(qapp: QApplication, theme: Theme) -> None:
-    style, box = screen_style(theme), QRectF(0.0, 0.0, 200.0, 40.0)
-
-    def ink(at: QPointF | QRectF, *side: Qt.AlignmentFlag) -> tuple[ByteImage, ByteImage]:
-        image = QImage(200, 40, QImage.Format.Format_RGB32)
-        image.fill(QColor("white"))
-        with QPainter(image) as painter:
-            draw_text(painter, at, "x", style.label_font, style.color("text"), *side)
-        return np.nonzero(pixels(image).min(axis=2) < 160)
-
-    for (down, across), left, right in ((ink(box), 0, 20), (ink(box, RIGHT_MIDDLE), 180, 200)):
-        assert left <= across.min() < across.max() < right
-        assert 15 <= down.min() < down.max() < 26
-    down, across = ink(QPointF(50.0, 39.0))
-    assert 48 < across.min() < across.max() < 65
-    assert 28 < down.min() < down.max() < 40
 
 
 def test_chart_ignores_mouse_during_recording(qtbot: QtBot, theme: Theme) -> None:
@@ -368,61 +253,3 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
         value = 40.0 * np.sin(time_s)
         (gap,) = decimate(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
         assert gap == pytest.approx((50.0, 62.6), abs=1.0)
-
-
-def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_stretch_has_none(
-    qapp: QApplication, theme: Theme
-) -> None:
-    panel = Panel(QRectF(0, 0, 600, 120), Scale(-15.0, 115.0, (90.0, 0.0), ()), 0.0, 20.0)
-    time_s = np.arange(0.0, 20.0, 1 / 30)
-    value = 60.0 + 62.0 * np.sin(6.0 * time_s)
-    sure, picture = np.zeros(len(time_s), dtype=bool), QImage(600, 120, QImage.Format.Format_RGB32)
-    with QPainter(picture) as painter:
-        curves = [Curve(Series(time_s, value + off, None, sure), "curve_a") for off in (0.0, 3.0, 1.0)]
-        numbered = CurveDrawing(screen_style(theme), [(panel, curves)]).paint(painter, screen_style(theme), 0)
-        hidden = Curve(Series(time_s, value, None, value > 80.0), "curve_a")
-        assert CurveDrawing(screen_style(theme), [(panel, [hidden])]).paint(painter, screen_style(theme), 0) == []
-    assert len(numbered) > 2
-    for i, one in enumerate(numbered):
-        assert one.right() <= 600.0
-        assert not any(one.intersects(other) for other in numbered[i + 1 :])
-
-
-@pytest.mark.parametrize("fps", [1.5, 5.0, 30.0])
-def test_recording_of_few_frames_second_is_drawn_and_its_gaps_stay(fps: float) -> None:
-    time_s = np.arange(40) / fps
-    whole = Series(time_s, np.zeros(40), None, np.zeros(40, bool), find_max_step_s(time_s))
-    assert whole.gaps_s() == []
-    value = np.zeros(40)
-    value[10 : 10 + round(0.4 * fps) + 1] = math.nan
-    assert len(replace(whole, value=value).gaps_s()) == 1
-
-
-def test_target_short_of_thumb_up_keeps_its_sign_and_its_words_off_curve(view: SessionChart) -> None:
-    view.show_plot(replace(view._plot, target_positive_deg=-40.0, target_negative_deg=-70.0))
-    panel = view.panels()[0][0]
-    places = {
-        item.toPlainText(): item.sceneBoundingRect() for item in view.scene().items() if isinstance(item, ChartText)
-    }
-    assert places["Goal −40°"].bottom() <= float(panel.y(-40.0))
-    assert places["Goal 70°"].top() >= float(panel.y(-70.0))
-
-
-def test_time_axis_label_at_the_end_lies_within_the_paper(view: SessionChart, monkeypatch: pytest.MonkeyPatch) -> None:
-    ends_px: dict[str, float] = {}
-
-    def note(painter: QPainter, at: QPointF | QRectF, words: str, face: QFont, *_: object) -> None:
-        if isinstance(at, QPointF):
-            ends_px[words] = at.x() + QFontMetricsF(face).horizontalAdvance(words)
-
-    plot = view._plot
-    assert plot is not None
-    time_s = plot.curves.time_s
-    view.show_plot(replace(plot, curves=replace(plot.curves, time_s=time_s * (60.0 / time_s[-1]))))
-    monkeypatch.setattr("carpus.ui.charts.chart.draw_text", note)
-    image = QImage(2000, 900, QImage.Format.Format_RGB32)
-    painter = QPainter(image)
-    view.render_on_paper(painter, paper_style(4), QRectF(0.0, 0.0, 2000.0, 900.0))
-    painter.end()
-    assert time_labels(0.0, 60.0)[-1][1] in ends_px
-    assert max(ends_px.values()) <= 2000.0

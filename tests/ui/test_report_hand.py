@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,26 +15,20 @@ from carpus.core.results.ranges import finger_measure_keys
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import axis_top_deg, panel_keys
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import Cell, cell_text
+from carpus.ui.kit.cells import cell_text
 from carpus.ui.report.builders import (
-    build_progress_report,
     build_session_report,
-    write_progress_report,
     write_session_report,
 )
 from carpus.ui.screens.progress.flow import write_table
-from carpus.ui.words.finger_angles import FingerAngle, format_spread
 from carpus.ui.words.fingers import (
     finger_table,
-    limitation_words,
     progress_choices,
     progress_keys,
-    range_cell,
 )
 from carpus.ui.words.progress import headline
-from carpus.ui.words.session import hand_summary, quality_lines
+from carpus.ui.words.session import hand_summary
 from carpus.ui.words.terms import LEGAL_SENTENCE
-from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.printed import overlapping_words, pages_of, words_of
@@ -81,24 +74,6 @@ def test_report_hand_table_cells_do_not_overlap(store: FakeHandSessions, tmp_pat
         assert overlapping_words(write_session_report(report, tmp_path / f"{number}.pdf")) == []
 
 
-@pytest.mark.parametrize(("exercise", "motion"), [("FIST_HOOK", "hook"), ("", "fist")])
-def test_report_hand_exercises_fit_one_page(tmp_path: Path, exercise: str, motion: str) -> None:
-    made = hand_session(exercise=exercise, motion=motion, hidden=[(0.0, 99.0, "TIP1")])
-    path = write_session_report(made, tmp_path / "h.pdf", history=[figures_once(made)])
-    assert pages_of(path) == 2
-    words = plain(words_of(path))
-    assert LEGAL_SENTENCE in words
-    assert "Not visible: Thumb, IP" in words
-    assert ("TAM: thumb" in words) == (exercise == "")
-
-
-def test_hand_never_tracked_gives_honest_page(tmp_path: Path) -> None:
-    path = write_session_report(hand_session(lost=[(0.0, 99.0)]), tmp_path / "h.pdf")
-    words = plain(words_of(path))
-    assert "index not visible" in words
-    assert "0.0 % of" in words
-
-
 def test_lower_bound_is_gain_when_it_is_beyond_error_and_else_not_judged(store: FakeHandSessions) -> None:
     first, last = (figures_once(store.session(key)) for key in ("hand-3", "hand-7"))
     row = last.find("TAM3", "arc")
@@ -142,14 +117,6 @@ def test_progress_follows_totals_first_and_one_finger_on_request_and_of_the_thum
     assert shown_of(thumb) == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
 
 
-def test_progress_report_of_hand_names_finger(store: FakeHandSessions, tmp_path: Path) -> None:
-    path = write_progress_report(build_progress_report(store.history("x"), choice="4"), tmp_path / "p.pdf")
-    assert pages_of(path) == 1
-    words = plain(words_of(path))
-    assert "Ring finger, TAM" in words
-    assert "Ring finger, PIP" in words
-
-
 def test_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHandSessions, tmp_path: Path) -> None:
     course = compute_progress(store.history("x"), None, finger_measure_keys(0))
     write_table(tmp_path / "t.csv", course)
@@ -162,18 +129,6 @@ def test_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHandSess
         line = last[row.key]
         assert float(line["mean_deg"]) == pytest.approx(row.mean, abs=0.051)
         assert (line["at_least"] == "yes") == row.is_lower_bound
-
-
-def test_report_hand_lower_bound_is_amber() -> None:
-    limited = figures_once(hand_session())
-    lines = {name: (value, fine) for name, value, fine in quality_lines(limited)}
-    value, fine = lines["Minimum (≥) or not visible"]
-    bounds = sum(row.is_lower_bound for row in limited.joint_ranges if row.quantity == "arc")
-    assert value.startswith(f"{bounds} of ")
-    assert bounds
-    assert not fine
-    seen = figures_once(hand_session(hides_beyond_deg=999.0))
-    assert all(fine for _, _, fine in quality_lines(seen))
 
 
 def test_report_hand_occlusion_is_measured_within_repetitions() -> None:
@@ -200,38 +155,3 @@ def test_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen(
     assert not any(words.startswith(("MCP", "Palm.", "IP")) for row in fingers for words in row)
     assert "of this movement was occluded" in hand_summary(figures, None, None)
     assert "was occluded" not in hand_summary(figures_once(hand_session(hides_beyond_deg=999.0)), None, None)
-
-
-def test_total_active_motion_is_explained_once_and_only_after_a_fist() -> None:
-    assert limitation_words(figures_once(hand_session())).count("Total active motion (TAM)") == 1
-    hook = figures_once(hand_session(exercise="FIST_HOOK", motion="hook"))
-    assert "TAM" not in limitation_words(hook)
-    unseen = figures_once(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
-    assert "never all visible at once" in limitation_words(unseen)
-
-
-def test_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
-    figures = figures_once(hand_session())
-    low = ("PIP3_flexion", "extension")
-    beyond = with_ranges(figures, lambda row: {"mean": -3.2} if row.key == low else {})
-    cell = range_cell(beyond, FingerAngle(3, "middle"))
-    assert isinstance(cell, Cell)
-    assert cell.subtext.startswith("−3° to ")
-    spread = range_cell(figures, FingerAngle(4, "spread"))
-    assert isinstance(spread, Cell)
-    assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread.subtext)
-    assert format_spread(-2.0) == "2° in"
-    assert format_spread(0.4) == "0°"
-
-
-def test_thumbs_exercise_is_reported_of_thumb(tmp_path: Path) -> None:
-    made = hand_session(exercise="THUMB_OPP", motion="thumb")
-    figures = figures_once(made)
-    assert len(figures.repetitions) >= 3
-    said = hand_summary(figures, None, None)
-    assert said.startswith("The thumb touched ")
-    assert ". Thumb: palmar abduction " in said
-    assert "index" not in said
-    path = write_session_report(made, tmp_path / "h.pdf", history=[figures])
-    assert pages_of(path) == 2
-    assert "PIP (thumb: palmar abduction)" in words_of(path)

@@ -10,28 +10,16 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import cv2
-import numpy as np
 import pytest
-from PySide6.QtGui import QColor, QImage, QPainter
-from PySide6.QtWidgets import QApplication
 
-import carpus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import OutputExists, OutputNotWritable
-from carpus.core.platform.provenance import source_revision
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.report_form import PAPERS, Paper, ReportForm
 from carpus.ui.report.builders import (
-    build_progress_report,
     build_session_report,
     write_progress_report,
     write_session_report,
 )
-from carpus.ui.report.page import BODY_WIDTH_PT, PAPER, break_lines, fact_row, fit_parts, page_head
-from carpus.ui.report.progress_page import provenance_words
-from carpus.ui.report.report import layout_pages as pages_of_report
-from carpus.ui.words.session import speed_pain_lines
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.printed import overlapping_words, pages_of, reach_of, tool, words_of
@@ -114,37 +102,6 @@ def test_simulated_and_doubtful_session_says_so_and_shows_its_targets(report: Pa
         assert words not in usual
 
 
-def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path: Path) -> None:
-    assert "within MDC" in words_of(report) or "beyond MDC" in words_of(report)
-    assert "MDC (measurement error) is" in words_of(report)
-    alone = write_session_report(session(), tmp_path / "x.pdf")
-    assert "MDC" not in words_of(alone)
-
-
-def test_single_pain_is_reported_with_its_time_and_two_as_first_and_last() -> None:
-    figures = figures_once(session())
-    once = dict(speed_pain_lines(replace(figures, pain_scores=(3,), pain_times_s=(74.2,))))
-    assert once["Pain (0–10)"] == "3 at 01:14"
-    assert (
-        dict(speed_pain_lines(replace(figures, pain_scores=(2, 3), pain_times_s=(1.0, 9.0))))[
-            "Pain first / last (0–10)"
-        ]
-        == "2 / 3"
-    )
-    assert dict(speed_pain_lines(replace(figures, pain_scores=(), pain_times_s=())))["Pain (0–10)"] == "not asked"
-
-
-@pytest.mark.parametrize("number", ["1", "2"])
-def test_report_stays_inside_margins(report: Path, tmp_path: Path, number: str) -> None:
-    tool("pdftoppm", "-r", "50", "-gray", "-f", number, "-singlefile", str(report), str(tmp_path / "page"))
-    grey = cv2.imread(str(tmp_path / "page.pgm"), cv2.IMREAD_GRAYSCALE)
-    margin = round(10 / 25.4 * 50)
-    inside = np.zeros_like(grey, bool)
-    inside[margin:-margin, margin:-margin] = True
-    assert (grey[~inside] > 250).all()
-    assert (grey[inside] < 100).any()
-
-
 def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_nothing_is_lost(tmp_path: Path) -> None:
     stored, pseudonym = session(), "Blue Hummingbird Mountain 42 and more of"
     markers = stored.header.protocol.markers
@@ -165,30 +122,12 @@ def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_noth
     assert foot < 841.9 - 28.3, "a centimetre of margin"
 
 
-@pytest.mark.parametrize(
-    ("exercise", "motion"),
-    [("FOREARM_PS", "pronosupination"), ("something old, taken for free", "mixed")],
-)
-def test_report_other_exercises_fit_page(tmp_path: Path, exercise: str, motion: str) -> None:
-    path = write_session_report(session(exercise=exercise, motion=motion, lost=[(20.0, 22.0)]), tmp_path / "x.pdf")
-    assert pages_of(path) == 2
-    assert LEGAL_SENTENCE in words_of(path)
-
-
 def test_session_without_any_tracked_frame_still_gives_honest_page(tmp_path: Path) -> None:
     path = write_session_report(session(seconds=10.0, lost=[(0.0, 99.0)]), tmp_path / "x.pdf")
     words = words_of(path)
     assert "No range could be measured." in words
     assert "0.0 % of" in words
     assert "known to about" not in words, "nothing is known"
-
-
-def test_name_longer_than_page_leaves_page_its_size(qapp: QApplication) -> None:
-    for parts in (
-        page_head("Report", "", 64 * "W", "Wrist flexion"),
-        fact_row([("Date", "today"), ("Note", 200 * "W")]),
-    ):
-        assert fit_parts(parts, PAPER.px(BODY_WIDTH_PT), PAPER.px(800.0))[1] == 1.0
 
 
 def test_progress_report_gives_answer_and_names_what_was_excluded(tmp_path: Path) -> None:
@@ -252,34 +191,6 @@ def test_report_is_written_without_any_display(tmp_path: Path) -> None:
     assert (tmp_path / "x.pdf").stat().st_size > 10_000
 
 
-def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path) -> None:
-    names = session().header.protocol.markers
-    findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in names)
-    history = [replace(figures, findings=findings) for figures in FakeSessions().history("linden")]
-    path = write_progress_report(history, tmp_path / "p.pdf")
-    assert "from its expected position" in words_of(path)
-    boxes = tool("pdftotext", "-bbox", str(path), "-")
-    places = [
-        (word, float(top), float(low)) for top, low, word in re.findall(r'yMin="(.*?)".*?yMax="(.*?)">(.*?)<', boxes)
-    ]
-    first = next(k for k in range(len(places)) if [word for word, _, _ in places[k : k + 2]] == ["For", "research"])
-    legal_top = places[first][1]
-    assert all(low <= legal_top + 0.5 for _, top, low in places if top < legal_top - 1.0)
-    assert any("clinic" in word for word, top, _ in places if top < legal_top), "what stands over it is all there"
-
-
-def test_foot_of_course_says_what_made_it_and_of_what() -> None:
-    sessions = FakeSessions().history("linden")
-    report = build_progress_report(sessions)
-    said = provenance_words(report.made_by, report.sessions)
-    right = [one for one in sessions if one.side == "right"]
-    assert said.startswith(f"Made by Carpus {carpus.__version__}")
-    assert f"{len(right)} sessions: " in said
-    assert all(one.session_id[:8] in said for one in right)
-    assert f"measured by Carpus {right[0].software_version}" in said
-    assert (source_revision()[:7] or "by") in said
-
-
 @pytest.mark.parametrize("code", ["en", "de", "it"])
 def test_report_words_do_not_overlap_in_any_language(tmp_path: Path, code: str) -> None:
     said = build_session_report(session(), language=code)
@@ -287,37 +198,3 @@ def test_report_words_do_not_overlap_in_any_language(tmp_path: Path, code: str) 
     rows = [replace(row, mean=pauses.get(row.quantity, row.mean)) for row in said.results.measures]
     said = replace(said, results=replace(said.results, measures=tuple(rows)))
     assert overlapping_words(write_session_report(said, tmp_path / "x.pdf")) == []
-
-
-@pytest.mark.parametrize("paper", PAPERS)
-def test_preview_shows_lines_and_places_of_pdf(qapp: QApplication, tmp_path: Path, paper: Paper) -> None:
-    """Of the hardest page: many warnings, in German."""
-    made = build_session_report(session(), language="de", form=ReportForm(paper=paper), comment="Schiene nachts.")
-    names = session().header.protocol.markers
-    findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in names)
-    made = replace(made, results=replace(made.results, findings=findings, is_simulated=True))
-    page = pages_of_report(made)[0]
-    width = 1200
-    preview = QImage(width, round(width * page.size_pt[1] / page.size_pt[0]), QImage.Format.Format_Grayscale8)
-    preview.fill(QColor("white"))
-    with QPainter(preview) as painter:
-        page.paint(painter, width / page.size_pt[0])
-    path = write_session_report(made, tmp_path / "x.pdf")
-    tool("pdftoppm", "-gray", "-l", "1", "-scale-to-x", str(width), "-scale-to-y", "-1", "-singlefile", str(path),
-         str(tmp_path / "page"))  # fmt: skip
-    printed = cv2.imread(str(tmp_path / "page.pgm"), cv2.IMREAD_GRAYSCALE)
-    assert preview.save(str(tmp_path / "preview.png"))
-    shown = cv2.imread(str(tmp_path / "preview.png"), cv2.IMREAD_GRAYSCALE)
-    high = min(len(printed), len(shown))
-    rough = [cv2.blur(picture[:high], (9, 9)).astype(float) for picture in (printed, shown)]
-    assert np.abs(rough[0] - rough[1]).max() < 90.0, "a line that was broken elsewhere would be black beside white"
-    assert np.corrcoef(rough[0].ravel(), rough[1].ravel())[0, 1] > 0.98
-
-
-@pytest.mark.usefixtures("qapp")
-def test_comment_with_pictures_and_empty_lines_breaks_between_words() -> None:
-    words = ("😀 🎉 " * 6 + "flexion of the wrist goes well today ") * 3
-    lines = break_lines(words, 9.0, 200.0)
-    assert len(lines) > 4
-    assert " ".join(lines).split() == words.split()
-    assert break_lines("a\n\nb", 9.0, 200.0) == ["a", "", "b"]

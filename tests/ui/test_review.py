@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-from pathlib import Path
-
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.records.values import SessionEntry
-from carpus.core.results.progress import Progress
 from carpus.ui.charts.export import render_image
 from carpus.ui.charts.progress import panel_keys
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.button import Button
-from carpus.ui.kit.numbers import (
-    format_date_time,
-    format_day_month,
-    format_distinct_day,
-    format_distinct_time,
-    format_time_or_day,
-)
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.progress.screen import ProgressScreen
-from carpus.ui.screens.review.card import VersionChoice
 from carpus.ui.screens.review.screen import ReviewScreen
-from carpus.ui.words.progress import headline
 from tests.ui.conftest import Reviewing, Show
 from tests.ui.fakes import FakeSessions
 from tests.ui.test_plots import drag
@@ -68,35 +53,6 @@ def test_keys_and_mouse_go_to_pictures_and_repetitions(qtbot: QtBot, screen: Rev
     assert playing.time_s == pytest.approx(screen.results.repetitions[2].start_s)
     qtbot.keyClick(screen, Qt.Key.Key_BracketLeft)
     assert screen.current == 1
-
-
-def test_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
-    qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].is_session_excluded)
-    assert screen.results.is_excluded
-    assert screen.card.include_button.text() == "Include again"
-    screen.toggle_excluded()
-    screen._exclude_repetition(screen.current + 1, "pain", and_after=False)
-    assert screen.results.is_excluded, "other corrections leave it"
-    qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: not store.kept["session-7"].is_session_excluded)
-    assert not screen.results.is_excluded
-    assert screen.results.repetitions[screen.current].exclusion_reason == "pain"
-
-
-def test_card_has_values_next_to_others_notes_pain_and_when_it_was_stored(screen: ReviewScreen) -> None:
-    movement, *_, other_hand, _, last, change = (cell.text for cell in screen.card.tables.range_table.rows[0])
-    assert movement == "Total arc"
-    assert last.endswith("°")
-    assert other_hand.endswith("°")
-    assert "within MDC (14°)" in change
-    figures, notes = screen.results, screen.card.tables.notes
-    assert figures.notes
-    assert figures.pain_scores
-    assert f"Pain (0–10): {', '.join(map(str, figures.pain_scores))}" in notes.text()
-    assert all(text in notes.text() for _, text in figures.notes)
-    assert notes.isVisible()
-    assert (screen.reviewed.end_time - figures.when).total_seconds() == pytest.approx(figures.duration_s)
 
 
 def test_session_that_cannot_be_read_is_reported_to_be_so_and_another_one_can_be(
@@ -160,10 +116,6 @@ def test_edges_of_repetition_are_moved_by_keys_and_dragged_by_mouse(
     assert screen.results.repetitions[2].start_s == after.start_s
 
 
-def test_review_without_frames_shows_markers(review: Reviewing) -> None:
-    assert not review(FakeSessions(pictures=False), "session-7").grab().isNull()
-
-
 def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     qtbot: QtBot, theme: Theme, show: Show[ProgressScreen], store: FakeSessions, background: Background
 ) -> None:
@@ -180,10 +132,6 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     assert not render_image(screen.chart).isNull()
     screen.exercise_choice.setCurrentIndex(1 - screen.exercise_choice.currentIndex())
     assert screen.answer_text.text() == "At least two sessions are needed to show progress."
-
-
-def test_progress_of_nobody_says_so() -> None:
-    assert headline(Progress((), (), None)) == ("No sessions of this exercise yet.", "")
 
 
 def test_review_hides_previous_session_while_loading(qtbot: QtBot, screen: ReviewScreen) -> None:
@@ -204,78 +152,3 @@ def test_review_hides_previous_session_while_loading(qtbot: QtBot, screen: Revie
     qtbot.waitUntil(lambda: screen.is_loaded)
     assert all(widget.isVisible() for widget in shown)
     assert all(button.isEnabled() for button in acts[:3])
-
-
-def test_review_excludes_repetition_of_question(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.select_repetition(1)
-    screen.playing.toggle()
-    screen.toggle_excluded()
-    at_s = screen.playing.time_s
-    qtbot.wait(200)
-    assert screen.playing.time_s == at_s, "nothing plays on behind the question"
-    screen.playing.set_time(screen.results.repetitions[3].start_s + 0.1)
-    screen.exclusion_dialog.reason_buttons[0].click()
-    assert [one.exclusion_reason for one in screen.results.repetitions[:5]] == ["", "pain", "", "", ""]
-
-
-def test_sessions_of_one_day_are_told_apart_by_their_time_and_of_one_minute_by_their_second() -> None:
-    first, second, third = (datetime(2026, 11, 21, *at) for at in ((9, 5, 7), (15, 29), (9, 5, 41)))
-    assert format_distinct_day(first, second) == f"{format_day_month(first)}, 09:05"
-    assert (
-        format_distinct_day(first, first)
-        == format_distinct_day(first, datetime(2026, 11, 20, 9, 5))
-        == format_day_month(first)
-    )
-    assert format_distinct_day(first, third) == f"{format_day_month(first)}, 09:05:07"
-    assert format_time_or_day(first, third) == "09:05:07"
-    assert (format_time_or_day(first, second), format_time_or_day(first, datetime(2026, 11, 22))) == ("09:05", "21 Nov")
-    assert format_date_time(third, first) == f"{format_date_time(third)}:41"
-    assert format_distinct_time(first, first, datetime(2025, 11, 21, 9, 5, 41)) == "09:05"
-
-
-class Unwritten(datetime):
-    """Cannot be put in words: with hundreds of sessions that takes longer than all else of their list."""
-
-    def __format__(self, spec: str, /) -> str:
-        raise AssertionError(spec)
-
-
-def test_review_labels_ambiguous_session_only() -> None:
-    first, others = datetime(2026, 11, 21, 9, 5, 7), (Unwritten(2026, 11, 21, 9, 5, 41), Unwritten(2026, 11, 20, 9, 5))
-    assert format_distinct_time(first, *others) == "09:05:07"
-
-
-def results(*made: datetime) -> list[SessionEntry]:
-    """Results of one recording, the last of which counts."""
-    return [
-        SessionEntry(name, Path(name), made[0], when, "r", "WRIST_FE", "right", 10, 1.0)
-        for name, when in zip(("session-7", "session-6"), made, strict=True)
-    ]
-
-
-def test_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
-    store.results = results(*[datetime(2026, 11, 21, 9, 5)] * 2)
-    for session_id, owners, is_older in (
-        ("session-7", {}, True),
-        ("session-6", {}, False),
-        ("session-7", {"session-6": "somebody else"}, False),
-    ):
-        store.owners = owners
-        screen.load_session("linden", session_id)
-        qtbot.waitUntil(lambda: screen.is_loaded)
-        assert screen.card.count_text.text().startswith("older result, excluded") is is_older
-
-
-def test_older_result_is_reported_by_its_time_and_can_count_again(
-    qtbot: QtBot, theme: Theme, show: Show[VersionChoice]
-) -> None:
-    choice, both = show(VersionChoice(theme)), results(datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29))
-    choice.show_versions(both, "session-6")
-    assert [button.text() for button in choice.buttons] == ["1 · 21 Nov, 09:05", "2 · 21 Nov, 15:29, in use"]
-    assert len(choice.findChildren(Button)) == 2, "what counts needs no button to count"
-    choice.show_versions(both, "session-7")
-    again = next(one for one in choice.findChildren(Button) if one.text() == "Use this result")
-    with qtbot.waitSignal(choice.restore_requested) as asked:
-        again.click()
-    assert asked.args == ["session-7"]
-    assert not again.isEnabled(), "a second click would make a second one"

@@ -8,26 +8,19 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from PySide6.QtCore import QPoint, QRect, Qt, QThread
-from PySide6.QtGui import QFontInfo, QFontMetricsF, QKeySequence
-from PySide6.QtWidgets import QApplication, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, QThread
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.fault_text import MessageText
 from carpus.core.platform.version import __version__
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.button import Button
-from carpus.ui.kit.field import ChoiceRow
-from carpus.ui.kit.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
-from carpus.ui.kit.keys import KEYS, action_words
-from carpus.ui.kit.layouts import column_layout
-from carpus.ui.kit.text import Text, heading
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.builders import build_session_report
 from carpus.ui.screens.report.screen import ReportScreen
 from carpus.ui.screens.settings.screen import SettingsScreen
 from carpus.ui.shell.flow import Navigator
-from carpus.ui.shell.main_window import FocusRing, MainWindow
+from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Answer, MessageDialog
 from carpus.ui.shell.view_models import Preferences
 from tests.ui.conftest import Show
@@ -64,48 +57,6 @@ def test_settings_that_are_not_offered_stay_when_another_is_chosen(settings: Set
     assert told[-1] == Preferences(research=True, **by_hand | {"text_scale": 1.5})
 
 
-def test_language_that_was_refused_when_chosen_again_is_told_again(settings: Settings) -> None:
-    screen, told = settings(language="de")
-    italian = screen.form["language"].buttons()[2]
-    italian.click()
-    screen.revert_language("de", "a session is recorded")
-    italian.click()
-    assert [one.language for one in told] == ["it", "it"]
-
-
-def test_bundled_face_is_used_and_its_values_are_tabular(qapp: QApplication) -> None:
-    assert {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts())
-    assert QFontInfo(font(14)).family().startswith("Carpus Inter")
-    for size in (14, 44, 128):
-        metrics = QFontMetricsF(font(size, 600))
-        widths = [metrics.horizontalAdvance(digit) for digit in "0123456789"]
-        assert max(widths) - min(widths) < 0.003 * size
-        assert metrics.horizontalAdvance("1111") == pytest.approx(metrics.horizontalAdvance("0408"), abs=0.01 * size)
-
-
-def test_way_through_session_recording_and_keys_of_all_screens(qtbot: QtBot, shell: MainWindow) -> None:
-    bar = shell.top_bar
-    bar.show_steps(["Exercise", "Camera", "Markers", "Measure"], 2)
-    assert [button.isEnabled() for button in bar.navigation_buttons()] == [True, True, False, False], (
-        "only what is done"
-    )
-    with qtbot.waitSignal(bar.step_selected) as step:
-        bar.navigation_buttons()[1].click()
-    assert step.args == [1]
-    bar.show_tabs(["Session", "Review", "Progress", "Report"], 1)
-    assert bar.navigation_buttons()[1].accessibleName() == "Review, you are here"
-    with qtbot.waitSignal(bar.tab_selected) as tab:
-        bar.navigation_buttons()[3].click()
-    assert tab.args == [3]
-    for state, said in (("recording", "Recording 01:24"), ("paused", "Paused at 01:24"), ("off", "")):
-        bar.recording_pill.show_state(state, 84.2)
-        assert (bar.recording_pill.accessibleName(), bar.recording_pill.isVisible()) == (said, state != "off")
-    shell.bind_keys(["help"])
-    with qtbot.waitSignal(shell.key_pressed) as told:
-        qtbot.keyClick(shell, Qt.Key.Key_F1)
-    assert told.args == ["help"]
-
-
 def test_shell_new_screen_waits_behind_settings(shell: MainWindow) -> None:
     way, shown = Navigator(shell, lambda: False, lambda: False), list[str]()
 
@@ -127,43 +78,6 @@ def test_shell_new_screen_waits_behind_settings(shell: MainWindow) -> None:
     assert way.screen_name == "review"
     way.open_under_overlay("correct", "once more")
     assert way.screen_name == "correct"
-
-
-def test_focus_ring_follows_keyboard(qtbot: QtBot, shell: MainWindow) -> None:
-    host = QWidget()
-    button = QPushButton("x", host)
-    button.setGeometry(100, 50, 80, 40)
-    shell.show_screen(host, button)
-    qtbot.waitUntil(shell.focus_ring.isVisible)
-    assert shell.focus_ring.geometry().contains(button.geometry().translated(host.mapTo(shell, host.rect().topLeft())))
-    place = shell.focus_ring.geometry()
-    button.hide()
-    assert not shell.focus_ring.isVisible() or shell.focus_ring.geometry() != place
-
-
-def test_change_of_theme_and_scale_reaches_everything(
-    qapp: QApplication, qtbot: QtBot, theme: Theme, shell: MainWindow
-) -> None:
-    label = Text(theme, "x", 14, token="text2")
-    qtbot.addWidget(label)
-    light, size = label.palette().windowText().color(), label.font().pixelSize()
-    theme.choose("dark", 1.5)
-    assert label.palette().windowText().color() == theme.color("text2") != light
-    assert label.font().pixelSize() == round(1.5 * size)
-    assert theme.tokens.canvas in qapp.styleSheet(), "nor are surfaces left behind"
-
-
-def test_title_has_room_for_dots_of_its_capitals(qtbot: QtBot, theme: Theme) -> None:
-    label = heading(theme, "Which exercise?")
-    qtbot.addWidget(label)
-    plain_px = label.sizeHint().height()
-    label.setText("Welche Übung?")
-    metrics = QFontMetricsF(label.font())
-    above_px = label.contentsMargins().top() + metrics.ascent()
-    assert above_px >= -metrics.tightBoundingRect(label.text()).top()
-    assert label.sizeHint().height() - label.contentsMargins().top() == plain_px
-    label.setText("Which exercise?")
-    assert label.sizeHint().height() == plain_px
 
 
 def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, theme: Theme, shell: MainWindow) -> None:
@@ -198,35 +112,6 @@ def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, th
     assert not card.isVisible()
 
 
-def test_tab_leads_to_what_is_chosen_and_arrows_choose_another(qtbot: QtBot, theme: Theme, shell: MainWindow) -> None:
-    host = QWidget(shell.screen_stack)
-    before, choices = Button(theme, "Before"), ChoiceRow(theme, [(one, one) for one in "abc"], "c")
-    column_layout(before, choices, parent=host)
-    host.show()
-    told: list[object] = []
-    choices.chosen.connect(told.append)
-    before.setFocus()
-    qtbot.keyClick(before, Qt.Key.Key_Tab)
-    assert choices.buttons()[2].hasFocus()
-    qtbot.keyClick(choices.buttons()[2], Qt.Key.Key_Left)
-    assert (choices.value(), told) == ("b", ["b"])
-    choices.choose(None)
-    before.setFocus()
-    qtbot.keyClick(before, Qt.Key.Key_Tab)
-    assert choices.buttons()[0].hasFocus()
-    assert choices.value() is None
-
-
-def test_settings_act_at_once_and_tell_what_was_chosen(settings: Settings) -> None:
-    screen, told = settings(theme="light", data_folder="/data")
-    screen.form["theme"].buttons()[1].click()
-    screen.form["text_scale"].buttons()[2].click()
-    screen.form["therapist"].setText("M. R.")
-    screen.form["therapist"].editingFinished.emit()
-    now = told[-1]
-    assert (now.theme, now.text_scale, now.therapist, now.data_folder) == ("dark", 1.5, "M. R.", "/data")
-
-
 def test_shell_research_options_are_hidden_by_default(settings: Settings) -> None:
     screen, told = settings(stream=True, angle_order="isb")
     screen.show_page("research")
@@ -248,12 +133,6 @@ def test_about_tells_what_lies_in_the_clinics_folder(settings: Settings) -> None
     assert told[1] == told[2]
     assert "no newer version" in told[1]
     assert "cannot be read" in told[3]
-
-
-def test_shell_keys_have_texts() -> None:
-    for name, key in KEYS.items():
-        assert action_words(name)
-        assert QKeySequence(key).count() == 1
 
 
 def test_report_is_saved_in_background_and_replaces_only_when_asked(
@@ -293,42 +172,3 @@ def test_background_work_answers_in_the_window_s_thread(qtbot: QtBot) -> None:
 
 
 # --- the mark of the keyboard, also when what holds its control moves ------------------------------------
-@pytest.fixture
-def parts(qtbot: QtBot, theme: Theme) -> tuple[QWidget, QScrollArea, list[QPushButton], FocusRing]:
-    window = QWidget()
-    qtbot.addWidget(window)
-    window.resize(300, 200)
-    inside = QWidget()
-    column = QVBoxLayout(inside)
-    buttons = [QPushButton(str(number)) for number in range(20)]
-    for button in buttons:
-        column.addWidget(button)
-    area = QScrollArea()
-    area.setWidgetResizable(True)
-    area.setWidget(inside)
-    QVBoxLayout(window).addWidget(area)
-    ring = FocusRing(window)
-    with qtbot.waitExposed(window):
-        window.show()
-    ring._follow_focus(None, buttons[2])  # without a window manager nothing has the keyboard
-    return window, area, buttons, ring
-
-
-def test_ring_follows_what_is_scrolled_goes_with_it_and_comes_back(
-    parts: tuple[QWidget, QScrollArea, list[QPushButton], FocusRing],
-) -> None:
-    window, area, buttons, ring = parts
-    bar, before = area.verticalScrollBar(), ring.geometry()
-
-    def around() -> QRect:
-        return QRect(buttons[2].mapTo(window, QPoint(0, 0)), buttons[2].size())
-
-    assert before.contains(around())
-    bar.setValue(15)
-    assert ring.geometry() == before.translated(0, -15)
-    assert ring.geometry().contains(around())
-    bar.setValue(bar.maximum())
-    assert not ring.isVisible()
-    bar.setValue(0)
-    assert ring.isVisible()
-    assert ring.mask().isEmpty()

@@ -1,9 +1,8 @@
-"""The palette's figures, recomputed from the hex values: WCAG 2 contrast and CIEDE2000 under Machado 2009."""
+"""The palette's figures, recomputed from the hex values: WCAG 2 contrast and CIE76 under Machado 2009."""
 
 from __future__ import annotations
 
 import itertools
-import math
 
 import numpy as np
 import pytest
@@ -54,37 +53,6 @@ def lab(hex_color: str, eye: str) -> np.ndarray:
     return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
 
 
-def ciede2000(one: np.ndarray, two: np.ndarray) -> float:
-    """Sharma, Wu and Dalal 2005."""
-    (l1, a1, b1), (l2, a2, b2) = one, two
-    mean_c = (math.hypot(a1, b1) + math.hypot(a2, b2)) / 2
-    g = 0.5 * (1 - math.sqrt(mean_c**7 / (mean_c**7 + 25**7)))
-    a1, a2 = (1 + g) * a1, (1 + g) * a2
-    c1, c2 = math.hypot(a1, b1), math.hypot(a2, b2)
-    h1, h2 = math.degrees(math.atan2(b1, a1)) % 360, math.degrees(math.atan2(b2, a2)) % 360
-    dh = h2 - h1
-    if c1 * c2 == 0:
-        dh = 0.0
-    elif abs(dh) > 180:
-        dh -= math.copysign(360, dh)
-    dl, dc = l2 - l1, c2 - c1
-    dbig_h = 2 * math.sqrt(c1 * c2) * math.sin(math.radians(dh) / 2)
-    lm, cm = (l1 + l2) / 2, (c1 + c2) / 2
-    hm = h1 + h2 if c1 * c2 == 0 else (h1 + h2 + (360 if abs(h1 - h2) > 180 else 0)) / 2
-    t = (1 - 0.17 * math.cos(math.radians(hm - 30)) + 0.24 * math.cos(math.radians(2 * hm))
-         + 0.32 * math.cos(math.radians(3 * hm + 6)) - 0.20 * math.cos(math.radians(4 * hm - 63)))  # fmt: skip
-    sl = 1 + 0.015 * (lm - 50) ** 2 / math.sqrt(20 + (lm - 50) ** 2)
-    sc, sh = 1 + 0.045 * cm, 1 + 0.015 * cm * t
-    turn = 60 * math.exp(-(((hm - 275) / 25) ** 2))
-    rt = -2 * math.sqrt(cm**7 / (cm**7 + 25**7)) * math.sin(math.radians(turn))
-    return math.sqrt((dl / sl) ** 2 + (dc / sc) ** 2 + (dbig_h / sh) ** 2 + rt * (dc / sc) * (dbig_h / sh))
-
-
-def test_ciede2000_gives_the_published_pairs() -> None:
-    assert ciede2000(np.array([50, 2.6772, -79.7751]), np.array([50, 0, -82.7485])) == pytest.approx(2.0425, abs=1e-4)
-    assert ciede2000(np.array([50, 2.49, -0.001]), np.array([50, -2.49, 0.0011])) == pytest.approx(7.2195, abs=1e-4)
-
-
 @pytest.mark.parametrize("tokens", [LIGHT, DARK], ids=["light", "dark"])
 @pytest.mark.parametrize(("pairs", "least"), [(TEXT_PAIRS, 4.5), (PART_PAIRS, 3.0)], ids=["text", "parts"])
 def test_theme_contrast_is_sufficient(tokens: Tokens, pairs: list[tuple[str, str]], least: float) -> None:
@@ -92,7 +60,7 @@ def test_theme_contrast_is_sufficient(tokens: Tokens, pairs: list[tuple[str, str
         assert contrast(getattr(tokens, front), getattr(tokens, back)) >= least, (front, back)
 
 
-@pytest.mark.parametrize(("tokens", "least", "least_of_bands"), [(LIGHT, 22.5, 25.0), (DARK, 27.0, 15.5)])
+@pytest.mark.parametrize(("tokens", "least", "least_of_bands"), [(LIGHT, 31.0, 42.0), (DARK, 44.0, 22.0)])
 @pytest.mark.parametrize("eye", list(MACHADO_2009))
 def test_theme_curves_and_bands_differ_with_colour_vision_deficiency(
     tokens: Tokens, least: float, least_of_bands: float, eye: str
@@ -102,4 +70,7 @@ def test_theme_curves_and_bands_differ_with_colour_vision_deficiency(
         (tokens.good_soft, tokens.band_warn, tokens.band_bad),
     )
     for colors, apart in ((curves, least), (bands, least_of_bands)):
-        assert min(ciede2000(a, b) for a, b in itertools.combinations([lab(one, eye) for one in colors], 2)) >= apart
+        assert (
+            min(float(np.linalg.norm(a - b)) for a, b in itertools.combinations([lab(one, eye) for one in colors], 2))
+            >= apart
+        )

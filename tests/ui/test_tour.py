@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 from typing import get_args
 
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.tour.bubble import BubbleView
 from carpus.ui.screens.tour.bubbles import (
     PARTS,
     PLACES,
     Bubble,
     LabelStage,
     TourState,
-    bubble_words,
     find_bubble,
-    part_number,
 )
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
@@ -75,17 +70,6 @@ def test_bubble_is_on_its_own_screen_and_not_read_yet(moment: TourState, read: f
 
 
 @given(MOMENTS, READ)
-def test_reading_leads_on_and_never_back(moment: TourState, read: frozenset[Bubble]) -> None:
-    seen = []
-    while (bubble := find_bubble(moment, read)) is not None:
-        assert bubble not in seen
-        seen.append(bubble)
-        read |= {bubble}
-    order = [BUBBLES.index(bubble) for bubble in seen]
-    assert all(first < second for first, second in pairwise(order))
-
-
-@given(MOMENTS, READ)
 def test_while_recording_nothing_speaks_of_beginning_one(moment: TourState, read: frozenset[Bubble]) -> None:
     recording = find_bubble(replace(moment, place="live", is_recording=True), read)
     waiting = find_bubble(replace(moment, place="live", is_recording=False), read)
@@ -96,31 +80,3 @@ def test_while_recording_nothing_speaks_of_beginning_one(moment: TourState, read
 @given(MOMENTS)
 def test_tour_leaves_marker_faults_to_screen(moment: TourState) -> None:
     assert find_bubble(replace(moment, place="markers", label_stage="doubtful")) is None
-
-
-def test_tour_bubbles_have_two_short_sentences_at_most() -> None:
-    for bubble in BUBBLES:
-        words = bubble_words(bubble)
-        assert words.endswith(".")
-        assert ";" not in words
-        assert words.count(".") <= 2
-        assert len(words) < 100
-        assert 0 <= part_number(bubble) <= len(PARTS)
-
-
-def test_tour_buttons_stay_and_take_no_key_during_recording(theme: Theme) -> None:
-    view = BubbleView(theme)
-    assert view.isHidden()
-    for bubble in BUBBLES:
-        view.show_bubble(bubble)
-        assert not view.isHidden()
-        assert view.next_button.isEnabled()
-        assert not view.next_button.isHidden()
-        assert not view.leave_button.isHidden()
-        assert view.accessibleName() == bubble_words(bubble)
-        assert view.has_pointer is (bubble not in ("click", "results", "end")), bubble
-    view.show_bubble(None)
-    assert view.isHidden()
-    over_a_recording = BubbleView(theme, wide=True, keys=False)
-    for button in (over_a_recording.next_button, over_a_recording.leave_button):
-        assert not button.focusPolicy().value, "the space bar stays with the screen"

@@ -10,17 +10,13 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QLocale, QTranslator
+from PySide6.QtCore import QCoreApplication, QLocale
 from pytestqt.qtbot import QtBot
 
 from carpus.ui.kit import language
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.numbers import format_day_month
-from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
-from carpus.ui.screens.live.controls import StatusLightView
-from carpus.ui.screens.patients.patient_list import ListHeader, PatientList
-from carpus.ui.words import terms
 from installer import translations
 from tests.sources import ROOT, SOURCES, modules, parsed
 
@@ -69,38 +65,6 @@ def extracted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-@SOURCES
-def test_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
-    qtbot: QtBot, theme: Theme, extracted: Path, tmp_path: Path
-) -> None:
-    """All texts are given another language, compiled, installed, and read back from the program."""
-    source, compiled = tmp_path / "xx.ts", tmp_path / "xx.qm"
-    text = extracted.read_text(encoding="utf-8")
-    assert text.count("<source>") > 0.7 * sum(
-        len(tr_calls(path)) for path in UI
-    )  # one text in one context is one entry
-    text = re.sub(
-        r"<source>(.*?)</source>\s*<translation type=\"unfinished\"></translation>",
-        lambda found: f"<source>{found[1]}</source><translation>¡{found[1]}</translation>",
-        text,
-        flags=re.S,
-    )
-    source.write_text(text, encoding="utf-8")
-    translations.release(source, compiled)
-    translator = QTranslator()
-    assert translator.load(str(compiled))
-    texts = language.parse_texts(source.read_bytes())
-    assert all(translator.translate(context, text) == said for (context, text), said in texts.items())
-    language.register_language("xx", lambda context, text: texts.get((context, text)), QLocale("de_CH"))
-    header, light = ListHeader(theme, PatientList(theme, lambda: date(2026, 11, 20))), StatusLightView(theme)
-    assert header.tr("Patient") == "Patient"
-    with language.use_language("xx"):
-        assert terms.movement_name("flexion") == "¡Flexion"
-        assert header.tr("Patient") == "¡Patient"
-        assert light.tr("nothing like this") == "nothing like this"
-    assert header.tr("Patient") == "Patient"
-
-
 def test_page_in_another_language_is_painted_in_thread_own_while_window_continues_in_its_own(
     qtbot: QtBot,
 ) -> None:
@@ -130,18 +94,6 @@ def test_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: QtBot
     assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Cancel"
     assert QLocale().toString(1.5, "f", 1) == "1.5"
     assert language.system_language() in language.LANGUAGES
-
-
-@pytest.mark.usefixtures("qapp")
-def test_days_are_named_in_the_language_where_the_computer_has_them_in_another(monkeypatch: pytest.MonkeyPatch) -> None:
-    mixed = type("Mixed", (QLocale,), {"dayName": lambda self, day: "Monday"})
-    monkeypatch.setattr(
-        language.QLocale, "system", lambda: mixed(QLocale.Language.Italian, QLocale.Country.Switzerland)
-    )
-    translator = language._Translator()
-    language._load_language(translator, "it")
-    assert translator.locales["it"].dayName(1) == "lunedì"
-    assert translator.locales["it"].territory() == QLocale.Country.Switzerland
 
 
 @pytest.mark.parametrize("code", [code for code in language.LANGUAGES if code != "en"])

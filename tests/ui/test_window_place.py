@@ -25,10 +25,6 @@ def test_window_position_stays_on_screen(place: QRect, whole: bool) -> None:
     assert kept_size == whole
 
 
-def test_place_that_fits_is_left_alone() -> None:
-    assert fit_on_screen(QRect(100, 60, 1024, 700), ROOM) == (QRect(100, 60, 1024, 700), True)
-
-
 def test_window_remembers_its_place(qtbot: QtBot) -> None:
     first, second = QWidget(), QWidget()
     for window in (first, second):
