@@ -56,7 +56,7 @@ validation: setup-test          ## resources/validation.md: accuracy, agreement,
 	$(PY) -m tests.validation $(ARGUMENTS)
 
 torture: thorough               ## kills, damaged files, bad disks: what is lost and let in (an hour or two)
-	$(PY) -m tests.torture
+	CARPUS_TORTURE=100 $(PY) -m pytest -q -rP --timeout 0 tests/torture
 	$(PY) -m tests.torture.spreadsheets
 
 screenshots: setup-test         ## every screen, light and dark, into out/screenshots

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-import threading
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cache
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.board import Board, Pattern, create_board_sheet
 from carpus.core.calibration.camera.printed_sheet import PrintedSheet, SheetBox, SheetDisc
 from carpus.core.calibration.card.card import (
     CARD_CORNER_MM,
@@ -24,10 +20,8 @@ from carpus.core.calibration.card.card import (
     card_sheet,
     wedge_sheet,
 )
-from carpus.core.capture.source import SERIAL as SAID_SERIAL
-from carpus.core.capture.source import SourceInfo
-from carpus.core.model.camera import DEFAULT_CAMERA, Camera
-from carpus.core.model.types import SIMULATED, FloatArray, Frame
+from carpus.core.model.camera import Camera
+from carpus.core.model.types import FloatArray, Frame
 from carpus.core.simulation.appearance import sample_appearance, to_linear
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor, create_depth_sensor
@@ -195,87 +189,3 @@ def card_scene(distance_m: float = 0.6, tilt_deg: float = 4.0, turn_deg: float =
 def _ridge_m(low_edge_m: FloatArray) -> FloatArray:
     slope = math.radians(SLOPE_DEG)
     return low_edge_m + np.array([0.0, SLOPE_MM * math.cos(slope), -SLOPE_MM * math.sin(slope)]) / 1e3
-
-
-SERIAL = "studio"
-NAME = "Simulated camera"
-FPS = 5.0
-_STILL_FRAMES = 8
-"""The board is held so long in each place, after one picture on the way; it is drawn once for all of them."""
-BOARD_DISTANCES_M: dict[Pattern, tuple[float, ...]] = {"chessboard": (0.5, 0.62, 0.8), "charuco": (0.42, 0.5, 0.62)}
-DIFFERENT = 60
-"""So many poses pass before place, distance and tilt come again together."""
-_DEPTH_SCALE_ERROR, _SEED = 0.03, 21
-_MOST_PICTURES = 24
-"""Different pictures of the card; then they come again, as nothing moves."""
-
-
-class StudioCamera:
-    """Frames without end, each some time after the one before, as a person holds still for as long as it takes;
-    ``speed`` 2 waits half as long. Ends by :meth:`close`."""
-
-    def __init__(self, pictures: Iterator[Frame], speed: float = 1.0) -> None:
-        settings = {SAID_SERIAL: SERIAL, SIMULATED: "yes"}
-        self.info = SourceInfo(NAME, DEFAULT_CAMERA, True, None, FPS, settings)
-        self._pictures = pictures
-        self._pause_s = 1.0 / (FPS * speed)
-        self._closed = threading.Event()
-
-    def frames(self) -> Iterator[Frame]:
-        for frame in self._pictures:
-            if self._closed.wait(self._pause_s):
-                return
-            yield frame
-
-    def close(self) -> None:
-        """End; may be called twice and from another thread."""
-        self._closed.set()
-
-
-def board_camera(board: Board, speed: float = 1.0) -> StudioCamera:
-    """The board as a person shows it who does what is asked: everywhere, tilted to all sides, near and far."""
-    return StudioCamera(_board_frames(board), speed)
-
-
-def card_camera(speed: float = 1.0) -> StudioCamera:
-    """The check card as it lies under the camera."""
-    return StudioCamera(_card_frames(), speed)
-
-
-def _board_frames(board: Board) -> Iterator[Frame]:
-    studio = _studio()
-    texture = texture_of(create_board_sheet(board, "a4"))
-    index = 0
-    before: Placed | None = None
-    for around in itertools.count(5):
-        for placed in poses(texture, DIFFERENT, BOARD_DISTANCES_M[board.pattern], around):
-            on_the_way = [] if before is None else [(_between(before, placed), 1)]
-            for shown, times in (*on_the_way, (placed, _STILL_FRAMES)):
-                drawn = studio.frame([shown], index, index / FPS)
-                for _ in range(times):
-                    yield replace(drawn, index=index, timestamp_s=index / FPS)
-                    index += 1
-            before = placed
-
-
-def _card_frames() -> Iterator[Frame]:
-    studio, scene = _studio(), card_scene(turn_deg=float(np.random.default_rng(9).uniform(-12.0, 12.0)))
-    made: list[Frame] = []
-    for index in itertools.count():
-        if len(made) < _MOST_PICTURES:
-            made.append(studio.frame(scene, index, index / FPS))
-        kept = made[index % _MOST_PICTURES]
-        yield replace(kept, index=index, timestamp_s=index / FPS)
-
-
-@cache
-def _studio() -> Studio:
-    """One for all: it keeps no state, and takes seconds to make."""
-    return Studio(LENS, _SEED, _DEPTH_SCALE_ERROR)
-
-
-def _between(one: Placed, other: Placed) -> Placed:
-    """Half-way from one pose to the next."""
-    away: FloatArray = np.ravel(cv2.Rodrigues(other.rotation @ one.rotation.T)[0])
-    half = np.asarray(cv2.Rodrigues(0.5 * away)[0])
-    return Placed(other.texture, half @ one.rotation, 0.5 * (one.shift_m + other.shift_m))

@@ -83,16 +83,3 @@ def test_inverse_lens_leads_from_real_frame_to_ideal_one() -> None:
     assert np.allclose(ideal, np.stack((520.0 * u + 322.0, 530.0 * v + 236.0), axis=-1), atol=1e-9)
     assert np.abs(ideal - real).max() > 1.0
     assert np.abs(INVERSE.distort(ideal) - real).max() < 1e-4
-
-
-def test_lens_without_distortion_leaves_pixels_alone() -> None:
-    pixel = np.array([[3.0, 4.0]])
-    assert np.array_equal(CAMERA.undistort(pixel), pixel)
-    assert np.array_equal(CAMERA.distort(pixel), pixel)
-    assert not CAMERA.is_distorted
-    assert LENS.is_distorted
-
-
-def test_camera_empty_pixels_are_allowed() -> None:
-    assert LENS.undistort(np.empty((0, 2))).shape == (0, 2)
-    assert LENS.distort(np.empty((0, 2))).shape == (0, 2)

@@ -18,17 +18,9 @@ pytestmark = SOURCES
 DOCUMENTS = ("resources/method.md", "resources/decisions.md", "CONTRIBUTING.md")
 PLACEHOLDER = re.compile(r"NAME|CODE|SUITE|VERSION|DATE|\.\.\.|…")
 MADE = {
-    "dist/apt",
-    "dist/",
-    "build/fresh/SUITE.log",
-    "build/rendered",
-    "build/package-test",
-    "parts/PySide6",
-    "slim.py",
-    "/raw",
-    "/dev/shm",
-    "/var/tmp",
-}
+    "dist/apt", "dist/", "build/fresh/SUITE.log", "build/rendered", "build/package-test", "parts/PySide6", "slim.py",
+    "/raw", "/dev/shm", "/var/tmp",
+}  # fmt: skip
 """Files made by a command, of the system, or of what another program installs; and a part of a session file."""
 DOTTED = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+")
 OF_CODE = re.compile(r"[A-Z]\w*[a-z]\w*|[A-Z]+_\w+|_?[a-z]\w*_\w+|_[A-Z]\w+")
@@ -37,16 +29,9 @@ PARTS = ("app", "core", "ui", "installer")
 OF_OTHERS = {"tmp_path", "PySide6", "RELEASE_KEY"}
 
 FORMS = {
-    "from_x",
-    "to_x",
-    "Parameters",
-    "Returns",
-    "Raises",
-    "Error",
-    "Notice",
-    "session_saved",
+    "from_x", "to_x", "Parameters", "Returns", "Raises", "Error", "Notice", "session_saved",
     "test_patient_table_pools_the_rows_of_a_kind",
-}
+}  # fmt: skip
 """Forms of names in the rules for them, and headings of docstrings."""
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -96,18 +95,6 @@ def test_displayed_numbers_are_rounded_by_one_function() -> None:
     assert len(texts) > 100
     lines = ((path.name, line) for path in texts for line in path.read_text("utf-8").splitlines() if own.search(line))
     assert [one for one in lines if "times[row]" not in one[1]] == []
-
-
-def test_core_loads_no_window_and_no_command_line() -> None:
-    names = [
-        ".".join(("carpus", *path.relative_to(ROOT).with_suffix("").parts))
-        for path in modules("core")
-        if "migrations" not in path.parts  # which only Alembic runs
-    ]
-    program = "import importlib, sys\n" + "".join(f"importlib.import_module({name!r})\n" for name in names)
-    program += "print(sorted({'PySide6', 'shiboken6', 'pyqtgraph'} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
 
 
 def test_readme_tells_the_two_commands_and_contributing_has_the_map() -> None:

@@ -16,8 +16,6 @@ from carpus.core.model.errors import ExtraMissing
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.installation import CAMERAS_EXTRA, install_hint
 
-ROOT = Path(__file__).parents[1]
-
 
 def missing(name: str) -> str:
     raise PackageNotFoundError(name)
@@ -41,16 +39,6 @@ def test_install_hint_packed_never_names_pip(monkeypatch: pytest.MonkeyPatch) ->
     assert not [text for text in said if "pip" in text.split()]
     if sys.platform.startswith("linux"):
         assert CAMERAS_EXTRA in said[0]
-
-
-def test_pip_is_named_in_one_module_only() -> None:
-    speaking = {
-        path.relative_to(ROOT).as_posix()
-        for part in ("app", "core", "ui")
-        for path in (ROOT / part).rglob("*.py")
-        if "pip install" in path.read_text(encoding="utf-8")
-    }
-    assert speaking == {"core/model/installation.py"}
 
 
 def test_udev_rules_cover_every_camera(tmp_path: Path) -> None:

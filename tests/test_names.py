@@ -45,25 +45,7 @@ FUNCTION_WORDS = words_in(
     """
 )
 IDIOMS = tuple(
-    f"{word}_"
-    for word in (
-        "to",
-        "from",
-        "with",
-        "is",
-        "has",
-        "on",
-        "as",
-        "without",
-        "next",
-        "last",
-        "first",
-        "new",
-        "can",
-        "all",
-        "latest",
-        "nearest",
-    )
+    f"{word}_" for word in words_in("to from with is has on as without next last first new can all latest nearest")
 )
 """A name of several words may begin with these: ``to_json``, ``with_clicks``, ``can_record``."""
 THIRD_PERSON = words_in(

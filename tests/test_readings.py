@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from carpus.core.model.types import FloatArray
-from carpus.core.simulation.motions import create_motion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth, compute_truth
@@ -55,27 +54,3 @@ def test_longest_time_outside_three_sd_is_that_of_one_angle(truth: Truth) -> Non
     reading = read(truth, error)
     np.testing.assert_allclose(reading.outside_s, [0.3, 0.0, 2.0], atol=0.02)
     assert read_figures([reading], (0, 1)).outside_s == pytest.approx(0.3, abs=0.02)
-
-
-def test_readings_drop_unknown_and_report_if_too_many(truth: Truth) -> None:
-    error = np.zeros(truth.angles_rad.shape)
-    error[:, 0] = np.nan
-    error[::4, 1] = np.nan
-    reading = read(truth, error)
-    assert np.isnan(reading.range_deg[:, 0]).all()
-    np.testing.assert_allclose(reading.range_deg[:, 1], 0.0, atol=1e-9)
-    assert np.isnan(read_figures([reading], (0,)).rmse)
-
-
-def test_repetitions_of_a_resting_wrist_are_those_of_its_fingers() -> None:
-    spec = RecordingSpec(seed=4, motion="rest", habit="open_close", seconds=9.0)
-    truth = compute_truth(Scene(spec))
-    windows, _ = strokes_of(truth, truth.time_s)
-    bend = create_motion(spec).joint_angles_rad(truth.time_s)
-    assert len(windows) >= 3
-    widest = int(np.ptp(bend, axis=0).argmax())
-    assert all(np.ptp(bend[window, widest]) > np.radians(20.0) for window in windows)
-    still = compute_truth(Scene(RecordingSpec(seed=4, motion="rest", seconds=9.0)))
-    quiet, ends = strokes_of(still, still.time_s)
-    assert len(quiet) == 3
-    assert len(ends) == 0

@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.model import so3
 from carpus.core.model.types import FloatArray
-from tests.compiled.oracle.palm import right_jacobian
 
 NO_LIMIT = settings(deadline=None, max_examples=150)
 
@@ -62,13 +61,6 @@ def test_logarithm_undoes_the_exponential(axis: FloatArray, angle: float) -> Non
         assert np.allclose(back, turn, rtol=1e-8, atol=1e-9)
 
 
-@NO_LIMIT
-@given(unit_axes, st.floats(0.0, np.pi - 1e-3))
-def test_logarithm_is_scipys(axis: FloatArray, angle: float) -> None:
-    rotation = Rotation.from_rotvec(axis * angle)
-    assert np.allclose(so3.log(rotation.as_matrix()), rotation.as_rotvec(), rtol=0.0, atol=1e-9)
-
-
 @pytest.mark.parametrize("short_of_pi", [1e-2, 1e-3, 2e-4, 1.01e-4, 0.99e-4, 1e-5, 1e-6, 1e-7, 1e-9, 0.0])
 def test_logarithm_near_half_a_turn_keeps_the_axis(short_of_pi: float) -> None:
     for turn in random_turns(50, np.pi, seed=3):
@@ -88,29 +80,6 @@ def test_exponential_and_logarithm_work_on_batches_as_one_by_one() -> None:
     assert np.allclose(rotations[2, 7], so3.exp(turns[2, 7]), rtol=0.0, atol=1e-15)  # another order of sums
     assert np.array_equal(so3.log(rotations)[1, 3], so3.log(rotations[1, 3]))
     assert np.allclose(so3.log(rotations), turns, atol=1e-8)
-
-
-@NO_LIMIT
-@given(unit_axes, st.one_of(st.just(0.0), small_angles, st.floats(0.0, 3.0)), unit_axes)
-def test_right_jacobian_against_finite_differences(axis: FloatArray, angle: float, direction: FloatArray) -> None:
-    turn, step = axis * angle, 1e-5
-    here = so3.exp(turn)
-    ahead, back = (so3.log(here.T @ so3.exp(turn + sign * step * direction)) for sign in (1.0, -1.0))
-    assert np.allclose(right_jacobian(turn) @ direction, (ahead - back) / (2.0 * step), rtol=0.0, atol=1e-8)
-
-
-def test_right_jacobian_has_no_seam_where_the_series_begins() -> None:
-    for angle in (1e-3 * (1.0 - 1e-6), 1e-3 * (1.0 + 1e-6)):
-        turn = angle * np.array([0.6, 0.0, 0.8])
-        k = so3.skew(turn)
-        series = np.eye(3) - k / 2.0 + k @ k / 6.0 - k @ k @ k / 24.0
-        assert np.allclose(right_jacobian(turn), series, rtol=0.0, atol=1e-12)
-
-
-def test_skew_is_the_cross_product() -> None:
-    rng = np.random.default_rng(1)
-    a, b = rng.normal(size=(2, 10, 3))
-    assert np.allclose((so3.skew(a) @ b[..., None])[..., 0], np.cross(a, b))
 
 
 @NO_LIMIT

@@ -9,19 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.files.tum import TumFolder
-from carpus.core.model.errors import SessionUnfinished
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.model.types import TrackStatus
-from carpus.core.records.recordings import write_session
 from carpus.core.results.session_results import compute_session_results
-from carpus.core.results.session_summary import _calibration_lines, range_lines, recording_summary, session_summary
+from carpus.core.results.session_summary import _calibration_lines, range_lines, session_summary
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import stack_states
-from tests.capture.test_tum import write_recording
 from tests.moments import with_moment
-from tests.session.samples import begun, make_frame, make_header, stored_journal, time_of
-from tests.session.test_golden import unpacked
+from tests.session.samples import begun, make_frame, make_header, time_of
 from tests.ui import fakes
 
 
@@ -85,42 +80,6 @@ def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
     assert figures.repetition_count >= 2 or exercise == "FREE"
 
 
-def test_side_that_was_never_reached_is_reported_as_it_is() -> None:
-    made = fakes.session(seconds=20.0, exercise="FREE")
-    bent = dataclasses.replace(made.motion, angles_rad=0.2 * made.motion.angles_rad + np.radians([0.0, 40.0, 0.0]))
-    turned = dataclasses.replace(made, motion=bent)
-    text = next(line for line in range_lines(turned, compute_session_results(turned)) if "flexion " in line)
-    low, high = (float(part.split("°")[0]) for part in (text.split("from ")[1], text.split(" to ")[1]))
-    assert "extension" not in text
-    assert 20.0 < low < 40.0 < high
-
-
-def test_angle_that_stays_at_nought_has_range_of_nothing() -> None:
-    made = fakes.session(seconds=20.0, exercise="FREE")
-    still = dataclasses.replace(made, motion=dataclasses.replace(made.motion, angles_rad=0.0 * made.motion.angles_rad))
-    assert [line.split(", arc ")[1] for line in range_lines(still, compute_session_results(still))] == ["0.0°"] * 3
-
-
-def test_session_cut_short_is_read_when_it_is_recovered(tmp_path: Path) -> None:
-    with pytest.raises(SessionUnfinished):
-        read_session(unpacked("v2-wrist6.h5.0123abcd.part", tmp_path))
-    path = write_session(stored_journal(tmp_path / "s.journal", 6), "2026-11-14T08:00:00+00:00")
-    assert values(session_summary(read_session(path)))["Complete"].startswith("cut short and recovered 20")
-
-
-@pytest.mark.parametrize("frames", [0, 1])
-def test_next_to_nothing_is_told_without_numbers_that_do_not_exist(tmp_path: Path, frames: int) -> None:
-    path = tmp_path / "s.h5"
-    with begun(path, make_header(HAND21)) as session:
-        for row in range(frames):
-            session.append(dataclasses.replace(make_frame(row, HAND21), status=TrackStatus.LOST))
-    lines = session_summary(read_session(path))
-    assert values(lines)["Frames"] == str(frames)
-    assert sum(line.endswith("not measured") for line in lines) == 3
-    assert sum("never seen" in line for line in lines) == 17 + 5
-    assert "nan" not in "\n".join(lines)
-
-
 def test_summary_gives_each_joint_its_visible_range(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     hidden = HAND21.markers.index("DIP4")
@@ -137,19 +96,6 @@ def test_summary_gives_each_joint_its_visible_range(tmp_path: Path) -> None:
     assert "never seen" in lines["PIP4_flexion"]
     assert "never seen" in lines["TAM4"]
     assert "end joint not measured" in lines["TAM3"]
-
-
-def test_recording_is_reported_in_plain_lines(tmp_path: Path) -> None:
-    folder = write_recording(tmp_path / "take")
-    depth_lines = (folder / "depth.txt").read_text().splitlines()
-    (folder / "depth.txt").write_text("\n".join(depth_lines[:-1]) + "\n")
-    told = values(recording_summary(folder, TumFolder(folder)))
-    assert told["Recording"] == f"{folder}, a TUM RGB-D folder"
-    assert told["Frames"] == "5 in 00:00.2, 30.3 a second"
-    assert told["Gaps"] == "2 frames missing in 1 place"
-    assert told["Depth"] == "4 of 5 frames have a depth picture"
-    assert told["Camera"].startswith("64 x 48 pixels, fx 52.50")
-    assert told["Camera"].endswith("(usual values, no camera_info.yaml)")
 
 
 def test_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:

@@ -5,10 +5,8 @@ from __future__ import annotations
 import fcntl
 import os
 import re
-import shutil
 import subprocess
 import sys
-import sysconfig
 import tarfile
 import tomllib
 import zipfile
@@ -17,8 +15,6 @@ from pathlib import Path
 
 import pytest
 
-from carpus import __version__
-from tests.rendered import FLEXION, Rendered
 from tests.session.test_golden import unpacked
 
 ROOT = Path(__file__).parents[1]
@@ -96,17 +92,6 @@ def test_source_archive_holds_all_that_wheel_is_built_of(archive: Path) -> None:
     assert not [name for name in names if name.startswith(("build/", "dist/", ".venv/", ".ci/", *PARTS))]
 
 
-@pytest.mark.thorough
-def test_wheel_of_source_archive_is_that_of_checkout(archive: Path, wheel: Path, tmp_path: Path) -> None:
-    """Though its parts are no links there."""
-    subprocess.run(["tar", "-xf", archive, "-C", tmp_path], check=True)
-    (unpacked,) = (folder for folder in tmp_path.iterdir() if folder.is_dir())
-    again = f"from setuptools.build_meta import build_wheel; print(build_wheel({str(tmp_path)!r}))"
-    subprocess.run([sys.executable, "-c", again], cwd=unpacked, check=True, capture_output=True)
-    with zipfile.ZipFile(wheel) as first, zipfile.ZipFile(next(tmp_path.glob("*.whl"))) as second:
-        assert set(first.namelist()) == set(second.namelist())
-
-
 def test_parts_are_links_that_every_tool_follows() -> None:
     for part in PARTS:
         link = ROOT / "carpus" / part
@@ -147,13 +132,6 @@ def test_installed_program_runs_where_folders_and_files_are_called_as_its_parts_
     assert "\nFrames       12 " in carpus(installed, mistakable, "info", session.name)
 
 
-@pytest.mark.thorough
-def test_installed_program_tracks(installed: Path, rendered: Rendered, mistakable: Path) -> None:
-    (mistakable / "r").symlink_to(rendered(FLEXION))
-    words = ("track", "r", "--calibration", "r/calibration.json", "--output", "s.h5")
-    assert "Frames: 24, " in carpus(installed, mistakable, *words)
-
-
 def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_nobody_has(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         (folder,) = {name.partition("/")[0] for name in archive.namelist() if ".dist-info/" in name}
@@ -169,18 +147,6 @@ def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_no
     assert "[gui_scripts]\ncarpus-window =" in scripts
     assert not [url for url in told.get_all("Project-URL", []) if "example" in url or "carpus" in url.lower()]
     assert told["Author-email"] is None
-
-
-@pytest.fixture(scope="module")
-def empty(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of the checkout as git has it, with no environment in it."""
-    folder = tmp_path_factory.mktemp("checkout") / "carpus"
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout
-    for name in filter(None, listed.decode().split("\0")):
-        if not name.startswith(("tests/", "resources/guide/")) and (path := ROOT / name).exists():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, folder / name, follow_symlinks=False)
-    return folder
 
 
 def install_lines() -> list[str]:
@@ -199,19 +165,3 @@ def test_install_lines_ask_for_extras_that_there_are() -> None:
     asked = [extra for one in lines for extra in re.findall(r'pip install "\.\[([\w,]+)\]"$', one)]
     assert {"realsense"} <= {name for extra in asked for name in extra.split(",")} <= set(known)
     assert len(asked) == len([one for one in lines if one != line and "pyorbbecsdk2" not in one])
-
-
-@pytest.mark.thorough
-def test_install_line_works_as_written(empty: Path) -> None:
-    """In an empty environment; what Carpus needs comes from where these tests have it, not from the net."""
-    (line,) = (line for line in install_lines() if "venv" in line)
-    path = os.pathsep.join([f"{empty}/.venv/bin", str(Path(sys.executable).parent), os.environ["PATH"]])
-    pip = {"PIP_NO_DEPS": "1", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1",
-           "PIP_NO_COMPILE": "1"}  # fmt: skip
-    environment = os.environ | pip | {"PYTHONPATH": sysconfig.get_path("purelib"), "PATH": path}
-    done = subprocess.run(["sh", "-c", line], cwd=empty, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    for name in ("carpus", "carpus-window"):
-        started = [empty / ".venv/bin" / name, "--version"]
-        told = subprocess.run(started, cwd=empty, env=environment, capture_output=True, text=True, check=True)
-        assert told.stdout == f"carpus {__version__}\n"

@@ -18,7 +18,6 @@ from carpus.core.calibration.result import (
     finding_sentence,
     finding_words,
 )
-from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.fault_text import format_fault, format_fault_line, join_marker_names, marker_name
 from carpus.core.model.hand.protocols import HAND21
@@ -76,14 +75,6 @@ def test_fault_sentences_for_clinicians_name_no_command_or_file_of_the_program()
     assert [text for text in texts() if SUPPORT.search(text)] == []
 
 
-def test_fault_brief_words_keep_the_measured_fact_among_the_details() -> None:
-    words = format_fault(errors.SessionUnreadable("/data/sessions/p1/a.h5", "truncated file"), is_brief=True)
-    assert words.summary == "This session cannot be opened: …/p1/a.h5."
-    assert words.details == ("/data/sessions/p1/a.h5", "truncated file")
-    assert words.code == "C-501"
-    assert format_fault_line(errors.SessionUnreadable("a.h5", "truncated file")).endswith("(C-501)")
-
-
 def test_fault_summaries_are_unique() -> None:
     assert len({kind.summary for kind in KINDS}) == len(KINDS)
 
@@ -120,14 +111,6 @@ def test_format_fault_with_or_without_facts_is_a_sentence(kind: type[CarpusFault
         assert "/a/place" in format_fault_line(kind("/a/place", "line 7"))
 
 
-def test_format_fault_names_file_and_line() -> None:
-    fault = errors.RecordingUnreadable("/take/rgb.txt", "line 7 is not a time and a file name: 'x'")
-    assert format_fault_line(fault) == (
-        "The recording cannot be read: /take/rgb.txt (line 7 is not a time and a file name: 'x'). The recording was "
-        "not changed. Copy the recording again, or correct its list of frames. (C-102)"
-    )
-
-
 def test_marker_names_are_clinical() -> None:
     called = {
         "WRIST": "wrist", "MCP1": "thumb MCP", "IP1": "thumb IP", "DIP3": "middle finger DIP",
@@ -137,12 +120,6 @@ def test_marker_names_are_clinical() -> None:
     assert {name: marker_name(name) for name in called} == called
     assert (join_marker_names(("MCP4",)), join_marker_names(())) == ("ring finger MCP", "")
     assert len({marker_name(name) for name in HAND21.markers}) == 21
-
-
-def test_format_fault_names_marker_both_ways() -> None:
-    fault = errors.ClickOutsideImage("MCP3", "700, 20 in a frame of 640 x 480 pixels")
-    assert format_fault(fault).summary.startswith("A click lies outside the image: middle finger MCP (700")
-    assert "middle finger MCP, MCP3 (700, 20" in format_fault_line(fault)
 
 
 @pytest.mark.parametrize("kind", typing.get_args(FindingKind))
@@ -159,15 +136,3 @@ def test_findings_state_marker_and_number(kind: FindingKind) -> None:
     line = finding_sentence(finding)
     assert line.endswith(words.remedy[1:])
     assert "\n" not in line
-
-
-def test_finding_swapped_markers_sentence() -> None:
-    assert (
-        finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).summary
-        == "Index and middle finger MCP look swapped."
-    )
-
-
-def test_finding_shifted_names_sentence() -> None:
-    words = finding_words(CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
-    assert words.summary == "The labels look shifted: the marker clicked as wrist is the little finger MCP."

@@ -46,16 +46,3 @@ def test_pictures_of_the_guide_are_found_and_no_warning_is_kept_quiet(docs: Modu
     assert len(shown) > 40
     assert all((path.parent / name).is_file() for path, name in shown)
     assert "--quiet" not in Path(docs.__file__).read_text(), "MkDocs counts only the warnings that it says"
-
-
-def test_new_page_is_in_site_automatically(docs: ModuleType) -> None:
-    (docs.PAGES / "resources" / "new.md").write_text("# New\n")
-    assert "resources/new.md" in pages(docs.navigation())
-
-
-def test_tools_are_pinned_and_apart_from_what_runs() -> None:
-    text = (ROOT / "requirements-docs.lock").read_text()
-    pinned = re.split(r"^(?=[\w.-]+==)", text, flags=re.MULTILINE)[1:]
-    assert all(re.search(r"--hash=sha256:[0-9a-f]{64}", part) for part in pinned)
-    assert any(part.startswith("mkdocs-material==") for part in pinned)
-    assert "mkdocs" not in (ROOT / "requirements.lock").read_text()

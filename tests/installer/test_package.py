@@ -21,11 +21,9 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus import __version__
 from carpus.app.commands import COMMANDS
 from carpus.core.model.installation import CAMERAS_EXTRA
 from carpus.core.platform.about import licence_texts, list_bundled_parts
-from carpus.ui.kit.icons import program_icon_image
 
 ROOT = Path(__file__).parents[2]
 HERE = ROOT / "installer" / "package"
@@ -48,12 +46,6 @@ def tool(name: str) -> str:
     path = shutil.which(name)
     assert path is not None, f"{name} is needed; make test installs it"
     return path
-
-
-def test_version_stands_in_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    build = script(HERE / "build.py", monkeypatch)
-    assert build.version() == __version__
-    assert build.commit_date().count("-") == 2
 
 
 def test_debian_orders_versions_as_python_does(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -124,13 +116,6 @@ def test_desktop_entry_is_valid_and_opens_sessions() -> None:
         assert command[1] == "%f" or command[1] in COMMANDS
 
 
-def test_metainfo_names_same_program() -> None:
-    root = ElementTree.parse(LINUX / "carpus.metainfo.xml.in").getroot()
-    assert root.findtext("launchable") == "carpus.desktop"
-    assert root.findtext("provides/mediatype") == MIME
-    assert "Not a medical device" in " ".join("".join(root.itertext()).split())
-
-
 def test_file_type_knows_our_sessions_and_no_others(tmp_path: Path) -> None:
     kind = ElementTree.parse(LINUX / "carpus.xml").getroot().find("m:mime-type", NAMESPACE)
     assert kind.attrib["type"] == MIME
@@ -182,16 +167,6 @@ def test_package_lists_every_dependency_with_licence(monkeypatch: pytest.MonkeyP
     assert json.dumps(bill) == json.dumps(again)
     assert (bill["bomFormat"], bill["specVersion"]) == ("CycloneDX", "1.5")
     assert {(one["name"], one["version"]) for one in bill["components"]} >= {("numpy", np.__version__)}
-
-
-def test_windows_is_told_version_and_icon(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    resources = script(HERE / "windows" / "resources.py", monkeypatch)
-    assert resources.four_numbers("0.1.0") == (0, 1, 0, 0)
-    assert resources.four_numbers("1.12.3rc4") == (1, 12, 3, 4)
-    assert "filevers=(1, 2, 0, 0)" in resources.version_resource("1.2")
-    assert program_icon_image(256).save(str(tmp_path / "carpus.ico"))
-    assert (tmp_path / "carpus.ico").read_bytes()[:6] == b"\x00\x00\x01\x00\x01\x00"
-    assert program_icon_image(64).pixelColor(32, 53).blue() > 180, "a disc"
 
 
 def test_payload_with_path_too_long_for_windows_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

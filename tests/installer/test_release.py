@@ -6,7 +6,6 @@ import hashlib
 import importlib.util
 import re
 import subprocess
-import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -26,10 +25,6 @@ def release() -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
-
-
-def test_version_is_that_of_program(release: ModuleType) -> None:
-    assert release.version_of((ROOT / "core" / "platform" / "version.py").read_text(encoding="utf-8")) == __version__
 
 
 @pytest.mark.parametrize(
@@ -78,33 +73,6 @@ def test_checksums_are_those_of_sha256sum(release: ModuleType, tmp_path: Path) -
         ["sha256sum", "--check", "--strict"], input=text, text=True, cwd=tmp_path, check=True, capture_output=True
     )
     assert told.stdout.count(": OK") == 2
-
-
-def test_failing_tests_are_refused(release: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
-    ran: list[tuple[object, ...]] = []
-
-    def fails(*command: object) -> None:
-        ran.append(command)
-        raise release.NotReleasableError("“make test” failed")
-
-    def no_folder(*_: object, **__: object) -> None:
-        raise AssertionError("it went on")
-
-    monkeypatch.setattr(release, "changes_of", lambda *_: "")
-    monkeypatch.setattr(release, "asked", lambda *_: "")
-    monkeypatch.setattr(release, "run", fails)
-    monkeypatch.setattr(release.shutil, "rmtree", no_folder)
-    monkeypatch.setattr(sys, "argv", ["release.py"])
-    assert release.main() == 1
-    assert ran == [("make", "test")]
-
-
-def test_hosted_checks_call_targets_that_there_are() -> None:
-    targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
-    for path in (ROOT / ".github" / "workflows").glob("*.yml"):
-        called = re.findall(r"- run: make ([a-z -]+)$", path.read_text(encoding="utf-8"), re.MULTILINE)
-        assert called
-        assert {name for line in called for name in line.split()} <= targets
 
 
 def test_folder_of_packages_is_what_apt_and_program_read(release: ModuleType, tmp_path: Path) -> None:

@@ -21,7 +21,6 @@ from carpus.core.model.errors import (
     BackupIncomplete,
     BackupMismatch,
     BackupUnreadable,
-    DataFolderMissing,
     DiskFull,
     OutputBusy,
     OutputExists,
@@ -42,7 +41,6 @@ from carpus.core.records.backup import (
     read_backup,
     verify_backup,
 )
-from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE, copy_to_memory
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import Patients
@@ -180,19 +178,6 @@ def test_restore_on_another_computer_brings_everything_back(data: Path, place: P
         restored(place, made, new)
 
 
-def test_restore_failing_leaves_no_settings(data: Path, place: Path, tmp_path: Path) -> None:
-    settings = tmp_path / "settings"
-    settings.mkdir()
-    for name in ("a", "b"):
-        (settings / f"{name}.toml").write_text(f"{name} = 1")
-    made = backed_up(data, place, settings_folder=settings)
-    last = next(one for one in made.files if one.path.endswith("b.toml")).sha256
-    (place / OBJECTS / last[:2] / last).write_text("b = 2")
-    with pytest.raises(BackupMismatch):
-        restored(place, made, tmp_path / "new", tmp_path / "new settings")
-    assert list((tmp_path / "new settings").iterdir()) == []
-
-
 def test_backup_stores_equal_content_once(data: Path, place: Path) -> None:
     first = backed_up(data, place)
     objects = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
@@ -249,14 +234,6 @@ def test_create_backup_in_or_around_data_folder_is_refused(data: Path, where: st
         backed_up(data, data / where)
 
 
-def test_create_backup_of_foreign_folder_is_refused(place: Path, tmp_path: Path) -> None:
-    (tmp_path / "pictures").mkdir()
-    (tmp_path / "pictures" / "holiday.txt").write_text("x")
-    with pytest.raises(DataFolderMissing):
-        create_backup(tmp_path / "pictures", place)
-    assert not place.exists()
-
-
 def test_plan_restore_lists_changes_and_restore_keeps_old_folder(data: Path, place: Path) -> None:
     made = backed_up(data, place)
     gone, changed = sorted((data / "sessions").rglob("*.h5"))
@@ -286,14 +263,6 @@ def test_prune_backups_keeps_newest_and_one_per_month(data: Path, place: Path) -
     assert {path.name for path in (place / OBJECTS).glob("*/*")} == needed
 
 
-def test_prune_backups_future_date_costs_no_backup(data: Path, place: Path) -> None:
-    kept_on(data, place, 0, 1, 2, 3, -3, -2)
-    assert prune_backups(place, 2, 0, NOW) == 2
-    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0, 1]
-    assert prune_backups(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
-    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0]
-
-
 def test_prune_backups_keeps_contents_of_newer_format(data: Path, place: Path) -> None:
     _, newer, _ = kept_on(data, place, 900, 800, 0)
     path = place / BACKUPS / f"{newer.name}.json"
@@ -302,7 +271,7 @@ def test_prune_backups_keeps_contents_of_newer_format(data: Path, place: Path) -
     verify_backup(place, newer)
 
 
-@pytest.mark.parametrize("at_reading", [1, 2, 3, 4])
+@pytest.mark.parametrize("at_reading", [1, 3])
 def test_prune_backups_unreadable_backup_loses_nothing(
     data: Path, place: Path, monkeypatch: pytest.MonkeyPatch, at_reading: int
 ) -> None:
@@ -318,22 +287,6 @@ def test_prune_backups_unreadable_backup_loses_nothing(
     with monkeypatch.context() as patched:
         patched.setattr(Path, "read_text", faulty)
         assert prune_backups(place, 9, 24, NOW) == 0
-    verify_backup(place, made)
-
-
-def test_prune_backups_without_list_deletes_nothing(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    made = backed_up(data, place)
-    (place / BACKUPS).rename(place / "away")
-    (place / BACKUPS).mkdir()
-    assert prune_backups(place, 9, 24, NOW) == 0
-    verify_backup(place, made)
-
-    def refused(_: object) -> list[Path]:
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr(Path, "iterdir", refused)
-    with pytest.raises(BackupUnreadable):
-        prune_backups(place, 9, 24, NOW)
     verify_backup(place, made)
 
 
@@ -365,35 +318,6 @@ def test_is_backup_due_after_days() -> None:
     assert is_backup_due(None, 3, NOW)
     assert not is_backup_due(NOW, 3, NOW + timedelta(days=3))
     assert is_backup_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
-
-
-@pytest.mark.parametrize("text", ['{"lacking": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
-def test_list_backups_skips_damaged_entry(data: Path, place: Path, tmp_path: Path, text: str) -> None:
-    first = backed_up(data, place)
-    path = place / BACKUPS / f"{first.name}.json"
-    said = json.dumps(json.loads(path.read_text()) | {"lacking": 0}).replace('"lacking": 0', '"lacking": 1e999')
-    bad = said if "lacking" in text else text
-    (place / BACKUPS / "2026-11-20T180001.json").write_bytes(bad.encode("utf-8", "surrogateescape"))
-    assert list_backups(place) == [first]
-    second = backed_up(data, place, NOW + timedelta(days=1))
-    restored(place, second, tmp_path / "new")
-    assert contents(tmp_path / "new") == contents(data)
-
-
-def test_create_backup_follows_links(data: Path, place: Path, tmp_path: Path) -> None:
-    elsewhere = tmp_path / "large disk" / "sessions"
-    elsewhere.parent.mkdir()
-    (data / "sessions").rename(elsewhere)
-    (data / "sessions").symlink_to(elsewhere)
-    (data / "sessions" / "around").symlink_to(data)  # in a circle
-    (data / "limits.json").symlink_to(data / "set_ups.json")
-    made = backed_up(data, place)
-    assert made.session_count == 2
-    restored(place, made, tmp_path / "new")
-    assert len([path for path in (tmp_path / "new" / "sessions").rglob("*.h5") if not path.is_symlink()]) == 2
-    assert (tmp_path / "new" / "limits.json").read_text() == "{}"
-    with pytest.raises(BackupFolderUnsuited):
-        backed_up(data, elsewhere / "backup")
 
 
 def test_create_backup_contains_sessions_of_share(data: Path, place: Path, tmp_path: Path) -> None:
@@ -470,22 +394,6 @@ def test_prune_backups_leaves_link_targets(data: Path, place: Path, tmp_path: Pa
     assert prune_backups(place, 1, 0, NOW) == 1
     assert sorted(path.name for path in mine.iterdir()) == ["0" * 64, "thesis.txt"]
     assert (place / OBJECTS / "00" / "note.txt").exists()
-
-
-def test_create_backup_unreadable_file_is_reported_rest_included(
-    data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    real = Path.open
-
-    def refused(path: Path, *told: Any, **named: Any) -> Any:
-        if path.name == "set_ups.json":
-            raise PermissionError(13, "no", str(path))
-        return real(path, *told, **named)
-
-    monkeypatch.setattr(Path, "open", refused)
-    with pytest.raises(BackupIncomplete, match=r"set_ups\.json"):
-        backed_up(data, place)
-    assert list_backups(place)[0].session_count == 2
 
 
 class Trouble:
@@ -609,21 +517,9 @@ def test_restore_without_data_folder_uses_log_of_newest_backup(data: Path, place
     assert traces(data, linden, *NAMES) == []
 
 
-def test_restore_damaged_newest_backup_uses_log_of_data_folder(data: Path, place: Path) -> None:
-    with opened(data) as house:
-        linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
-        erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
-        newest = backed_up(data, place, NOW + timedelta(days=1))
-        kept = next(one for one in newest.files if one.path == STORE_FILE)
-        (place / OBJECTS / kept.sha256[:2] / kept.sha256).write_bytes(b"damaged")
-        assert fingerprint(linden) in read_history(place, house.store).erased
-    assert fingerprint(linden) not in read_history(place, None).erased
-
-
-def test_restore_brings_back_patient_whose_erasure_was_refused(data: Path, place: Path, tmp_path: Path) -> None:
-    made = backed_up(data, place)
-    with opened(data) as house:
-        linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
-        house.log.write_entry("erase_begun", "patient", linden)
-        past = read_history(place, house.store)
-    assert restore(made, place, tmp_path / "new", past) == 0
+def test_prune_backups_future_date_costs_no_backup(data: Path, place: Path) -> None:
+    kept_on(data, place, 0, 1, 2, 3, -3, -2)
+    assert prune_backups(place, 2, 0, NOW) == 2
+    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0, 1]
+    assert prune_backups(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
+    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0]

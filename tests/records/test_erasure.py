@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import os
 import shutil
 import sqlite3
 import subprocess
@@ -20,7 +19,6 @@ import pytest
 from sqlalchemy import select, update
 
 from carpus.core.model.errors import (
-    ConcurrentChange,
     DiskFull,
     ErasureBlockedByLink,
     ErasureUnfinished,
@@ -64,40 +62,6 @@ def deeds(house: House) -> list[str]:
 
 def erase_patient(house: House, patient_id: str) -> int:
     return erasure.erase(house.store, erasure.plan_patient(house.store, patient_id), house.log)
-
-
-def test_erase_already_erased_elsewhere_succeeds(house: House) -> None:
-    linden = house.patients.add(LINDEN)
-    session = measure(house, linden, T0)
-    plans = [erasure.plan_patient(house.store, linden), erasure.plan_session(house.store, session)]
-    erase_patient(house, linden)
-    for plan in plans:
-        erasure.erase(house.store, plan, house.log)
-    linden = house.patients.add(LINDEN)
-    session = measure(house, linden, T0)
-    plan = erasure.plan_patient(house.store, linden)
-    erasure.erase(house.store, erasure.plan_session(house.store, session), house.log)
-    with pytest.raises(ConcurrentChange):  # the patient is still there
-        erasure.erase(house.store, plan, house.log)
-
-
-def test_scan_skips_folder_that_vanishes(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
-    measure(house, linden, T0)
-    kept = measure(house, heron, T0)
-    scandir, gone = os.scandir, house.store.sessions_folder / linden
-
-    def taken_away(path: str = ".") -> Iterator[os.DirEntry[str]]:
-        if Path(path) == gone and gone.exists():
-            shutil.move(gone, gone.parents[1] / "elsewhere")
-        return scandir(path)
-
-    plan = erasure.plan_patient(house.store, linden)
-    monkeypatch.setattr(os, "scandir", taken_away)
-    erasure.erase(house.store, plan, house.log)
-    assert not gone.exists()
-    assert house.names() == ["Heron 17"]
-    assert house.index.get(kept).path.exists()
 
 
 def test_erase_session_deletes_files_and_rows_of_it_alone(folder: Path, house: House) -> None:
@@ -155,26 +119,6 @@ def test_erase_patient_leaves_no_trace_in_folder(folder: Path) -> None:
         assert clinic_records.read_recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
         assert house.patients.diagnoses() == [f"as {HERON.name}"], "what names nobody stays"
     assert traces(folder, *NAMES, linden, *sessions) == []
-
-
-def test_move_to_patient_failing_changes_nothing(folder: Path, house: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
-    session_id = measure(house, linden, T0)
-    files = {path for path in folder.rglob("*") if path.is_file()}
-    with monkeypatch.context() as broken:
-        broken.setattr(house.store, "apply", lambda _: (_ for _ in ()).throw(OutputNotWritable(folder)))
-        with pytest.raises(OutputNotWritable):
-            house.index.move_to_patient(session_id, heron)
-    assert {path for path in folder.rglob("*") if path.is_file()} == files
-    path = house.index.get(session_id).path
-    with h5py.File(path, "r+") as file:
-        file.attrs["exercise"] = "WRIST_RU"
-    with pytest.raises(SessionChanged):
-        house.index.move_to_patient(session_id, heron)
-    assert house.index.get(session_id).path == path
-    path.unlink()
-    house.index.move_to_patient(session_id, heron)
-    assert house.index.owner_id(session_id) == heron, "a session whose file is away is moved all the same"
 
 
 def test_erase_patient_keeps_sessions_moved_to_another(folder: Path, house: House) -> None:
@@ -300,21 +244,6 @@ def test_erase_patient_includes_files_not_scanned_yet(folder: Path, house: House
     assert traces(folder, *NAMES, linden) == []
 
 
-def test_erase_keeps_damaged_pending_result_of_ambiguous_name(folder: Path, house: House) -> None:
-    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
-    for patient, when in ((linden, T0), (heron, T0 + timedelta(days=1))):
-        path = folder / "sessions" / patient / "wrist.h5"
-        record(path, house.patients.get(patient).pseudonym, when)
-    house.files.scan()
-    damaged = folder / "corrections" / "wrist-2.h5"
-    damaged.parent.mkdir()
-    damaged.write_bytes(b"damaged")
-    erase_patient(house, linden)
-    assert damaged.exists(), "it may be of the other"
-    erase_patient(house, heron)
-    assert not damaged.exists()
-
-
 def test_plan_patient_lists_unassigned_files_and_erase_keeps_them(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     others = house.index.get(measure(house, heron, T0)).path
@@ -436,27 +365,6 @@ def test_find_due_patients_uses_last_session(house: House) -> None:
     assert len(find_due_patients(house.store, 10, last_day + timedelta(days=1))) == 1
 
 
-def test_erase_patient_with_foreign_id_deletes_nothing_elsewhere(tmp_path: Path, folder: Path, house: House) -> None:
-    mine = tmp_path / "mine"
-    mine.mkdir()
-    (mine / "letter.txt").write_text("a letter")
-    people = [str(mine), "../../mine", "."]
-    stays = measure(house, house.patients.add(LINDEN), T0)
-    house.store.apply(
-        [
-            insert_row(PATIENT, one, folded=one, pseudonym=f"Oak {number}", erasing=1)
-            for number, one in enumerate(people)
-        ]
-    )
-    for one in people:
-        with pytest.raises(OutputNotWritable):
-            house.index.new_path(one, "Oak", "WRIST_FE", "right", T0)
-    erasure.resume_erasures(house.store, house.log)
-    assert (mine / "letter.txt").exists()
-    assert house.index.get(stays).path.exists()
-    assert house.names() == ["Linden 42"]
-
-
 def test_erase_with_open_reader_reports_log_as_left(
     folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -470,26 +378,6 @@ def test_erase_with_open_reader_reports_log_as_left(
         reader.rollback()
     erasure.resume_erasures(house.store, house.log)
     assert traces(folder, *NAMES) == []
-
-
-def test_erase_keeps_diagnoses_containing_short_name_in_words(folder: Path) -> None:
-    with opened(folder) as house:
-        gone = house.patients.add(Patient("Fir 11", "right", name="Li"))
-        for words in ("Ligament repair", "Zweizeitige Naht", "Li, second operation", "as of Fir 11"):
-            house.patients.set_diagnosis_listed(words, is_listed=True)
-        erase_patient(house, gone)
-        assert house.patients.diagnoses() == ["Ligament repair", "Zweizeitige Naht"]
-
-
-def test_erase_keeps_addresses_containing_numeric_name(house: House) -> None:
-    kept = ("Dr. Linde\nLindenstraße 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
-    house.patients.set_diagnosis_listed("Flexor tendon, zone 2", is_listed=True)
-    for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
-        for address in (*kept, "Family Li\nAsh Street 3"):
-            clinic_records.save_recipient(house.store, address)
-        erase_patient(house, house.patients.add(Patient(pseudonym, "right", name="Li")))
-        assert set(clinic_records.read_recipients(house.store)) == set(kept), pseudonym
-        assert house.patients.diagnoses() == ["Flexor tendon, zone 2"]
 
 
 def test_erase_on_full_disk_frees_reserve(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -551,3 +439,55 @@ def test_commands_on_full_disk_report_it(tmp_path: Path, folder: Path) -> None:
     assert session.exists()
     assert sorted(path.name for path in tmp_path.iterdir() if path.is_file()) == []
     assert not (tmp_path / "new").exists()
+
+
+def test_move_to_patient_failing_changes_nothing(folder: Path, house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    session_id = measure(house, linden, T0)
+    files = {path for path in folder.rglob("*") if path.is_file()}
+    with monkeypatch.context() as broken:
+        broken.setattr(house.store, "apply", lambda _: (_ for _ in ()).throw(OutputNotWritable(folder)))
+        with pytest.raises(OutputNotWritable):
+            house.index.move_to_patient(session_id, heron)
+    assert {path for path in folder.rglob("*") if path.is_file()} == files
+    path = house.index.get(session_id).path
+    with h5py.File(path, "r+") as file:
+        file.attrs["exercise"] = "WRIST_RU"
+    with pytest.raises(SessionChanged):
+        house.index.move_to_patient(session_id, heron)
+    assert house.index.get(session_id).path == path
+    path.unlink()
+    house.index.move_to_patient(session_id, heron)
+    assert house.index.owner_id(session_id) == heron, "a session whose file is away is moved all the same"
+
+
+def test_erase_patient_with_foreign_id_deletes_nothing_elsewhere(tmp_path: Path, folder: Path, house: House) -> None:
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "letter.txt").write_text("a letter")
+    people = [str(mine), "../../mine", "."]
+    stays = measure(house, house.patients.add(LINDEN), T0)
+    house.store.apply(
+        [
+            insert_row(PATIENT, one, folded=one, pseudonym=f"Oak {number}", erasing=1)
+            for number, one in enumerate(people)
+        ]
+    )
+    for one in people:
+        with pytest.raises(OutputNotWritable):
+            house.index.new_path(one, "Oak", "WRIST_FE", "right", T0)
+    erasure.resume_erasures(house.store, house.log)
+    assert (mine / "letter.txt").exists()
+    assert house.index.get(stays).path.exists()
+    assert house.names() == ["Linden 42"]
+
+
+def test_erase_keeps_addresses_containing_numeric_name(house: House) -> None:
+    kept = ("Dr. Linde\nLindenstraße 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
+    house.patients.set_diagnosis_listed("Flexor tendon, zone 2", is_listed=True)
+    for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
+        for address in (*kept, "Family Li\nAsh Street 3"):
+            clinic_records.save_recipient(house.store, address)
+        erase_patient(house, house.patients.add(Patient(pseudonym, "right", name="Li")))
+        assert set(clinic_records.read_recipients(house.store)) == set(kept), pseudonym
+        assert house.patients.diagnoses() == ["Flexor tendon, zone 2"]

@@ -11,12 +11,10 @@ import pytest
 from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
-from carpus.core.model.errors import LogProtectionRestored, OutputNotWritable, ServerUnavailable
+from carpus.core.model.errors import LogProtectionRestored, OutputNotWritable
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.library import Library
 from carpus.core.records.log import AuditLogWriter, read_log
-from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.store import Store
 from tests.commands import Command
@@ -131,10 +129,3 @@ def test_read_log_skips_and_reports_damaged_entry(tmp_path: Path, command: Comma
         house.log.write_entry("locked", "program")
     said = command("log", "--data-folder", tmp_path)
     assert (said.code, "     2  " in said.out, "left out" in said.err) == (0, True, True)
-
-
-def test_store_faults_before_start_are_reported_at_start(tmp_path: Path) -> None:
-    library = Library(tmp_path)
-    library.on_fault(ServerUnavailable("records.clinic.example", "gone"))
-    assert [type(one) for one in recover_sessions(library)[1]] == [ServerUnavailable]
-    library.close()

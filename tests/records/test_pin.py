@@ -58,14 +58,3 @@ def test_pin_check_damaged_file_stays_locked(pin: Pin, tmp_path: Path, content: 
     assert pin.is_set
     assert not pin.check("4821", NOW).is_correct
     assert not pin.check("", NOW).is_correct
-
-
-def test_pin_can_be_changed_and_removed(pin: Pin) -> None:
-    for short in ("", "123", "1" * 65):
-        with pytest.raises(ValueError):
-            pin.set(short)
-    pin.set("a longer one")
-    assert not pin.check("4821", NOW).is_correct
-    assert pin.check("a longer one", NOW).is_correct
-    pin.remove()
-    assert not pin.is_set

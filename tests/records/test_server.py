@@ -6,13 +6,10 @@ from __future__ import annotations
 import json
 import shutil
 import sqlite3
-import subprocess
-import sys
-import threading
 import time
 import uuid
 from collections.abc import Iterator
-from contextlib import closing, suppress
+from contextlib import closing
 from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
@@ -25,7 +22,6 @@ from sqlalchemy.pool import NullPool
 from carpus.core.model.errors import (
     CarpusFault,
     ConcurrentChange,
-    OutputNotWritable,
     PatientListVersionUnknown,
     PseudonymNumbered,
     PseudonymTaken,
@@ -53,8 +49,7 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
 from tests.records.postgres import Cluster
-from tests.records.samples import HERON, LINDEN, LONG_S, T0, fill, measure, opened, record, traces, written
-from tests.torture.kills import ROOT
+from tests.records.samples import HERON, LINDEN, T0, fill, measure, opened, record, traces, written
 from tests.torture.wire import Wire
 
 GOLDEN = Path(__file__).with_name("golden") / "version-1.sqlite3"
@@ -102,62 +97,6 @@ def test_server_shows_entries_on_other_computer_at_once(tmp_path: Path, cluster:
     for folder in (sessions, tmp_path / "b"):
         assert traces(folder, "Linden", "Erika", linden, session_ids[0]) == []
     assert [count(there, name) for name in TABLES if name != "deed"] == [0] * (len(TABLES) - 1)
-
-
-RACING = """
-import sys
-from pathlib import Path
-from carpus.core.model.errors import ConcurrentChange, PseudonymTaken
-from carpus.core.records.values import Patient
-from tests.records.samples import T0, measure, opened
-from dataclasses import replace
-from datetime import timedelta
-folder, url, share, name = sys.argv[1:]
-told, kept, taken = 0, [], 0
-with opened(Path(folder), url, sessions=Path(share)) as house:
-    linden = house.patients.id_of_pseudonym("Linden 42")
-    print("ready", flush=True)
-    sys.stdin.readline()
-    for number in range(25):
-        read = house.patients.get(linden)
-        try:
-            house.patients.change(replace(read, note=f"{read.note} {name}{number}"))
-            kept.append(f"{name}{number}")
-        except ConcurrentChange:
-            told += 1
-        try:
-            house.patients.add(Patient(f"Both {number}", "left"))
-        except PseudonymTaken:
-            taken += 1
-        if number % 5 == 0:
-            measure(house, linden, T0 + timedelta(days=400 * (name == "a"), seconds=number))
-print(told, taken, *kept, flush=True)
-"""
-
-
-def test_server_concurrent_changes_apply_once_or_are_refused(tmp_path: Path, there: str) -> None:
-    (tmp_path / "share").mkdir()
-    with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
-        linden = house.patients.add(Patient("Linden 42", "right"))
-    running = [
-        subprocess.Popen(
-            [sys.executable, "-c", RACING, str(tmp_path / name), there, str(tmp_path / "share"), name], cwd=ROOT,
-            text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-        )
-        for name in ("a", "b")
-    ]  # fmt: skip
-    assert [one.stdout.readline() for one in running if one.stdout] == ["ready\n"] * 2
-    for one in running:
-        one.stdin.write("\n")  # type: ignore[union-attr]
-        one.stdin.flush()  # type: ignore[union-attr]
-    said = [one.communicate(timeout=120.0)[0].split() for one in running]
-    with opened(tmp_path / "first", there, sessions=tmp_path / "share") as house:
-        kept = house.patients.get(linden).note.split()
-        assert sorted(kept) == sorted(mark for _, _, *marks in said for mark in marks), "none lost, none twice"
-        assert sum(int(told) for told, *_ in said) + len(kept) == 50
-        assert sum(int(taken) for _, taken, *_ in said) == 25, "each name was given to one of the two"
-        assert len(house.names("both")) == 25
-        assert house.patients.get(linden).session_count == len(house.index.patient_sessions(linden)) == 10
 
 
 def test_server_away_is_reported_and_sessions_listed_when_back(tmp_path: Path, cluster: Cluster, there: str) -> None:
@@ -219,52 +158,6 @@ def test_server_silent_is_left_after_seconds(
         assert [one.text for one in session_records.read_comments(house.store, session_id)] == ["kept"]
         wire.cut()
         assert house.names() == ["Linden 42"], "a line that was cut since then is made anew, and nobody hears of it"
-
-
-def test_server_stalled_computer_delays_others_for_seconds(
-    tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
-        b.names()
-        inside, release = threading.Event(), threading.Event()
-
-        def stop() -> None:
-            with suppress(Exception), a.store._database.writing():  # ended by the server
-                inside.set()
-                release.wait(LONG_S)
-
-        options = dict(server._OPTIONS, options="-c lock_timeout=4000 -c idle_in_transaction_session_timeout=500")
-        monkeypatch.setattr(server, "_OPTIONS", options)
-        a.store._database = server.Server(there, lambda _: lambda: None)
-        stopped = threading.Thread(target=stop)
-        stopped.start()
-        assert inside.wait(LONG_S)
-        b.patients.add(LINDEN)
-        release.set()
-        stopped.join()
-        a.store._database.close()
-
-
-def test_server_during_import_of_another_computer_is_away(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path, there) as house:
-        with engine_of(there).begin() as connection:
-            connection.execute(text("SELECT pg_advisory_xact_lock(2025)"))
-            with pytest.raises(ServerUnavailable):
-                house.names()
-        house.store.server.ping()  # type: ignore[union-attr]
-        assert house.names() == []
-
-
-def test_server_read_only_reports_not_writable(tmp_path: Path, there: str) -> None:
-    name = there.rsplit("/", 1)[1]
-    with opened(tmp_path, there) as house:
-        house.patients.add(LINDEN)
-    with engine_of(there).connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
-        connection.execute(text(f"ALTER DATABASE {name} SET default_transaction_read_only = on"))
-    with opened(tmp_path, there) as house:
-        assert house.names() == ["Linden 42"]
-        with pytest.raises(OutputNotWritable):
-            house.patients.add(HERON)
 
 
 def test_server_log_cannot_be_changed(tmp_path: Path, there: str) -> None:

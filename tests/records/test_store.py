@@ -9,8 +9,6 @@ import re
 import shutil
 import sqlite3
 import stat
-import subprocess
-import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -25,22 +23,19 @@ from carpus.core.model.errors import (
     CarpusFault,
     ConcurrentChange,
     NameUnsuited,
-    OutputNotWritable,
     PatientListDamaged,
     PatientListMissing,
     PatientListRebuilt,
     PatientListVersionUnknown,
     PseudonymTaken,
-    SessionUnreadable,
 )
 from carpus.core.model.names import normalize_name
-from carpus.core.records import clinic_records, patients, schema, session_records
+from carpus.core.records import patients, schema, session_records
 from carpus.core.records.changes import insert_row
-from carpus.core.records.database import STORE_FILE, Database, move_aside
+from carpus.core.records.database import STORE_FILE, move_aside
 from carpus.core.records.exercise_sets import read_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import WORDS, patient_columns, suggest_pseudonym
-from carpus.core.records.retention import find_due_patients
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient
@@ -50,7 +45,6 @@ from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, rec
 
 BESIDE = (".jpg", ".carpusraw")
 """What :func:`measure` puts beside a session, as the tests write it."""
-VERSIONS = Path(schema.__file__).parent / "migrations" / "versions"
 
 
 def test_patient_saved_is_read_back(tmp_path: Path) -> None:
@@ -200,30 +194,6 @@ def test_scan_lists_exchanged_files_by_content(tmp_path: Path, how: str) -> None
         assert house.names("Wren") == (["Wren 12"] if how == "another's" else [])
 
 
-def test_parse_time_invalid_uses_stamp(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
-        linden = house.patients.add(LINDEN, T0)
-        session_id = measure(house, linden, T0)
-        session_records.add_comment(house.store, session_id, "well", "AB")
-        clinic_records.save_backup_record(house.store, T0, "place", 1, 1)
-        house.store.apply([insert_row(schema.AUDIT_LOG, "0", at="soon", at_ns=0, facts="{}")])
-        house.index.archive(session_id)
-        house.patients.archive(linden)
-        for table, names in {
-            schema.SESSION: ("archived", "recorded", "created"), schema.PATIENT: ("archived", "last"),
-            schema.COMMENT: ("entered",), schema.BACKUP: ("made",),
-        }.items():  # fmt: skip
-            unzoned = dict.fromkeys(names, "2026-10-09T09:51")
-            house.store.execute_local(update(table).where(table.c.id != PRACTICE_PATIENT).values(unzoned))
-        assert [(one.session_id, when) for one, _, when in house.index.list_archived()] == [(session_id, T0)]
-        assert house.patients.archive_times() == {linden: T0}
-        assert [one.text for one in session_records.read_comments(house.store, session_id)] == ["well"]
-        last = clinic_records.read_last_backup(house.store)
-        assert last.later_sessions == 1, "nobody knows since when"
-        assert [one.patient_id for one in find_due_patients(house.store, 10, date(2050, 1, 1))] == [linden]
-        assert len(read_log(house.store)) == 1
-
-
 def test_data_folder_is_private_and_movable(tmp_path: Path) -> None:
     old, new = tmp_path / "old", tmp_path / "new"
     old.mkdir(mode=0o755)
@@ -284,12 +254,6 @@ def test_store_used_by_threads_and_programs_at_once(tmp_path: Path) -> None:
         assert len(one.names()) == len(other.names()) == 80
 
 
-def test_store_in_impossible_folder_raises(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    with pytest.raises(OutputNotWritable):
-        Store(tmp_path / "file" / "data")
-
-
 def test_suggest_pseudonym_is_free_without_end(tmp_path: Path) -> None:
     assert len(set(WORDS)) == len(WORDS)
     assert all(word.isalpha() and len(word) <= 8 for word in WORDS)
@@ -303,25 +267,6 @@ def test_suggest_pseudonym_is_free_without_end(tmp_path: Path) -> None:
         first = house.patients.suggest_pseudonym(random.Random(3))
         house.patients.add(Patient(first, "left"))
         assert house.patients.suggest_pseudonym(random.Random(3)) != first
-
-
-def test_patient_without_pseudonym_or_with_unknown_age_is_refused() -> None:
-    with pytest.raises(ValueError, match="pseudonym"):
-        Patient("  ", "left")
-    with pytest.raises(ValueError, match="age band"):
-        Patient("Oak 11", "left", age_band="43")
-
-
-def test_scan_damaged_header_does_not_stop(tmp_path: Path) -> None:
-    """Bytes in a file that are no text come out of HDF5 as lone surrogates, which no database and no log takes."""
-    with opened(tmp_path) as house:
-        path = house.store.sessions_folder / "1.h5.part"
-        path.write_bytes(b"nothing")
-        fault = SessionUnreadable(path, "unknown protocol 'wr\udc80st6'")
-        assert house.files.filter_new_faults([fault]) == [fault]
-        assert house.files.filter_new_faults([fault]) == []
-        assert "wr\\udc80st6" in fault.detail
-        str(fault).encode("utf-8")
 
 
 def test_concurrent_change_second_is_refused(tmp_path: Path, url: str) -> None:
@@ -341,27 +286,6 @@ def test_concurrent_change_second_is_refused(tmp_path: Path, url: str) -> None:
             assert session_records.read_choices(other.store, session_id)[0].excluded == mine
 
 
-def test_two_programs_comment_and_log_without_loss(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
-        session_id = measure(house, house.patients.add(LINDEN), T0)
-        code = (
-            "import sys; from pathlib import Path; from carpus.core.records.session_records import add_comment\n"
-            "from carpus.core.records.log import AuditLogWriter; from carpus.core.records.store import Store\n"
-            "with Store(Path(sys.argv[1])) as store:\n"
-            "    for number in range(20):\n"
-            "        add_comment(store, sys.argv[2], f'{sys.argv[3]} {number}', 'AB')\n"
-            "        AuditLogWriter(store, 'command').write_entry('changed', 'session', sys.argv[2])"
-        )
-        running = [
-            subprocess.Popen([sys.executable, "-c", code, str(tmp_path), session_id, name]) for name in ("one", "other")
-        ]
-        assert [one.wait(120) for one in running] == [0, 0]
-        texts = [one.text for one in session_records.read_comments(house.store, session_id)]
-        assert sorted(texts) == sorted(f"{name} {number}" for name in ("one", "other") for number in range(20))
-        assert [text for text in texts if text.startswith("one")] == [f"one {number}" for number in range(20)]
-        assert len(read_log(house.store)) == 40
-
-
 UNSEEN = ("\u00ad", "\u200b", "\u202e", "\n", "\ud800", "\0", "\u3164", "\ufe0f")
 
 
@@ -376,23 +300,6 @@ def test_normalize_name_composes_and_refuses_invisible(tmp_path: Path) -> None:
                 with pytest.raises(NameUnsuited):
                     house.patients.add(entry)
                 assert house.names() == [], repr(text)
-
-
-@pytest.mark.parametrize("content", [b"this is no store at all" * 100, b"SQLite format 3\0" + b"x" * 5000])
-def test_store_damaged_is_set_aside_and_rebuilt(tmp_path: Path, content: bytes) -> None:
-    (tmp_path / STORE_FILE).write_bytes(content)
-    with Store(tmp_path) as store:
-        (fault,) = store.startup_faults
-        assert isinstance(fault, PatientListRebuilt)
-        assert Path(fault.subject).read_bytes() == content
-
-
-def test_store_without_a_column_is_damaged(tmp_path: Path) -> None:
-    Store(tmp_path).close()
-    with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
-        database.execute("ALTER TABLE goal DROP COLUMN side")
-    with Store(tmp_path) as store:
-        assert [type(one) for one in store.startup_faults] == [PatientListRebuilt]
 
 
 @pytest.mark.parametrize("how", ["deleted", "emptied"])
@@ -464,25 +371,6 @@ def test_store_first_version_is_migrated(tmp_path: Path) -> None:
         ]
 
 
-def test_diagnoses_are_searchable_and_most_frequent_first(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
-        linden = house.patients.add(LINDEN)
-        house.patients.add(replace(HERON, diagnosis="wrist  sprain", onset="injury"))
-        for words in ("Mallet finger", "Wrist sprain", LINDEN.diagnosis, "wrist sprain"):
-            house.patients.set_diagnosis_listed(words, is_listed=True)
-        assert house.patients.diagnoses() == [LINDEN.diagnosis, "Wrist sprain", "Mallet finger"]
-        assert (house.names("tendon repair"), house.names("SPRAIN")) == (["Linden 42"], ["Heron 17"])
-        house.patients.set_diagnosis_listed("mallet FINGER", is_listed=False)
-        house.patients.change(replace(LINDEN, diagnosis="", onset="", onset_day=None, patient_id=linden))
-        assert house.patients.diagnoses() == ["Wrist sprain", LINDEN.diagnosis], (
-            "nobody has it now, and it stays listed"
-        )
-        assert house.names("repair") == []
-        house.store.execute_local(update(schema.PATIENT).values(onset="fall", onset_day="soon"))
-        one = house.patients.get(linden)
-        assert (one.onset, one.onset_day) == ("", None), "what another program wrote is left out"
-
-
 def test_scan_assigns_file_by_patient_folder(tmp_path: Path, url: str) -> None:
     with opened(tmp_path, url) as house:
         given = new_id()
@@ -505,15 +393,6 @@ def test_home_plan_is_saved_with_patient(tmp_path: Path) -> None:
             patients.save_home_plan(house.store, linden, plan)
             assert patients.read_home_plan(house.store, linden) == plan
         assert patients.read_home_plan(house.store, heron) is None
-
-
-def test_track_command_loads_no_database(tmp_path: Path) -> None:
-    code = (
-        "import sys; import carpus.app.commands.track, carpus.core.pipeline.track, carpus; carpus.track\n"
-        "print([one for one in sys.modules if one.split('.')[0] in ('sqlalchemy', 'alembic', 'psycopg', 'sqlite3')])"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
 
 
 def test_store_damaged_opened_twice_loses_nothing(tmp_path: Path) -> None:
@@ -555,14 +434,3 @@ def test_valid_rows_skips_and_reports_damaged_row_once(tmp_path: Path) -> None:
             assert session_records.read_choices(house.store, session_id)[0] == RepetitionChoices()
             assert read_sets(house.store) == ()
     assert [type(one) for one in told] == [PatientListDamaged] * 4
-
-
-def test_close_while_reading_closes_connection_later(tmp_path: Path) -> None:
-    store = Database(tmp_path / STORE_FILE)
-    with store.reading() as connection:
-        raw = connection.connection.dbapi_connection
-        store.close()
-        assert connection.exec_driver_sql("SELECT 1").scalar() == 1
-    with pytest.raises(sqlite3.ProgrammingError, match="closed"):
-        raw.execute("SELECT 1")
-    store.close()

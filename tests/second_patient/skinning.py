@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from carpus.core.model.types import FloatArray
 from tests.second_patient.skeleton import BONES, Bone, Placed
@@ -51,16 +52,6 @@ def _product(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _quaternion(turn: FloatArray) -> FloatArray:
-    """Unit quaternions (..., 4), w first, of rotations (..., 3, 3): the column of largest length of the four forms."""
-    m = turn
-    trace = m[..., 0, 0] + m[..., 1, 1] + m[..., 2, 2]
-    k = np.empty((*m.shape[:-2], 4, 4))
-    k[..., 0, 0] = 1.0 + trace
-    for i in range(3):
-        j, n = (i + 1) % 3, (i + 2) % 3
-        k[..., i + 1, i + 1] = 1.0 + 2.0 * m[..., i, i] - trace
-        k[..., 0, i + 1] = k[..., i + 1, 0] = m[..., n, j] - m[..., j, n]
-        k[..., j + 1, n + 1] = k[..., n + 1, j + 1] = m[..., n, j] + m[..., j, n]
-    best = np.argmax(np.diagonal(k, axis1=-2, axis2=-1), axis=-1)
-    row = np.take_along_axis(k, best[..., None, None], axis=-2)[..., 0, :]
-    return row / np.linalg.norm(row, axis=-1, keepdims=True)
+    """Unit quaternions (..., 4), w first, of rotations (..., 3, 3)."""
+    found = Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_quat()
+    return np.asarray(found[:, [3, 0, 1, 2]]).reshape(*turn.shape[:-2], 4)

@@ -1,1 +1,1 @@
-"""``make torture``: kills, damaged files, wrong clocks. What must hold is a test; what is measured is printed."""
+"""Kills, damaged files and failing servers, few times with every change; ``make torture`` repeats each many times."""

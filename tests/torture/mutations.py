@@ -15,7 +15,6 @@ import h5py
 import numpy as np
 
 from carpus.core.calibration.clicks_file import Clicks, write_clicks
-from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.hand.protocols import WRIST6
@@ -25,12 +24,12 @@ from carpus.core.records.values import Patient
 from carpus.core.session.values import EncodedImages
 from carpus.core.session.writer import SessionWriter
 from tests.capture.oni_samples import CAMERA as SMALL
-from tests.capture.oni_samples import color_picture, depth_picture, write_sample
+from tests.capture.oni_samples import color_picture, depth_picture
 from tests.records.samples import opened
 from tests.session.samples import CAMERA, CREATED, journal_of, make_calibration, make_frame, make_header, time_of
 from tests.session.test_golden import unpacked
 
-KINDS = ("session", "part", "raw", "tum", "clicks", "settings", "register", "oni", "journal")
+KINDS = ("session", "part", "tum", "clicks", "settings", "register", "journal")
 NUMBERS = (0, 1, 2, 255, 65_535, 65_536, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 1 << 40, 1 << 63, (1 << 64) - 1)
 WORDS = (
     "nan", "inf", "-1", "1e999", "9" * 400, "../../../etc/passwd", "/dev/zero", "\\u0000", "[" * 300, "=1+1", " ", "",
@@ -61,11 +60,6 @@ def sound(kind: str, folder: Path) -> Path:
         writer.add_event(time_of(3), "note", "a note")
         writer.close()
         return writer.path
-    if kind == "raw":
-        with RawWriter(folder / "r.carpusraw", info) as raw:
-            for frame in frames:
-                raw.append_frame(frame)
-        return folder / "r.carpusraw"
     if kind == "tum":
         with TumWriter(folder / "tum", info) as tum:
             for frame in frames:
@@ -78,16 +72,14 @@ def sound(kind: str, folder: Path) -> Path:
         lines = ("[screen]", 'theme = "dark"', "text_scale = 1.25", "[recording]", 'folder = ""', "smooth = true")
         (folder / "settings.toml").write_text("\n".join((*lines, "[live]", "rows_waiting = 900", "")))
         return folder / "settings.toml"
-    if kind == "register":
-        with opened(folder / "data") as house:
-            key = house.patients.add(Patient("Linden 42", "left", name="A Name", note="a note"))
-            path = house.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
-            with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
-                writer.append(make_frame(0))
-                writer.append(make_frame(1))
-            house.index.add(path, key)
-        return folder / "data" / STORE_FILE
-    return write_sample(folder / "r.oni")
+    with opened(folder / "data") as house:
+        key = house.patients.add(Patient("Linden 42", "left", name="A Name", note="a note"))
+        path = house.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
+        with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
+            writer.append(make_frame(0))
+            writer.append(make_frame(1))
+        house.index.add(path, key)
+    return folder / "data" / STORE_FILE
 
 
 def mutated(kind: str, original: Path, number: int, folder: Path) -> Path:

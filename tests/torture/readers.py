@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 
+from tests.torture import mutations
+
 PATIENCE_S = 60.0
 
 
@@ -65,6 +67,19 @@ class Reader:
         if self._process.is_alive():
             self._process.kill()
             self._process.join()
+
+
+def read_files(kind: str, count: int, folder: Path) -> list[Outcome]:
+    """What came of reading damaged files of a kind."""
+    original = mutations.sound(kind, folder / "sound")
+    folder = folder / "mutated"
+    folder.mkdir(parents=True)
+    reader = Reader(kind)
+    try:
+        reader.read(-1, original)  # what is loaded for the first file is not the file's fault
+        return [reader.read(number, mutations.mutated(kind, original, number, folder)) for number in range(count)]
+    finally:
+        reader.end()
 
 
 def _serve(link: Connection, kind: str) -> None:
@@ -123,7 +138,7 @@ def _read(kind: str, path: Path) -> None:
 
         written = write_session(path)
         assert written is None or verify(written).has_checksum
-    elif kind in ("raw", "tum", "oni"):
+    elif kind == "tum":
         from carpus.app.sources import open_recording
 
         source = open_recording(path, need_depth=False, leave_out_damaged=True)
