@@ -19,8 +19,8 @@ def compute_log_odds(
     measured: Array,
     noise_variance: Array,
     densities: tuple[float, float, float],
-    gate2: float,
-    impossible: float,
+    gate_squared: double,
+    impossible: double,
 ) -> tuple[Array, NDArray[np.bool_]]:
     """
     Compute the log of (12) for every marker over (12) for clutter.
@@ -37,7 +37,7 @@ def compute_log_odds(
     densities : tuple of float
         Logs of a marker's prior over clutter's in the picture, of clutter's in depth, and of the chance that a depth is
         of something else.
-    gate2 : float
+    gate_squared : float
         From which y' S^-1 y on a blob is not that marker.
     impossible : float
         The value there.
@@ -56,29 +56,10 @@ def compute_log_odds(
     out, believed = np.empty((markers, blobs)), np.empty((markers, blobs), dtype=np.uint8)
     value: double[:, ::1] = out
     with_depth: cython.uchar[:, ::1] = believed
-    fill_log_odds(at, wide, blob, noise, densities[0], densities[1], densities[2], gate2, impossible, value, with_depth)
-    return out, believed.view(np.bool_)
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def fill_log_odds(
-    at: cython.const[double][:, ::1],
-    wide: cython.const[double][:, :, ::1],
-    blob: cython.const[double][:, ::1],
-    noise: cython.const[double][:, ::1],
-    prior: double,
-    by_depth: double,
-    by_outlier: double,
-    gate2: double,
-    impossible: double,
-    value: double[:, ::1],
-    with_depth: cython.uchar[:, ::1],
-) -> cython.void:
-    """Fill in what :func:`compute_log_odds` returns."""
-    j: Py_ssize_t
-    i: Py_ssize_t
+    prior: double = densities[0]
+    by_depth: double = densities[1]
+    by_outlier: double = densities[2]
+    cython.declare(j=Py_ssize_t, i=Py_ssize_t)
     for j in range(at.shape[0]):
         for i in range(blob.shape[0]):
             # S = L D L': innovations u, v, z and their variances, each given those before it.
@@ -91,47 +72,13 @@ def fill_log_odds(
             z_by_u, z_by_v = wide[j, 0, 2] / s_u, vz / s_v
             z = blob[i, 2] - at[j, 2] - z_by_u * u - z_by_v * v
             s_z = wide[j, 2, 2] + noise[i, 2] - z_by_u * wide[j, 0, 2] - z_by_v * vz
-            flat2 = u * u / s_u + v * v / s_v
-            whole2 = flat2 + z * z / s_z
+            # Squared Mahalanobis distances, and odds, by the pixel alone and with the depth.
+            in_image = u * u / s_u + v * v / s_v
+            in_space = in_image + z * z / s_z
             has_depth = isfinite(blob[i, 2])
-            flat = prior - 0.5 * (flat2 + log(s_u * s_v))
-            whole = flat + by_depth - 0.5 * (z * z / s_z + log(s_z)) if whole2 <= gate2 else impossible
-            flat = impossible if flat2 > gate2 else flat + by_outlier if has_depth else flat
-            with_depth[j, i] = has_depth and whole >= flat
-            value[j, i] = whole if whole >= flat else flat  # unknown where that by the pixel is
-
-
-def find_likeliest(odds: Array) -> NDArray[np.int64] | None:
-    """
-    Find the likeliest blob of every marker; where these are all others, none better can be had.
-
-    Parameters
-    ----------
-    odds : numpy.ndarray
-        Log odds (M, D).
-
-    Returns
-    -------
-    numpy.ndarray or None
-        Blob (M,) of every marker, -1 where no odds are above zero; None where two take the same.
-    """
-    markers: Py_ssize_t = odds.shape[0]
-    blobs: Py_ssize_t = odds.shape[1]
-    value: cython.const[double][:, ::1] = as_array(odds, "odds", (markers, blobs))
-    out = np.empty(markers, dtype=np.int64)
-    taken: cython.longlong[::1] = out
-    taken[:] = -1
-    is_used: cython.uchar[::1] = np.zeros(blobs, dtype=np.uint8)
-    j: Py_ssize_t
-    i: Py_ssize_t
-    for j in range(markers):
-        best: double = 0.0
-        for i in range(blobs):
-            if value[j, i] > best:
-                best = value[j, i]
-                taken[j] = i
-        if taken[j] >= 0:
-            if is_used[taken[j]]:
-                return None
-            is_used[taken[j]] = 1
-    return out
+            by_pixel = prior - 0.5 * (in_image + log(s_u * s_v))
+            by_both = by_pixel + by_depth - 0.5 * (z * z / s_z + log(s_z)) if in_space <= gate_squared else impossible
+            by_pixel = impossible if in_image > gate_squared else by_pixel + by_outlier if has_depth else by_pixel
+            with_depth[j, i] = has_depth and by_both >= by_pixel
+            value[j, i] = by_both if by_both >= by_pixel else by_pixel  # unknown where that by the pixel is
+    return out, believed.view(np.bool_)

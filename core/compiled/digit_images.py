@@ -11,9 +11,8 @@ from typing import Any
 import cython
 import numpy as np
 from cython import Py_ssize_t, double
-from cython.cimports.carpus.core.compiled.association import fill_log_odds
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
-from cython.cimports.libc.math import NAN, acos, cos, exp, expm1, isfinite, log, sqrt
+from cython.cimports.libc.math import NAN, isfinite, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.digits import BENT, OTHER, POSE
@@ -27,14 +26,6 @@ ACROSS_M = 0.00015
 """So closely a disc holds its joints across the line of sight where errors stay."""
 INHERITED = 0.25
 """Share of a joint's information that resists errors of its discs that stay."""
-HIDDEN_S, SHOWN_S = 0.4, 3.0
-"""So long a disc stays hidden or seen on average."""
-STEEPEST_RAD, STEEPEST_SD_RAD = 1.22, 0.15
-"""The tilt at which discs vanish, give or take."""
-MIN_SEEN, MAX_SEEN = 1e-4, 0.98
-"""Between these the chance stays that a disc is to be seen."""
-MIN_FACING = 0.15
-"""Tilted discs show no less of themselves."""
 
 Array = NDArray[np.float64]
 _PI = cython.declare(double, np.pi)
@@ -44,14 +35,7 @@ def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array
     """
     Linearise what the camera sees of the digits, by statistical linear regression (Garcia-Fernandez 2015).
 
-    Parameters
-    ----------
-    points : DigitPoints
-        Sigma points of the digits.
-    view : DigitView
-        From W to the pictures.
-    weights : Weights
-        Weights of the points.
+    ``points`` are ``DigitSigmaPoints``, before the ``DigitView``, with the ``SigmaWeights``.
 
     Returns
     -------
@@ -96,13 +80,7 @@ def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array
     by_bent: double[:, ::1] = np.empty((9, 6))
     cross: double[:, ::1] = np.empty((9, 21))
     turned: double[:, ::1] = np.empty((21, 9))
-    r: cython.int
-    d: cython.int
-    k: cython.int
-    a: Py_ssize_t
-    b: Py_ssize_t
-    i: Py_ssize_t
-    p: Py_ssize_t
+    cython.declare(r=cython.int, d=cython.int, k=cython.int, a=Py_ssize_t, b=Py_ssize_t, i=Py_ssize_t, p=Py_ssize_t)
     for r in range(5):
         for p in range(13):
             for d in range(3):
@@ -182,267 +160,6 @@ def _dot(row: cython.const[double][::1], at: cython.const[double][::1]) -> doubl
     return row[0] * at[0] + row[1] * at[1] + row[2] * at[2]
 
 
-def project_discs(points: Any, view: Any, scale: float) -> tuple[Array, Array, Array]:
-    """
-    Project the discs, with the spread of their sigma points.
-
-    Parameters
-    ----------
-    points : DigitPoints
-        Sigma points of the digits.
-    view : DigitView
-        From W to the pictures.
-    scale : float
-        How many columns the points stand from the mean.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        Pixels (5, 3, 2), their covariance (5, 3, 2, 2), and depths (5, 3).
-    """
-    disc: cython.const[double][:, :, :, ::1] = as_array(points.disc_m, "discs", (5, 13, 3, 3))
-    rotation: cython.const[double][:, ::1] = as_array(view.rotation, "the view's rotation", (3, 3))
-    translation: cython.const[double][::1] = as_array(view.translation_m, "the view's place", (3,))
-    fx: double = view.camera.fx_px
-    fy: double = view.camera.fy_px
-    cx: double = view.camera.cx_px
-    cy: double = view.camera.cy_px
-    per_step: double = 0.5 / scale
-    out = np.empty((5, 3, 2)), np.zeros((5, 3, 2, 2)), np.empty((5, 3))
-    pixel: double[:, :, ::1] = out[0]
-    spread: double[:, :, :, ::1] = out[1]
-    depth: double[:, ::1] = out[2]
-    at: double[::1] = np.empty(3)
-    image: double[:, ::1] = np.empty((13, 2))
-    r: cython.int
-    d: cython.int
-    p: cython.int
-    for r in range(5):
-        for d in range(3):
-            for p in range(13):
-                _place_in_camera(rotation, translation, disc[r, p, d], at)
-                image[p, 0], image[p, 1] = at[0] * (fx / at[2]) + cx, at[1] * (fy / at[2]) + cy
-                if p == 0:
-                    depth[r, d] = at[2]
-            pixel[r, d] = image[0]
-            for p in range(1, 7):
-                u, v = (image[p, 0] - image[6 + p, 0]) * per_step, (image[p, 1] - image[6 + p, 1]) * per_step
-                spread[r, d, 0, 0] += u * u
-                spread[r, d, 1, 1] += v * v
-                spread[r, d, 0, 1] += u * v
-            spread[r, d, 1, 0] = spread[r, d, 0, 1]
-    return out
-
-
-def propagate_palm_error(linearised: Any, base: Any) -> Array:
-    """
-    Propagate the error of the palm's place and turn to the discs' images.
-
-    Parameters
-    ----------
-    linearised : DigitsLinearisation
-        The discs in camera axes, and the derivative of their images by that.
-    base : DigitBase
-        The palm, with its covariance.
-
-    Returns
-    -------
-    numpy.ndarray
-        Covariance (5, 9, 9).
-    """
-    centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
-    by_place: cython.const[double][:, :, :, ::1] = as_array(linearised.by_place, "slopes by place", (5, 3, 3, 3))
-    origin: cython.const[double][::1] = as_array(base.view.translation_m, "the base's place", (3,))
-    wide: cython.const[double][:, ::1] = as_array(base.pose_covariance, "the base's covariance", (6, 6))
-    out = np.zeros((5, 9, 9))
-    found: double[:, :, ::1] = out
-    by_pose: double[:, ::1] = np.empty((9, 6))
-    turned: double[:, ::1] = np.empty((6, 9))
-    cross: double[:, ::1] = np.empty((9, 6))
-    lever: double[::1] = np.empty(3)
-    r: cython.int
-    d: cython.int
-    k: cython.int
-    j: cython.int
-    for r in range(5):
-        for d in range(3):
-            for k in range(3):
-                lever[k] = origin[k] - centre[r, d, k]
-            for k in range(3):
-                by_pose[3 * d + k, :3] = by_place[r, d, k]
-                _fill_turn_slope(by_place[r, d, k], lever, by_pose[3 * d + k, 3:])
-        for k in range(9):
-            for j in range(6):
-                turned[j, k] = by_pose[k, j]
-        cross[:] = 0.0
-        add_product(by_pose, wide, cross)
-        add_product(cross, turned, found[r])
-    return out
-
-
-@cython.cfunc
-@cython.inline
-@cython.nogil
-@cython.exceptval(check=False)
-def _fill_turn_slope(
-    by_place: cython.const[double][::1], lever: cython.const[double][::1], out: double[::1]
-) -> cython.void:
-    """Fill in the derivative by a turn about the camera's axes, of what stands off by minus the ``lever``."""
-    out[0] = by_place[1] * lever[2] - by_place[2] * lever[1]
-    out[1] = by_place[2] * lever[0] - by_place[0] * lever[2]
-    out[2] = by_place[0] * lever[1] - by_place[1] * lever[0]
-
-
-def compute_tilts(normal: Array, covariance: Array, linearised: Any, view: Any) -> tuple[Array, Array]:
-    """
-    Compute the tilt of the discs to the line of sight.
-
-    Parameters
-    ----------
-    normal : numpy.ndarray
-        Normals (5, 3, 3) of the discs in W.
-    covariance : numpy.ndarray
-        Of the states (5, 21, 21); joints are taken to err independently.
-    linearised : DigitsLinearisation
-        The discs in camera axes.
-    view : DigitView
-        From W to the pictures.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        Tilt (5, 3) in rad, and its variance (5, 3).
-    """
-    facing: cython.const[double][:, :, ::1] = as_array(normal, "normals", (5, 3, 3))
-    wide: cython.const[double][:, :, ::1] = as_array(covariance, "covariances", (5, 21, 21))
-    centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
-    rotation: cython.const[double][:, ::1] = as_array(view.rotation, "the view's rotation", (3, 3))
-    out = np.empty((5, 3)), np.empty((5, 3))
-    tilt: double[:, ::1] = out[0]
-    variance: double[:, ::1] = out[1]
-    r: cython.int
-    d: cython.int
-    k: cython.int
-    for r in range(5):
-        total: double = wide[r, 1, 1] if r else 0.0  # a thumb's CMC joint hardly tilts its discs
-        for d in range(3):
-            across = 0.0
-            for k in range(3):
-                across += _dot(rotation[k], facing[r, d]) * centre[r, d, k]
-            cosine = -across / sqrt(_dot(centre[r, d], centre[r, d]))
-            tilt[r, d] = acos(min(max(cosine, -1.0), 1.0))
-            if (d < 2) if r else (d != 1):  # PIP and DIP; MCP and IP flexion
-                total += wide[r, 2 + d, 2 + d]
-            variance[r, d] = total
-    return out
-
-
-def compute_visibility(
-    visible: Array, tilt: Array, variance: Array, linearised: Any, view: Any, dt_s: float
-) -> tuple[Array, Array]:
-    """
-    Compute how likely discs are to be seen, and how large.
-
-    A disc stays hidden or seen for some time, and vanishes when it is turned away: a logistic function in place of the
-    normal integral over its tilt.
-
-    Parameters
-    ----------
-    visible : numpy.ndarray
-        Chance (5, 3) that each disc was to be seen a moment ago.
-    tilt, variance : numpy.ndarray
-        Tilts (5, 3) in rad, and their variances.
-    linearised : DigitsLinearisation
-        The discs in camera axes.
-    view : DigitView
-        From W to the pictures.
-    dt_s : float
-        How long ago that moment is.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        Chance (5, 3) now, and pixels (5, 3) for each square metre of a disc.
-    """
-    before: cython.const[double][:, ::1] = as_array(visible, "chances", (5, 3))
-    tilted: cython.const[double][:, ::1] = as_array(tilt, "tilts", (5, 3))
-    unsure: cython.const[double][:, ::1] = as_array(variance, "their variances", (5, 3))
-    centre: cython.const[double][:, :, ::1] = as_array(linearised.centre_m, "discs", (5, 3, 3))
-    fx: double = view.camera.fx_px
-    stays: double = exp(-dt_s / SHOWN_S)
-    comes: double = -expm1(-dt_s / HIDDEN_S)
-    steepest: double = STEEPEST_RAD
-    soft2: double = STEEPEST_SD_RAD**2
-    low: double = MIN_SEEN
-    high: double = MAX_SEEN
-    least: double = MIN_FACING
-    out = np.empty((5, 3)), np.empty((5, 3))
-    chance: double[:, ::1] = out[0]
-    facing: double[:, ::1] = out[1]
-    r: cython.int
-    d: cython.int
-    for r in range(5):
-        for d in range(3):
-            past_sd = 1.7 * (tilted[r, d] - steepest) / sqrt(unsure[r, d] + soft2)
-            turned = 1.0 / (1.0 + exp(min(max(past_sd, -30.0), 30.0)))
-            by_time = before[r, d] * stays + (1.0 - before[r, d]) * comes
-            chance[r, d] = min(max(by_time * turned, low), high)
-            per_m = fx / centre[r, d, 2]
-            facing[r, d] = max(cos(tilted[r, d]), least) * per_m * per_m
-    return out
-
-
-def compute_disc_odds(
-    scene: Any, densities: tuple[float, float, float], gate2: float, impossible: float, assumed: float
-) -> tuple[Array, NDArray[np.bool_]]:
-    """
-    Compute the log odds that the blobs are the discs, given how likely these are to be seen.
-
-    Parameters
-    ----------
-    scene : DigitScene
-        What is expected of the discs, and the blobs.
-    densities, gate2, impossible
-        As :func:`association.compute_log_odds` takes them.
-    assumed : float
-        The log odds to be seen that a marker's prior holds.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        The odds (15, D), ``impossible`` where a blob is not free or a digit has no discs, and whether the blob's depth
-        is believed (15, D).
-    """
-    blobs: Py_ssize_t = len(scene.free)
-    expected: cython.const[double][:, ::1] = as_array(scene.linearised.value, "images", (5, 9)).reshape(15, 3)
-    spread: cython.const[double][:, :, ::1] = as_array(scene.spread, "their covariance", (5, 9, 9))
-    visible: cython.const[double][:, ::1] = as_array(scene.visible, "chances", (5, 3))
-    value: cython.const[double][:, ::1] = as_array(scene.blobs.value, "the blobs", (blobs, 3))
-    noise: cython.const[double][:, ::1] = as_array(scene.blobs.variance, "the blobs' variances", (blobs, 3))
-    free: cython.const[cython.uchar][::1] = as_array(scene.free, "free blobs", (blobs,)).view(np.uint8)
-    has_discs: cython.const[cython.uchar][::1] = as_array(scene.has_discs, "digits with discs", (5,)).view(np.uint8)
-    out, believed = np.empty((15, blobs)), np.empty((15, blobs), dtype=np.uint8)
-    odds: double[:, ::1] = out
-    with_depth: cython.uchar[:, ::1] = believed
-    own: double[:, :, ::1] = np.empty((15, 3, 3))
-    prior: double = assumed
-    never: double = impossible
-    d: cython.int
-    i: cython.int
-    j: cython.int
-    b: Py_ssize_t
-    for d in range(15):
-        for i in range(3):
-            for j in range(3):
-                own[d, i, j] = spread[d // 3, d % 3 * 3 + i, d % 3 * 3 + j]
-    fill_log_odds(expected, own, value, noise, densities[0], densities[1], densities[2], gate2, never, odds, with_depth)
-    for d in range(15):
-        seen = log(visible[d // 3, d % 3] / (1.0 - visible[d // 3, d % 3])) - prior
-        for b in range(blobs):
-            odds[d, b] = odds[d, b] + seen if free[b] and has_discs[d // 3] else never
-    return out, believed.view(np.bool_)
-
-
 def compute_inherited(covariance: Array, base: Any, linearised: Any, normal: Array) -> Array:
     """
     Compute what the slots inherit from the turn of W and from depths that stay wrong.
@@ -498,12 +215,7 @@ def compute_inherited(covariance: Array, base: Any, linearised: Any, normal: Arr
     root_m: double[::1] = np.empty(3)
     lever: double[::1] = np.empty(3)
     moved: double[::1] = np.empty(3)
-    r: cython.int
-    d: cython.int
-    k: cython.int
-    a: Py_ssize_t
-    i: Py_ssize_t
-    j: Py_ssize_t
+    cython.declare(r=cython.int, d=cython.int, k=cython.int, a=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t)
     for r in range(5):
         _place_in_camera(rotation, translation, root[r + 1], root_m)
         for d in range(3):
@@ -517,7 +229,10 @@ def compute_inherited(covariance: Array, base: Any, linearised: Any, normal: Arr
                 a = 3 * d + k
                 for i in range(5):
                     by_slot[a, i] = slope[r, a, i] * unit
-                _fill_turn_slope(by_place[r, d, k], lever, by_error[a, :3])
+                x, y, w = by_place[r, d, k, 0], by_place[r, d, k, 1], by_place[r, d, k, 2]
+                by_error[a, 0] = y * lever[2] - w * lever[1]
+                by_error[a, 1] = w * lever[0] - x * lever[2]
+                by_error[a, 2] = x * lever[1] - y * lever[0]
                 by_error[a, 3] = _dot(by_place[r, d, k], moved) * stays_m
                 for i in range(4):
                     by_error[a, i] *= unit
@@ -627,11 +342,7 @@ def measure_assigned_discs(
     measured[:] = NAN
     variance[:] = 1.0
     alone: cython.uchar[::1] = np.empty(3, dtype=np.uint8)
-    r: cython.int
-    d: cython.int
-    k: cython.int
-    other: cython.int
-    b: Py_ssize_t
+    cython.declare(r=cython.int, d=cython.int, k=cython.int, other=cython.int, b=Py_ssize_t)
     for r in range(5):
         for d in range(3):
             b = assigned[r, d]
@@ -696,9 +407,7 @@ def _split_blob(
     either lies ``half`` of that from the centre, along the line on which they are expected, as surely as that is known,
     and give or take a ``share`` of it. The depth is of either. ``across`` pixels are a metre there.
     """
-    k: cython.int
-    i: cython.int
-    j: cython.int
+    cython.declare(k=cython.int, i=cython.int, j=cython.int)
     gap2: double = 0.0
     shift2: double = 0.0
     for k in range(2):

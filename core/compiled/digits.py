@@ -83,8 +83,7 @@ def _place_chain(
     disc: double[:, ::1],
 ) -> cython.void:
     """Place a digit with pose ``s``: bones, normals and discs, (3, 3) each, and joint centres (4, 3)."""
-    d: cython.int
-    k: cython.int
+    cython.declare(d=cython.int, k=cython.int)
     azimuth = s[_FAN] + s[0]
     if digit == 0:
         # The proximal phalanx in the metacarpal's axes: along it, and dorsal to it (that one has no third component).
@@ -155,80 +154,12 @@ def place_discs(pose: Array, root_m: Array, digits: list[int]) -> Array:
     out = np.empty((pose.shape[0], pose.shape[1], 3, 3))
     disc: double[:, :, :, ::1] = out
     joint: double[:, :, ::1] = np.empty((3, 4, 3))
-    r: Py_ssize_t
-    i: Py_ssize_t
+    cython.declare(r=Py_ssize_t, i=Py_ssize_t)
     for r in range(s.shape[0]):
         digit: cython.int = digits[r]
         for i in range(s.shape[1]):
             _place_chain(digit, s[r, i], root[r], joint[0], joint[1], joint[2], disc[r, i])
     return out
-
-
-def compute_digit_transition(motion: Any, dt_s: float, scale2: Array, forgetting: Any | None) -> tuple[Array, Array]:
-    """
-    Move the digits a step: x <- F x + w with w ~ N(0, Q).
-
-    Rates stay, pushed all along the step by a white acceleration of density q: Q holds q dt^3 / 3, q dt^2 / 2 and q dt.
-    Slots with a variance in the long run return to zero (Ornstein-Uhlenbeck); constants drift.
-
-    Parameters
-    ----------
-    motion : DigitMotion
-        Densities, drift and variances in the long run.
-    dt_s : float
-        How long the step takes.
-    scale2 : numpy.ndarray
-        By how much the density is larger (5, K).
-    forgetting : Forgetting or None
-        What becomes of slots that nothing shows.
-
-    Returns
-    -------
-    tuple of numpy.ndarray
-        F (5, 21, 21) and Q (5, K, 21, 21).
-    """
-    modes: Py_ssize_t = scale2.shape[1]
-    density: cython.const[double][:, ::1] = as_array(motion.density, "densities", (5, 5))
-    drift: cython.const[double][:, ::1] = as_array(motion.drift, "drifts", (5, 11))
-    lasting: cython.const[double][:, ::1] = as_array(motion.stationary2, "variances in the long run", (5, 5))
-    scale: cython.const[double][:, ::1] = as_array(scale2, "scales", (5, modes))
-    fades: cython.bint = forgetting is not None
-    keep_rate: cython.const[double][:, ::1] = as_array(
-        forgetting.keep_rate if fades else motion.density, "shares kept", (5, 5)
-    )
-    angle2: cython.const[double][:, ::1] = as_array(
-        forgetting.angle2 if fades else motion.density, "variances of angles", (5, 5)
-    )
-    rate2: cython.const[double][:, ::1] = as_array(
-        forgetting.rate2 if fades else motion.density, "variances of rates", (5, 5)
-    )
-    dt: double = dt_s
-    settling: double = exp(-dt_s / motion.settles_s)
-    forward, noise = np.zeros((5, 21, 21)), np.zeros((5, modes, 21, 21))
-    f: double[:, :, ::1] = forward
-    q: double[:, :, :, ::1] = noise
-    r: cython.int
-    s: cython.int
-    k: Py_ssize_t
-    for r in range(5):
-        for s in range(21):
-            f[r, s, s] = 1.0
-        for s in range(5):
-            settled = settling if lasting[r, s] > 0.0 else 1.0
-            kept = keep_rate[r, s] if fades else 1.0
-            f[r, s, s], f[r, s, 5 + s], f[r, 5 + s, 5 + s] = settled, kept * dt, kept
-            for k in range(modes):
-                pushed = density[r, s] * scale[r, k]
-                q[r, k, s, s] = pushed * (dt * dt * dt / 3.0) + lasting[r, s] * (1.0 - settled * settled)
-                q[r, k, s, 5 + s] = q[r, k, 5 + s, s] = pushed * (0.5 * dt * dt)
-                q[r, k, 5 + s, 5 + s] = pushed * dt
-                if fades:
-                    q[r, k, s, s] += angle2[r, s]
-                    q[r, k, 5 + s, 5 + s] += rate2[r, s]
-        for s in range(11):
-            for k in range(modes):
-                q[r, k, 10 + s, 10 + s] = drift[r, s] * dt
-    return forward, noise
 
 
 def compute_digit_sigma_points(
@@ -284,10 +215,7 @@ def compute_digit_sigma_points(
     cross: double[:, ::1] = np.empty((6, 10))
     floor: double = FLOOR
     step: double = scale
-    r: cython.int
-    i: Py_ssize_t
-    j: Py_ssize_t
-    p: Py_ssize_t
+    cython.declare(r=cython.int, i=Py_ssize_t, j=Py_ssize_t, p=Py_ssize_t)
     for r in range(5):
         for i in range(16):
             s[i] = state[r, pose[i]]
@@ -324,9 +252,7 @@ def _fill_slopes(
     out: double[:, :, ::1],
 ) -> cython.void:
     """Fill zeros with the derivative (3 discs, 3, 10) of the discs by the constants but for the roll."""
-    d: cython.int
-    b: cython.int
-    k: cython.int
+    cython.declare(d=cython.int, b=cython.int, k=cython.int)
     for d in range(3):
         for k in range(3):
             for b in range(d + 1):
@@ -402,11 +328,7 @@ def apply_limits(
     out_mean: double[:, :, ::1]
     out_wide: double[:, :, :, ::1]
     out = None
-    r: Py_ssize_t
-    k: Py_ssize_t
-    i: Py_ssize_t
-    j: Py_ssize_t
-    n: Py_ssize_t
+    cython.declare(r=Py_ssize_t, k=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, n=Py_ssize_t)
     for r in range(5):
         for k in range(modes):
             any_near: cython.bint = False

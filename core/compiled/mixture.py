@@ -14,7 +14,6 @@ import numpy as np
 from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.small_matrices import (
     add_product,
-    add_sparse_product,
     inverse_root,
     zero_times,
 )
@@ -86,9 +85,9 @@ def predict_modes(mixture: Any, forward: Array, noise: Array, switch: Array | No
         for k in range(modes):
             mirror(before[k])
             half[:] = zero_times(before[k])
-            add_sparse_product(ahead[c], before[k], half)
+            add_product(ahead[c], before[k], half)
             transpose(half, turned)
-            add_sparse_product(ahead[c], turned, spread[c, k])  # F (F P)'
+            add_product(ahead[c], turned, spread[c, k])  # F (F P)'
     return (forward[:, None] @ mixed[..., None])[..., 0], out, probability
 
 
@@ -132,12 +131,12 @@ def predict_palm_modes(mixture: Any, step: Any, nominal: Array, switch: Array | 
                     if i < m:
                         before[i, j] = before[j, i]
             rows[:] = zero_times(p)
-            add_sparse_product(moving, before, rows)
+            add_product(moving, before, rows)
             for i in range(m):
                 for j in range(m):
                     corner[j, i] = rows[i, j]
             square[:] = driven[k]
-            add_sparse_product(moving, corner, square)
+            add_product(moving, corner, square)
             for i in range(n):
                 w = kept[k, i]
                 for j in range(min(i + 1, m)):
@@ -326,9 +325,9 @@ class InnovationWorkspace:
         self.cross[:] = zero_times(covariance)
         self.scatter[:] = self.own
         self.white[:] = 0.0
-        add_sparse_product(self.line, covariance, self.cross)
+        add_product(self.line, covariance, self.cross)
         transpose(self.cross, self.turned)
-        add_sparse_product(self.line, self.turned, self.scatter)
+        add_product(self.line, self.turned, self.scatter)
         unknown = zero_times(self.scatter)
         if not inverse_root(self.scatter, self.whitening):
             if unknown == 0.0:

@@ -11,7 +11,7 @@ from typing import Any
 import cython
 import numpy as np
 from cython import Py_ssize_t, double
-from cython.cimports.carpus.core.compiled.small_matrices import add_sparse_product, inverse_root
+from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
 from cython.cimports.libc.math import cos, exp, expm1, sin, sqrt
 from numpy.typing import NDArray
 
@@ -34,90 +34,22 @@ FLOOR = cython.declare(double, 1e-14)
 _NONE = np.zeros((3, 3))
 
 
-def compute_mode_transition(
-    motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, digits: Any
-) -> NDArray[np.float64]:
-    """
-    Probability to go over from one mode of the palm to another.
-
-    Modes of motion last ``motion.dwell_s``; those of the tissue go over at its ``rates``, from home (where joints are
-    seen) or to the wrist's own mode the more, the faster the hand turns.
-
-    Parameters
-    ----------
-    motion : PalmMotion
-        Its K modes: those at rest, each scale of motion times each resting tissue, before those of moving tissue.
-    rate_rad_s : numpy.ndarray
-        Angular velocity (3,).
-    dt_s : float
-        How long the step takes.
-    digits : DigitSpeeds
-        How fast thumb and fingers turn, rad/s.
-
-    Returns
-    -------
-    numpy.ndarray
-        Probability (K, K) from row to column.
-    """
-    tissue = motion.tissue
-    count: Py_ssize_t = tissue.count
-    rates: cython.const[double][:, ::1] = as_array(tissue.rates, "rates of the tissue", (count, count))
-    omega: cython.const[double][::1] = as_array(rate_rad_s, "the palm's rate", (3,))
-    tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
-    modes: Py_ssize_t = motion.modes
-    resting: Py_ssize_t = tissue.resting
-    scales: Py_ssize_t = motion.scales.shape[0]
-    follows: cython.bint = tissue.is_joint_driven
-    leaving: double = tissue.leaving_per_rad
-    dt: double = dt_s
-    turning: double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
-    fastest: double = max(turning, digits[0], digits[1])
-    pace: double = 0.2 + min(turning / tissue.turning_rad_s, 3.0)
-    between: double[:, ::1] = np.empty((count, count))
-    for i in range(count):
-        total: double = 0.0
-        for j in range(count):
-            rate = rates[i, j]
-            if follows and i == HOME and j != HOME:
-                rate += leaving * fastest
-            elif not follows and i < resting and j == WRIST:
-                rate *= pace
-            between[i, j] = rate
-            total += rate
-        leave = -expm1(-total * dt)
-        for j in range(count):
-            between[i, j] *= leave / max(total, 1e-12)
-        between[i, i] = 1.0 - leave
-
-    out = np.empty((modes, modes))
-    change: double[:, ::1] = out
-    at_rest: Py_ssize_t = scales * resting
-    leave = 1.0 - exp(-dt / motion.dwell_s)
-    for i in range(modes):
-        for j in range(modes):
-            chance = between[tissue_of[i], tissue_of[j]]
-            if j < at_rest <= i:
-                chance /= scales
-            elif j < at_rest and scales > 1:
-                chance *= 1.0 - leave if i // resting == j // resting else leave / (scales - 1)
-            change[i, j] = chance
-    return out
-
-
 def compute_palm_transition(
     motion: Any, rate_rad_s: NDArray[np.float64], dt_s: float, unseen: NDArray[np.float64] | None, digits: Any
 ) -> tuple[NDArray[np.float64], ...]:
     """
-    Step of the palm's errors: x <- F x + w with w ~ N(0, Q).
+    Step of the palm's errors: x <- F x + w with w ~ N(0, Q), and of its modes.
 
     Velocities stay, pushed all along the step by a white acceleration of density q: Q holds q dt^3 / 3, q dt^2 / 2 and
     q dt. A rate turns by Exp(omega dt), and errors of it by the right Jacobian of that. Skin and relief are
-    Ornstein-Uhlenbeck processes.
+    Ornstein-Uhlenbeck processes. Modes of motion last ``motion.dwell_s``; those of the tissue go over at its ``rates``,
+    from home (where joints are seen) or to the wrist's own mode the more, the faster the hand turns.
 
     Parameters
     ----------
     motion : PalmMotion
-        Noise of the motion, of which every mode has its own scale, and modes of the tissue.
+        Noise of the motion, of which every mode has its own scale, and modes of the tissue: those at rest, each scale
+        times each resting tissue, before those of moving tissue.
     rate_rad_s : numpy.ndarray
         Angular velocity (3,) in W2.
     dt_s : float
@@ -131,11 +63,13 @@ def compute_palm_transition(
     -------
     tuple of numpy.ndarray
         F of the moving numbers (12, 12) and their Q in every mode (K, 12, 12); the share that each number keeps
-        (K, 54); Q of skin and relief (K, 21, 21); the turn (3, 3) of the step.
+        (K, 54); Q of skin and relief (K, 21, 21); probability (K, K) to go over from row to column mode; the rotation
+        (3, 3) of the step.
     """
     noise, tissue = motion.noise, motion.tissue
     count: Py_ssize_t = tissue.count
     modes: Py_ssize_t = motion.modes
+    rates: cython.const[double][:, ::1] = as_array(tissue.rates, "rates of the tissue", (count, count))
     omega: cython.const[double][::1] = as_array(rate_rad_s, "the palm's rate", (3,))
     lasts: cython.const[double][:, ::1] = as_array(tissue.lasts_s, "how long tissue lasts", (count, SOFT))
     rest: cython.const[double][:, :, ::1] = as_array(tissue.stationary, "scatter of tissue", (count, SOFT, SOFT))
@@ -188,7 +122,8 @@ def compute_palm_transition(
     palm: double = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2])
     thumb: double = digits[0]
     fingers: double = digits[1]
-    per_rad: double = dt / tissue.lasts_rad if tissue.is_joint_driven else 0.0
+    is_joint_driven: cython.bint = tissue.is_joint_driven
+    per_rad: double = dt / tissue.lasts_rad if is_joint_driven else 0.0
     left, relaxing = np.empty((modes, SIZE)), np.empty((modes, SOFT, SOFT))
     kept: double[:, ::1] = left
     kept[:] = 1.0
@@ -202,7 +137,39 @@ def compute_palm_transition(
                 relaxed[k, i, j] = relaxed[k, j, i] = rest[tissue_of[k], i, j] * (
                     1.0 - kept[k, SKIN + i] * kept[k, SKIN + j]
                 )
-    return moving, driven, left, relaxing, turns[0]
+
+    resting: Py_ssize_t = tissue.resting
+    scales: Py_ssize_t = motion.scales.shape[0]
+    leaving: double = tissue.leaving_per_rad
+    pace: double = 0.2 + min(palm / tissue.turning_rad_s, 3.0)
+    between: double[:, ::1] = np.empty((count, count))
+    for i in range(count):
+        total: double = 0.0
+        for j in range(count):
+            rate = rates[i, j]
+            if is_joint_driven and i == HOME and j != HOME:
+                rate += leaving * max(palm, thumb, fingers)
+            elif not is_joint_driven and i < resting and j == WRIST:
+                rate *= pace
+            between[i, j] = rate
+            total += rate
+        leave = -expm1(-total * dt)
+        for j in range(count):
+            between[i, j] *= leave / max(total, 1e-12)
+        between[i, i] = 1.0 - leave
+    switching = np.empty((modes, modes))
+    switch: double[:, ::1] = switching
+    at_rest: Py_ssize_t = scales * resting
+    leave = 1.0 - exp(-dt / motion.dwell_s)
+    for i in range(modes):
+        for j in range(modes):
+            chance = between[tissue_of[i], tissue_of[j]]
+            if j < at_rest <= i:
+                chance /= scales
+            elif j < at_rest and scales > 1:
+                chance *= 1.0 - leave if i // resting == j // resting else leave / (scales - 1)
+            switch[i, j] = chance
+    return moving, driven, left, relaxing, switching, turns[0]
 
 
 def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: Any) -> tuple[NDArray[np.float64], ...]:
@@ -240,12 +207,11 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
     hidden: cython.const[double][:, ::1] = as_array(view.hidden, "what calibration hides", (DISCS, SEEN))
     w0_cam: cython.const[double][:, ::1] = as_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
     at: cython.const[double][::1] = as_array(view.translation_w0_cam_m, "the camera's place", (3,))
-    numbers: cython.const[double][::1] = as_array(weights.numbers, "weights of the sigma points", (5,))
-    of_middle: double = numbers[0]
-    of_others: double = numbers[1]
-    scatter_of_middle: double = numbers[2]
-    scatter_of_others: double = numbers[3]
-    scale: double = numbers[4]
+    of_middle: double = weights.mean[0]
+    of_others: double = weights.mean[1]
+    scatter_of_middle: double = weights.covariance[0]
+    scatter_of_others: double = weights.covariance[1]
+    scale: double = weights.scale
     camera = view.camera
     fx: double = camera.fx_px
     fy: double = camera.fy_px
@@ -344,7 +310,7 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
     expected, own = np.empty((DISCS, 3)), np.empty((DISCS, 3, 3))
     out_mean: double[:, ::1] = expected
     out_covariance: double[:, :, ::1] = own
-    add_sparse_product(h, spread, cross)
+    add_product(h, spread, cross)
     # Zeros, or NaN where any number is: the product passes over what h does not ask for.
     for i in range(SIZE):
         for j in range(SIZE):
@@ -475,7 +441,7 @@ def multiply_transposed(
 
 
 def as_array(array: NDArray[np.float64], name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """The array stored row by row, refused where it has another shape; of another type it is by the view of it."""
+    """Return the array stored row by row; refuse another shape. Another type is refused by the view of it."""
     if array.shape != shape:
         raise ValueError(f"{name}: {array.shape} where {shape} is read")
     return np.ascontiguousarray(array)

@@ -5,51 +5,19 @@ Each writes into an array that its caller gives; ``small_matrices.pxd`` says whi
 
 import cython
 from cython import Py_ssize_t, double
-from cython.cimports.libc.math import sqrt
+from cython.cimports.libc.math import INFINITY, NAN, fabs, sqrt
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def add_product(a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]) -> cython.void:
-    """
-    Add A B to ``out``.
-
-    Four rows of B at a time, so that a row of ``out`` is fetched a quarter as often; those that only zeros of A meet
-    are left out, also where they are not finite (:func:`zero_times`).
-    """
-    columns: Py_ssize_t = b.shape[1]
-    last: Py_ssize_t = a.shape[1] - a.shape[1] % 4
-    for i in range(a.shape[0]):
-        for k in range(0, last, 4):
-            w, x, y, z = a[i, k], a[i, k + 1], a[i, k + 2], a[i, k + 3]
-            if w != 0.0 or x != 0.0 or y != 0.0 or z != 0.0:
-                for j in range(columns):
-                    out[i, j] += w * b[k, j] + x * b[k + 1, j] + y * b[k + 2, j] + z * b[k + 3, j]
-        for k in range(last, a.shape[1]):
-            x = a[i, k]
-            if x != 0.0:
-                for j in range(columns):
-                    out[i, j] += x * b[k, j]
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def add_sparse_product(
-    a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]
-) -> cython.void:
-    """Add A B to ``out``, of an A that is mostly zeros: the rows of B that the others meet, four at a time."""
+    """Add A B to ``out``, of an A with zeros: the rows of B that the others meet, four at a time."""
+    cython.declare(p=Py_ssize_t, q=Py_ssize_t, r=Py_ssize_t, s=Py_ssize_t, w=double, x=double, y=double, z=double)
     last: Py_ssize_t = a.shape[1] - 1
     for i in range(a.shape[0]):
-        p: Py_ssize_t = 0
-        q: Py_ssize_t = 0
-        r: Py_ssize_t = 0
-        s: Py_ssize_t = 0
-        w: double = 0.0
-        x: double = 0.0
-        y: double = 0.0
-        z: double = 0.0
+        p = q = r = s = 0
+        w = x = y = z = 0.0
         waiting: cython.int = 0
         for k in range(last + 1):
             if a[i, k] != 0.0:
@@ -67,32 +35,25 @@ def add_sparse_product(
 @cython.nogil
 @cython.exceptval(check=False)
 def zero_times(a: cython.const[double][:, ::1]) -> double:
-    """0, or NaN where any number of A is not finite: what a product that leaves out zeros must begin with, so that
-    nothing unknown is passed over. Only the lower half of what is square is looked at."""
-    # Four sums: one would wait for itself.
-    w: double = 0.0
-    x: double = 0.0
-    y: double = 0.0
-    z: double = 0.0
+    """Return 0, or NaN where any number in the lower half of A is not finite.
+
+    What a product that leaves out zeros must begin with, so that nothing unknown is passed over.
+    """
+    unknown: Py_ssize_t = 0
     for i in range(a.shape[0]):
-        j = 0
-        while j + 3 <= i:
-            w += 0.0 * a[i, j]
-            x += 0.0 * a[i, j + 1]
-            y += 0.0 * a[i, j + 2]
-            z += 0.0 * a[i, j + 3]
-            j += 4
-        while j <= i:
-            w += 0.0 * a[i, j]
-            j += 1
-    return w + x + y + z
+        for j in range(i + 1):
+            unknown += not fabs(a[i, j]) < INFINITY
+    return NAN if unknown else 0.0
 
 
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
 def inverse_root(root: double[:, ::1], inverse: double[:, ::1]) -> cython.bint:
-    """L^-1 of a matrix L L', whose upper triangle is changed; False where it is not positive definite (Cholesky)."""
+    """Compute L^-1 of a matrix L L' (Cholesky), of which L' is left in the upper triangle.
+
+    Return False where it is not positive definite.
+    """
     n: Py_ssize_t = root.shape[0]
     for i in range(n):
         for j in range(n):

@@ -53,8 +53,7 @@ def informed_run(
     for i, seen in enumerate(measured):
         dt_s = float(times[i] - times[i - 1]) if i else 1e-6
         step = palm_transition(estimate.rate_rad_s, motion, dt_s)
-        switch = motion.mode_transition_matrix(estimate.rate_rad_s, dt_s)
-        mixture = propagate_mixture(mixture, step, estimate.value, switch)
+        mixture = propagate_mixture(mixture, step, estimate.value, step.switch)
         ahead_of = replace(step.propagate(estimate, dt_s), covariance=mixture.merge()[1][0])
         ahead = predict_measurement(ahead_of, mixture, view, settings.spread)
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)

@@ -54,11 +54,3 @@ def test_arrays_stored_otherwise_give_the_same_and_wrong_sizes_are_refused() -> 
     for k, wrong in enumerate((of[0][:5], of[1][:, :2], of[2][:, :2], of[3][:9])):
         with pytest.raises(ValueError, match="is read"):
             compiled.compute_log_odds(*of[:k], wrong, *of[k + 1 :], *REST)
-
-
-def test_likeliest_blobs_are_taken_unless_two_take_one() -> None:
-    odds = np.array([[-1.0, 2.0, 3.0], [4.0, np.nan, -1.0], [-1.0, 0.0, -2.0]])
-    assert compiled.find_likeliest(odds).tolist() == [2, 0, -1]
-    assert compiled.find_likeliest(np.asfortranarray(odds)).tolist() == [2, 0, -1]
-    assert compiled.find_likeliest(odds[:, :0]).tolist() == [-1, -1, -1]
-    assert compiled.find_likeliest(odds[[0, 0]]) is None

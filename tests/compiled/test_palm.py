@@ -60,9 +60,7 @@ def test_step_of_any_motion_is_the_oracles(
     for rate, hidden in ((moving(1).rate_rad_s, None), (moving(2).rate_rad_s, unseen), (np.zeros(3), None)):
         found = compiled.compute_palm_transition(motion, rate, dt_s, hidden, SPEEDS)
         assert_same(found, oracle.move_palm(motion, rate, dt_s, hidden, SPEEDS))
-        switch = compiled.compute_mode_transition(motion, rate, dt_s, SPEEDS)
-        assert_same(switch, oracle.switch_modes(motion, rate, dt_s, SPEEDS))
-        assert np.allclose(switch.sum(axis=1), 1.0)
+        assert np.allclose(found[4].sum(axis=1), 1.0)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -131,11 +129,6 @@ def test_sizes_and_types_that_do_not_fit_are_refused() -> None:
             compiled.predict_palm_measurement(palm, modes, seen, WEIGHTS)
     with pytest.raises(ValueError, match="where"):
         compiled.reset_errors(replace(estimate, value=estimate.value[:-1]), mixture)
-    for step in (
-        compiled.compute_mode_transition,
-        lambda *those: compiled.compute_palm_transition(*those[:3], None, those[3]),
-    ):
+    for rate, unseen in ((np.zeros(2), None), (np.zeros(3), np.eye(2))):
         with pytest.raises(ValueError, match="where"):
-            step(motion, np.zeros(2), 0.03, SPEEDS)
-    with pytest.raises(ValueError, match="where"):
-        compiled.compute_palm_transition(motion, np.zeros(3), 0.03, np.eye(2), SPEEDS)
+            compiled.compute_palm_transition(motion, rate, 0.03, unseen, SPEEDS)

@@ -188,7 +188,7 @@ def test_soft_tissue_joint_driven_moves_with_the_joints() -> None:
 
 def test_soft_tissue_leaves_home_while_joints_turn() -> None:
     rest, grasp = (
-        FOLLOWING.mode_transition_matrix(np.zeros(3), 1.0 / 30.0, digits)
+        palm_transition(np.zeros(3), FOLLOWING, 1.0 / 30.0, None, digits).switch
         for digits in (DigitSpeeds(), DigitSpeeds(0, 2))
     )
     for switch in (rest, grasp):

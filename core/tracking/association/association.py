@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.association import compute_log_odds, find_likeliest
+from carpus.core.compiled.association import compute_log_odds
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.settings import AssociationSettings
 
@@ -95,14 +95,17 @@ def assign_blobs(odds: FloatArray) -> NDArray[np.int64]:
 
     Leaving a blob to clutter costs nothing, so only positive odds are used.
     """
-    likeliest = find_likeliest(odds)
-    if likeliest is not None:
-        return likeliest
-    from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
+    assigned = np.full(len(odds), -1)
+    if not odds.size:
+        return assigned
+    gain = np.fmax(odds, 0.0)
+    rows, columns = np.arange(len(odds)), gain.argmax(axis=1)
+    taken = columns[gain[rows, columns] > 0.0].tolist()
+    if len(set(taken)) < len(taken):  # two markers would take the same blob
+        from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
 
-    rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
-    assigned = np.full(odds.shape[0], -1, dtype=np.int64)
-    assigned[rows] = np.where(odds[rows, columns] > 0.0, columns, -1)
+        rows, columns = linear_sum_assignment(gain, maximize=True)
+    assigned[rows] = np.where(gain[rows, columns] > 0.0, columns, -1)
     return assigned
 
 

@@ -15,18 +15,13 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digit_images import (
-    STEEPEST_RAD,
-    STEEPEST_SD_RAD,
-    compute_disc_odds,
-    compute_tilts,
-    measure_assigned_discs,
-)
+from carpus.core.compiled.digit_images import measure_assigned_discs
 from carpus.core.compiled.digits import place_digits
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.association import association
 from carpus.core.tracking.association.association import is_jointly_compatible
 from carpus.core.tracking.association.palm_association import CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE, Measurements
+from carpus.core.tracking.digits.disc_visibility import STEEPEST_RAD, STEEPEST_SD_RAD, compute_tilts
 from carpus.core.tracking.filter.digit_filter import ANATOMY, DIGIT_SIZE, OBSERVED, DigitLinearisation, DigitView
 from carpus.core.tracking.filter.hand_geometry import (
     CROWDED_PX,
@@ -42,6 +37,7 @@ from carpus.core.tracking.filter.settings import TrackerSettings
 
 _SLOT = np.arange(N_SLOTS)
 _LOG_2_PI = float(np.log(2.0 * np.pi))
+_OF_DISC = np.arange(3 * N_DISCS).reshape(N_DISCS, 3, 1)  # components of each disc's image
 
 SKIN_SD_PX = 0.1  # of a disc on a finger about where the model has it, besides the noise of its centre
 MIN_VISIBLE_PROBABILITY = 0.5  # with less a disc was hidden a moment ago
@@ -174,12 +170,22 @@ def is_beyond_limits(mean: FloatArray, covariance: FloatArray) -> NDArray[np.boo
 def _associate_separately(scene: DigitScene, settings: TrackerSettings) -> DigitAssignment:
     if not len(scene.blobs):
         return DigitAssignment(np.full((N_DIGITS, N_DISCS), -1), np.zeros((N_DIGITS, N_DISCS), dtype=bool))
-    own, outlier = settings.association, association.DEPTH_OUTLIER_PROBABILITY
-    densities = association.log_densities(scene.resolution_px2 / EXPECTED_CLUTTER, outlier, own)
-    log_prior = math.log(own.prior_marker / own.prior_clutter)
-    odds, with_depth = compute_disc_odds(scene, densities, own.gate_sd**2, association.LOG_IMPOSSIBLE, log_prior)
+    own = settings.association
+    by_disc = association.log_odds(
+        scene.linearised.value.reshape(-1, 3),
+        scene.spread[:, _OF_DISC, _OF_DISC.swapaxes(1, 2)].reshape(-1, 3, 3),
+        scene.blobs.value,
+        scene.blobs.variance,
+        scene.resolution_px2 / EXPECTED_CLUTTER,
+        association.DEPTH_OUTLIER_PROBABILITY,
+        own,
+    )
+    # A marker's prior says how likely it is to be seen, which is known better here.
+    log_seen = np.log(scene.visible / (1.0 - scene.visible)) - math.log(own.prior_marker / own.prior_clutter)
+    is_possible = (scene.has_discs[:, None] & np.ones(N_DISCS, dtype=bool)).reshape(-1, 1) & scene.free
+    odds = np.where(is_possible, by_disc.value + log_seen.reshape(-1, 1), association.LOG_IMPOSSIBLE)
     assigned = association.assign_blobs(odds)
-    uses_depth = with_depth[np.arange(assigned.size), assigned] & (assigned >= 0)
+    uses_depth = by_disc.with_depth[np.arange(assigned.size), assigned] & (assigned >= 0)
     return DigitAssignment(assigned.reshape(N_DIGITS, N_DISCS), uses_depth.reshape(N_DIGITS, N_DISCS))
 
 

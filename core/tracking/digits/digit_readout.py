@@ -9,6 +9,7 @@ import numpy as np
 from carpus.core.calibration.result import Clicks
 from carpus.core.compiled.digit_images import compute_inherited
 from carpus.core.compiled.digits import place_digits
+from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.digits.knuckle_flexion import FLEXION_SLOT
@@ -43,6 +44,14 @@ class DigitBase:
     view: DigitView
     pose_covariance: FloatArray
     turn_covariance: FloatArray
+
+    def compute_image_covariance(self, linearised: DigitLinearisation) -> FloatArray:
+        """Return the covariance (5, 9, 9) of the discs' images by the palm's error alone."""
+        by_pose = np.empty((N_DIGITS, N_DISCS, 3, 6))
+        by_pose[..., :3] = linearised.by_place
+        by_pose[..., 3:] = linearised.by_place @ so3.skew(self.view.translation_m - linearised.centre_m)
+        flat = by_pose.reshape(N_DIGITS, 3 * N_DISCS, 6)
+        return np.asarray(flat @ self.pose_covariance @ np.swapaxes(flat, 1, 2))
 
 
 def base_from_estimate(estimate: PalmEstimate, view: PalmView, readout: Readout) -> DigitBase:

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digit_images import MAX_SEEN, compute_tilts, compute_visibility, propagate_palm_error
 from carpus.core.model.types import FloatArray, SurfaceSamples
 from carpus.core.tracking.association.association import is_jointly_compatible
 from carpus.core.tracking.association.palm_association import Measurements
@@ -23,6 +22,12 @@ from carpus.core.tracking.digits.digit_association import (
 )
 from carpus.core.tracking.digits.digit_readout import DigitBase
 from carpus.core.tracking.digits.digit_search import MIN_DIGIT_MARKERS, search_digits
+from carpus.core.tracking.digits.disc_visibility import (
+    MAX_SEEN,
+    compute_disc_scale,
+    compute_tilts,
+    compute_visibility,
+)
 from carpus.core.tracking.digits.finger_model import FingerModel
 from carpus.core.tracking.digits.knuckle_flexion import (
     FLEXION_SLOT,
@@ -260,10 +265,9 @@ class DigitUpdater:
         base, history = frame.base, self._history
         linearised = linearise_digits(points, base.view, self._settings.spread)
         tilt_rad, variance = compute_tilts(points.normal, points.covariance, linearised, base.view)
-        visible, px_per_m2 = compute_visibility(
-            history.visible_probability, tilt_rad, variance, linearised, base.view, frame.dt_s
-        )
-        palm_covariance = propagate_palm_error(linearised, base)
+        visible = compute_visibility(history.visible_probability, tilt_rad, variance, frame.dt_s)
+        px_per_m2 = compute_disc_scale(tilt_rad, linearised, base.view)
+        palm_covariance = base.compute_image_covariance(linearised)
         scene = DigitScene(
             points.covariance,
             linearised,

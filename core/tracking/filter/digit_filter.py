@@ -9,6 +9,7 @@ digit (5) and, in an estimate, the mode (K).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +26,8 @@ JOINTS, RATES = slice(0, N_SLOTS), slice(N_SLOTS, 2 * N_SLOTS)
 ANATOMY = slice(RATES.stop, RATES.stop + N_CONSTANTS)
 DIGIT_SIZE = ANATOMY.stop
 OBSERVED = np.r_[JOINTS, ANATOMY]  # rows on which the discs depend
+_ROW = np.arange(DIGIT_SIZE)
+_JOINT, _RATE, _CONSTANT = _ROW[JOINTS], _ROW[RATES], _ROW[ANATOMY]
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,16 +61,39 @@ class DigitMotion:
         self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
     ) -> ModeMixture:
         """Predict the estimates ``dt_s`` ahead, their modes mixed before by ``switch`` (K, K)."""
-        return predict_mixture(
-            estimates, *digits.compute_digit_transition(self, dt_s, self._scales2, forgetting), switch
-        )
+        return predict_mixture(estimates, *self._compute_transition(dt_s, self._scales2, forgetting), switch)
 
     def compute_transition(
         self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None
     ) -> tuple[FloatArray, FloatArray]:
         """Return F and Q (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
-        forward, noise = digits.compute_digit_transition(self, dt_s, (scale**2)[:, None], forgetting)
+        forward, noise = self._compute_transition(dt_s, (scale**2)[:, None], forgetting)
         return forward, noise[:, 0]
+
+    def _compute_transition(
+        self, dt_s: float, scale2: FloatArray, forgetting: Forgetting | None
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return F (5, n, n) and Q (5, K, n, n), the density ``scale2`` (5, K) times as large.
+
+        Rates stay, pushed all along the step by a white acceleration of density q: Q holds q dt^3 / 3, q dt^2 / 2 and
+        q dt. Slots with a variance in the long run return to zero (Ornstein-Uhlenbeck); constants drift.
+        """
+        pushed = scale2[:, :, None] * self.density[:, None]
+        settled = np.where(self.stationary2 > 0.0, math.exp(-dt_s / self.settles_s), 1.0)
+        forward, noise = np.zeros((N_DIGITS, DIGIT_SIZE, DIGIT_SIZE)), np.zeros((*scale2.shape, DIGIT_SIZE, DIGIT_SIZE))
+        forward[:, _ROW, _ROW] = 1.0
+        forward[:, _JOINT, _JOINT] = settled
+        forward[:, _JOINT, _RATE] = dt_s
+        noise[..., _JOINT, _JOINT] = pushed * (dt_s**3 / 3.0) + (self.stationary2 * (1.0 - settled**2))[:, None]
+        noise[..., _JOINT, _RATE] = noise[..., _RATE, _JOINT] = pushed * (0.5 * dt_s**2)
+        noise[..., _RATE, _RATE] = pushed * dt_s
+        noise[..., _CONSTANT, _CONSTANT] = (self.drift * dt_s)[:, None]
+        if forgetting is not None:
+            forward[:, _JOINT, _RATE] *= forgetting.keep_rate
+            forward[:, _RATE, _RATE] = forgetting.keep_rate
+            noise[..., _JOINT, _JOINT] += forgetting.angle2[:, None]
+            noise[..., _RATE, _RATE] += forgetting.rate2[:, None]
+        return forward, noise
 
 
 @dataclass(frozen=True, slots=True)

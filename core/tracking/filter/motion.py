@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.palm import compute_mode_transition, compute_palm_transition
+from carpus.core.compiled.palm import compute_palm_transition
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.mixture_filter import ModeMixture, Transition, propagate_mixture
 from carpus.core.tracking.filter.palm_state import POSITION, RATE, SIZE, SKIN, TURN, VELOCITY, PalmEstimate
@@ -50,8 +50,9 @@ class MotionNoise:
 
 @dataclass(frozen=True, slots=True)
 class PalmTransition(Transition):
-    """A step of the palm, and the rotation (3, 3) that its angular velocity makes."""
+    """A step of the palm: ``switch`` (K, K) from row to column mode, and the rotation (3, 3) that its rate makes."""
 
+    switch: FloatArray
     rotation_increment: FloatArray
 
     def propagate(self, estimate: PalmEstimate, dt_s: float, covariance: FloatArray | None = None) -> PalmEstimate:
@@ -95,15 +96,6 @@ class PalmMotion:
     @property
     def modes(self) -> int:
         return self.scale_of.size
-
-    def mode_transition_matrix(
-        self, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = ZERO_SPEEDS
-    ) -> FloatArray:
-        """Return the probability (K, K) to go from row to column mode in ``dt_s``.
-
-        ``rate_rad_s`` (3,) is the angular velocity of the hand.
-        """
-        return compute_mode_transition(self, rate_rad_s, dt_s, digits)
 
     @property
     def initial_probability(self) -> FloatArray:
@@ -155,9 +147,7 @@ def predict_palm(
 ) -> tuple[PalmEstimate, ModeMixture]:
     """Predict the palm ``dt_s`` ahead, its modes as errors from the nominal estimate."""
     step = palm_transition(estimate.rate_rad_s, motion, dt_s, unseen, digits)
-    predicted = propagate_mixture(
-        mixture, step, estimate.value, motion.mode_transition_matrix(estimate.rate_rad_s, dt_s, digits)
-    )
+    predicted = propagate_mixture(mixture, step, estimate.value, step.switch)
     return step.propagate(estimate, dt_s, predicted.merge()[1][0]), predicted
 
 

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.neutral_pose import marker_positions_cam_m
 from carpus.core.calibration.result import Calibration
-from carpus.core.compiled.digit_images import project_discs
 from carpus.core.compiled.palm import predict_palm_measurement
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
@@ -134,7 +133,13 @@ class PredictedDigits:
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
         own_view = DigitView(*view.to_camera(estimate, self.palm.axes, self.palm.origin_m), view.camera)
-        return project_discs(self.points, own_view, digit_sigma_weights(spread).scale)
+        disc_m = self.points.disc_m
+        count, image = disc_m.shape[1] // 2, own_view.observe(disc_m.reshape(-1, 3)).reshape(disc_m.shape)
+        by_column = (image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]) * (
+            0.5 / digit_sigma_weights(spread).scale
+        )
+        covariance = np.add.reduce(by_column[..., None] * by_column[..., None, :], axis=1)
+        return image[:, 0, :, :2], covariance, image[:, 0, :, 2]
 
 
 @dataclass(frozen=True)

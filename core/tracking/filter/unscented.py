@@ -25,15 +25,11 @@ class UnscentedParameters:
 
 @dataclass(frozen=True, slots=True)
 class SigmaWeights:
-    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda).
-
-    ``numbers`` (5,): of ``mean`` the centre's and the others', of ``covariance`` likewise, and ``scale``.
-    """
+    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda)."""
 
     mean: FloatArray
     covariance: FloatArray
     scale: float
-    numbers: FloatArray
 
 
 @lru_cache(maxsize=64)
@@ -47,8 +43,7 @@ def compute_weights(dimension: int, spread: UnscentedParameters) -> SigmaWeights
     covariance[0] = mean[0] + 1.0 - spread.alpha**2 + spread.beta
     mean.setflags(write=False)
     covariance.setflags(write=False)
-    scale = float(np.sqrt(total))
-    return SigmaWeights(mean, covariance, scale, np.array([*mean[:2], *covariance[:2], scale]))
+    return SigmaWeights(mean, covariance, float(np.sqrt(total)))
 
 
 def compute_sigma_offsets(covariance: FloatArray, scale: float) -> FloatArray:

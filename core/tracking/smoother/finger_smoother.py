@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.compiled.digit_images import propagate_palm_error
 from carpus.core.model.hand.anatomy_prior import Gaussian
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.digits.digit_association import find_far_digits
@@ -200,7 +199,7 @@ def _filter_again(
         is_far = bool(step.postures) or bool(find_far_digits(estimates.merge()[1], step.is_seen).any())
         for _ in range(1 + (EXTRA_LINEARISATIONS if is_far else 0)):
             linearised = _linearise(model, *updated.merge(), base)
-            palm_covariance = propagate_palm_error(linearised, base)
+            palm_covariance = base.compute_image_covariance(linearised)
             update = update_mixture(estimates, linearised, step.measured, step.variance, palm_covariance, partial)
             updated = update.mixture
         if step.knuckle_flexion.is_any:

@@ -109,8 +109,9 @@ class PalmTrajectory:
             if step.estimate is None or later is None or dt_s is None:
                 later = step.probability
                 continue
-            switch = self.motion.mode_transition_matrix(step.estimate.rate_rad_s, max(dt_s, 0.0), step.digit_speeds)
-            joint = step.probability[:, None] * switch
+            rate, speeds = step.estimate.rate_rad_s, step.digit_speeds
+            ahead = palm_transition(rate, self.motion, max(dt_s, 0.0), None, speeds)
+            joint = step.probability[:, None] * ahead.switch
             joint *= later / np.maximum(joint.sum(axis=0), 1e-300)
             out[frame], later = joint, joint.sum(axis=1)
         object.__setattr__(self, "mode_transitions", out)

@@ -10,15 +10,8 @@ from numpy.typing import NDArray
 from carpus.core.compiled.digit_images import (
     ACROSS_M,
     DEPTH_STAYS_M,
-    HIDDEN_S,
     INHERITED,
-    MAX_SEEN,
-    MIN_FACING,
-    MIN_SEEN,
     NARROW2,
-    SHOWN_S,
-    STEEPEST_RAD,
-    STEEPEST_SD_RAD,
 )
 from carpus.core.compiled.digits import BENT, OTHER
 from carpus.core.model import so3
@@ -51,11 +44,7 @@ from carpus.core.tracking.filter.hand_geometry import (
 )
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.unscented import UnscentedParameters
-from tests.compiled.oracle.association import compute_log_odds
 from tests.compiled.oracle.palm import camera_slope
-
-_TILTING = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
-"""Slots (5, 5) that tilt the discs past them."""
 
 
 def linearise_images(points: DigitSigmaPoints, view: DigitView, spread: UnscentedParameters) -> DigitLinearisation:
@@ -81,34 +70,6 @@ def linearise_images(points: DigitSigmaPoints, view: DigitView, spread: Unscente
     return DigitLinearisation(value, slope, error, points.mean, whole, centre, by_place)
 
 
-def project_discs(points: DigitSigmaPoints, view: DigitView, scale: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) of the discs, and depths (5, 3)."""
-    image, count = view.observe(points.disc_m), BENT.size
-    half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
-    by_disc = half.transpose(0, 2, 3, 1) * (0.5 / scale)
-    return image[:, 0, :, :2], by_disc @ np.swapaxes(by_disc, -1, -2), image[:, 0, :, 2]
-
-
-def propagate_palm_error(linearised: DigitLinearisation, base: DigitBase) -> FloatArray:
-    """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
-    by_pose = np.empty((N_DIGITS, N_DISCS, 3, 6))
-    by_pose[..., :3] = linearised.by_place
-    by_pose[..., 3:] = linearised.by_place @ so3.skew(base.view.translation_m - linearised.centre_m)
-    flat = by_pose.reshape(N_DIGITS, 9, 6)
-    return np.asarray(flat @ base.pose_covariance @ np.swapaxes(flat, 1, 2))
-
-
-def compute_tilts(
-    normal: FloatArray, covariance: FloatArray, linearised: DigitLinearisation, view: DigitView
-) -> tuple[FloatArray, FloatArray]:
-    """Tilt (5, 3) of discs with normals (5, 3, 3) to the line of sight, and its variance (5, 3)."""
-    centre = linearised.centre_m
-    across = ((normal @ view.rotation.T) * centre).sum(axis=-1)
-    distance = np.sqrt((centre * centre).sum(axis=-1))
-    variance = np.diagonal(covariance, axis1=1, axis2=2)[:, :N_SLOTS] * _TILTING
-    return np.arccos(np.clip(-across / distance, -1.0, 1.0)), np.cumsum(variance, axis=1)[:, 2:]
-
-
 def compute_inherited(
     covariance: FloatArray, base: DigitBase, linearised: DigitLinearisation, normal: FloatArray
 ) -> FloatArray:
@@ -129,36 +90,6 @@ def compute_inherited(
     seen = linearised.by_place @ moved[..., None] * (DEPTH_STAYS_M * unit)
     by_disc = (response.reshape(N_DIGITS, N_SLOTS, N_DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
     return np.asarray(turned @ base.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2))
-
-
-def compute_visibility(
-    visible: FloatArray,
-    tilt: FloatArray,
-    variance: FloatArray,
-    linearised: DigitLinearisation,
-    view: DigitView,
-    dt_s: float,
-) -> tuple[FloatArray, FloatArray]:
-    """Chance (5, 3) that discs are to be seen now, and pixels (5, 3) for each square metre of them."""
-    stays, comes = np.exp(-dt_s / SHOWN_S), -np.expm1(-dt_s / HIDDEN_S)
-    by_time = visible * stays + (1.0 - visible) * comes
-    sd = np.sqrt(variance + STEEPEST_SD_RAD**2)
-    facing = 1.0 / (1.0 + np.exp(np.clip(1.7 * (tilt - STEEPEST_RAD) / sd, -30.0, 30.0)))
-    per_m = view.camera.fx_px / linearised.centre_m[..., 2]
-    return np.clip(by_time * facing, MIN_SEEN, MAX_SEEN), np.maximum(np.cos(tilt), MIN_FACING) * per_m**2
-
-
-def compute_disc_odds(
-    scene: DigitScene, densities: tuple[float, float, float], gate2: float, impossible: float, assumed: float
-) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Log odds (15, D) that the blobs are the discs, and whether the blobs' depths are believed (15, D)."""
-    own = np.einsum("rdidj->rdij", scene.spread.reshape(N_DIGITS, N_DISCS, 3, N_DISCS, 3)).reshape(-1, 3, 3)
-    expected, blobs = scene.linearised.value.reshape(-1, 3), scene.blobs
-    value, with_depth = compute_log_odds(expected, own, blobs.value, blobs.variance, densities, gate2, impossible)
-    value = value + (np.log(scene.visible / (1.0 - scene.visible)).ravel() - assumed)[:, None]
-    value[:, ~scene.free] = impossible
-    value.reshape(N_DIGITS, N_DISCS, -1)[~scene.has_discs] = impossible
-    return value, with_depth
 
 
 def measured_as_named(

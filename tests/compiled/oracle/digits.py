@@ -15,11 +15,8 @@ from carpus.core.model import so3
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.digit_filter import (
-    DIGIT_SIZE,
     OBSERVED,
-    DigitMotion,
     DigitSigmaPoints,
-    Forgetting,
     digit_sigma_weights,
 )
 from carpus.core.tracking.filter.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS
@@ -247,24 +244,3 @@ def apply_limits(
         mixture.mean + (gain @ pull[..., None])[..., 0],
         mixture.covariance - (gain * precision[..., None, :]) @ np.swapaxes(across, -1, -2),
     )
-
-
-def move_digits(
-    motion: DigitMotion, dt_s: float, scale2: FloatArray, forgetting: Forgetting | None
-) -> tuple[FloatArray, FloatArray]:
-    """Transition (5, n, n) and noise (5, K, n, n) of a step."""
-    forward = np.repeat(np.eye(DIGIT_SIZE)[None], N_DIGITS, axis=0)
-    noise = np.zeros((*scale2.shape, DIGIT_SIZE, DIGIT_SIZE))
-    angle, rate, constant = np.arange(N_SLOTS), N_SLOTS + np.arange(N_SLOTS), 2 * N_SLOTS + np.arange(N_CONSTANTS)
-    keep = np.where(motion.stationary2 > 0.0, math.exp(-dt_s / motion.settles_s), 1.0)
-    forward[:, angle, angle], forward[:, angle, rate] = keep, dt_s
-    density = motion.density[:, None] * scale2[..., None]
-    noise[..., angle, angle] = density * (dt_s**3 / 3.0) + (motion.stationary2 * (1.0 - keep**2))[:, None]
-    noise[..., angle, rate] = noise[..., rate, angle] = density * (0.5 * dt_s**2)
-    noise[..., rate, rate] = density * dt_s
-    noise[..., constant, constant] = (motion.drift * dt_s)[:, None]
-    if forgetting is not None:
-        forward[:, rate, rate], forward[:, angle, rate] = forgetting.keep_rate, forgetting.keep_rate * dt_s
-        noise[..., angle, angle] += forgetting.angle2[:, None]
-        noise[..., rate, rate] += forgetting.rate2[:, None]
-    return forward, noise

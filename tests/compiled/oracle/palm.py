@@ -89,7 +89,7 @@ def switch_modes(motion: PalmMotion, rate_rad_s: FloatArray, dt_s: float, digits
 def move_palm(
     motion: PalmMotion, rate_rad_s: FloatArray, dt_s: float, unseen: FloatArray | None, digits: DigitSpeeds
 ) -> tuple[FloatArray, ...]:
-    """F (12, 12) and Q (K, 12, 12) of what moves, shares kept (K, n), Q of the tissue (K, r, r), the turn (3, 3)."""
+    """F (12, 12) and Q (K, 12, 12) of what moves, shares kept (K, n), Q of the tissue (K, r, r), switch, rotation."""
     noise, tissue, scales2 = motion.noise, motion.tissue, (motion.scale_of**2)[:, None, None]
     turned, on_the_way = so3.exp(rate_rad_s * dt_s), right_jacobian(rate_rad_s * dt_s)
     moving = np.eye(RIGID_MOTION.stop)
@@ -116,7 +116,8 @@ def move_palm(
     kept = np.ones((motion.modes, SIZE))
     kept[:, SOFT_TISSUE] = soft[motion.tissue_of]
     relaxing = tissue.stationary * (1.0 - soft[:, :, None] * soft[:, None, :])
-    return moving, driven, kept, relaxing[motion.tissue_of], turned
+    switch = switch_modes(motion, rate_rad_s, dt_s, digits)
+    return moving, driven, kept, relaxing[motion.tissue_of], switch, turned
 
 
 def see_palm(
