@@ -14,7 +14,7 @@ GUIDE = Path("resources/guide")
 GUIDE_PICTURES = {
     "patients": "patients", "exercise": "exercise", "markers": "markers_clicking", "live": "live", "review": "review",
     "progress": "progress", "patient": "patient_view", "correct": "correct", "sessions": "sessions_list",
-    "board": "board_showing", "card": "card_measuring", "beside": "beside",
+    "board": "board_showing", "card": "card_measuring", "comparison": "comparison",
 }  # fmt: skip
 """Names of the guide's pictures, and the states they show."""
 GUIDE_QUALITY = 82

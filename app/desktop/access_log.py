@@ -18,7 +18,7 @@ class AccessLogger(QObject):
 
     def __init__(self, controller: MainController, library: Library) -> None:
         super().__init__(controller)
-        self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(controller.beside.screen.session_ids)
+        self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(controller.comparison.screen.session_ids)
         self._current, self._library = controller.current, library
         self._last_access = ("", "")
         self.log_failed.connect(controller.messages.show_fault)
@@ -29,7 +29,7 @@ class AccessLogger(QObject):
         patient = self._current.patient
         if place == "review" and self._is_new_access(place, self._current.session_id):
             self._library.audit_log.log_session("opened", self._current.session_id)
-        elif place == "beside":
+        elif place == "comparison":
             for session_id in (
                 self._find_compared_ids() if self._is_new_access(place, " ".join(self._find_compared_ids())) else ()
             ):

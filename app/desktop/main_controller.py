@@ -129,7 +129,7 @@ class MainController(Screens):
         bar.reanalysis_button.clicked.connect(lambda: self.correct.open_dialog(self.current.session_id))
         navigator.run_when_created("live", self._connect_live)
         navigator.run_when_created(
-            "beside", lambda: self.beside.screen.sessions_shown.connect(navigator.banner_changed)
+            "comparison", lambda: self.comparison.screen.sessions_shown.connect(navigator.banner_changed)
         )
         navigator.run_when_created("review", self._connect_review)
         navigator.run_when_created(

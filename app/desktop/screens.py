@@ -11,10 +11,10 @@ from PySide6.QtCore import QObject
 from carpus.ui.shell.flow import Flow, Navigator, ScreenContext
 
 if TYPE_CHECKING:
-    from carpus.ui.screens.beside.flow import ComparisonFlow
     from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
     from carpus.ui.screens.camera_calibration.flow import CameraCalibrationFlow
     from carpus.ui.screens.check_card.flow import CheckCardFlow
+    from carpus.ui.screens.comparison.flow import ComparisonFlow
     from carpus.ui.screens.correct.flow import CorrectionFlow
     from carpus.ui.screens.help.flow import HelpFlow
     from carpus.ui.screens.live.flow import LiveFlow
@@ -36,7 +36,7 @@ SLOW_CORE_MODULES = (
 """Slow imports of the screens without Qt, which any thread may load."""
 PLACES = (
     "patients", "exercise", "camera", "markers", "live", "sessions", "review", "progress", "report", "by_hand",
-    "beside", "board", "card", "help", "correct",
+    "comparison", "board", "card", "help", "correct",
 )  # fmt: skip
 
 
@@ -54,7 +54,7 @@ class Screens(QObject):
     progress: ProgressFlow
     report: ReportFlow
     by_hand: ManualMeasurementsFlow
-    beside: ComparisonFlow
+    comparison: ComparisonFlow
     board: CameraCalibrationFlow
     card: CheckCardFlow
     help: HelpFlow
@@ -112,8 +112,8 @@ def load_flow_class(place: str) -> Callable[[ScreenContext], Flow]:
             from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
 
             return ManualMeasurementsFlow
-        case "beside":
-            from carpus.ui.screens.beside.flow import ComparisonFlow
+        case "comparison":
+            from carpus.ui.screens.comparison.flow import ComparisonFlow
 
             return ComparisonFlow
         case "board":

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.model.types import FloatArray, Side
-from carpus.core.results.measure import Measure, MeasureKey
+from carpus.core.results.measure import MeasureKey
 from carpus.core.results.progress import (
     Comparison,
     IncomparableReason,
@@ -34,7 +34,7 @@ class SessionPair:
     """Two sessions: the ``first`` is in question, the ``second`` is the healthy hand or the earlier date.
 
     ``ranges`` compare the first with the second; for two hands a verdict only says that they differ beyond error.
-    ``unpaired``: measures of one session alone, with whether that is the first. ``reasons``: why they are not compared.
+    ``reasons``: why they are not compared.
     """
 
     first: SessionResults
@@ -42,7 +42,6 @@ class SessionPair:
     relation: Relation
     ranges: tuple[Comparison, ...]
     reasons: tuple[IncomparableReason, ...]
-    unpaired: tuple[tuple[Measure, bool], ...] = ()
 
     @property
     def is_comparable(self) -> bool:
@@ -80,10 +79,7 @@ def compare_pair(first: SessionResults, second: SessionResults, keys: Sequence[M
     relation: Relation = "hands" if first.side != second.side else "dates"
     # That it is the other hand is the question here, no obstacle to an answer.
     alike = replace(second, side=first.side)
-    rows, others = (
-        [row for row in (one.find(*key) for key in keys) if row is not None] if keys else list(one.wrist_ranges)
-        for one in (first, alike)
-    )
+    rows = [row for row in (first.find(*key) for key in keys) if row is not None] if keys else list(first.wrist_ranges)
     ranges = list(compare_ranges(alike, first, rows))
     if relation == "hands":  # neither hand comes first: what is sure of the one way is sure of the other
         turned = {item.key: item.verdict for item in compare_ranges(first, alike, [one.before for one in ranges])}
@@ -91,10 +87,7 @@ def compare_pair(first: SessionResults, second: SessionResults, keys: Sequence[M
         for number, item in enumerate(ranges):
             if item.verdict == "not_judged" and turned.get(item.key) in opposite:
                 ranges[number] = replace(item, verdict=opposite[turned[item.key]], reasons=())
-    shared = {one.key for one in ranges}
-    alone = [(row, True) for row in rows if row.key not in shared]
-    alone += [(row, False) for row in others if row.key not in shared]
-    return SessionPair(first, second, relation, tuple(ranges), pair_incomparable_reasons(first, second), tuple(alone))
+    return SessionPair(first, second, relation, tuple(ranges), pair_incomparable_reasons(first, second))
 
 
 def pair_incomparable_reasons(first: SessionResults, second: SessionResults) -> tuple[IncomparableReason, ...]:
@@ -155,22 +148,6 @@ class PlaybackTimeline:
         both = (np.interp(player_s, self.player_s, side) for side in (self.first_s, self.second_s))
         first, second = (float(value) for value in both)
         return first, second
-
-    def player_time_of_first(self, time_s: float) -> float:
-        """Return the first player time at which the first recording reaches a time."""
-        return self._player_time(self.first_s, time_s)
-
-    def player_time_of_second(self, time_s: float) -> float:
-        """Return the first player time at which the second recording reaches a time."""
-        return self._player_time(self.second_s, time_s)
-
-    def _player_time(self, side_s: FloatArray, time_s: float) -> float:
-        wanted = min(max(time_s, float(side_s[0])), float(side_s[-1]))
-        k = int(np.searchsorted(side_s, wanted))  # the first knot at or after it
-        if k == 0 or side_s[k] == side_s[k - 1]:
-            return float(self.player_s[k])
-        share = (wanted - side_s[k - 1]) / (side_s[k] - side_s[k - 1])
-        return float(self.player_s[k - 1] + share * (self.player_s[k] - self.player_s[k - 1]))
 
 
 def align_playback(

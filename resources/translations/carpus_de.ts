@@ -240,14 +240,6 @@
         <translation>{movement}: links {size} mehr als rechts.</translation>
     </message>
     <message>
-        <source>{movement}: {first} versus {second}, above the measurement error of {limit}.</source>
-        <translation>{movement}: {first} gegenüber {second}, größer als der Messfehler von {limit}.</translation>
-    </message>
-    <message>
-        <source>{movement}: {first} versus {second}, within the measurement error of {limit}.</source>
-        <translation>{movement}: {first} gegenüber {second}, innerhalb des Messfehlers von {limit}.</translation>
-    </message>
-    <message>
         <source>Not comparable: {why}. Values are shown without an assessment.</source>
         <translation>Nicht vergleichbar: {why}. Die Werte werden ohne Beurteilung gezeigt.</translation>
     </message>
@@ -256,76 +248,16 @@
         <translation>{name}, Mittel ± SD</translation>
     </message>
     <message>
-        <source>MDC95</source>
-        <translation>MDC95</translation>
-    </message>
-    <message>
-        <source>Assessment</source>
-        <translation>Beurteilung</translation>
-    </message>
-    <message>
         <source>partly occluded</source>
         <translation>teilweise verdeckt</translation>
-    </message>
-    <message>
-        <source>≥ {difference}</source>
-        <translation>≥ {difference}</translation>
-    </message>
-    <message>
-        <source>not compared: in one session only</source>
-        <translation>nicht verglichen: nur in einer Sitzung</translation>
     </message>
     <message>
         <source>not compared: {why}</source>
         <translation>nicht verglichen: {why}</translation>
     </message>
     <message>
-        <source>improved (above MDC)</source>
-        <translation>verbessert (größer als der Messfehler)</translation>
-    </message>
-    <message>
-        <source>worse (above MDC)</source>
-        <translation>verschlechtert (größer als der Messfehler)</translation>
-    </message>
-    <message>
-        <source>no difference beyond MDC</source>
-        <translation>kein Unterschied größer als der Messfehler</translation>
-    </message>
-    <message>
-        <source>less than left (above MDC)</source>
-        <translation>weniger als links (größer als der Messfehler)</translation>
-    </message>
-    <message>
-        <source>less than right (above MDC)</source>
-        <translation>weniger als rechts (größer als der Messfehler)</translation>
-    </message>
-    <message>
-        <source>more than left (above MDC)</source>
-        <translation>mehr als links (größer als der Messfehler)</translation>
-    </message>
-    <message>
-        <source>more than right (above MDC)</source>
-        <translation>mehr als rechts (größer als der Messfehler)</translation>
-    </message>
-    <message>
         <source>The other hand is a comparison, not a norm: left and right differ in healthy people too.</source>
         <translation>Die andere Hand ist ein Vergleich, keine Norm: Links und rechts unterscheiden sich auch bei Gesunden.</translation>
-    </message>
-    <message>
-        <source>PIP joints of all fingers</source>
-        <translation>PIP-Gelenke aller Finger</translation>
-    </message>
-    <message>
-        <source>same exercise, same day, same set-up</source>
-        <translation>gleiche Übung, gleicher Tag, gleicher Aufbau</translation>
-    </message>
-    <message>
-        <source>same exercise, same set-up, 1 day apart</source>
-        <translation>gleiche Übung, gleicher Aufbau, 1 Tag Abstand</translation>
-    </message>
-    <message>
-        <source>same exercise, same set-up, {count} days apart</source>
-        <translation>gleiche Übung, gleicher Aufbau, {count} Tage Abstand</translation>
     </message>
     <message>
         <source>{name}: {what}</source>
@@ -1116,10 +1048,6 @@
         <translation>Nächste Wiederholung</translation>
     </message>
     <message>
-        <source>Mirror the left hand</source>
-        <translation>Linke Hand spiegeln</translation>
-    </message>
-    <message>
         <source>Look at the {marker}</source>
         <translation>Prüfen Sie: {marker}</translation>
     </message>
@@ -1206,18 +1134,6 @@
     <message>
         <source>Turn the back of the fingers to the camera</source>
         <translation>Fingerrücken zur Kamera drehen</translation>
-    </message>
-    <message>
-        <source>All markers visible. DIP joints are not measured: they follow the PIP joints.</source>
-        <translation>Alle Marker sichtbar. DIP-Gelenke werden nicht gemessen: Sie folgen den PIP-Gelenken.</translation>
-    </message>
-    <message>
-        <source>All markers visible. Every joint is measured.</source>
-        <translation>Alle Marker sichtbar. Jedes Gelenk wird gemessen.</translation>
-    </message>
-    <message>
-        <source>{what}: {remedy}.</source>
-        <translation>{what}: {remedy}.</translation>
     </message>
     <message>
         <source>{marker} visible only at times</source>
@@ -4672,10 +4588,6 @@
         <translation>{width}x{height}, {fps} fps, {missing} fehlen, Tiefe in {with_depth} von {count}</translation>
     </message>
     <message>
-        <source>Occluded joints are not analysed.</source>
-        <translation>Verdeckte Gelenke werden nicht ausgewertet.</translation>
-    </message>
-    <message>
         <source>± is the SD between repetitions.</source>
         <translation>± ist die SD zwischen den Wiederholungen.</translation>
     </message>
@@ -7216,17 +7128,6 @@
     </message>
 </context>
 <context>
-    <name>ComparisonPlayer</name>
-    <message>
-        <source>repetition</source>
-        <translation>Wiederholung</translation>
-    </message>
-    <message>
-        <source>Time in the session: {name}</source>
-        <translation>Zeit in der Sitzung: {name}</translation>
-    </message>
-</context>
-<context>
     <name>ComparisonScreen</name>
     <message>
         <source>Reading both sessions…</source>
@@ -7243,6 +7144,14 @@
     <message>
         <source>Repetition {number}</source>
         <translation>Wiederholung {number}</translation>
+    </message>
+    <message>
+        <source>repetition</source>
+        <translation>Wiederholung</translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation>Unterschiede</translation>
     </message>
 </context>
 <context>
@@ -7548,25 +7457,6 @@
     <message>
         <source>Your entries are not saved yet. Press Esc again to close without saving.</source>
         <translation>Ihre Eingaben sind noch nicht gespeichert. Noch einmal Esc schließt ohne Speichern.</translation>
-    </message>
-</context>
-<context>
-    <name>DifferencesCard</name>
-    <message>
-        <source>Value to compare</source>
-        <translation>Verglichener Wert</translation>
-    </message>
-    <message>
-        <source>&amp;Mirror</source>
-        <translation>S&amp;piegeln</translation>
-    </message>
-    <message>
-        <source>Show the left hand as it would look as a right one</source>
-        <translation>Die linke Hand so zeigen, wie sie als rechte aussähe</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Unterschiede</translation>
     </message>
 </context>
 <context>
@@ -8028,31 +7918,6 @@ von oben</translation>
     <message>
         <source>Save…</source>
         <translation>Speichern…</translation>
-    </message>
-</context>
-<context>
-    <name>HandMap</name>
-    <message>
-        <source>Markers</source>
-        <translation>Marker</translation>
-    </message>
-    <message>
-        <source>visible</source>
-        <translation>sichtbar</translation>
-    </message>
-    <message>
-        <source>partly visible</source>
-        <translation>teils sichtbar</translation>
-    </message>
-    <message>
-        <source>occluded, predicted</source>
-        <translation>verdeckt, geschätzt</translation>
-    </message>
-    <message>
-        <source>F2 next joint · F3 next finger
-Shift+F8 from the side</source>
-        <translation>F2 Gelenk · F3 Finger
-Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>

@@ -240,14 +240,6 @@
         <translation>{movement}: a sinistra {size} più che a destra.</translation>
     </message>
     <message>
-        <source>{movement}: {first} versus {second}, above the measurement error of {limit}.</source>
-        <translation>{movement}: {first} contro {second}, oltre l’errore di misura di {limit}.</translation>
-    </message>
-    <message>
-        <source>{movement}: {first} versus {second}, within the measurement error of {limit}.</source>
-        <translation>{movement}: {first} contro {second}, entro l’errore di misura di {limit}.</translation>
-    </message>
-    <message>
         <source>Not comparable: {why}. Values are shown without an assessment.</source>
         <translation>Non confrontabili: {why}. I valori sono mostrati senza valutazione.</translation>
     </message>
@@ -256,76 +248,16 @@
         <translation>{name}, media ± DS</translation>
     </message>
     <message>
-        <source>MDC95</source>
-        <translation>MDC95</translation>
-    </message>
-    <message>
-        <source>Assessment</source>
-        <translation>Valutazione</translation>
-    </message>
-    <message>
         <source>partly occluded</source>
         <translation>in parte coperto</translation>
-    </message>
-    <message>
-        <source>≥ {difference}</source>
-        <translation>≥ {difference}</translation>
-    </message>
-    <message>
-        <source>not compared: in one session only</source>
-        <translation>non confrontato: solo in una seduta</translation>
     </message>
     <message>
         <source>not compared: {why}</source>
         <translation>non confrontato: {why}</translation>
     </message>
     <message>
-        <source>improved (above MDC)</source>
-        <translation>migliorato (oltre l’errore di misura)</translation>
-    </message>
-    <message>
-        <source>worse (above MDC)</source>
-        <translation>peggiorato (oltre l’errore di misura)</translation>
-    </message>
-    <message>
-        <source>no difference beyond MDC</source>
-        <translation>nessuna differenza oltre l’errore di misura</translation>
-    </message>
-    <message>
-        <source>less than left (above MDC)</source>
-        <translation>meno della sinistra (oltre l’errore di misura)</translation>
-    </message>
-    <message>
-        <source>less than right (above MDC)</source>
-        <translation>meno della destra (oltre l’errore di misura)</translation>
-    </message>
-    <message>
-        <source>more than left (above MDC)</source>
-        <translation>più della sinistra (oltre l’errore di misura)</translation>
-    </message>
-    <message>
-        <source>more than right (above MDC)</source>
-        <translation>più della destra (oltre l’errore di misura)</translation>
-    </message>
-    <message>
         <source>The other hand is a comparison, not a norm: left and right differ in healthy people too.</source>
         <translation>L’altra mano è un confronto, non una norma: destra e sinistra differiscono anche nelle persone sane.</translation>
-    </message>
-    <message>
-        <source>PIP joints of all fingers</source>
-        <translation>Articolazioni IFP di tutte le dita</translation>
-    </message>
-    <message>
-        <source>same exercise, same day, same set-up</source>
-        <translation>stesso esercizio, stesso giorno, stessa preparazione</translation>
-    </message>
-    <message>
-        <source>same exercise, same set-up, 1 day apart</source>
-        <translation>stesso esercizio, stessa preparazione, a 1 giorno di distanza</translation>
-    </message>
-    <message>
-        <source>same exercise, same set-up, {count} days apart</source>
-        <translation>stesso esercizio, stessa preparazione, a {count} giorni di distanza</translation>
     </message>
     <message>
         <source>{name}: {what}</source>
@@ -1116,10 +1048,6 @@
         <translation>Ripetizione seguente</translation>
     </message>
     <message>
-        <source>Mirror the left hand</source>
-        <translation>Specchia la mano sinistra</translation>
-    </message>
-    <message>
         <source>Look at the {marker}</source>
         <translation>Guardare: {marker}</translation>
     </message>
@@ -1206,18 +1134,6 @@
     <message>
         <source>Turn the back of the fingers to the camera</source>
         <translation>Girare il dorso delle dita verso la telecamera</translation>
-    </message>
-    <message>
-        <source>All markers visible. DIP joints are not measured: they follow the PIP joints.</source>
-        <translation>Tutti i marcatori sono visibili. Le articolazioni IFD non si misurano: seguono le IFP.</translation>
-    </message>
-    <message>
-        <source>All markers visible. Every joint is measured.</source>
-        <translation>Tutti i marcatori visibili. Ogni articolazione è misurata.</translation>
-    </message>
-    <message>
-        <source>{what}: {remedy}.</source>
-        <translation>{what}: {remedy}.</translation>
     </message>
     <message>
         <source>{marker} visible only at times</source>
@@ -4672,10 +4588,6 @@
         <translation>{width}x{height}, {fps} fps, {missing} mancanti, profondità in {with_depth} su {count}</translation>
     </message>
     <message>
-        <source>Occluded joints are not analysed.</source>
-        <translation>Le articolazioni nascoste non vengono analizzate.</translation>
-    </message>
-    <message>
         <source>± is the SD between repetitions.</source>
         <translation>± è la DS fra le ripetizioni.</translation>
     </message>
@@ -7216,17 +7128,6 @@
     </message>
 </context>
 <context>
-    <name>ComparisonPlayer</name>
-    <message>
-        <source>repetition</source>
-        <translation>ripetizione</translation>
-    </message>
-    <message>
-        <source>Time in the session: {name}</source>
-        <translation>Tempo nella seduta: {name}</translation>
-    </message>
-</context>
-<context>
     <name>ComparisonScreen</name>
     <message>
         <source>Reading both sessions…</source>
@@ -7243,6 +7144,14 @@
     <message>
         <source>Repetition {number}</source>
         <translation>Ripetizione {number}</translation>
+    </message>
+    <message>
+        <source>repetition</source>
+        <translation>ripetizione</translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation>Differenze</translation>
     </message>
 </context>
 <context>
@@ -7548,25 +7457,6 @@
     <message>
         <source>Your entries are not saved yet. Press Esc again to close without saving.</source>
         <translation>I dati inseriti non sono ancora salvati. Premere di nuovo Esc per chiudere senza salvare.</translation>
-    </message>
-</context>
-<context>
-    <name>DifferencesCard</name>
-    <message>
-        <source>Value to compare</source>
-        <translation>Valore da confrontare</translation>
-    </message>
-    <message>
-        <source>&amp;Mirror</source>
-        <translation>&amp;Specchia</translation>
-    </message>
-    <message>
-        <source>Show the left hand as it would look as a right one</source>
-        <translation>Mostra la mano sinistra come apparirebbe se fosse la destra</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Differenze</translation>
     </message>
 </context>
 <context>
@@ -8028,31 +7918,6 @@ dall’alto</translation>
     <message>
         <source>Save…</source>
         <translation>Salva…</translation>
-    </message>
-</context>
-<context>
-    <name>HandMap</name>
-    <message>
-        <source>Markers</source>
-        <translation>Marcatori</translation>
-    </message>
-    <message>
-        <source>visible</source>
-        <translation>visibile</translation>
-    </message>
-    <message>
-        <source>partly visible</source>
-        <translation>visibile in parte</translation>
-    </message>
-    <message>
-        <source>occluded, predicted</source>
-        <translation>nascosto, stimato</translation>
-    </message>
-    <message>
-        <source>F2 next joint · F3 next finger
-Shift+F8 from the side</source>
-        <translation>F2 articolazione · F3 dito
-Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>

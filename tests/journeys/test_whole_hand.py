@@ -52,7 +52,7 @@ def test_whole_hand_from_set_up_to_session_file(
     wait(qtbot, lambda: markers.labelling.outcome is not None)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop.controller, "live")
-    wait(qtbot, lambda: "seen" in live.hand_map.visibility.values())
+    wait(qtbot, lambda: "seen" in live.history.marker_visibility().values())
     qtbot.keyClick(live, Qt.Key.Key_Space)
     wait(qtbot, lambda: live.recording.duration_s > 3.0)
     qtbot.keyClick(live, Qt.Key.Key_Space)

@@ -64,20 +64,6 @@ def test_align_playback_same_part_of_repetitions(
         assert at_second == pytest.approx(b.start_s + share * (b.end_s - b.start_s))
 
 
-@given(lengths, lengths, st.floats(0.0, 1.0))
-def test_playback_timeline_inverts_times(
-    mine: list[tuple[float, float]], other: list[tuple[float, float]], share: float
-) -> None:
-    (first, first_s), (second, second_s) = repetitions(mine), repetitions(other)
-    together = align_playback(first, second, (first_s, second_s))
-    assert together.recording_times(together.player_time_of_first(share * first_s))[0] == pytest.approx(
-        share * first_s, abs=1e-6
-    )
-    assert together.recording_times(together.player_time_of_second(share * second_s))[1] == pytest.approx(
-        share * second_s, abs=1e-6
-    )
-
-
 def test_align_playback_crossed_edges_and_empty_recording() -> None:
     crossed = [RepetitionResult(1.0, 4.0, ""), RepetitionResult(3.0, 5.0, "")]
     plain, plain_s = repetitions([(1.0, 2.0), (0.0, 2.0)])
@@ -139,9 +125,6 @@ def test_compare_pair_incomparable_states_reason(figures: SessionResults, left: 
     assert "exercise" in compare_pair(figures, other).reasons
     apart = compare_pair(figures, other)
     assert apart.main_comparison is None, "they have no movement in common"
-    assert len(apart.unpaired) == len(figures.wrist_ranges) + len(other.wrist_ranges), (
-        "what each has is shown all the same"
-    )
     few = figures_once(session(session_id="few"), RepetitionChoices(dict.fromkeys(range(7), "pain")))
     assert (
         pair_incomparable_reasons(figures, few) == pair_incomparable_reasons(few, figures) == ("few_repetitions_after",)

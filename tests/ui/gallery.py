@@ -42,10 +42,10 @@ from carpus.ui.report.builders import build_progress_report, build_session_repor
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.report import Report
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.screens.beside.screen import ComparisonScreen
 from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
 from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen
 from carpus.ui.screens.check_card.screen import CheckCardScreen
+from carpus.ui.screens.comparison.screen import ComparisonScreen
 from carpus.ui.screens.correct.flow import difference_words
 from carpus.ui.screens.correct.results_dialog import ResultPair, ResultsDialog
 from carpus.ui.screens.correct.screen import CorrectionScreen
@@ -383,7 +383,7 @@ class Gallery(GalleryWindow):
         if feed is None and whole_hand:
             feed = FakeFeed("fist", 32.0, hidden, lost, protocol="hand21")
         feed = feed or FakeFeed(seconds=32.0, hidden=hidden, lost=lost)
-        self.place(where="Right hand · Wrist flexion–extension", camera="30 fps")
+        self.place(where="Right hand · Wrist flexion–extension", camera="")
         screen = self.show(LiveScreen(self.theme, self.background))
         screen.open_source(FakeMeasuring(feed), set_up("FIST_COMPOSITE", 90.0) if whole_hand else set_up())
         screen._timer.stop()
@@ -561,28 +561,28 @@ class Gallery(GalleryWindow):
         shift = np.where(new.timestamp_s - new.timestamp_s[0] > 20.0, 0.3, 0.0)[:, None]
         self._results(replace(new, motion=replace(new.motion, angles_rad=new.motion.angles_rad - shift)), new)
 
-    def _beside(self, store: FakeSessions, one: str, other: str) -> ComparisonScreen:
+    def _comparison(self, store: FakeSessions, one: str, other: str) -> ComparisonScreen:
         screen = self.show(ComparisonScreen(self.theme, self.background, store), tab=1, camera="")
         screen.load_sessions((one, other), "right")
         self.settle()
-        starts = screen.alignment.step.starts_s
+        starts = screen.timeline.starts_s
         screen.playing.set_time(starts[3] + 1.0 if len(starts) > 3 else 2.0)
         self.settle()
         screen.playing.stop()
         return screen
 
-    def beside(self) -> ComparisonScreen:
+    def comparison(self) -> ComparisonScreen:
         """The healthy hand of the same day."""
         store = FakeSessions()
         store.kept["session-7"] = RepetitionChoices({6: "pain"})
         left = session(NOW - timedelta(hours=1), 1.25, session_id="session-left", side="left")
         store.sessions["session-left"] = left
-        return self._beside(store, "session-7", "session-left")
+        return self._comparison(store, "session-7", "session-left")
 
-    def beside_hand(self) -> None:
+    def comparison_hand(self) -> None:
         store = FakeHandSessions()
         store.sessions["hand-left"] = hand_session(NOW - timedelta(hours=1), session_id="hand-left", side="left")
-        self._beside(store, "hand-3", "hand-left")
+        self._comparison(store, "hand-3", "hand-left")
 
     def progress(self, store: FakeSessions | None = None, session_id: str = "session-7") -> None:
         screen = ProgressScreen(self.theme, self.background, store or self.sessions)

@@ -164,15 +164,16 @@ def test_live_count_matches_review_with_occlusion(exercise: str) -> None:
     assert count.is_best_lower_bound == row.is_lower_bound
 
 
-def test_light_map_cells_and_large_number_say_the_same_at_every_moment(live: Live) -> None:
+def test_light_cells_and_large_number_say_the_same_at_every_moment(live: Live) -> None:
     tried = live(feed_of([(0.5, 0.6, "PIP4"), (1.0, 2.0, "TIP2"), (1.5, 3.0, "PIP3"), (2.2, 2.5, "MCP1")]))
     screen = tried.screen
     screen.show_angle(Reading(figure=FingerAngle(3, "knuckle")))
     ranks = set()
     for _ in range(round(15 * 4.0)):
         tried.run(1 / 15)
+        screen._show_values()
         reading = tried.reading()
-        seen = screen.hand_map.visibility
+        seen = screen.history.marker_visibility()
         hidden = {name for name, state in seen.items() if state == "hidden"}
         lamp = screen.controls.light_view.status_light
         ranks.add(lamp.rank)

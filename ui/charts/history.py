@@ -211,11 +211,6 @@ class History:
         """Return whether the angle is computed from another joint."""
         return bool(self._weights.is_inferred[index])
 
-    @property
-    def has_inferred_angles(self) -> bool:
-        """Whether the DIP joints are computed from the PIP joints."""
-        return bool(self._weights.is_inferred.any())
-
     def marker_visibility(self) -> dict[str, MarkerVisibility]:
         """Return how visible each marker has been recently."""
         if not len(self._rows) or not self.has_fingers:

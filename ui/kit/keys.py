@@ -29,7 +29,7 @@ KEYS = {
     "correct": "Shift+F10", "correct_back": ",", "correct_on": ".", "correct_hide": "H", "correct_undo": "Z",
     "correct_doubtful": "D",
     "angle": "A", "hand_picture": "F",
-    "tick": "Space", "compare_ticked": "C", "beside": "B", "mirror": "M",
+    "tick": "Space", "compare_ticked": "C", "comparison": "B",
 }  # fmt: skip
 """While measuring only Space, the pedal's key and function keys are used: they work in every keyboard layout."""
 
@@ -112,7 +112,6 @@ def action_words(name: str) -> str:
         "correct_undo": tr("Undo a step"), "correct_doubtful": tr("Next uncertain frame"),
         "angle": tr("Draw the angle on the frame"), "hand_picture": tr("This frame with the hand only"),
             "tick": tr("Tick a session to compare"), "compare_ticked": tr("Compare the two ticked sessions"),
-        "beside": tr("Compare with the other hand or another day"),
-        "mirror": tr("Mirror the left hand"),
+        "comparison": tr("Compare with the other hand or another day"),
     }  # fmt: skip
     return words[name]

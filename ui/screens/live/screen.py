@@ -29,7 +29,6 @@ from carpus.ui.picture.movement_guide import ExerciseSnapshot
 from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR, FrameView
 from carpus.ui.screens.live.controls import RecordingControls
 from carpus.ui.screens.live.frame_overlay import FrameOverlay
-from carpus.ui.screens.live.hand_map import HandMap
 from carpus.ui.screens.live.live_readings import LiveReadings
 from carpus.ui.screens.live.marker_doubt import find_doubt, question_light
 from carpus.ui.screens.live.note_dialogs import NoteDialog, PainDialog
@@ -105,7 +104,6 @@ class LiveScreen(FittedWidget):
         self.number_card = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
         self.finger_curves = FingerCurves(theme, self.history)
-        self.hand_map = HandMap(theme)
         self.controls = RecordingControls(theme, self.recording)
         self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
@@ -123,12 +121,11 @@ class LiveScreen(FittedWidget):
         self._timer.timeout.connect(self.draw_if_due)
 
     def _build_layout(self) -> None:
-        left = column_layout((self.picture, 390), (self.hand_map, 300), gap=12)
         right = column_layout(self.number_card, (self.curves, 1), (self.finger_curves, 1), gap=12)
         self._columns = columns = QHBoxLayout(self.stage)
         columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
         columns.setSpacing(GAP_PX)
-        fill(columns, (left, 520), (right, 696))
+        fill(columns, (self.picture, 520), (right, 696))
         self.patient_view_button.setProperty("floats", True)
         on_picture = (self.patient_view_button, 0, Qt.AlignmentFlag.AlignTop)
         row_layout(STRETCH, on_picture, margins=(0, 8, 8, 0), parent=self.picture)
@@ -182,9 +179,8 @@ class LiveScreen(FittedWidget):
         )
 
     def _fit(self) -> None:
-        """Hide the hand map with large text on a small screen, so that the large values keep their space."""
+        """Show the curves of the wrist or of the fingers."""
         tight, hand = is_tight(self, self._theme), self._is_whole_hand
-        self.hand_map.setVisible(not tight and hand)
         self.curves.setVisible(not hand)
         self.finger_curves.setVisible(hand)
         for place, share in enumerate(HAND_COLUMNS if hand else WRIST_COLUMNS):
@@ -215,7 +211,6 @@ class LiveScreen(FittedWidget):
         angle = 1 if exercise.angle is None else exercise.angle
         self.show_angle(Reading(angle=angle, figure=find_finger_angle(exercise.joint) if self._is_whole_hand else None))
         self.controls.reset()
-        self.hand_map.set_side(set_up.side)
         self._fit()
         waits, plays = self.tr("Waiting for the camera image"), self.tr("The recording plays from its first frame")
         self.picture.clear(plays if self.recording.is_playback else waits)
@@ -333,9 +328,6 @@ class LiveScreen(FittedWidget):
             return
         if self._is_whole_hand:
             self.finger_curves.update_values()
-            self.hand_map.show_visibility(
-                self.history.marker_visibility(), dip_inferred=self.history.has_inferred_angles
-            )
         else:
             self.curves.update_values()
         self.controls.light_view.show_light(self._current_light(measuring))
@@ -357,7 +349,7 @@ class LiveScreen(FittedWidget):
         markers = calibration.clicks.protocol.markers if calibration else ()
         frame = None if view is None else view.tracked
         if self._is_whole_hand:
-            lamp = hand_light(frame, self.hand_map.visibility)
+            lamp = hand_light(frame, self.history.marker_visibility())
         else:
             pure = recording.set_up is not None and recording.set_up.exercise.is_forearm_fixed
             now = wrist_light(frame, markers, pure and self.history.has_forearm_moved())

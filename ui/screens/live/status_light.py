@@ -14,7 +14,7 @@ from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import Frame, TrackedFrame, TrackStatus
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
 from carpus.ui.charts.history import MarkerVisibility
-from carpus.ui.kit.translate import to_mid_sentence, tr
+from carpus.ui.kit.translate import tr
 from carpus.ui.words.marker_words import finger_name, marker_title, occlusion_remedy
 
 Rank = Literal["good", "warn", "bad", "idle"]
@@ -147,20 +147,6 @@ def remedy_words(hidden: Sequence[str]) -> str:
     if len(hidden) == 1 and hidden[0].startswith("TIP"):
         return tr("Raise the hand")
     return tr("Turn the back of the fingers to the camera")
-
-
-def hand_map_words(visibility: Mapping[str, MarkerVisibility], *, dip_inferred: bool = False) -> str:
-    """Return the sentence beside the hand map: what is hidden and what to do."""
-    hidden = [name for name, state in visibility.items() if state == "hidden"]
-    partly = [name for name, state in visibility.items() if state == "partly"]
-    if not hidden and not partly:
-        if dip_inferred:
-            return tr("All markers visible. DIP joints are not measured: they follow the PIP joints.")
-        return tr("All markers visible. Every joint is measured.")
-    poor = hidden or partly
-    words = occlusion_words(poor) if hidden else _partly_words(poor)
-    sentence = tr("{what}: {remedy}.").format(what=words, remedy=to_mid_sentence(remedy_words(poor)))
-    return f"{sentence} {tr('Occluded joints are not analysed.')}" if hidden else sentence
 
 
 def _partly_words(poor: Sequence[str]) -> str:

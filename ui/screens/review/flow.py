@@ -30,7 +30,7 @@ class ReviewFlow(Flow):
         screen.report_requested.connect(lambda session_id: way.open_screen("report", session_id))
         screen.export_requested.connect(self.exporting.choose_formats)
         screen.hand_image_requested.connect(self.save_hand_image)
-        screen.comparison_requested.connect(lambda one, other: way.open_screen("beside", one, other))
+        screen.comparison_requested.connect(lambda one, other: way.open_screen("comparison", one, other))
         screen.correction_requested.connect(lambda *where: way.open_screen("correct", *where))
         screen.version_chosen.connect(self.open)
         screen.restore_requested.connect(self._restore_version)

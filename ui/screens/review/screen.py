@@ -129,7 +129,7 @@ class ReviewScreen(FittedWidget):
             "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S), "edge_on": lambda: self.nudge_edge(EDGE_STEP_S),
             "report": card.report_button.click, "export": card.export_button.click, "plot_in": curves.zoom_in,
             "plot_out": curves.zoom_out, "plot_all": curves.show_all, "correct": self.correct_here,
-            "beside": card.compare_button.click, "angle": self.frame_view.angle_button.click,
+            "comparison": card.compare_button.click, "angle": self.frame_view.angle_button.click,
             "hand_picture": self.open_hand_image_dialog,
         }  # fmt: skip
         bind_screen_keys(self, actions)

@@ -24,7 +24,7 @@ class SessionsFlow(Flow):
         screen.fault_raised.connect(context.messages.show_fault)
         screen.open_requested.connect(lambda session_id: way.open_screen("review", session_id))
         screen.progress_requested.connect(self._show_progress)
-        screen.pair_requested.connect(lambda one, other: way.open_screen("beside", one, other))
+        screen.pair_requested.connect(lambda one, other: way.open_screen("comparison", one, other))
         screen.sessions_changed.connect(self._clear_missing_session)
 
     def open(self, patient_id: str) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from carpus.ui.kit.background import Background
-from carpus.ui.screens.beside.screen import ComparisonScreen
+from carpus.ui.screens.comparison.screen import ComparisonScreen
 from carpus.ui.shell.flow import Flow, ScreenContext
 
 
 class ComparisonFlow(Flow):
     """Controller of the comparison; ``origin`` is the screen it was opened from."""
 
-    screen_name, guide_page, parent_tab = "beside", "sessions", "review"
+    screen_name, guide_page, parent_tab = "comparison", "sessions", "review"
     screen: ComparisonScreen
 
     def __init__(self, context: ScreenContext) -> None:
@@ -21,11 +21,11 @@ class ComparisonFlow(Flow):
 
     def open(self, one: str, other: str) -> None:
         """Compare two sessions; Back returns to the current screen."""
-        if self.context.navigator.screen_name != "beside":
+        if self.context.navigator.screen_name != "comparison":
             self.origin = self.context.navigator.screen_name
         patient = self.context.current.patient
         self.screen.load_sessions((one, other), patient.side if patient is not None else "")
-        self.context.navigator.switch_screen("beside")
+        self.context.navigator.switch_screen("comparison")
 
     def navigate_back(self) -> None:
         patient = self.context.current.patient
