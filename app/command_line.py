@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 
 from carpus.core.capture.devices.cameras import CAMERAS, validate_address
@@ -198,6 +199,29 @@ def count_type(low: int, high: int) -> Callable[[str], int]:
         if not low <= value <= high:
             raise argparse.ArgumentTypeError(f"“{text}” is no whole number from {low} to {high}")
         return value
+
+    return read
+
+
+def describe_wrong_suffix(path: Path, suffixes: Sequence[str]) -> str:
+    """Return what is wrong with the name of a file to write that ends in another format; empty if nothing.
+
+    >>> describe_wrong_suffix(Path("a.csv"), (".pdf",)), describe_wrong_suffix(Path("P-1"), (".pdf",))
+    ('“a.csv” ends in .csv, and what is written is .pdf', '')
+    """
+    suffix = path.suffix.lower()
+    if suffix in ("", *suffixes) or suffix[1:].isdigit():
+        return ""
+    return f"“{path}” ends in {suffix}, and what is written is {' or '.join(suffixes)}"
+
+
+def output_type(*suffixes: str) -> Callable[[str], Path]:
+    """Return an argparse type for a file to write: a name of another format is wrong usage."""
+
+    def read(text: str) -> Path:
+        if wrong := describe_wrong_suffix(Path(text), suffixes):
+            raise argparse.ArgumentTypeError(wrong)
+        return Path(text)
 
     return read
 

@@ -10,7 +10,14 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import number_type, print_fault, print_message, progress_bar, report_usage_error
+from carpus.app.command_line import (
+    number_type,
+    output_type,
+    print_fault,
+    print_message,
+    progress_bar,
+    report_usage_error,
+)
 
 if TYPE_CHECKING:
     from carpus.core.calibration.camera.board import Board
@@ -42,7 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="MM",
         help="measured side of a square, where a print is not at 100 %%",
     )
-    parser.add_argument("--output", type=Path, metavar="CAMERA.yaml", help="write the camera file here too")
+    parser.add_argument(
+        "--output", type=output_type(".yaml", ".yml"), metavar="CAMERA.yaml", help="write the camera file here too"
+    )
     parser.add_argument("--serial", metavar="SERIAL", help="which camera it was, where the recording does not say")
 
 

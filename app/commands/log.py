@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import print_fault, print_message
+from carpus.app.command_line import output_type, print_fault, print_message
 from carpus.app.session_commands import open_store
 from carpus.app.settings import load_valid_settings
 from carpus.core.model.errors import CarpusFault, OutputExists, PatientListDamaged
@@ -16,7 +16,7 @@ HEAD = ("number", "when", "who", "by", "did", "kind", "subject", "facts")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
-    parser.add_argument("--output", type=Path, metavar="TABLE.csv", help="as a table, never overwritten")
+    parser.add_argument("--output", type=output_type(".csv"), metavar="TABLE.csv", help="as a table, never overwritten")
 
 
 def run(arguments: argparse.Namespace) -> int:

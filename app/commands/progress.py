@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import add_region_option, print_fault, report_usage_error
+from carpus.app.command_line import add_region_option, output_type, print_fault, report_usage_error
 from carpus.core.measures.change_limits import ErrorLimits
 from carpus.core.model.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.model.names import describe_known_names, fold_name
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--output",
-        type=Path,
+        type=output_type(".csv", ".parquet", ".pdf"),
         action="append",
         default=[],
         metavar="FILE",

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from carpus.app.command_line import (
     CAMERA_HELP,
+    describe_wrong_suffix,
     number_type,
     parse_camera_address,
     print_fault,
@@ -61,6 +62,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if arguments.lossless and arguments.format != "raw":
         return report_usage_error("record", "--lossless is for --format raw; a TUM folder is without loss already.")
+    wrong = describe_wrong_suffix(arguments.output, (".carpusraw",))
+    if arguments.format == "raw" and wrong:
+        return report_usage_error("record", f"{wrong}.")
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     if arguments.origin is not None:

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.command_line import print_message
+from carpus.app.command_line import output_type, print_message
 from carpus.app.session_commands import log_created_files
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.model.errors import OutputExists
@@ -20,7 +20,9 @@ EXAMPLE = "carpus report session.h5 --output report.pdf --language de"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5")
-    parser.add_argument("--output", type=Path, required=True, metavar="REPORT.pdf", help="never overwritten")
+    parser.add_argument(
+        "--output", type=output_type(".pdf"), required=True, metavar="REPORT.pdf", help="never overwritten"
+    )
     parser.add_argument(
         "--angle-order",
         choices=ANGLE_ORDERS,

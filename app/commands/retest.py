@@ -10,15 +10,11 @@ import math
 from collections import Counter
 from datetime import date
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from carpus.app.command_line import add_region_option, print_fault
+from carpus.app.command_line import add_region_option, output_type, print_fault
 from carpus.app.session_commands import read_figures
 from carpus.core.model.errors import ReferenceUnreadable, StudyUnsuited
 from carpus.core.model.rounding import format_rounded
-
-if TYPE_CHECKING:
-    pass
 
 EXAMPLE = "carpus retest sessions --output retest.csv"
 _REASONS = {
@@ -42,7 +38,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--raters", type=Path, metavar="TABLE.csv", help="who put the discs on: columns session (file name) and rater"
     )
-    parser.add_argument("--output", type=Path, metavar="TABLE.csv", help="all figures as a table, never overwritten")
+    parser.add_argument(
+        "--output", type=output_type(".csv"), metavar="TABLE.csv", help="all figures as a table, never overwritten"
+    )
     parser.add_argument(
         "--store",
         action="store_true",

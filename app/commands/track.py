@@ -13,6 +13,7 @@ import numpy as np
 from carpus.app.command_line import (
     count_type,
     number_type,
+    output_type,
     print_fault,
     print_message,
     progress_bar,
@@ -106,7 +107,7 @@ def _add_batch_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--table",
-        type=Path,
+        type=output_type(".csv", ".parquet"),
         metavar="TABLE.csv",
         help="of many recordings: the measures of all sessions also as this .csv or .parquet, written as they "
         "come; only the table of an earlier run is replaced (Parquet needs pyarrow)",

@@ -96,7 +96,8 @@ def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
         end = rows.axis_length(str(field.shape[0]))
         dataset = create_dataset(file, field, layout)
         dataset.resize(end, axis=0)
-        dataset[:] = read_rows(old[path], end)
+        kept = read_rows(old[path], end)
+        dataset[:] = kept.view(dataset.dtype) if kept.dtype.kind == "S" else kept  # those of 0.2.0 are marked as UTF-8
     for name, names in layout.group_names().items():
         for group in (name, f"/smoothed{name}"):
             if group in file:

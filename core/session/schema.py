@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import h5py
 import numpy as np
 
 from carpus.core.model.hand.dorsal_surface import TABLE_ROWS
@@ -106,7 +105,8 @@ class Field:
     def h5_dtype(self) -> Any:
         if self.dtype == "rows":
             return REPETITION_DTYPE
-        return h5py.string_dtype("utf-8", TEXT_BYTES) if self.dtype == "text" else np.dtype(self.dtype)
+        # Not marked as UTF-8, which they are: Octave loads no file with such a mark.
+        return np.dtype(f"S{TEXT_BYTES}") if self.dtype == "text" else np.dtype(self.dtype)
 
     @property
     def label_axis(self) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import json
 import multiprocessing
 import shutil
 import signal
@@ -18,6 +17,7 @@ import cv2
 import numpy as np
 import platformdirs
 
+from carpus.core.calibration.clicks_file import write_clicks
 from carpus.core.calibration.result import Clicks
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
@@ -33,7 +33,6 @@ from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, compute_truth, write_truth
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
-_RECORDING_FILES = ("rgb", "depth", COLOR_LIST, DEPTH_LIST, CAMERA_FILE, CLICKS_FILE, TRUTH_FILE)
 
 _LARGEST_CLICK_ERROR_PX = 3.5
 _BLUR_STEP_PX = 1.3
@@ -116,22 +115,18 @@ def sample_clicks(truth: Truth) -> Clicks:
     return Clicks(spec.hand, spec.marker_protocol, np.round(truth.marker_px[0] + np.clip(error, -limit, limit), 1))
 
 
-def clicks_json(clicks: Clicks) -> str:
-    """Return the clicks file (interface 3)."""
-    markers = {name: [float(u), float(v)] for name, (u, v) in zip(clicks.protocol.markers, clicks.pixel, strict=True)}
-    return json.dumps({"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}, indent=2) + "\n"
-
-
 def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None, workers: int = 1) -> Truth:
     """Render the recording of a spec into ``folder`` and return its true values.
 
     More than one of the ``workers`` render in separate processes with the same result. Raises :class:`OutputExists` if
-    the folder holds a recording, or :class:`OutputNotWritable`.
+    there is anything in the folder, or :class:`OutputNotWritable`.
     """
     recording = SimulatedRecording(spec)
     is_new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        if any(folder.iterdir()):
+            raise OutputExists(folder)
         for name in ("rgb", "depth"):
             (folder / name).mkdir()
     except FileExistsError as cause:
@@ -142,11 +137,9 @@ def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None
         return _write_recording(recording, folder, progress, workers)
     except BaseException:
         # Remove an incomplete recording, so that the next try finds the folder free.
-        for path in [folder] if is_new else [folder / name for name in _RECORDING_FILES]:
-            if path.is_dir():
-                shutil.rmtree(path, ignore_errors=True)
-            else:
-                path.unlink(missing_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        if not is_new:
+            folder.mkdir(exist_ok=True)
         raise
 
 
@@ -166,7 +159,7 @@ def _write_recording(recording: SimulatedRecording, folder: Path, progress: Prog
     write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False)
     clicks = sample_clicks(truth)
     try:
-        (folder / CLICKS_FILE).write_text(clicks_json(clicks), encoding="utf-8")
+        write_clicks(folder / CLICKS_FILE, clicks)
         write_truth(folder / TRUTH_FILE, truth, clicks)
         for kind, title, name in (("rgb", "color images", COLOR_LIST), ("depth", "depth maps", DEPTH_LIST)):
             text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])

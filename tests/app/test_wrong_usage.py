@@ -54,6 +54,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("--output {new} --from {gone}", 1, "Recording not found"),
         ("--output {new} --from {file}", 1, "{file}"),
         ("--output {new} --seconds nan", 2, "“nan” is no number from 0.1 to 86400"),
+        ("--output {new}.csv", 2, "ends in .csv, and what is written is .carpusraw"),
         ("--output {new} --lossless --format tum", 2, "--lossless is for --format raw"),
         ("--output {new} --camera realsnse", 2, "did you mean “realsense”? There are: xtion, realsense, orbbec"),
     ],
@@ -71,6 +72,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{gone} --output {new}.pdf", 1, "gone"),
         ("{junk} --output {new}.pdf", 1, "{junk}"),
         ("{session} --output {file}", 1, "A file with this name already exists"),
+        ("{session} --output {new}.csv", 2, "ends in .csv, and what is written is .pdf"),
         ("{session} --output {gone}/a.pdf", 1, "{gone}"),
         ("{session} --output {new}.pdf --language fr", 2, "There are: en, de, it|there are: en, de, it"),
     ],
@@ -82,7 +84,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
             "There is no patient called Lindn (did you mean “Linden 42”? There are: Linden 42)",
         ),
         ("nobody", 1, "There is no patient called nobody (there are: Fern 12)"),
-        ("nobody --sessions {empty}", 1, "There is no patient called nobody (there are none yet)"),
+        ("nobody --sessions {empty}", 1, "There is no session in {empty}"),
         ("'fern 12'", 1, "There is no session in {data}"),
         ("all --sessions {empty}", 1, "There is no session in {empty}"),
         ("all --output {new}.pdf", 2, "one patient"),
@@ -107,7 +109,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
     "retest": [
         ("", 2, "SESSION.h5"),
         ("{gone}", 1, "There is no folder {gone}"),
-        ("{empty}", 1, "no session can be read"),
+        ("{empty}", 1, "There is no session in {empty}"),
         ("{session} --raters {gone}", 1, "No such file"),
     ],
     "log": [
@@ -214,7 +216,7 @@ def test_options_refuse_unreadable_values(name: str, command: Command) -> None:
     for option in options(name):
         if not option.option_strings or option.nargs == 0 or (option.type in (None, Path) and not option.choices):
             continue
-        values = ["no such\nthing"] * (option.nargs if isinstance(option.nargs, int) else 1)
+        values = ["no such\nthing.exe"] * (option.nargs if isinstance(option.nargs, int) else 1)
         done = command(name, option.option_strings[0], *values)
         assert (done.code, done.err.count("\n")) == (2, 1), option.dest
         assert done.err.startswith(f"carpus {name}: {option.option_strings[0]}"), done.err

@@ -52,7 +52,8 @@ def format_page() -> str:
         "`column_units` and `column_descriptions`. A session that Carpus 0.2.0 recovered is without. "
         "What a person leaves out or moves "
         "later is not in the file.\n"
-        "A longer text than fits goes on in the next rows of `/events`, which have the same time and kind.\n"
+        "A longer text than fits goes on in the next rows of `/events`, which have the same time and kind. Texts are "
+        'UTF-8 without HDF5\'s mark of it, so that Octave loads the file: h5py reads them with `asstr("utf-8")`.\n'
         "`/smoothed/wrist` and `/smoothed/joints` hold what `/wrist` and `/joints` hold, by the smoother; "
         "whole or not there.\n"
         "The event `not_looked_back` says why a live session is without.\n"

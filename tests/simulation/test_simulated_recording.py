@@ -135,6 +135,13 @@ def test_simulate_existing_recording_is_refused(recording: Path) -> None:
     assert digests(recording) == before
 
 
+def test_simulate_folder_of_other_files_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "P-1").mkdir()
+    with pytest.raises(OutputExists):
+        simulate(SPEC, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["P-1"]
+
+
 def test_render_cached_renders_once(tmp_path: Path) -> None:
     spec = RecordingSpec(seed=30, seconds=0.1, motion="rest")
     calls: list[int] = []
