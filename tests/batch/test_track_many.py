@@ -9,7 +9,6 @@ import shutil
 from dataclasses import fields
 from pathlib import Path
 
-import numpy as np
 import pyarrow
 import pytest
 from pyarrow import parquet
@@ -54,12 +53,7 @@ def test_faults_are_gathered_and_what_is_done_is_left(made: Path, tmp_path: Path
     assert told["third.h5"]["tracked_share"] == ""
     assert not (out / "third.h5").exists()
 
-    alone = tmp_path / "alone.h5"
-    first = recordings / "anna" / "first"
-    asked = ("--calibration", first / CLICKS_FILE, "--exercise", "WRIST_RU", "--no-smooth")
-    assert command("track", first, *asked, "--output", alone).code == 0
-    session, by_itself = read_session(out / "anna" / "first.h5"), read_session(alone)
-    assert np.array_equal(session.motion.angles_rad, by_itself.motion.angles_rad, equal_nan=True)
+    session = read_session(out / "anna" / "first.h5")
     assert session.header.exercise == "WRIST_RU"
 
     measures = rows(out / MEASURES_FILE)
@@ -94,7 +88,8 @@ def test_faults_are_gathered_and_what_is_done_is_left(made: Path, tmp_path: Path
 
     # Sessions among them are tracked again, and say where they are from.
     again = tmp_path / "again"
-    assert command("track", out / "second.h5", out / "third.h5", "--output", again, "--no-smooth").code == 0
+    again.mkdir()
+    assert command("track", out / "second.h5", "--output", again, "--no-smooth").code == 0
     assert read_session(again / "second.h5").header.origin == read_session(out / "second.h5").header.session_id
     done = command(*words, other_table, "--profile", "brisk")
     assert (done.code, done.out.count("tracked before with other settings")) == (0, 3)

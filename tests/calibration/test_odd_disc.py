@@ -54,7 +54,7 @@ def test_odd_marker_blue_spot_as_mcp3_is_found(side: Side) -> None:
 
 @pytest.mark.parametrize("side", SIDES)
 def test_odd_marker_of_a_right_palm_is_none(side: Side) -> None:
-    for size in (0.7, 1.0, 1.15):
+    for size in (0.7, 1.15):
         scene = Scene(side=side, size=size)
         assert odd_kinds(calibrate_clicks(scene, scene.discs_px)) == []
 

@@ -12,7 +12,7 @@ from carpus.core.model.types import FINGER_SAMPLE_STEP_PX, Frame
 FULL = Frame(0, 0.0, np.zeros((480, 640, 3), np.uint8), np.full((480, 640), 700, np.uint16), 1e-3)
 
 
-@pytest.mark.parametrize("shift_px", [0.0, 0.7, 1.9])
+@pytest.mark.parametrize("shift_px", [0.0, 0.7])
 def test_surface_lattice_is_fixed_in_the_image(shift_px: float) -> None:
     corners = np.array([[300.0, 200.0], [340.0, 205.0], [345.0, 260.0], [298.0, 255.0]]) + shift_px
     found = sample_surface(FULL, corners)

@@ -15,7 +15,7 @@ from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
 from carpus.core.formats.table_read import read_table
 from carpus.core.model.hand.protocols import HAND21, WRIST6
 from carpus.core.session.reader import read_session
-from carpus.ui.kit.table_file import OFFERED_REGIONS, regional_table_form, save_table, user_region
+from carpus.ui.kit.table_file import OFFERED_REGIONS, regional_table_form, save_table
 from tests.commands import Command
 from tests.formats.takes import stored, take_of
 
@@ -81,10 +81,6 @@ def test_spreadsheet_of_region_reads_same_numbers(region: str, tmp_path: Path) -
     assert numbers > 1000
 
 
-def test_region_rules_detect_wrong_dialect() -> None:
-    assert (read_as("91.947", "de_DE"), read_as("91,947", "de_DE")) == (91947.0, 91.947)
-
-
 @pytest.mark.parametrize(
     ("region", "form"),
     [
@@ -120,7 +116,3 @@ def test_table_saved_in_window_has_regional_dialect(tmp_path: Path, monkeypatch:
         "angle;mean_deg", "flexion;-1,5", "'=1+1;91,947",
     ]  # fmt: skip
     assert read_table(tmp_path / "t.csv", ()).column("mean_deg") == ["-1,5", "91,947"]
-
-
-def test_system_region_exists() -> None:
-    regional_table_form(user_region())

@@ -107,14 +107,7 @@ def test_joint_range_never_visible_is_unknown() -> None:
     assert total.top_limited
 
 
-def test_joint_range_hardly_visible_repetition_is_excluded() -> None:
-    valid = FULL.copy()
-    valid[(TIME_S > 4.2) & (TIME_S < 7.8)] = False
-    found = joint_range(make_track("PIP3_flexion", 80.0 * WAVE, valid), REPETITIONS)
-    assert found.repetitions == 2
-
-
-@pytest.mark.parametrize(("lowest_deg", "deficit_deg"), [(12.0, 12.0), (0.0, 0.0), (-15.0, 0.0)])
+@pytest.mark.parametrize(("lowest_deg", "deficit_deg"), [(12.0, 12.0), (-15.0, 0.0)])
 def test_total_active_motion_is_flexion_less_deficit(lowest_deg: float, deficit_deg: float) -> None:
     joints = [
         make_track("MCP3_flexion", 70.0 * WAVE),
@@ -140,12 +133,6 @@ def test_total_active_motion_needs_all_joints_visible_or_is_limited() -> None:
     found = total_active_motion(joints, REPETITIONS, inferred=True)
     assert math.degrees(found.maximum.mean) < 200.0
     assert found.top_limited
-
-
-def test_joint_range_without_repetitions_covers_the_recording() -> None:
-    found = joint_range(make_track("PIP3_flexion", 40.0 * WAVE), ())
-    assert found.repetitions == 0
-    assert np.degrees(found.arc.values) == pytest.approx([40.0], abs=0.3)
 
 
 def test_visible_joints_need_both_markers() -> None:

@@ -34,13 +34,12 @@ def test_wrist_centre_of_flexion_is_found_and_still() -> None:
     assert found.displacement_m.max() < 0.003
 
 
-@pytest.mark.parametrize("moved_m", [0.02, 0.05])
-def test_wrist_centre_moving_forearm_shows_displacement(moved_m: float) -> None:
+def test_wrist_centre_moving_forearm_shows_displacement() -> None:
     position, rotation = make_flexion(CENTRE_M)
     position = position.copy()
-    position[210:260, 0] += moved_m
+    position[210:260, 0] += 0.02
     found = estimate_wrist_centre(position, rotation, np.ones(len(position), dtype=bool))
-    assert found.displacement_m[210:260].min() == pytest.approx(moved_m, rel=0.1)
+    assert found.displacement_m[210:260].min() == pytest.approx(0.02, rel=0.1)
     assert found.displacement_m[:200].max() < 0.003
 
 

@@ -97,11 +97,6 @@ def measure_strokes(signal: Signal) -> list[StrokeMeasures]:
     return [measure_stroke(signal, stroke) for stroke in find_repetitions(signal).strokes]
 
 
-def test_stroke_peak_of_a_quick_stroke_is_kept() -> None:
-    peak_rad_s = mean_of_known(measure_strokes(make_repetitions(0.4)), "peak_speed_rad_s")
-    assert math.degrees(peak_rad_s) == pytest.approx(1.875 * 60.0 / 0.4, rel=0.02)
-
-
 def test_noise_speed_sd_matches_samples() -> None:
     noise = Noise(0.4, FILTER_CORRELATION_S)
     drawn = noise.sample(3000, RATE)

@@ -60,7 +60,7 @@ def make_serial_reach(parts: int, noise_m_s: float = 0.0) -> FloatArray:
     return np.concatenate([one] * parts) + ripple
 
 
-@pytest.mark.parametrize("parts", [1, 2, 3])
+@pytest.mark.parametrize("parts", [1, 3])
 def test_path_peaks_noise_dip_splits_no_peak(parts: int) -> None:
     wavy = make_serial_reach(parts, 0.004)
     assert count_speed_peaks(wavy, RATE, 0.02, min_dip=0.016) == parts

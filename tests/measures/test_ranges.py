@@ -95,14 +95,6 @@ def test_motion_range_without_repetitions_covers_the_recording() -> None:
     assert math.degrees(found.arc.mean) == pytest.approx(7.0, abs=0.1)
 
 
-def test_motion_range_without_valid_samples_is_unknown() -> None:
-    value = exercise_deg([40.0] * 3)
-    found = measure_range(value, valid=np.zeros(len(value), dtype=bool))
-    assert found.repetitions == 0
-    assert math.isnan(found.arc.mean)
-    assert math.isnan(found.arc.best)
-
-
 def test_motion_range_occluded_top_is_limited() -> None:
     value = exercise_deg([70.0] * 3)
     found = measure_range(value, valid=value < 60.0)

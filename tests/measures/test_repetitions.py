@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from carpus.core.measures.repetitions import _find_turning_points, explain_no_repetitions, find_repetitions
+from carpus.core.measures.repetitions import explain_no_repetitions, find_repetitions
 from carpus.core.measures.signals import Signal, resample_evenly
 from carpus.core.model.types import FloatArray
 
@@ -141,38 +141,6 @@ def test_find_repetitions_strong_noise_rarely_gives_one() -> None:
     assert sum(bool(find_repetitions(make_signal(value)).repetitions) for value in noisy) <= 10
 
 
-def find_turns_by_sample(value: FloatArray, least: float) -> list[tuple[bool, float]]:
-    """Side and value of every turning point, by looking at every pair of samples."""
-    known = value[np.isfinite(value)].tolist()
-    out: list[tuple[bool, float]] = []
-    low = high = None
-    for sample in known:
-        low = sample if low is None else min(low, sample)
-        high = sample if high is None else max(high, sample)
-        if (not out or not out[-1][0]) and high - sample >= least:
-            out.append((True, high))
-            low = sample
-        elif (not out or out[-1][0]) and sample - low >= least:
-            out.append((False, low))
-            high = sample
-    if out and low is not None and high is not None:
-        out.append((False, low) if out[-1][0] else (True, high))
-    return out
-
-
-@settings(max_examples=200, deadline=None)
-@given(
-    steps=st.lists(st.integers(-8, 8), max_size=80),
-    hidden=st.sets(st.integers(0, 80)),
-    least=st.integers(1, 12),
-)
-def test_turning_points_match_a_sample_by_sample_search(steps: list[int], hidden: set[int], least: int) -> None:
-    value = np.cumsum(np.array(steps, dtype=float))
-    value[[k for k in hidden if k < len(value)]] = np.nan
-    found = [(turn.is_high, turn.value) for turn in _find_turning_points(value, least)]
-    assert found == (find_turns_by_sample(value, least) if np.isfinite(value).sum() > 1 else [])
-
-
 def test_find_repetitions_missing_frames_keep_clear_waves() -> None:
     waves = swing_to_one_side(60.0, 0.5, count=10)
     away = np.concatenate((waves, np.zeros(20 * 30), swing_to_one_side(60.0, 0.5, count=2)))
@@ -188,18 +156,17 @@ def test_find_repetitions_missing_frames_keep_clear_waves() -> None:
 
 
 @pytest.mark.parametrize("end", ["rest", "away", "turned over"])
-@pytest.mark.parametrize("count", [4, 10])
-def test_find_repetitions_later_samples_remove_none(end: str, count: int) -> None:
-    waves = swing_to_both_sides(15.0, 0.4, count=count)
+def test_find_repetitions_later_samples_remove_none(end: str) -> None:
+    waves = swing_to_both_sides(15.0, 0.4, count=10)
     after = {
         "rest": np.zeros(600 * 30),
         "away": np.full(5 * 30, np.nan),
         "turned over": np.concatenate((np.linspace(0.0, 150.0, 20), np.full(60, 150.0))),
     }[end]
     before = find_repetitions(make_signal(waves)).repetitions
-    assert len(before) == count
+    assert len(before) == 10
     found = find_repetitions(make_signal(np.concatenate((waves, after)))).repetitions
-    assert len(found) >= count
+    assert len(found) >= 10
     for one in before[:-1]:
         middle_s = 0.5 * (one.start_s + one.end_s)
         assert any(other.start_s <= middle_s <= other.end_s for other in found)

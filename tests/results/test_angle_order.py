@@ -32,7 +32,7 @@ def test_with_angle_order_isb_reads_same_rotations() -> None:
         with_angle_order(turned, "zyx")
 
 
-@pytest.mark.parametrize("pose_deg", [(0.0, 0.0, 0.0), (20.0, 60.0, 0.0), (-15.0, -40.0, 25.0)])
+@pytest.mark.parametrize("pose_deg", [(20.0, 60.0, 0.0), (-15.0, -40.0, 25.0)])
 def test_isb_sd_matches_many_draws(pose_deg: tuple[float, float, float]) -> None:
     sd = np.radians([0.4, 0.9, 1.2])
     pose = np.radians(pose_deg)

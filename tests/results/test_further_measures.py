@@ -82,11 +82,6 @@ def test_opposition_touch_below_15_mm(least_mm: float, touches: float) -> None:
     assert named(figures, "touches", "TIP1-TIP2").mean == touches
 
 
-def test_opposition_without_touch_counts_none() -> None:
-    figures = figures_once(hand_session(exercise="THUMB_OPP", motion="abduction"))
-    assert [named(figures, "touches", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)] == [0.0] * 4
-
-
 def test_thumb_coherence_lost_when_pose_breaks() -> None:
     hidden = [(8.0, 9.5, name) for name in ("IP1", "TIP1")]
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", hidden=hidden)

@@ -9,7 +9,7 @@ import pytest
 
 from carpus.core.model.errors import SettingsInvalid
 from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
-from carpus.core.simulation.hand_motion import STILL_S, StrokePath
+from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.motions import MOTIONS, create_motion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
@@ -66,13 +66,6 @@ def test_motion_follows_the_options() -> None:
     assert np.fft.rfftfreq(len(shaking), 0.01)[spectrum.argmax()] == pytest.approx(5.0, abs=0.2)
 
 
-def test_motion_fast_deviation_has_its_frequency() -> None:
-    time_s = np.arange(1.0, 11.0, 0.01)
-    angle = create_motion(RecordingSpec(seed=1, motion="fast_deviation", seconds=12.0)).wrist_angles_rad(time_s)[:, 0]
-    spectrum = np.abs(np.fft.rfft(angle - angle.mean()))
-    assert np.fft.rfftfreq(len(angle), 0.01)[spectrum.argmax()] == pytest.approx(1.7, abs=0.12)
-
-
 def test_motion_reach_matches_measured_people() -> None:
     time_s = np.arange(0.0, 4.0, 0.002)
     carry = create_motion(RecordingSpec(seed=2, motion="reach", seconds=4.0)).arm_displacement_m(time_s)
@@ -95,13 +88,6 @@ def test_motion_dip_coupled_and_free() -> None:
     middle = np.degrees(free.joint_angles_rad(time_s)[:, free.joint_names.index("PIP3_flexion")])
     assert 40.0 < end.max() < 48.0
     assert middle.max() > 75.0
-
-
-def test_stroke_path_holds_and_passes_through_its_postures() -> None:
-    path = StrokePath(np.array([0.0, 1.0, 2.0, 3.0]), np.array([[0.0], [2.0], [2.0], [-1.0]]))
-    np.testing.assert_allclose(
-        path.evaluate(np.array([-1.0, 1.0, 1.5, 2.0, 2.5, 3.0, 9.0]))[:, 0], [0, 2, 2, 2, 0.5, -1, -1]
-    )
 
 
 def test_scene_palm_markers_are_rigid() -> None:

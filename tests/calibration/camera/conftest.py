@@ -6,6 +6,7 @@ import pytest
 
 from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
 from carpus.core.calibration.camera.board_views import ViewCollector
+from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.types import Frame
 from tests.calibration.camera.printed import ShownSheets
@@ -31,3 +32,9 @@ def gathered(shown: list[Frame]) -> ViewCollector:
     for frame in shown:
         out.add(frame)
     return out
+
+
+@pytest.fixture(scope="package")
+def made(gathered: ViewCollector) -> CameraCalibration:
+    """What is calibrated of it."""
+    return calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")

@@ -40,11 +40,6 @@ from tests.studio import (
 )
 
 
-@pytest.fixture(scope="package")
-def made(gathered: ViewCollector) -> CameraCalibration:
-    return calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
-
-
 def check_lens(made: CameraCalibration, middle_px: float) -> None:
     camera = made.intrinsics.camera
     assert camera.fx_px == pytest.approx(LENS.fx_px, rel=0.003)
@@ -76,14 +71,14 @@ def test_check_depth_scale_is_within_two_permille(made: CameraCalibration, studi
     assert np.linalg.norm(depth.registration_error_px) < 0.5
 
 
-def test_check_depth_finds_registration_error_and_offset(gathered: ViewCollector) -> None:
+def test_check_depth_finds_registration_error_and_offset(made: CameraCalibration, gathered: ViewCollector) -> None:
     def moved(view: BoardView) -> BoardView:
         assert view.depth_raw is not None
         depth = np.roll(view.depth_raw, 3, axis=1)
         far = np.where(depth > 0, depth + round(0.006 / view.depth_unit_m), 0).astype(np.uint16)
         return replace(view, depth_raw=far)
 
-    before = calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio").depth
+    before = made.depth
     after = calibrate_camera([moved(view) for view in gathered.views], DEFAULT_CAMERA, "studio").depth
     assert before is not None
     assert after is not None

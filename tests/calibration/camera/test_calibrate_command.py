@@ -13,8 +13,7 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
-from carpus.core.calibration.camera.board_views import ViewCollector
-from carpus.core.calibration.camera.calibrate import calibrate_camera
+from carpus.core.calibration.camera.calibrate import CameraCalibration
 from carpus.core.calibration.camera.storage import to_stored_calibration
 from carpus.core.capture.calibrated_source import (
     CalibratedSource,
@@ -108,8 +107,7 @@ def test_save_calibration_twice_in_a_second_keeps_both(tmp_path: Path) -> None:
     assert newest.calibration.depth_scale == 1.03
 
 
-def test_stored_calibration_includes_earlier_correction(gathered: ViewCollector) -> None:
-    made = calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
+def test_stored_calibration_includes_earlier_correction(made: CameraCalibration) -> None:
     assert made.depth is not None
     settings = {"depth_scale_corrected": "1.01", "depth_offset_corrected_mm": "2.0"}
     again = to_stored_calibration(made, SERIAL, datetime(2026, 11, 20, tzinfo=UTC), settings)

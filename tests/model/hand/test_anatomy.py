@@ -12,15 +12,7 @@ from carpus.core.model.hand.clinical_angles import wrist_axes
 from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
 
 
-def test_flat_hand_without_offsets_is_the_chain_of_the_papers() -> None:
-    hand = anatomy_from_size(0.180, 0.080, arch=0.0, skin_offsets=False)
-    assert np.array_equal(hand.skin_offset_m, np.zeros(21))
-    assert np.array_equal(hand.palm_disc_m, hand.palm_joint_m)
-    assert np.allclose(hand.finger_length_m[0] * 1e3, [44.10, 25.74, 17.46], atol=0.005)
-    assert np.allclose(hand.thumb_length_m * 1e3, [45.18, 35.28, 28.44], atol=0.005)
-
-
-@pytest.mark.parametrize("length_m", [0.130, 0.180, 0.200])
+@pytest.mark.parametrize("length_m", [0.130, 0.200])
 def test_offsets_grow_with_the_hand(length_m: float) -> None:
     offset_mm = anatomy_from_size(length_m).skin_offset_m * 1e3 * 180.0 / (length_m * 1e3)
     expected = {
@@ -38,7 +30,7 @@ def test_offsets_grow_with_the_hand(length_m: float) -> None:
         assert offset_mm[HAND21.markers.index(marker)] == pytest.approx(height)
 
 
-@pytest.mark.parametrize("arch", [0.0, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("arch", [0.0, 2.0])
 def test_palm_discs_define_the_wrist_frame_they_are_given_in(arch: float) -> None:
     discs = anatomy_from_size(0.175, arch=arch).palm_disc_m
     assert np.allclose(wrist_axes(discs, np.array([0.0, 0.0, 1.0])), np.eye(3), atol=1e-12)

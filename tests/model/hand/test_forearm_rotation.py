@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from carpus.core.model.hand.clinical_angles import angles_from_rotation, side_sign, wrist_axes
-from carpus.core.model.hand.exercises import EXERCISES, get_exercise
+from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.forearm_rotation import (
     from_clinical_targets_deg,
-    is_counted_from_thumb_up,
     pronosupination_from_palm_down,
     supination_from_thumb_up,
     to_clinical_targets_deg,
@@ -48,12 +47,6 @@ def test_supination_of_a_textbook_pose_is_the_clinics_number(pose: str, side: Si
     assert math.degrees(float(supination_from_thumb_up(angles[2]))) == pytest.approx(expected_deg, abs=1e-6)
 
 
-def test_thumb_up_has_the_thumb_above_the_little_finger_on_both_hands() -> None:
-    for side in ("right", "left"):
-        palm = palm_m(np.array([0.0, -side_sign(side), 0.0]), side)
-        assert palm[1, 2] > palm[5, 2]
-
-
 def test_forearm_rotation_signs_and_turns_round_trip() -> None:
     deg = np.array([-179.0, -20.0, 0.0, 65.0, 90.0, 135.0, 180.0])
     read = np.degrees(supination_from_thumb_up(np.radians(deg)))
@@ -70,11 +63,6 @@ def test_clinical_angle_includes_the_measured_start() -> None:
     aside = to_clinical_wrist_angles(stored, get_exercise("WRIST_FE"), start)
     assert np.degrees(aside[:, 2]) == pytest.approx([0.0, 60.0])  # rotation from the start
     assert np.array_equal(aside[:, :2], stored[:, :2])
-
-
-def test_pronation_is_read_where_it_is_trained_or_nothing_in_particular_is() -> None:
-    read = {one.id for one in EXERCISES if is_counted_from_thumb_up(one)}
-    assert read == {"FOREARM_PS", "REACH_GRASP", "FREE_HAND", "FREE"}
 
 
 def test_targets_of_an_older_version_are_converted_and_those_of_other_exercises_stay() -> None:

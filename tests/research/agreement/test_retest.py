@@ -109,8 +109,8 @@ def write_session(folder: Path, person: int, time: int, when: datetime, reach_de
     seen_from_above = np.diag([1.0, -1.0, -1.0])
     set_up = replace(set_up, verdict=replace(set_up.verdict, findings=()), rotation_w0_cam=seen_from_above)
     with begun(path, header, calibration=set_up) as writer:
-        for row in range(240):
-            angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 60.0)
+        for row in range(160):
+            angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 40.0)
             turn = so3.exp(np.array([0.0, angle, 0.0]))
             moved = with_moment(
                 make_frame(row), rotation_w2_w0=turn, position_m=np.zeros(3), w0_turn_rad=np.zeros(3),
