@@ -378,7 +378,7 @@ def _parse_toml(name: str, data: bytes) -> Values:
     try:
         return tomllib.loads(data.decode("utf-8"))
     except RecursionError as cause:
-        raise SettingsInvalid(name, phrase("not TOML: tables within tables without end")) from cause
+        raise SettingsInvalid(name, phrase("not TOML: endlessly nested tables")) from cause
     except ValueError as cause:  # TOML's own faults, text that is none, numbers without end
         raise SettingsInvalid(name, f"not TOML: {cause}"[:200]) from cause
 

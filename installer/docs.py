@@ -6,6 +6,7 @@ places in a copy, so that their links hold; a link or an anchor that leads nowhe
 
 from __future__ import annotations
 
+import ast
 import re
 import shutil
 import subprocess
@@ -57,8 +58,7 @@ def navigation() -> list[object]:
     others = sorted({path.stem for path in (PAGES / "resources").glob("*.md")} - set(named))
     headings = {**RESOURCES, OTHERS: others}
     guides = {
-        title: sorted(str(path.relative_to(PAGES)) for path in (PAGES / "resources/guide" / code).glob("*.md"))
-        for code, title in LANGUAGES.items()
+        title: [f"resources/guide/{code}/{page}.md" for page in guide_pages()] for code, title in LANGUAGES.items()
     }
     return [
         "README.md",
@@ -67,6 +67,16 @@ def navigation() -> list[object]:
         {"Python": "python.md"},
         {"Working on it": [f"{name}.md" for name in FIRST[1:]]},
     ]
+
+
+def guide_pages() -> tuple[str, ...]:
+    """Return the pages in the order of the window's guide, whose module needs Qt."""
+    tree = ast.parse((ROOT / "ui/screens/help/guide.py").read_text(encoding="utf-8"))
+    values = (
+        node.value for node in tree.body if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "PAGES"
+    )
+    pages: tuple[str, ...] = ast.literal_eval(next(values))
+    return pages
 
 
 def config() -> dict[str, object]:

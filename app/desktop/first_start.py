@@ -259,7 +259,8 @@ class WelcomeController(QObject):
 
     def _to_check(self, finding: Finding) -> Check:
         names = {
-            "Camera": self.tr("Camera"), "Driver": self.tr("Camera driver"), "Camera rights": self.tr("Camera rights"),
+            "Camera": self.tr("Camera"), "Driver": self.tr("Camera driver"),
+            "Camera permissions": self.tr("Camera permissions"),
             "Data folder": self.tr("Data folder"), "Disk": self.tr("Disk"), "Fonts": self.tr("Fonts"),
         }  # fmt: skip
         return Check(

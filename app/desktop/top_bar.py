@@ -82,15 +82,15 @@ class TopBarController(QObject):
         if self._store.is_server_away:
             lines.append(
                 self.tr(
-                    "The clinic’s server does not answer: until it does, patients and their sessions can be neither "
-                    "shown nor changed. Measuring goes on."
+                    "The clinic’s server does not answer. Until it does, patients and sessions cannot be "
+                    "shown or changed. You can still measure."
                 )
             )
         if simulated and now.patient is not None and not now.is_practice:
-            words = self.tr("Simulated hand: this is not {name}, and does not count.")
+            words = self.tr("Simulated hand: not {name}, excluded from analysis.")
             lines.append(words.format(name=now.patient.pseudonym))
         if figures is not None and figures.is_excluded:
-            lines.append(self.tr("This session does not count."))
+            lines.append(self.tr("This session is excluded from analysis."))
         if findings:
             said = " ".join(finding_words(finding).summary for finding in findings)
             lines.append(self.tr("Measured although uncertain: {findings}").format(findings=said))
@@ -125,11 +125,11 @@ class TopBarController(QObject):
         elif percent >= 0:
             short = self.tr("{percent} %").format(percent=percent)
             button.show_text(
-                self.tr("Tracking again {percent}").format(percent=short), short, self.tr("How far it is, and Stop")
+                self.tr("Re-analysing {percent}").format(percent=short), short, self.tr("Progress and Stop")
             )
         elif new_results:
             one = self.tr("New result: choose") if new_results == 1 else self.tr("{count} new results: choose")
-            button.show_text(one.format(count=new_results), self.tr("Choose"), self.tr("Old and new over each other"))
+            button.show_text(one.format(count=new_results), self.tr("Choose"), self.tr("Old and new result overlaid"))
         else:
             button.show_text("", "")
 
@@ -149,7 +149,7 @@ class TopBarController(QObject):
         if not counters.is_recording:
             self._lost_before_recording = lost
         if lost > self._lost_before_recording:  # of this recording: what was missed before it is missing nowhere
-            words = self.tr("{words}, {lost} lost").format(words=words, lost=lost - self._lost_before_recording)
+            words = self.tr("{words}, {lost} dropped").format(words=words, lost=lost - self._lost_before_recording)
         elif not few:
             words = ""
         self._shell.top_bar.camera.show_state("warn" if few else "good", words)

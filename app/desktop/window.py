@@ -116,7 +116,7 @@ class Desktop:
         """Return why the language cannot be changed now, empty if it can."""
         controller, safe = self.controller, self.data_protection
         busy = controller.is_at_work or safe.backing_up.is_busy or self.tour.is_on or controller.messages.is_busy
-        return tr("The language can be changed when nothing is measured or worked on any more.") if busy else ""
+        return tr("The language can be changed once no measurement or analysis is running.") if busy else ""
 
     def come_to_front(self) -> None:
         self.shell.setWindowState(self.shell.windowState() & ~Qt.WindowState.WindowMinimized)

@@ -66,7 +66,7 @@ _REMEDIES: dict[type[CarpusFault], str] = {
     CameraMissing: phrase("Plug the camera in."),
     CameraMismatch: phrase("Plug in the camera named in the settings, or change the settings."),
     CameraBusy: phrase("Close the other program that uses the camera."),
-    CameraPermission: phrase("Install the camera rights named above and plug the camera in again."),
+    CameraPermission: phrase("Install the camera permissions named above and plug the camera in again."),
     CameraLost: phrase("Plug the camera in again, into another port, without a hub."),
 }
 """Remedies that are more specific here than the general texts."""
@@ -202,7 +202,7 @@ def check_data_folder(folder: Path) -> Finding:
             remedy,
         )
     if not folder.exists():
-        return Finding(phrase("Data folder"), "good", phrase("{folder}, made at the first recording", folder=folder))
+        return Finding(phrase("Data folder"), "good", phrase("{folder}, created at the first recording", folder=folder))
     if os.name == "posix" and folder.stat().st_mode & 0o077:
         remedy = phrase(
             "Others on this computer can read it. In its properties, remove all rights of the group and of others,"
@@ -265,7 +265,7 @@ def check_permissions(folders: tuple[Path, ...], *, wanted_kind: str = "") -> It
 
 def check_udev_rules(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
     """Check that udev rules let users open a camera of this kind."""
-    name = phrase("Camera rights, {title}", title=kind.title)
+    name = phrase("Camera permissions, {title}", title=kind.title)
     for folder in folders:
         for rules in sorted(folder.glob("*.rules")) if folder.is_dir() else []:
             text = rules.read_text(encoding="utf-8", errors="replace").lower()
@@ -301,8 +301,8 @@ def check_camera(kind: CameraKind, camera: UsbCamera) -> Finding:
     )
     if not camera.can_open:
         remedy = phrase(
-            "You have no permission to open {node}. Install the camera rights named above, "
-            "then plug the camera in again.",
+            "You have no permission to open {node}. Install the camera permissions named above, then plug "
+            "the camera in again.",
             node=camera.node,
         )
         return Finding(phrase("Camera"), "bad", text, remedy)
@@ -389,18 +389,19 @@ def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list
     settings, findings = info.settings, []
     registered = settings.get("registered", "")
     if registered == "no":
+        observation = phrase("depth and colour are not aligned")
         remedy = phrase("This camera does not align depth with colour. Depths will be read next to the markers.")
-        findings.append(Finding(phrase("Registration"), "warning", phrase("depth and colour are not aligned"), remedy))
+        findings.append(Finding(phrase("Depth registration"), "warning", observation, remedy))
     elif registered:
         findings.append(
             Finding(
-                phrase("Registration"),
+                phrase("Depth registration"),
                 "good",
                 phrase("depth and colour are aligned, {registered}", registered=registered),
             )
         )
     turned = settings.get("mirrored", "no") != "no"
-    findings.append(Finding(phrase("Mirror"), "good", phrase("on, turned back by Carpus") if turned else phrase("off")))
+    findings.append(Finding(phrase("Mirror"), "good", phrase("on, corrected by Carpus") if turned else phrase("off")))
     if len(frames) > 1:
         own_s, here_s = frames[-1].timestamp_s - frames[0].timestamp_s, arrived_s[-1] - arrived_s[0]
         findings.append(check_clock(own_s, here_s, settings.get("clock", "")))

@@ -147,7 +147,7 @@ class ClickOutsideImage(CarpusFault, code="C-303"):
 class ClickOnNoMarker(CarpusFault, code="C-304"):
     summary = phrase("No separate blue marker was found at a click: {subject}.")
     data_safety = _NOTHING_YET
-    remedy = phrase("Click closer to the marker, or check the light.")
+    remedy = phrase("Click nearer to the marker, or check the light.")
 
 
 class MarkerWithoutDepth(CarpusFault, code="C-305"):
@@ -199,7 +199,7 @@ class SchedulerUnreachable(CarpusFault, code="C-003"):
 
 class OutputBusy(CarpusFault, code="C-402"):
     summary = phrase("Another program is writing {subject}.")
-    data_safety = phrase("It is left to that program.")
+    data_safety = phrase("Carpus did not write to it.")
     remedy = phrase("Wait until it has finished, or choose another folder.")
 
 
@@ -282,7 +282,7 @@ class PseudonymNumbered(CarpusFault, code="C-702"):
     """A pseudonym was given on two computers before they shared a store; ``detail`` was added to the second."""
 
     summary = phrase("Two patients had the name {subject}: the second one now has ({detail}) after it.")
-    data_safety = phrase("Their sessions are kept apart.")
+    data_safety = phrase("Their sessions stay separate.")
     remedy = phrase("If another name is better, change it in the patient’s entry.")
 
 
@@ -465,7 +465,7 @@ class MarkersNotCorrectable(CarpusFault, code="C-506"):
     summary = phrase("The markers of this session cannot be corrected: {subject} ({detail}).")
     data_safety = phrase("The session was not changed.")
     remedy = phrase("Exclude the repetitions that are wrong, or record again.")
-    support = phrase("Or track the recording again with “carpus track”.")
+    support = phrase("Or analyse the recording again with “carpus track”.")
 
 
 class ReanalysisFailed(CarpusFault, code="C-507"):

@@ -26,7 +26,7 @@ def normalize_name(text: str) -> str:
     name = re.sub(" +", " ", unicodedata.normalize("NFC", text).strip())
     if sign := next((one for one in name if not one.isprintable() or one in _INVISIBLE), ""):
         called = unicodedata.name(sign, f"U+{ord(sign):04X}").lower()
-        raise NameUnsuited(called, phrase("it contains an invisible character"))
+        raise NameUnsuited(called, phrase("invisible character"))
     if len(name) > MAX_NAME_CHARACTERS:
         raise NameUnsuited(str(len(name)), phrase("more than {count} characters", count=MAX_NAME_CHARACTERS))
     return name

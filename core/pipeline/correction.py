@@ -61,9 +61,9 @@ def load_task(origin: Path, output: Path, corrections: Sequence[Correction], ini
     """
     session, table = read_session(origin), read_detections(origin)
     if not len(table.frame):
-        raise MarkersNotCorrectable(origin, phrase("it contains no stored blue spots"))
+        raise MarkersNotCorrectable(origin, phrase("no saved blue spots"))
     if is_of_other_filter(session.header.parameters):
-        raise MarkersNotCorrectable(origin, phrase("it was tracked with a filter other than that of Carpus"))
+        raise MarkersNotCorrectable(origin, phrase("tracked with another filter than that of Carpus"))
     return CorrectionTask(session, table, output, tuple(corrections), initials)
 
 
@@ -97,10 +97,10 @@ def _merge_corrections(task: CorrectionTask) -> list[Correction]:
     places: dict[int, dict[str, tuple[float, float] | None]] = {}
     for correction in task.corrections:
         if not 0 <= correction.row < len(session):
-            raise MarkersNotCorrectable(origin, phrase("it has no frame {number}", number=correction.row + 1))
+            raise MarkersNotCorrectable(origin, phrase("no frame {number}", number=correction.row + 1))
         for name, place in correction.places.items():
             if name not in session.header.protocol.markers:
-                raise MarkersNotCorrectable(origin, phrase("it has no marker {name}", name=name))
+                raise MarkersNotCorrectable(origin, phrase("no marker {name}", name=name))
             size = (session.camera.width_px, session.camera.height_px)
             if place is not None and not all(0 <= at <= most for at, most in zip(place, size, strict=True)):
                 raise MarkersNotCorrectable(origin, phrase("a marker was placed outside the image"))
@@ -240,7 +240,7 @@ def correct_in_process(task: CorrectionTask, progress: Callable[[int, int], None
             progress(*message)
         return False
     except (EOFError, BrokenPipeError, ConnectionResetError):
-        raise ReanalysisFailed(task.output.name, phrase("its process ended")) from None
+        raise ReanalysisFailed(task.output.name, phrase("process ended")) from None
     finally:
         child.end()
         _remove_part_files(task)

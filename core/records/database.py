@@ -192,7 +192,7 @@ def _read_unlocked(path: Path) -> bytes:
             return content[:18] + b"\1\1" + content[20:]  # the mark of a write-ahead log would ask for one
     if _has_journal(path):
         raise PatientListReadOnly(path)
-    raise PatientListBusy(path, phrase("its folder is not writable"))
+    raise PatientListBusy(path, phrase("folder not writable"))
 
 
 def _has_journal(path: Path) -> bool:

@@ -32,7 +32,7 @@ def read_limits(data_folder: Path) -> ErrorLimits:
             raise ValueError("another format")
         return ErrorLimits(tuple(_parse_study(one) for one in content["studies"]))
     except (KeyError, TypeError, ValueError, AttributeError) as cause:
-        raise SettingsInvalid(path, phrase("no limits in it, so the default limits apply")) from cause
+        raise SettingsInvalid(path, phrase("no limits, so the default limits apply")) from cause
 
 
 def _parse_study(content: dict[str, Any]) -> RetestStudy:

@@ -68,7 +68,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     "coherent though hidden": Quantity(phrase("Pose plausible while occluded"), "share"),
     "known though hidden": Quantity(phrase("Pose within 15° while occluded"), "share"),
     "jump when seen again": Quantity(phrase("Jump on reappearance"), "mm"),
-    "co-flexion": Quantity(phrase("Bend together, {one}–{other} (r)"), "r", 2),
+    "co-flexion": Quantity(phrase("Joint flexion, {one}–{other} (r)"), "r", 2),
     "lag": Quantity(phrase("Lag of {other} after {one}"), "s", 2),
     "enslaving": Quantity(phrase("Enslaving of {other} by {one}"), "share"),
     "synergy": Quantity(phrase("Movement synergy (variance explained)"), "share"),

@@ -323,7 +323,7 @@ class _SessionFile:
         try:
             protocol = get_protocol(str(self._read_attribute("protocol")))
         except ProtocolUnknown as cause:
-            raise SessionUnreadable(self._path, phrase("marker protocol {subject}", subject=cause.subject)) from cause
+            raise SessionUnreadable(self._path, phrase("marker set {subject}", subject=cause.subject)) from cause
         hand = str(self._read_attribute("hand"))
         if hand not in ("right", "left"):
             raise SessionUnreadable(self._path, phrase("hand {hand}", hand=f"{hand!r}"))

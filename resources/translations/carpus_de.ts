@@ -32,10 +32,6 @@
         <translation>Radial-/Ulnarduktion</translation>
     </message>
     <message>
-        <source>Turning</source>
-        <translation>Rotation</translation>
-    </message>
-    <message>
         <source>Thumb MCP, abduction–adduction</source>
         <translation>Daumen MCP, Ab-/Adduktion</translation>
     </message>
@@ -216,10 +212,6 @@
         <translation>Nicht verglichen: {why}.</translation>
     </message>
     <message>
-        <source>Occluded frames are not analysed.</source>
-        <translation>Verdeckte Bilder werden nicht ausgewertet.</translation>
-    </message>
-    <message>
         <source>No difference beyond measurement error between right and left.</source>
         <translation>Kein Unterschied zwischen rechts und links über den Messfehler hinaus.</translation>
     </message>
@@ -380,10 +372,6 @@
         <translation>Nicht scharf: stillhalten, oder mehr Licht.</translation>
     </message>
     <message>
-        <source>Taken. Now another place.</source>
-        <translation>Aufgenommen. Jetzt eine andere Stelle.</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Abstand</translation>
     </message>
@@ -412,16 +400,8 @@
         <translation>Nicht gut genug: Reprojektionsfehler {error} px.</translation>
     </message>
     <message>
-        <source>Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures again.</source>
-        <translation>Nichts ist geändert. Kleben Sie die Tafel auf etwas Flaches, Steifes, geben Sie Licht, und nehmen Sie die Bilder neu auf.</translation>
-    </message>
-    <message>
         <source>Depth and colour are misaligned by {apart} px.</source>
         <translation>Tiefe und Farbe sind um {apart} px versetzt.</translation>
-    </message>
-    <message>
-        <source>Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how.</source>
-        <translation>Nichts ist geändert. Schalten Sie die Registrierung von Tiefe und Farbe in der Kamera ein: „carpus doctor“ sagt, wie.</translation>
     </message>
     <message>
         <source>The reprojection error is {error} pixels.</source>
@@ -432,20 +412,8 @@
         <translation>Die Kamera ist kalibriert. {depth}</translation>
     </message>
     <message>
-        <source>Its depth was not checked.</source>
-        <translation>Ihre Tiefe wurde nicht geprüft.</translation>
-    </message>
-    <message>
         <source>Depth is correct.</source>
         <translation>Die Tiefe stimmt.</translation>
-    </message>
-    <message>
-        <source>Depth read {share} % too long.</source>
-        <translation>Die Tiefe war {share} % zu lang.</translation>
-    </message>
-    <message>
-        <source>Depth read {share} % too short.</source>
-        <translation>Die Tiefe war {share} % zu kurz.</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -474,10 +442,6 @@
     <message>
         <source>Depth</source>
         <translation>Tiefe</translation>
-    </message>
-    <message>
-        <source>too few pictures with depth on the board</source>
-        <translation>zu wenige Bilder mit Tiefe auf der Tafel</translation>
     </message>
     <message>
         <source>Depth scale</source>
@@ -528,16 +492,8 @@
         <translation>Diese Kamera ist noch nicht geprüft.</translation>
     </message>
     <message>
-        <source>Lay the card flat under the camera, all of it in the picture, about 60 cm away.</source>
-        <translation>Legen Sie die Karte flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt.</translation>
-    </message>
-    <message>
-        <source>The card has moved: the seconds begin again.</source>
-        <translation>Die Karte hat sich bewegt: Die Sekunden beginnen neu.</translation>
-    </message>
-    <message>
         <source>{count} of 6 markers visible. Show the whole card in the image, in even light, with its wedge upright.</source>
-        <translation>{count} von 6 Markern sichtbar. Die ganze Karte muss im Bild sein, bei gleichmäßigem Licht, mit aufrechtem Keil.</translation>
+        <translation>{count} von 6 Markern sichtbar. Zeigen Sie die ganze Karte im Bild, bei gleichmäßigem Licht, mit aufrechtem Keil.</translation>
     </message>
     <message>
         <source>All six markers are visible. Do not move the card.</source>
@@ -546,10 +502,6 @@
     <message>
         <source>Palmar abduction</source>
         <translation>Palmarabduktion</translation>
-    </message>
-    <message>
-        <source>Spread</source>
-        <translation>Spreizung</translation>
     </message>
     <message>
         <source>TAM</source>
@@ -568,14 +520,6 @@
         <translation>Palmarabduktion {angle}</translation>
     </message>
     <message>
-        <source>Straight</source>
-        <translation>Gerade</translation>
-    </message>
-    <message>
-        <source>Bent {angle}</source>
-        <translation>Gebeugt {angle}</translation>
-    </message>
-    <message>
         <source>Ulnar {angle}</source>
         <translation>Ulnar {angle}</translation>
     </message>
@@ -590,22 +534,6 @@
     <message>
         <source>Abducted {angle}</source>
         <translation>Abduziert {angle}</translation>
-    </message>
-    <message>
-        <source>in</source>
-        <translation>innen</translation>
-    </message>
-    <message>
-        <source>out</source>
-        <translation>außen</translation>
-    </message>
-    <message>
-        <source>Out {angle}</source>
-        <translation>Außen {angle}</translation>
-    </message>
-    <message>
-        <source>In {angle}</source>
-        <translation>Innen {angle}</translation>
     </message>
     <message>
         <source>Measurement error (MDC95)</source>
@@ -1032,10 +960,6 @@
         <translation>Zwei Marker tauschen</translation>
     </message>
     <message>
-        <source>New picture</source>
-        <translation>Neues Bild</translation>
-    </message>
-    <message>
         <source>Click again</source>
         <translation>Neu anklicken</translation>
     </message>
@@ -1046,10 +970,6 @@
     <message>
         <source>Next repetition</source>
         <translation>Nächste Wiederholung</translation>
-    </message>
-    <message>
-        <source>Look at the {marker}</source>
-        <translation>Prüfen Sie: {marker}</translation>
     </message>
     <message>
         <source>Uncertain</source>
@@ -1094,10 +1014,6 @@
     <message>
         <source>Hold the hand flat for a moment</source>
         <translation>Die Hand einen Moment flach halten</translation>
-    </message>
-    <message>
-        <source>Tracking well</source>
-        <translation>Verfolgung gut</translation>
     </message>
     <message>
         <source>All {count} markers visible</source>
@@ -1316,10 +1232,6 @@
         <translation>Korrigieren</translation>
     </message>
     <message>
-        <source>Take that spot</source>
-        <translation>Diese Stelle nehmen</translation>
-    </message>
-    <message>
         <source>{done} of {asked} found</source>
         <translation>{done} von {asked}</translation>
     </message>
@@ -1398,10 +1310,6 @@
     <message>
         <source>up to {angle}</source>
         <translation>bis {angle}</translation>
-    </message>
-    <message>
-        <source>usual {low}–{high} mm</source>
-        <translation>üblich {low}–{high} mm</translation>
     </message>
     <message>
         <source>ddd d MMM</source>
@@ -1704,18 +1612,6 @@
         <translation>Nummer der Ablesung</translation>
     </message>
     <message>
-        <source>mean of both · one point each 0.2 s, {count} points</source>
-        <translation>Mittel beider · ein Punkt je 0,2 s, {count} Punkte</translation>
-    </message>
-    <message>
-        <source>mean of both · one point each reading, {count} readings</source>
-        <translation>Mittel beider · ein Punkt je Ablesung, {count} Ablesungen</translation>
-    </message>
-    <message>
-        <source>by hand, active</source>
-        <translation>von Hand, aktiv</translation>
-    </message>
-    <message>
         <source>old result</source>
         <translation>altes Ergebnis</translation>
     </message>
@@ -1768,10 +1664,6 @@
         <translation>{number} (passiv)</translation>
     </message>
     <message>
-        <source>Place</source>
-        <translation>Ort</translation>
-    </message>
-    <message>
         <source>Speed</source>
         <translation>Tempo</translation>
     </message>
@@ -1786,10 +1678,6 @@
     <message>
         <source>Flexion</source>
         <translation>Flexion</translation>
-    </message>
-    <message>
-        <source>Spreading</source>
-        <translation>Spreizung</translation>
     </message>
     <message>
         <source>should stay within {angle}</source>
@@ -2001,7 +1889,7 @@
     </message>
     <message>
         <source>Smoothness (SPARC)</source>
-        <translation>Flüssigkeit der Bewegung (SPARC)</translation>
+        <translation>Gleichmäßigkeit (SPARC)</translation>
     </message>
     <message>
         <source>Maximum grip aperture, thumb–index</source>
@@ -2048,10 +1936,6 @@
         <translation>Klein</translation>
     </message>
     <message>
-        <source>Bend together, {one}–{other} (r)</source>
-        <translation>Gemeinsames Beugen, {one}–{other} (r)</translation>
-    </message>
-    <message>
         <source>Lag of {other} after {one}</source>
         <translation>{other} später als {one}</translation>
     </message>
@@ -2072,16 +1956,12 @@
         <translation>Berührungen {one}–{other}</translation>
     </message>
     <message>
-        <source>too slow to judge</source>
-        <translation>zu langsam zum Beurteilen</translation>
-    </message>
-    <message>
         <source>occluded</source>
         <translation>verdeckt</translation>
     </message>
     <message>
         <source>Reach {time}, peak speed {speed}, path ratio {straight}, grip aperture {opening}, wrist {wrist}</source>
-        <translation>Greifweg {time}, Maximalgeschwindigkeit {speed}, Wegverhältnis {straight}, Greiföffnung {opening}, Handgelenk {wrist}</translation>
+        <translation>Reichbewegung {time}, Maximalgeschwindigkeit {speed}, Wegverhältnis {straight}, Greiföffnung {opening}, Handgelenk {wrist}</translation>
     </message>
     <message>
         <source>The thumb touched {met} of {all} fingertips</source>
@@ -2097,7 +1977,7 @@
     </message>
     <message>
         <source>Reach {time}</source>
-        <translation>Greifweg {time}</translation>
+        <translation>Reichbewegung {time}</translation>
     </message>
     <message>
         <source>Contact occluded</source>
@@ -2109,7 +1989,7 @@
     </message>
     <message>
         <source>Reach and grasp</source>
-        <translation>Hinlangen und Greifen</translation>
+        <translation>Reichen und Greifen</translation>
     </message>
     <message>
         <source>Thumb to the fingertips</source>
@@ -2117,7 +1997,7 @@
     </message>
     <message>
         <source>Spans</source>
-        <translation>Spannen</translation>
+        <translation>Spannweiten</translation>
     </message>
     <message>
         <source>Finger coordination</source>
@@ -2153,7 +2033,7 @@
     </message>
     <message>
         <source>not graded</source>
-        <translation>ohne Urteil</translation>
+        <translation>nicht eingestuft</translation>
     </message>
     <message>
         <source>excellent</source>
@@ -2170,10 +2050,6 @@
     <message>
         <source>poor</source>
         <translation>schlecht</translation>
-    </message>
-    <message>
-        <source>spread</source>
-        <translation>Spreizung</translation>
     </message>
     <message>
         <source>Total (TAM)</source>
@@ -2212,16 +2088,8 @@
         <translation>DIP: {fingers}</translation>
     </message>
     <message>
-        <source>spreading of {fingers}</source>
-        <translation>Spreizung: {fingers}</translation>
-    </message>
-    <message>
         <source>all fingers</source>
         <translation>alle Finger</translation>
-    </message>
-    <message>
-        <source>Partly occluded ({sign} = minimum): {parts}. Occluded frames are not analysed.</source>
-        <translation>Zum Teil verdeckt ({sign} = Mindestwert): {parts}. Verdeckte Bilder werden nicht ausgewertet.</translation>
     </message>
     <message>
         <source>Not visible: {joints}.</source>
@@ -2296,16 +2164,12 @@
         <translation>TAM aller Finger</translation>
     </message>
     <message>
-        <source>Spreading of all fingers</source>
-        <translation>Spreizung aller Finger</translation>
-    </message>
-    <message>
         <source>Palmar and radial abduction of the thumb</source>
         <translation>Palmar- und Radialabduktion des Daumens</translation>
     </message>
     <message>
         <source>Path of the wrist</source>
-        <translation>Weg des Handgelenks</translation>
+        <translation>Bahn des Handgelenks</translation>
     </message>
     <message>
         <source>with the hand’s axes along it</source>
@@ -2326,10 +2190,6 @@
     <message>
         <source>X (black) to the fingers, Y (blue) from the thumb, Z (orange) up</source>
         <translation>X (schwarz) zu den Fingern, Y (blau) vom Daumen weg, Z (orange) nach oben</translation>
-    </message>
-    <message>
-        <source>Place, speed, turning</source>
-        <translation>Ort, Geschwindigkeit, Rotation</translation>
     </message>
     <message>
         <source>ZYZ angles</source>
@@ -2388,10 +2248,6 @@
         <translation>Erste bis letzte Sitzung</translation>
     </message>
     <message>
-        <source>Entered by hand</source>
-        <translation>Von Hand eingetragen</translation>
-    </message>
-    <message>
         <source>not combined with the values above</source>
         <translation>nicht mit den Werten oben verrechnet</translation>
     </message>
@@ -2406,10 +2262,6 @@
     <message>
         <source>Session report</source>
         <translation>Sitzungsbericht</translation>
-    </message>
-    <message>
-        <source>Comment of the therapist</source>
-        <translation>Bemerkung der Therapie</translation>
     </message>
     <message>
         <source>SIMULATED</source>
@@ -2442,10 +2294,6 @@
     <message>
         <source>Length</source>
         <translation>Länge</translation>
-    </message>
-    <message>
-        <source>Markers were corrected by hand. The original result is kept.</source>
-        <translation>Marker wurden von Hand korrigiert. Das ursprüngliche Ergebnis bleibt erhalten.</translation>
     </message>
     <message>
         <source>{weeks} before</source>
@@ -2505,11 +2353,7 @@
     </message>
     <message>
         <source>The therapist’s comment is on the last page.</source>
-        <translation>Die Bemerkung der Therapie steht auf der letzten Seite.</translation>
-    </message>
-    <message>
-        <source>Entered by hand, not measured by Carpus: {values}.</source>
-        <translation>Von Hand eingetragen, nicht von Carpus gemessen: {values}.</translation>
+        <translation>Der Kommentar der Therapie steht auf der letzten Seite.</translation>
     </message>
     <message>
         <source>Movement measured by camera: {who}</source>
@@ -2522,10 +2366,6 @@
     <message>
         <source>On {day} we measured: {exercise}, {hand}. Repetitions analysed: {count}.</source>
         <translation>am {day} haben wir gemessen: {exercise}, {hand}. Ausgewertete Wiederholungen: {count}.</translation>
-    </message>
-    <message>
-        <source>The comment is too long for this letter; it is in the report.</source>
-        <translation>Die Bemerkung ist für diesen Brief zu lang; sie steht im Bericht.</translation>
     </message>
     <message>
         <source>Kind regards,</source>
@@ -2584,10 +2424,6 @@
         <translation>Referenz (Erw.)</translation>
     </message>
     <message>
-        <source>{count} strokes out and back; ranges over the whole recording</source>
-        <translation>{count} Hin- und Rückbewegungen; Bewegungsausmaß über die ganze Aufnahme</translation>
-    </message>
-    <message>
         <source>1 repetition</source>
         <translation>1 Wiederholung</translation>
     </message>
@@ -2636,10 +2472,6 @@
         <translation>Bewegungsausmaß über die ganze Aufnahme; keine Wiederholungen</translation>
     </message>
     <message>
-        <source>it is too short</source>
-        <translation>sie ist zu kurz</translation>
-    </message>
-    <message>
         <source>the exercised joint was not visible</source>
         <translation>das geübte Gelenk war nicht sichtbar</translation>
     </message>
@@ -2650,10 +2482,6 @@
     <message>
         <source>no complete movement cycle</source>
         <translation>kein vollständiger Bewegungszyklus</translation>
-    </message>
-    <message>
-        <source>each was quicker than 0.4 s</source>
-        <translation>jede war kürzer als 0,4 s</translation>
     </message>
     <message>
         <source>{seconds} s occluded and not analysed</source>
@@ -2701,7 +2529,7 @@
     </message>
     <message>
         <source>{name} decreased by {size}</source>
-        <translation>{name} um {size} weniger</translation>
+        <translation>{name} um {size} vermindert</translation>
     </message>
     <message>
         <source>(MDC {limit})</source>
@@ -2713,11 +2541,11 @@
     </message>
     <message>
         <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
-        <translation>Winkel in der Reihenfolge Deviation, Flexion, Pro-/Supination; {zero}.</translation>
+        <translation>Winkel in der Reihenfolge Radial-/Ulnarduktion, Flexion, Pro-/Supination; {zero}.</translation>
     </message>
     <message>
         <source>Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.</source>
-        <translation>Winkel in der Reihenfolge der ISB: Flexion, Deviation, Pro-/Supination; {zero}.</translation>
+        <translation>Winkel in der Reihenfolge der ISB: Flexion, Radial-/Ulnarduktion, Pro-/Supination; {zero}.</translation>
     </message>
     <message>
         <source>Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.</source>
@@ -2756,18 +2584,6 @@
         <translation>Kamera kalibriert am {day}, {days} Tage zuvor.</translation>
     </message>
     <message>
-        <source>± = SD between repetitions. A visible angle is known to about {sd}.</source>
-        <translation>± = SD zwischen den Wiederholungen. Ein sichtbarer Winkel ist auf etwa {sd} bekannt.</translation>
-    </message>
-    <message>
-        <source>± = SD between repetitions (with fewer than 3: SD of the estimate). A visible angle is known to about {sd}.</source>
-        <translation>± = SD zwischen den Wiederholungen (bei weniger als 3: SD der Schätzung). Ein sichtbarer Winkel ist auf etwa {sd} bekannt.</translation>
-    </message>
-    <message>
-        <source>± = SD of the estimate, as there are too few repetitions. Each angle is known to about {sd}.</source>
-        <translation>± = SD der Schätzung, da es zu wenige Wiederholungen gibt. Jeder Winkel ist auf etwa {sd} bekannt.</translation>
-    </message>
-    <message>
         <source>Simulated data: no patient was measured.</source>
         <translation>Simulierte Daten: Es wurde kein Patient gemessen.</translation>
     </message>
@@ -2797,15 +2613,11 @@
     </message>
     <message>
         <source>Corrected on {day}, from {time}, by {who}.</source>
-        <translation>Berichtigt am {day}, ab {time}, von {who}.</translation>
+        <translation>Korrigiert am {day}, ab {time}, von {who}.</translation>
     </message>
     <message>
         <source>Corrected on {day}, from {time}.</source>
-        <translation>Berichtigt am {day}, ab {time}.</translation>
-    </message>
-    <message>
-        <source>{share} of {frames}; {dropped} missed</source>
-        <translation>{share} von {frames}; {dropped} verpasst</translation>
+        <translation>Korrigiert am {day}, ab {time}.</translation>
     </message>
     <message>
         <source>{share} % of the time</source>
@@ -2853,7 +2665,7 @@
     </message>
     <message>
         <source>Smoothness (SPARC; 0 is smoothest)</source>
-        <translation>Flüssigkeit der Bewegung (SPARC; 0 am flüssigsten)</translation>
+        <translation>Gleichmäßigkeit (SPARC; 0 ist am besten)</translation>
     </message>
     <message>
         <source>Goal</source>
@@ -2920,10 +2732,6 @@
         <translation>Supination, Pronation</translation>
     </message>
     <message>
-        <source>Set: {name}</source>
-        <translation>Übungsfolge: {name}</translation>
-    </message>
-    <message>
         <source>{movement} {goal} (mean {mean}; detectable change from {told})</source>
         <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {told} erkennbar)</translation>
     </message>
@@ -2942,10 +2750,6 @@
     <message>
         <source>{exercise}, {count} s</source>
         <translation>{exercise}, {count} s</translation>
-    </message>
-    <message>
-        <source>Set “{name}”, {number} of {count}: {part}</source>
-        <translation>Übungsfolge „{name}“, {number} von {count}: {part}</translation>
     </message>
     <message>
         <source>Wrist flexion–extension</source>
@@ -3017,7 +2821,7 @@
     </message>
     <message>
         <source>Reach, take the cup, lift it a little, put it back, return.</source>
-        <translation>Hinlangen, den Becher nehmen, etwas anheben, abstellen, zurück.</translation>
+        <translation>Zum Becher reichen, ihn nehmen, etwas anheben, abstellen, zurück.</translation>
     </message>
     <message>
         <source>Move the fingers freely. All joint angles are recorded; no repetitions are counted.</source>
@@ -3260,14 +3064,6 @@
         <translation>Nur das neueste Ergebnis einer Aufnahme wird ausgewertet: {count} frühere sind ausgeschlossen.</translation>
     </message>
     <message>
-        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people, otherwise it is the expert default of Carpus. It holds for the same protocol, side and set-up.</source>
-        <translation>MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen, sonst gilt die Expertenvorgabe von Carpus. Für gleiche Marker, Seite und gleichen Aufbau.</translation>
-    </message>
-    <message>
-        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same protocol, side and set-up.</source>
-        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für eine Gesamtbewegung mit ihren zwei Enden ist sie √2-mal so groß. Für gleiche Marker, Seite und gleichen Aufbau.</translation>
-    </message>
-    <message>
         <source>{size} more</source>
         <translation>{size} mehr</translation>
     </message>
@@ -3306,10 +3102,6 @@
     <message>
         <source>Update the firmware with the manufacturer’s RealSense Viewer.</source>
         <translation>Aktualisieren Sie die Firmware mit dem RealSense Viewer des Herstellers.</translation>
-    </message>
-    <message>
-        <source>Camera rights, {title}</source>
-        <translation>Kamerarechte, {title}</translation>
     </message>
     <message>
         <source>Carpus cannot write to {subject} ({detail}).</source>
@@ -3440,24 +3232,12 @@
         <translation>Installieren Sie es neu.</translation>
     </message>
     <message>
-        <source>Reinstall it, and what it names.</source>
-        <translation>Installieren Sie es und das Genannte neu.</translation>
-    </message>
-    <message>
-        <source>Install the camera rights named above and plug the camera in again.</source>
-        <translation>Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
-    </message>
-    <message>
         <source>Install the package {package}, which is next to the Carpus package.</source>
         <translation>Installieren Sie das Paket {package}, das neben dem von Carpus liegt.</translation>
     </message>
     <message>
         <source>Install the packages that contain these libraries.</source>
         <translation>Installieren Sie die Pakete mit diesen Bibliotheken.</translation>
-    </message>
-    <message>
-        <source>It is left to that program.</source>
-        <translation>Sie bleibt diesem Programm überlassen.</translation>
     </message>
     <message>
         <source>Keep the hand still and take the first image again.</source>
@@ -3525,7 +3305,7 @@
     </message>
     <message>
         <source>Plug the camera in again, into another port, without a hub.</source>
-        <translation>Schließen Sie die Kamera neu an, an einem anderen Anschluss, ohne Verteiler.</translation>
+        <translation>Schließen Sie die Kamera neu an, an einem anderen Anschluss, ohne Hub.</translation>
     </message>
     <message>
         <source>Plug the camera in again. If this persists, times and speeds of this camera are not reliable.</source>
@@ -3546,10 +3326,6 @@
     <message>
         <source>Qt {qt}; no screen</source>
         <translation>Qt {qt}; kein Bildschirm</translation>
-    </message>
-    <message>
-        <source>Registration</source>
-        <translation>Registrierung von Tiefe und Farbe</translation>
     </message>
     <message>
         <source>Run “{command}”.</source>
@@ -3573,7 +3349,7 @@
     </message>
     <message>
         <source>Turn on depth registration in the camera settings, or track without depth.</source>
-        <translation>Schalten Sie die Tiefenregistrierung in den Kameraeinstellungen ein, oder verfolgen Sie ohne Tiefe.</translation>
+        <translation>Schalten Sie die Registrierung von Tiefe und Farbe in den Kameraeinstellungen ein, oder werten Sie ohne Tiefe aus.</translation>
     </message>
     <message>
         <source>Choose the spot with the question mark, if it is the marker.</source>
@@ -3625,7 +3401,7 @@
     </message>
     <message>
         <source>Plug it into a USB 3 port, with a USB 3 cable and without a hub.</source>
-        <translation>Schließen Sie sie an einen USB-3-Anschluss an, mit USB-3-Kabel und ohne Verteiler.</translation>
+        <translation>Schließen Sie sie an einen USB-3-Anschluss an, mit USB-3-Kabel und ohne Hub.</translation>
     </message>
     <message>
         <source>Plug the camera in, preferably directly into the computer. {port}</source>
@@ -3745,7 +3521,7 @@
     </message>
     <message>
         <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
-        <translation>Diese Kamera richtet Tiefe nicht an der Farbe aus. Tiefen werden neben den Markern gelesen.</translation>
+        <translation>Diese Kamera richtet die Tiefe nicht an der Farbe aus. Tiefen werden neben den Markern gelesen.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
@@ -3789,7 +3565,7 @@
     </message>
     <message>
         <source>Use another USB port, without a hub or other cameras. Close other demanding programs.</source>
-        <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Verteiler und ohne andere Kameras. Schließen Sie andere aufwendige Programme.</translation>
+        <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Hub und ohne andere Kameras. Schließen Sie andere aufwendige Programme.</translation>
     </message>
     <message>
         <source>Use wrist6 or hand21.</source>
@@ -3806,10 +3582,6 @@
     <message>
         <source>Wrist, all movements</source>
         <translation>Handgelenk, alle Bewegungen</translation>
-    </message>
-    <message>
-        <source>You have no permission to open {node}. Install the camera rights named above, then plug the camera in again.</source>
-        <translation>Keine Berechtigung für {node}. Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
     </message>
     <message>
         <source>a folder</source>
@@ -3846,14 +3618,6 @@
     <message>
         <source>angles deviate by {angle}°</source>
         <translation>Winkel weichen um {angle}° ab</translation>
-    </message>
-    <message>
-        <source>angles by table</source>
-        <translation>Winkel aus Tabelle</translation>
-    </message>
-    <message>
-        <source>angles by {format}</source>
-        <translation>Winkel aus {format}</translation>
     </message>
     <message>
         <source>another computer is sending its data</source>
@@ -3913,7 +3677,7 @@
     </message>
     <message>
         <source>damaged, or not C3D</source>
-        <translation>beschädigt, oder kein C3D</translation>
+        <translation>beschädigt oder kein C3D</translation>
     </message>
     <message>
         <source>damaged: unknown frame status</source>
@@ -3949,7 +3713,7 @@
     </message>
     <message>
         <source>damaged: invalid {name}</source>
-        <translation>beschädigt: ungültiges {name}</translation>
+        <translation>beschädigt: {name} ist ungültig</translation>
     </message>
     <message>
         <source>damaged: no session_id</source>
@@ -4112,18 +3876,6 @@
         <translation>mehr Werte angegeben, als die Datei fasst</translation>
     </message>
     <message>
-        <source>no limits in it, so the default limits apply</source>
-        <translation>enthält keine Grenzen; es gelten die Standardgrenzen</translation>
-    </message>
-    <message>
-        <source>it has no marker {name}</source>
-        <translation>sie hat keinen Marker {name}</translation>
-    </message>
-    <message>
-        <source>it has no frame {number}</source>
-        <translation>sie hat kein Bild {number}</translation>
-    </message>
-    <message>
         <source>no frames</source>
         <translation>keine Bilder</translation>
     </message>
@@ -4144,20 +3896,8 @@
         <translation>keine Tabelle</translation>
     </message>
     <message>
-        <source>it contains no stored blue spots</source>
-        <translation>sie hat keine blauen Stellen gespeichert</translation>
-    </message>
-    <message>
         <source>columns do not match their names</source>
         <translation>Spalten passen nicht zu ihren Namen</translation>
-    </message>
-    <message>
-        <source>its folder is not writable</source>
-        <translation>in ihrem Ordner lässt sich nicht schreiben</translation>
-    </message>
-    <message>
-        <source>its process ended</source>
-        <translation>ihr Prozess ist beendet</translation>
     </message>
     <message>
         <source>its side with one marker here</source>
@@ -4222,10 +3962,6 @@
     <message>
         <source>unknown processor type {processor}</source>
         <translation>unbekannter Prozessortyp {processor}</translation>
-    </message>
-    <message>
-        <source>marker protocol {subject}</source>
-        <translation>Markersatz {subject}</translation>
     </message>
     <message>
         <source>markers</source>
@@ -4364,10 +4100,6 @@
         <translation>kein JSON, Zeile {lineno}</translation>
     </message>
     <message>
-        <source>not TOML: tables within tables without end</source>
-        <translation>kein TOML: endlos verschachtelte Tabellen</translation>
-    </message>
-    <message>
         <source>not YAML</source>
         <translation>kein YAML</translation>
     </message>
@@ -4424,16 +4156,8 @@
         <translation>aus</translation>
     </message>
     <message>
-        <source>on, turned back by Carpus</source>
-        <translation>an, von Carpus zurückgedreht</translation>
-    </message>
-    <message>
         <source>paths outside the folder</source>
         <translation>Pfade außerhalb des Ordners</translation>
-    </message>
-    <message>
-        <source>points by {format}</source>
-        <translation>Punkte aus {format}</translation>
     </message>
     <message>
         <source>print again at 100 % (“actual size”).</source>
@@ -4534,10 +4258,6 @@
     <message>
         <source>{firmware}, the library asks for {wanted}</source>
         <translation>{firmware}, die Bibliothek verlangt {wanted}</translation>
-    </message>
-    <message>
-        <source>{folder}, made at the first recording</source>
-        <translation>{folder}, entsteht mit der ersten Aufnahme</translation>
     </message>
     <message>
         <source>{folder}: {there} cannot be written to</source>
@@ -4780,10 +4500,6 @@
         <translation>{wrong}, bei einem Bilderordner nicht möglich</translation>
     </message>
     <message>
-        <source>The language can be changed when nothing is measured or worked on any more.</source>
-        <translation>Die Sprache lässt sich ändern, wenn nichts mehr gemessen oder bearbeitet wird.</translation>
-    </message>
-    <message>
         <source>Re&amp;view it</source>
         <translation>Zur Aus&amp;wertung</translation>
     </message>
@@ -4793,7 +4509,7 @@
     </message>
     <message>
         <source>words that lose their capital inside a sentence: *</source>
-        <translation>Wörter, die im Satz klein werden: Rechte Linke Beide Rechts Links Radial Ulnar Nie Noch Kalibriert Geprüft Gerade Beugen Heben Schieben Drehen Schließen Spreizen Öffnen Nehmen Bewegen Strecken Kommen Berühren Runter Hoch Zum Zur Nach</translation>
+        <translation>Wörter, die im Satz klein werden: Rechte Linke Beide Rechts Links Radial Ulnar Nie Noch Kalibriert Geprüft Gerade Gestreckt Gebeugt Beugen Heben Schieben Drehen Schließen Spreizen Öffnen Nehmen Bewegen Strecken Kommen Berühren Runter Hoch Zum Zur Nach</translation>
     </message>
     <message>
         <source>page {number} of {count}</source>
@@ -4813,7 +4529,7 @@
     </message>
     <message>
         <source>Reassess in two weeks.</source>
-        <translation>Erneut untersuchen in zwei Wochen.</translation>
+        <translation>In zwei Wochen erneut untersuchen.</translation>
     </message>
     <message>
         <source>Practice patient</source>
@@ -4845,7 +4561,7 @@
     </message>
     <message>
         <source>Ask your IT support. {how}</source>
-        <translation>Fragen Sie Ihren IT-Support. {how}</translation>
+        <translation>Fragen Sie Ihre IT-Betreuung. {how}</translation>
     </message>
     <message>
         <source>Disk encryption</source>
@@ -4913,7 +4629,7 @@
     </message>
     <message>
         <source>wrist and finger angles while the patient moves</source>
-        <translation>Winkel von Handgelenk und Fingern, während sich die Hand bewegt</translation>
+        <translation>Winkel von Handgelenk und Fingern während der Bewegung</translation>
     </message>
     <message>
         <source>{count} pairs, {kind}</source>
@@ -4965,7 +4681,7 @@
     </message>
     <message>
         <source>on the same disk as the data</source>
-        <translation>auf derselben Platte wie die Daten</translation>
+        <translation>auf demselben Datenträger wie die Daten</translation>
     </message>
     <message>
         <source>There is no backup yet.</source>
@@ -5009,7 +4725,7 @@
     </message>
     <message>
         <source>the curves and camera images, and correct single repetitions</source>
-        <translation>Kurven und Kamerabilder ansehen, einzelne Wiederholungen korrigieren</translation>
+        <translation>Kurven und Bilder ansehen, einzelne Wiederholungen korrigieren</translation>
     </message>
     <message>
         <source>the best time shift is at the limit of the search range: it may be larger</source>
@@ -5040,20 +4756,12 @@
         <translation>{people} Personen, {sessions} Sitzungen, {kinds}</translation>
     </message>
     <message>
-        <source>it contains an invisible character</source>
-        <translation>er enthält ein unsichtbares Zeichen</translation>
-    </message>
-    <message>
         <source>more than {count} characters</source>
         <translation>mehr als {count} Zeichen</translation>
     </message>
     <message>
         <source>not in the session folder</source>
         <translation>nicht im Sitzungsordner</translation>
-    </message>
-    <message>
-        <source>{count} per stroke, {seconds} s in all</source>
-        <translation>{count} je Bewegung, zusammen {seconds} s</translation>
     </message>
     <message>
         <source>Pauses during the movement, mean</source>
@@ -5084,10 +4792,6 @@
         <translation>{sign} = Mindestwert: Das Ende dieser Bewegung war verdeckt.</translation>
     </message>
     <message>
-        <source>{sign}: measured by hand that day, active / passive; not combined with the other values.</source>
-        <translation>{sign}: an diesem Tag von Hand gemessen, aktiv / passiv; nicht mit den anderen Werten verrechnet.</translation>
-    </message>
-    <message>
         <source>Active</source>
         <translation>Aktiv</translation>
     </message>
@@ -5098,10 +4802,6 @@
     <message>
         <source>Passive minus active</source>
         <translation>Passiv minus aktiv</translation>
-    </message>
-    <message>
-        <source>By hand</source>
-        <translation>Von Hand</translation>
     </message>
     <message>
         <source>Finger</source>
@@ -5277,7 +4977,7 @@
     </message>
     <message>
         <source>Reaching movements</source>
-        <translation>Greifbewegungen</translation>
+        <translation>Reichbewegungen</translation>
     </message>
     <message>
         <source>not available: fewer than {count} frames a second</source>
@@ -5290,10 +4990,6 @@
     <message>
         <source>{verdict} Checked {day}.</source>
         <translation>{verdict} Geprüft am {day}.</translation>
-    </message>
-    <message>
-        <source>Check once more, then calibrate the camera. Still out: do not measure with it.</source>
-        <translation>Noch einmal prüfen, dann die Kamera kalibrieren. Immer noch falsch: nicht mit ihr messen.</translation>
     </message>
     <message>
         <source>never calibrated</source>
@@ -5414,10 +5110,6 @@
     <message>
         <source>rotation from the start</source>
         <translation>Rotation seit dem Start</translation>
-    </message>
-    <message>
-        <source>zero is the neutral hand</source>
-        <translation>null ist die neutrale Hand</translation>
     </message>
     <message>
         <source>Forearm supination</source>
@@ -5542,10 +5234,6 @@
     <message>
         <source>Passive range does not exceed active range by more than the measurement error.</source>
         <translation>Das passive Bewegungsausmaß übertrifft das aktive nicht um mehr als den Messfehler.</translation>
-    </message>
-    <message>
-        <source>it was tracked with a filter other than that of Carpus</source>
-        <translation>sie wurde mit einem anderen Filter als dem von Carpus verfolgt</translation>
     </message>
     <message>
         <source>Record this exercise again.</source>
@@ -5752,10 +5440,6 @@
         <translation>Wählen Sie den Ordner mit den Sitzungen.</translation>
     </message>
     <message>
-        <source>Click closer to the marker, or check the light.</source>
-        <translation>Klicken Sie näher am Marker, oder prüfen Sie das Licht.</translation>
-    </message>
-    <message>
         <source>Click every marker again, in the order shown.</source>
         <translation>Klicken Sie alle Marker noch einmal an, in der gezeigten Reihenfolge.</translation>
     </message>
@@ -5781,7 +5465,7 @@
     </message>
     <message>
         <source>Compare the log with a backup, and tell your data-protection officer.</source>
-        <translation>Vergleichen Sie das Protokoll mit einer Sicherung, und informieren Sie Ihre Datenschutzbeauftragte.</translation>
+        <translation>Vergleichen Sie das Protokoll mit einer Sicherung, und informieren Sie die für den Datenschutz zuständige Person.</translation>
     </message>
     <message>
         <source>Comparison</source>
@@ -5984,10 +5668,6 @@
         <translation>Oder legen Sie die camera_info.yaml der Kamera neben die Aufnahme.</translation>
     </message>
     <message>
-        <source>Or track the recording again with “carpus track”.</source>
-        <translation>Oder verfolgen Sie die Aufnahme noch einmal mit „carpus track“.</translation>
-    </message>
-    <message>
         <source>Patients</source>
         <translation>Patienten</translation>
     </message>
@@ -6001,7 +5681,7 @@
     </message>
     <message>
         <source>Plug the camera in again. Tracking and recording then continue automatically.</source>
-        <translation>Stecken Sie die Kamera wieder ein. Verfolgung und Aufnahme laufen dann automatisch weiter.</translation>
+        <translation>Schließen Sie die Kamera wieder an. Messung und Aufnahme laufen dann automatisch weiter.</translation>
     </message>
     <message>
         <source>Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.</source>
@@ -6137,7 +5817,7 @@
     </message>
     <message>
         <source>The clinic’s records server does not answer: {subject} ({detail}).</source>
-        <translation>Der Patientenserver der Klinik antwortet nicht: {subject} ({detail}).</translation>
+        <translation>Der Server der Einrichtung antwortet nicht: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The data on this computer are intact.</source>
@@ -6225,7 +5905,7 @@
     </message>
     <message>
         <source>The re-analysis failed: {subject} ({detail}).</source>
-        <translation>Die neue Auswertung ist fehlgeschlagen: {subject} ({detail}).</translation>
+        <translation>Die neue Analyse ist fehlgeschlagen: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The recording contains no frames: {subject} ({detail}).</source>
@@ -6252,10 +5932,6 @@
         <translation>Der Schreibschutz des Protokolls in {subject} war entfernt worden. Carpus hat ihn wiederhergestellt.</translation>
     </message>
     <message>
-        <source>Their sessions are kept apart.</source>
-        <translation>Ihre Sitzungen bleiben getrennt.</translation>
-    </message>
-    <message>
         <source>There is no backup in {subject}.</source>
         <translation>In {subject} gibt es keine Sicherung.</translation>
     </message>
@@ -6265,7 +5941,7 @@
     </message>
     <message>
         <source>There is no marker set called {subject} ({detail}).</source>
-        <translation>Es gibt kein Markerset namens {subject} ({detail}).</translation>
+        <translation>Es gibt keinen Markersatz namens {subject} ({detail}).</translation>
     </message>
     <message>
         <source>There is no patient called {subject} ({detail}).</source>
@@ -6305,7 +5981,7 @@
     </message>
     <message>
         <source>Turn on depth registration in the camera settings next time.</source>
-        <translation>Schalten Sie beim nächsten Mal in der Kamera die Ausrichtung der Tiefe auf die Farbe ein.</translation>
+        <translation>Schalten Sie beim nächsten Mal die Registrierung von Tiefe und Farbe in den Kameraeinstellungen ein.</translation>
     </message>
     <message>
         <source>Two patients had the name {subject}: the second one now has ({detail}) after it.</source>
@@ -6425,7 +6101,7 @@
     </message>
     <message>
         <source>Not kept: {names}. Also correct a later frame.</source>
-        <translation>Nicht gehalten: {names}. Korrigieren Sie auch ein späteres Bild.</translation>
+        <translation>Nicht beibehalten: {names}. Korrigieren Sie auch ein späteres Bild.</translation>
     </message>
     <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
@@ -6519,6 +6195,326 @@
         <source>line {number} is not a line of GDT</source>
         <translation>Zeile {number} ist keine GDT-Zeile</translation>
     </message>
+    <message>
+        <source>Rotation</source>
+        <translation>Rotation</translation>
+    </message>
+    <message>
+        <source>Frames with occluded joints are not analysed.</source>
+        <translation>Bilder mit verdeckten Gelenken werden nicht ausgewertet.</translation>
+    </message>
+    <message>
+        <source>Image taken. Now another place.</source>
+        <translation>Bild aufgenommen. Jetzt eine andere Stelle.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. Glue the board onto something flat and stiff. Take the images again in good light.</source>
+        <translation>Es wurde nichts geändert. Kleben Sie die Tafel auf etwas Flaches, Steifes, und nehmen Sie die Bilder bei gutem Licht neu auf.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. Turn on depth registration in the camera: “carpus doctor” shows how.</source>
+        <translation>Es wurde nichts geändert. Schalten Sie in der Kamera die Registrierung von Tiefe und Farbe ein: „carpus doctor“ zeigt, wie.</translation>
+    </message>
+    <message>
+        <source>Depth was not checked.</source>
+        <translation>Die Tiefe wurde nicht geprüft.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too long.</source>
+        <translation>Die Tiefe war {share} % zu groß.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too short.</source>
+        <translation>Die Tiefe war {share} % zu klein.</translation>
+    </message>
+    <message>
+        <source>too few images with depth on the board</source>
+        <translation>zu wenige Bilder mit Tiefe auf der Tafel</translation>
+    </message>
+    <message>
+        <source>Lay the card flat under the camera, fully in view, about 60 cm away.</source>
+        <translation>Legen Sie die Karte flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt.</translation>
+    </message>
+    <message>
+        <source>The card moved: the countdown starts again.</source>
+        <translation>Die Karte hat sich bewegt: Der Countdown beginnt neu.</translation>
+    </message>
+    <message>
+        <source>Abduction</source>
+        <translation>Abduktion</translation>
+    </message>
+    <message>
+        <source>Extended</source>
+        <translation>Gestreckt</translation>
+    </message>
+    <message>
+        <source>Flexed {angle}</source>
+        <translation>Gebeugt {angle}</translation>
+    </message>
+    <message>
+        <source>add.</source>
+        <translation>Add.</translation>
+    </message>
+    <message>
+        <source>abd.</source>
+        <translation>Abd.</translation>
+    </message>
+    <message>
+        <source>Abd. {angle}</source>
+        <translation>Abd. {angle}</translation>
+    </message>
+    <message>
+        <source>Add. {angle}</source>
+        <translation>Add. {angle}</translation>
+    </message>
+    <message>
+        <source>Check the {marker}</source>
+        <translation>Prüfen Sie: {marker}</translation>
+    </message>
+    <message>
+        <source>Hand tracked well</source>
+        <translation>Hand gut erfasst</translation>
+    </message>
+    <message>
+        <source>Use that spot</source>
+        <translation>Diese Stelle verwenden</translation>
+    </message>
+    <message>
+        <source>typical {low}–{high} mm</source>
+        <translation>typisch {low}–{high} mm</translation>
+    </message>
+    <message>
+        <source>mean of both · one point every 0.2 s, {count} points</source>
+        <translation>Mittel beider · ein Punkt je 0,2 s, {count} Punkte</translation>
+    </message>
+    <message>
+        <source>mean of both · one point per reading, {count} readings</source>
+        <translation>Mittel beider · ein Punkt je Ablesung, {count} Ablesungen</translation>
+    </message>
+    <message>
+        <source>manual, active</source>
+        <translation>manuell, aktiv</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Position</translation>
+    </message>
+    <message>
+        <source>Joint flexion, {one}–{other} (r)</source>
+        <translation>Gemeinsame Flexion, {one}–{other} (r)</translation>
+    </message>
+    <message>
+        <source>too slow to assess</source>
+        <translation>zu langsam zum Beurteilen</translation>
+    </message>
+    <message>
+        <source>abduction</source>
+        <translation>Abduktion</translation>
+    </message>
+    <message>
+        <source>abduction of {fingers}</source>
+        <translation>Abduktion: {fingers}</translation>
+    </message>
+    <message>
+        <source>Partly occluded ({sign} = minimum): {parts}. Frames with occluded joints are not analysed.</source>
+        <translation>Zum Teil verdeckt ({sign} = Mindestwert): {parts}. Bilder mit verdeckten Gelenken werden nicht ausgewertet.</translation>
+    </message>
+    <message>
+        <source>Abduction of all fingers</source>
+        <translation>Abduktion aller Finger</translation>
+    </message>
+    <message>
+        <source>Position, speed, rotation</source>
+        <translation>Position, Geschwindigkeit, Rotation</translation>
+    </message>
+    <message>
+        <source>Manual measurements</source>
+        <translation>Manuelle Messungen</translation>
+    </message>
+    <message>
+        <source>Therapist’s comment</source>
+        <translation>Kommentar der Therapie</translation>
+    </message>
+    <message>
+        <source>Markers were corrected manually. The original result is kept.</source>
+        <translation>Marker wurden manuell korrigiert. Das ursprüngliche Ergebnis bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>Manual measurements, not made by Carpus: {values}.</source>
+        <translation>Manuelle Messungen, nicht von Carpus: {values}.</translation>
+    </message>
+    <message>
+        <source>The comment is too long for this letter. It is in the report.</source>
+        <translation>Der Kommentar ist für diesen Brief zu lang. Er steht im Bericht.</translation>
+    </message>
+    <message>
+        <source>{count} movement cycles; range over the whole recording</source>
+        <translation>{count} Bewegungszyklen; Bewegungsausmaß über die ganze Aufnahme</translation>
+    </message>
+    <message>
+        <source>too short</source>
+        <translation>zu kurz</translation>
+    </message>
+    <message>
+        <source>each was shorter than 0.4 s</source>
+        <translation>jede war kürzer als 0,4 s</translation>
+    </message>
+    <message>
+        <source>± = SD between repetitions. The SD of a visible angle is about {sd}.</source>
+        <translation>± = SD zwischen den Wiederholungen. Die SD eines sichtbaren Winkels ist etwa {sd}.</translation>
+    </message>
+    <message>
+        <source>± = SD between repetitions (with fewer than 3: SD of the estimate). The SD of a visible angle is about {sd}.</source>
+        <translation>± = SD zwischen den Wiederholungen (bei weniger als 3: SD der Schätzung). Die SD eines sichtbaren Winkels ist etwa {sd}.</translation>
+    </message>
+    <message>
+        <source>± = SD of the estimate, as there are too few repetitions. The SD of an angle is about {sd}.</source>
+        <translation>± = SD der Schätzung, da es zu wenige Wiederholungen gibt. Die SD eines Winkels ist etwa {sd}.</translation>
+    </message>
+    <message>
+        <source>{share} of {frames}; {dropped} dropped</source>
+        <translation>{share} von {frames}; {dropped} ausgefallen</translation>
+    </message>
+    <message>
+        <source>Exercise set: {name}</source>
+        <translation>Übungsfolge: {name}</translation>
+    </message>
+    <message>
+        <source>Exercise set “{name}”, {number} of {count}: {part}</source>
+        <translation>Übungsfolge „{name}“, {number} von {count}: {part}</translation>
+    </message>
+    <message>
+        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people. Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up.</source>
+        <translation>MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen. Sonst gilt die Expertenvorgabe von Carpus. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+    </message>
+    <message>
+        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
+        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für eine Gesamtbewegung mit ihren zwei Enden ist sie √2-mal so groß. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+    </message>
+    <message>
+        <source>Camera permissions, {title}</source>
+        <translation>Kamerarechte, {title}</translation>
+    </message>
+    <message>
+        <source>Reinstall it and the library it names.</source>
+        <translation>Installieren Sie ihn und die genannte Bibliothek neu.</translation>
+    </message>
+    <message>
+        <source>Install the camera permissions named above and plug the camera in again.</source>
+        <translation>Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
+    </message>
+    <message>
+        <source>Carpus did not write to it.</source>
+        <translation>Carpus hat nicht hineingeschrieben.</translation>
+    </message>
+    <message>
+        <source>Depth registration</source>
+        <translation>Registrierung von Tiefe und Farbe</translation>
+    </message>
+    <message>
+        <source>You have no permission to open {node}. Install the camera permissions named above, then plug the camera in again.</source>
+        <translation>Keine Berechtigung für {node}. Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
+    </message>
+    <message>
+        <source>angles from a table</source>
+        <translation>Winkel aus Tabelle</translation>
+    </message>
+    <message>
+        <source>angles from {format}</source>
+        <translation>Winkel aus {format}</translation>
+    </message>
+    <message>
+        <source>no limits, so the default limits apply</source>
+        <translation>keine Grenzen enthalten; es gelten die Standardgrenzen</translation>
+    </message>
+    <message>
+        <source>no marker {name}</source>
+        <translation>kein Marker {name}</translation>
+    </message>
+    <message>
+        <source>no frame {number}</source>
+        <translation>kein Bild {number}</translation>
+    </message>
+    <message>
+        <source>no saved blue spots</source>
+        <translation>keine gespeicherten blauen Stellen</translation>
+    </message>
+    <message>
+        <source>folder not writable</source>
+        <translation>Ordner nicht beschreibbar</translation>
+    </message>
+    <message>
+        <source>process ended</source>
+        <translation>Prozess beendet</translation>
+    </message>
+    <message>
+        <source>marker set {subject}</source>
+        <translation>Markersatz {subject}</translation>
+    </message>
+    <message>
+        <source>not TOML: endlessly nested tables</source>
+        <translation>kein TOML: endlos verschachtelte Tabellen</translation>
+    </message>
+    <message>
+        <source>on, corrected by Carpus</source>
+        <translation>an, von Carpus korrigiert</translation>
+    </message>
+    <message>
+        <source>points from {format}</source>
+        <translation>Punkte aus {format}</translation>
+    </message>
+    <message>
+        <source>{folder}, created at the first recording</source>
+        <translation>{folder}, wird bei der ersten Aufnahme angelegt</translation>
+    </message>
+    <message>
+        <source>The language can be changed once no measurement or analysis is running.</source>
+        <translation>Die Sprache lässt sich ändern, wenn keine Messung oder Analyse mehr läuft.</translation>
+    </message>
+    <message>
+        <source>invisible character</source>
+        <translation>unsichtbares Zeichen</translation>
+    </message>
+    <message>
+        <source>{count} per movement, {seconds} s in total</source>
+        <translation>{count} je Bewegung, zusammen {seconds} s</translation>
+    </message>
+    <message>
+        <source>{sign}: manual measurement of that day, active / passive; not combined with the other values.</source>
+        <translation>{sign}: manuelle Messung an diesem Tag, aktiv / passiv; nicht mit den anderen Werten verrechnet.</translation>
+    </message>
+    <message>
+        <source>Manual</source>
+        <translation>Manuell</translation>
+    </message>
+    <message>
+        <source>Check once more, then calibrate the camera. If it is still out of tolerance, do not measure with it.</source>
+        <translation>Noch einmal prüfen, dann die Kamera kalibrieren. Ist sie weiter außerhalb der Toleranz, nicht mit ihr messen.</translation>
+    </message>
+    <message>
+        <source>0° = neutral position</source>
+        <translation>0° = Neutralstellung</translation>
+    </message>
+    <message>
+        <source>Neutral</source>
+        <translation>Neutral</translation>
+    </message>
+    <message>
+        <source>tracked with another filter than that of Carpus</source>
+        <translation>mit einem anderen Filter als dem von Carpus ausgewertet</translation>
+    </message>
+    <message>
+        <source>Or analyse the recording again with “carpus track”.</source>
+        <translation>Oder werten Sie die Aufnahme mit „carpus track“ neu aus.</translation>
+    </message>
+    <message>
+        <source>Ab-/adduction</source>
+        <translation>Ab-/Adduktion</translation>
+    </message>
+    <message>
+        <source>Their sessions stay separate.</source>
+        <translation>Ihre Sitzungen bleiben getrennt.</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -6527,12 +6523,12 @@
         <translation>Noch kein Termin</translation>
     </message>
     <message>
-        <source>When next? Day, month, year</source>
-        <translation>Wann wieder? Tag, Monat, Jahr</translation>
+        <source>Next appointment: day, month, year</source>
+        <translation>Nächster Termin: Tag, Monat, Jahr</translation>
     </message>
     <message>
-        <source>When next? That day is over</source>
-        <translation>Wann wieder? Der Tag ist vorbei</translation>
+        <source>Next appointment: this day has passed</source>
+        <translation>Nächster Termin: Der Tag ist vorbei</translation>
     </message>
 </context>
 <context>
@@ -6552,10 +6548,6 @@
     <message>
         <source>Backup</source>
         <translation>Sicherung</translation>
-    </message>
-    <message>
-        <source>Backs up the whole data folder: patients, sessions, images and log. You can measure meanwhile.</source>
-        <translation>Sichert den ganzen Datenordner: Patienten, Sitzungen, Bilder und Protokoll. Sie können dabei messen.</translation>
     </message>
     <message>
         <source>then verified</source>
@@ -6604,6 +6596,10 @@
     <message>
         <source>{percent} %</source>
         <translation>{percent} %</translation>
+    </message>
+    <message>
+        <source>Backs up the whole data folder: patients, sessions, images and log. You can continue measuring.</source>
+        <translation>Sichert den ganzen Datenordner: Patienten, Sitzungen, Bilder und Protokoll. Sie können dabei messen.</translation>
     </message>
 </context>
 <context>
@@ -6882,12 +6878,12 @@
         <translation>Die Aufnahme wird geöffnet.</translation>
     </message>
     <message>
-        <source>The simulated patient is being drawn.</source>
-        <translation>Der simulierte Patient wird gezeichnet.</translation>
-    </message>
-    <message>
         <source>Choose the source again</source>
         <translation>Quelle neu wählen</translation>
+    </message>
+    <message>
+        <source>The simulated patient is being prepared.</source>
+        <translation>Der simulierte Patient wird vorbereitet.</translation>
     </message>
 </context>
 <context>
@@ -6980,10 +6976,6 @@
         <translation>Keine Kamera</translation>
     </message>
     <message>
-        <source>A stored recording: a file of Carpus or of the camera (.oni, .db3), or a folder of pictures.</source>
-        <translation>Eine gespeicherte Aufnahme: eine Datei von Carpus oder der Kamera (.oni, .db3), oder ein Ordner mit Bildern.</translation>
-    </message>
-    <message>
         <source>Open the camera</source>
         <translation>Kamera öffnen</translation>
     </message>
@@ -7016,8 +7008,12 @@
         <translation>Aufnahme wählen</translation>
     </message>
     <message>
-        <source>Choose a folder of pictures</source>
-        <translation>Ordner mit Bildern wählen</translation>
+        <source>A saved recording: a file of Carpus or of the camera (.oni, .db3), or an image folder.</source>
+        <translation>Eine gespeicherte Aufnahme: eine Datei von Carpus oder der Kamera (.oni, .db3) oder ein Bilderordner.</translation>
+    </message>
+    <message>
+        <source>Choose an image folder</source>
+        <translation>Bilderordner wählen</translation>
     </message>
 </context>
 <context>
@@ -7365,10 +7361,6 @@
         <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({size} MB, Dateien: {files}).</translation>
     </message>
     <message>
-        <source>The patient’s entry: real name, notes, values measured by hand. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
-        <translation>Der Eintrag des Patienten: echter Name, Notizen, von Hand gemessene Werte. Alle Sitzungen ({count}): Winkel, Bilder, Notizen ({size} MB, Dateien: {files}).</translation>
-    </message>
-    <message>
         <source>Backups up to {day} and copies elsewhere.</source>
         <translation>Sicherungen bis {day} und Kopien an anderen Orten.</translation>
     </message>
@@ -7378,11 +7370,11 @@
     </message>
     <message>
         <source>Delete yourself: reports and exports saved elsewhere ({n}): {path}.</source>
-        <translation>Selbst löschen: anderswo gespeicherte Berichte und Exporte ({n}): {path}.</translation>
+        <translation>Bitte selbst löschen: anderswo gespeicherte Berichte und Exporte ({n}): {path}.</translation>
     </message>
     <message>
         <source>Check yourself: files outside the patient’s folder ({n}): {path}.</source>
-        <translation>Selbst prüfen: Dateien außerhalb des Patientenordners ({n}): {path}.</translation>
+        <translation>Bitte selbst prüfen: Dateien außerhalb des Patientenordners ({n}): {path}.</translation>
     </message>
     <message>
         <source>The log records the deletion, without a name.</source>
@@ -7403,6 +7395,10 @@
     <message>
         <source>The patient’s other sessions.</source>
         <translation>Die anderen Sitzungen des Patienten.</translation>
+    </message>
+    <message>
+        <source>The patient’s entry: real name, notes, manual measurements. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
+        <translation>Der Eintrag des Patienten: echter Name, Notizen, manuelle Messungen. Alle Sitzungen ({count}): Winkel, Bilder, Notizen ({size} MB, Dateien: {files}).</translation>
     </message>
 </context>
 <context>
@@ -7548,10 +7544,6 @@
 <context>
     <name>ExerciseScreen</name>
     <message>
-        <source>Sets of exercises…</source>
-        <translation>Übungsfolgen…</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>keine</translation>
     </message>
@@ -7600,10 +7592,6 @@
         <translation>Welche Übung?</translation>
     </message>
     <message>
-        <source>This set</source>
-        <translation>Dieser Durchgang</translation>
-    </message>
-    <message>
         <source>Hand to measure</source>
         <translation>Zu messende Hand</translation>
     </message>
@@ -7630,6 +7618,14 @@
     <message>
         <source>Which hand is measured?</source>
         <translation>Welche Hand wird gemessen?</translation>
+    </message>
+    <message>
+        <source>Exercise sets…</source>
+        <translation>Übungsfolgen…</translation>
+    </message>
+    <message>
+        <source>This recording</source>
+        <translation>Diese Aufnahme</translation>
     </message>
 </context>
 <context>
@@ -7764,8 +7760,8 @@
         <translation>Flexion</translation>
     </message>
     <message>
-        <source>Spreading</source>
-        <translation>Spreizung</translation>
+        <source>Abduction</source>
+        <translation>Abduktion</translation>
     </message>
 </context>
 <context>
@@ -7778,24 +7774,12 @@
 <context>
     <name>GuidancePanel</name>
     <message>
-        <source>Picture</source>
-        <translation>Bild</translation>
-    </message>
-    <message>
         <source>Lay the hand flat and still</source>
         <translation>Legen Sie die Hand flach und ruhig hin</translation>
     </message>
     <message>
-        <source>Palm down, fingers as straight as possible, forearm in line. Then take the picture.</source>
-        <translation>Handfläche nach unten, Finger so gerade wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
-    </message>
-    <message>
         <source>Checks</source>
         <translation>Prüfungen</translation>
-    </message>
-    <message>
-        <source>Take the picture</source>
-        <translation>Bild aufnehmen</translation>
     </message>
     <message>
         <source>Marker {number} of {asked}</source>
@@ -7808,10 +7792,6 @@
     <message>
         <source>Checking the markers…</source>
         <translation>Marker werden geprüft…</translation>
-    </message>
-    <message>
-        <source>Hold the hand in this position until the measuring begins.</source>
-        <translation>Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
     </message>
     <message>
         <source>Checking…</source>
@@ -7850,10 +7830,6 @@
         <translation>Marker werden gesucht…</translation>
     </message>
     <message>
-        <source>Click by hand</source>
-        <translation>Von Hand anklicken</translation>
-    </message>
-    <message>
         <source>Labels to confirm</source>
         <translation>Bezeichnungen bestätigen</translation>
     </message>
@@ -7872,6 +7848,26 @@
     <message>
         <source>Start anyway (&amp;uncertain)</source>
         <translation>Trotzdem &amp;starten</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>Palm down, fingers as straight as possible, forearm in line. Then take the image.</source>
+        <translation>Handfläche nach unten, Finger so gestreckt wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
+    </message>
+    <message>
+        <source>Take the image</source>
+        <translation>Bild aufnehmen</translation>
+    </message>
+    <message>
+        <source>Hold the hand in this position until measuring begins.</source>
+        <translation>Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
+    </message>
+    <message>
+        <source>Click the markers</source>
+        <translation>Marker anklicken</translation>
     </message>
 </context>
 <context>
@@ -8006,11 +8002,7 @@ von oben</translation>
     </message>
     <message>
         <source>One page with the values of this session and your comment. Addresses stay in your list.</source>
-        <translation>Eine Seite mit den Werten dieser Sitzung und Ihrer Bemerkung. Anschriften bleiben in Ihrer Liste.</translation>
-    </message>
-    <message>
-        <source>Written to before</source>
-        <translation>Schon angeschrieben</translation>
+        <translation>Eine Seite mit den Werten dieser Sitzung und Ihrem Kommentar. Anschriften bleiben in Ihrer Liste.</translation>
     </message>
     <message>
         <source>Name and address, up to {count} lines</source>
@@ -8025,12 +8017,16 @@ von oben</translation>
         <translation>Echten Namen drucken</translation>
     </message>
     <message>
-        <source>The name goes into this letter only. Anybody who gets the file can read it.</source>
-        <translation>Der Name steht nur in diesem Brief. Wer die Datei bekommt, kann ihn lesen.</translation>
-    </message>
-    <message>
         <source>Show the letter</source>
         <translation>Brief zeigen</translation>
+    </message>
+    <message>
+        <source>Previous recipients</source>
+        <translation>Bisherige Empfänger</translation>
+    </message>
+    <message>
+        <source>The name appears in this letter only. Anyone who has the file can read it.</source>
+        <translation>Der Name steht nur in diesem Brief. Wer die Datei hat, kann ihn lesen.</translation>
     </message>
 </context>
 <context>
@@ -8097,10 +8093,6 @@ von oben</translation>
         <translation>Die Aufnahme wurde um {time} automatisch angehalten.</translation>
     </message>
     <message>
-        <source>{time} and {count} full repetitions are stored.</source>
-        <translation>{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
-    </message>
-    <message>
         <source>Stop and review</source>
         <translation>Beenden und auswerten</translation>
     </message>
@@ -8151,6 +8143,10 @@ von oben</translation>
     <message>
         <source>Continue measuring, or stop: the session is saved and Carpus closes.</source>
         <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
+    </message>
+    <message>
+        <source>{time} and {count} full repetitions are saved.</source>
+        <translation>{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
     </message>
 </context>
 <context>
@@ -8310,7 +8306,7 @@ von oben</translation>
     </message>
     <message>
         <source>Ask your IT support to remove the PIN. No data are lost.</source>
-        <translation>Bitten Sie Ihren IT-Support, die PIN zu entfernen. Es gehen keine Daten verloren.</translation>
+        <translation>Bitten Sie Ihre IT-Betreuung, die PIN zu entfernen. Es gehen keine Daten verloren.</translation>
     </message>
     <message>
         <source>Locked at {time}.</source>
@@ -8442,7 +8438,7 @@ von oben</translation>
     </message>
     <message>
         <source>Manual and Carpus values stay separate</source>
-        <translation>Handmessung und Carpus-Werte bleiben getrennt</translation>
+        <translation>Manuelle und Carpus-Werte bleiben getrennt</translation>
     </message>
     <message>
         <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
@@ -8457,10 +8453,6 @@ von oben</translation>
         <translation>Werte werden mit Kürzel und Zeit gespeichert. Spätere Änderungen bleiben sichtbar.</translation>
     </message>
     <message>
-        <source>Measured by hand, {day}</source>
-        <translation>Von Hand gemessen, {day}</translation>
-    </message>
-    <message>
         <source>By {initials}.</source>
         <translation>Von {initials}.</translation>
     </message>
@@ -8468,28 +8460,16 @@ von oben</translation>
         <source>Other measures…</source>
         <translation>Andere Maße…</translation>
     </message>
+    <message>
+        <source>Manual measurements, {day}</source>
+        <translation>Manuelle Messungen, {day}</translation>
+    </message>
 </context>
 <context>
     <name>ManualValueChart</name>
     <message>
         <source>{name} over the days</source>
         <translation>{name} über die Tage</translation>
-    </message>
-    <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Noch nichts von Hand gemessen.</translation>
-    </message>
-    <message>
-        <source>by hand, active</source>
-        <translation>von Hand, aktiv</translation>
-    </message>
-    <message>
-        <source>by hand</source>
-        <translation>von Hand</translation>
-    </message>
-    <message>
-        <source>by hand, passive</source>
-        <translation>von Hand, passiv</translation>
     </message>
     <message>
         <source>Carpus, mean</source>
@@ -8507,13 +8487,25 @@ von oben</translation>
         <source>active {value}</source>
         <translation>aktiv {value}</translation>
     </message>
+    <message>
+        <source>No manual measurements yet.</source>
+        <translation>Noch keine manuellen Messungen.</translation>
+    </message>
+    <message>
+        <source>manual, active</source>
+        <translation>manuell, aktiv</translation>
+    </message>
+    <message>
+        <source>manual</source>
+        <translation>manuell</translation>
+    </message>
+    <message>
+        <source>manual, passive</source>
+        <translation>manuell, passiv</translation>
+    </message>
 </context>
 <context>
     <name>MarkerFrameView</name>
-    <message>
-        <source>Picture to click the markers on</source>
-        <translation>Bild zum Anklicken der Marker</translation>
-    </message>
     <message>
         <source>{marker}?</source>
         <translation>{marker}?</translation>
@@ -8529,6 +8521,10 @@ von oben</translation>
     <message>
         <source>Found · {width} px</source>
         <translation>Gefunden · {width} px</translation>
+    </message>
+    <message>
+        <source>Image to click the markers on</source>
+        <translation>Bild zum Anklicken der Marker</translation>
     </message>
 </context>
 <context>
@@ -8580,10 +8576,6 @@ von oben</translation>
 <context>
     <name>MarkersFlow</name>
     <message>
-        <source>Leave the markers?</source>
-        <translation>Die Marker verlassen?</translation>
-    </message>
-    <message>
         <source>The labels given on this image would be lost.</source>
         <translation>Die Bezeichnungen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
     </message>
@@ -8619,6 +8611,10 @@ von oben</translation>
         <source>Open it again</source>
         <translation>Noch einmal öffnen</translation>
     </message>
+    <message>
+        <source>Leave this screen?</source>
+        <translation>Diese Seite verlassen?</translation>
+    </message>
 </context>
 <context>
     <name>MarkersScreen</name>
@@ -8633,10 +8629,6 @@ von oben</translation>
     <message>
         <source>Click all again</source>
         <translation>Alle neu anklicken</translation>
-    </message>
-    <message>
-        <source>New picture</source>
-        <translation>Neues Bild</translation>
     </message>
     <message>
         <source>accept</source>
@@ -8657,10 +8649,6 @@ von oben</translation>
     <message>
         <source>next marker</source>
         <translation>nächster Marker</translation>
-    </message>
-    <message>
-        <source>larger last picture</source>
-        <translation>letztes Bild größer</translation>
     </message>
     <message>
         <source>Waiting for the camera image</source>
@@ -8705,6 +8693,14 @@ von oben</translation>
     <message>
         <source>All labels are correct</source>
         <translation>Alle Bezeichnungen stimmen</translation>
+    </message>
+    <message>
+        <source>New image</source>
+        <translation>Neues Bild</translation>
+    </message>
+    <message>
+        <source>enlarge last image</source>
+        <translation>letztes Bild größer</translation>
     </message>
 </context>
 <context>
@@ -8842,7 +8838,7 @@ von oben</translation>
     </message>
     <message>
         <source>uncertain, excluded</source>
-        <translation>unsicher, nicht gezählt</translation>
+        <translation>unsicher, ausgeschlossen</translation>
     </message>
     <message>
         <source>uncertain</source>
@@ -9041,7 +9037,7 @@ von oben</translation>
     </message>
     <message>
         <source>In the clinic’s &amp;list</source>
-        <translation>In der &amp;Liste der Klinik</translation>
+        <translation>In der &amp;Liste der Einrichtung</translation>
     </message>
     <message>
         <source>Name: {count} characters too long</source>
@@ -9286,14 +9282,6 @@ von oben</translation>
 <context>
     <name>PlaybackControls</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Voriges Bild (←)</translation>
-    </message>
-    <message>
-        <source>Next picture (→)</source>
-        <translation>Nächstes Bild (→)</translation>
-    </message>
-    <message>
         <source>Play (Space)</source>
         <translation>Abspielen (Leertaste)</translation>
     </message>
@@ -9309,28 +9297,24 @@ von oben</translation>
         <source>{factor}× speed</source>
         <translation>{factor}× Tempo</translation>
     </message>
+    <message>
+        <source>Previous frame (←)</source>
+        <translation>Voriges Bild (←)</translation>
+    </message>
+    <message>
+        <source>Next frame (→)</source>
+        <translation>Nächstes Bild (→)</translation>
+    </message>
 </context>
 <context>
     <name>Player</name>
-    <message>
-        <source>What is drawn</source>
-        <translation>Was gezeichnet wird</translation>
-    </message>
-    <message>
-        <source>What is drawn of the movement (V)</source>
-        <translation>Was von der Bewegung gezeichnet wird (V)</translation>
-    </message>
     <message>
         <source>Angles</source>
         <translation>Winkel</translation>
     </message>
     <message>
         <source>Path</source>
-        <translation>Weg</translation>
-    </message>
-    <message>
-        <source>Place, speed</source>
-        <translation>Ort, Tempo</translation>
+        <translation>Bahn</translation>
     </message>
     <message>
         <source>ZYZ</source>
@@ -9356,6 +9340,18 @@ von oben</translation>
         <source>frame</source>
         <translation>Bild</translation>
     </message>
+    <message>
+        <source>Movement display</source>
+        <translation>Darstellung der Bewegung</translation>
+    </message>
+    <message>
+        <source>Movement display (V)</source>
+        <translation>Darstellung der Bewegung (V)</translation>
+    </message>
+    <message>
+        <source>Position, speed</source>
+        <translation>Position, Tempo</translation>
+    </message>
 </context>
 <context>
     <name>PlotMenu</name>
@@ -9372,14 +9368,6 @@ von oben</translation>
         <translation>Verkleinern</translation>
     </message>
     <message>
-        <source>Copy picture</source>
-        <translation>Bild kopieren</translation>
-    </message>
-    <message>
-        <source>Save picture (PNG)…</source>
-        <translation>Bild speichern (PNG)…</translation>
-    </message>
-    <message>
         <source>Save drawing (SVG)…</source>
         <translation>Zeichnung speichern (SVG)…</translation>
     </message>
@@ -9390,6 +9378,14 @@ von oben</translation>
     <message>
         <source>Save</source>
         <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Copy image</source>
+        <translation>Bild kopieren</translation>
+    </message>
+    <message>
+        <source>Save image (PNG)…</source>
+        <translation>Bild speichern (PNG)…</translation>
     </message>
 </context>
 <context>
@@ -9436,24 +9432,12 @@ von oben</translation>
         <translation>Verlaufsbericht</translation>
     </message>
     <message>
-        <source>Save picture…</source>
-        <translation>Bild speichern…</translation>
-    </message>
-    <message>
         <source>Save table…</source>
         <translation>Tabelle speichern…</translation>
     </message>
     <message>
-        <source>Values by &amp;hand…</source>
-        <translation>Werte von &amp;Hand…</translation>
-    </message>
-    <message>
         <source>Exercise and hand</source>
         <translation>Übung und Hand</translation>
-    </message>
-    <message>
-        <source>What is followed</source>
-        <translation>Was verfolgt wird</translation>
     </message>
     <message>
         <source>1 session, {last}</source>
@@ -9500,16 +9484,28 @@ von oben</translation>
         <translation>MDC noch unbekannt</translation>
     </message>
     <message>
-        <source>Measured by hand</source>
-        <translation>Von Hand gemessen</translation>
-    </message>
-    <message>
         <source>Comparability</source>
         <translation>Vergleichbarkeit</translation>
     </message>
     <message>
         <source>All sessions used the same set-up.</source>
         <translation>Alle Sitzungen hatten den gleichen Aufbau.</translation>
+    </message>
+    <message>
+        <source>Save image…</source>
+        <translation>Bild speichern…</translation>
+    </message>
+    <message>
+        <source>&amp;Manual values…</source>
+        <translation>&amp;Manuelle Messwerte…</translation>
+    </message>
+    <message>
+        <source>Value shown</source>
+        <translation>Gezeigter Wert</translation>
+    </message>
+    <message>
+        <source>Manual measurements</source>
+        <translation>Manuelle Messungen</translation>
     </message>
 </context>
 <context>
@@ -9668,7 +9664,7 @@ von oben</translation>
     </message>
     <message>
         <source>manual values entered</source>
-        <translation>Handmesswerte eingetragen</translation>
+        <translation>manuelle Messwerte eingetragen</translation>
     </message>
     <message>
         <source>moved</source>
@@ -9738,10 +9734,6 @@ von oben</translation>
         <translation>Schmerz {score}</translation>
     </message>
     <message>
-        <source>Storing…</source>
-        <translation>Wird gespeichert…</translation>
-    </message>
-    <message>
         <source>Passive</source>
         <translation>Passiv</translation>
     </message>
@@ -9772,6 +9764,10 @@ von oben</translation>
     <message>
         <source>Space · pedal</source>
         <translation>Leertaste · Pedal</translation>
+    </message>
+    <message>
+        <source>Saving…</source>
+        <translation>Wird gespeichert…</translation>
     </message>
 </context>
 <context>
@@ -9886,7 +9882,7 @@ von oben</translation>
     <name>ReportPanel</name>
     <message>
         <source>Comment</source>
-        <translation>Bemerkung</translation>
+        <translation>Kommentar</translation>
     </message>
     <message>
         <source>Printed on the report and saved with the session. No names here, please.</source>
@@ -9894,7 +9890,7 @@ von oben</translation>
     </message>
     <message>
         <source>Comment on the report</source>
-        <translation>Bemerkung im Bericht</translation>
+        <translation>Kommentar im Bericht</translation>
     </message>
     <message>
         <source>Sentence to insert</source>
@@ -9949,10 +9945,6 @@ von oben</translation>
         <translation>Geschwindigkeit, Schmerz, Notiz</translation>
     </message>
     <message>
-        <source>Entered by hand</source>
-        <translation>Von Hand eingetragen</translation>
-    </message>
-    <message>
         <source>Motion page</source>
         <translation>Bewegungsseite</translation>
     </message>
@@ -9963,6 +9955,10 @@ von oben</translation>
     <message>
         <source>Use these parts for all reports</source>
         <translation>Für alle Berichte so verwenden</translation>
+    </message>
+    <message>
+        <source>Manual measurements</source>
+        <translation>Manuelle Messungen</translation>
     </message>
 </context>
 <context>
@@ -10124,10 +10120,6 @@ von oben</translation>
         <translation>Bewegungsausmaß</translation>
     </message>
     <message>
-        <source>Another set</source>
-        <translation>Neuer Durchgang</translation>
-    </message>
-    <message>
         <source>Exclude</source>
         <translation>Ausschließen</translation>
     </message>
@@ -10160,8 +10152,12 @@ von oben</translation>
         <translation>Noch keine andere Sitzung dieser Übung.</translation>
     </message>
     <message>
-        <source>Beside the {hand} of {day} (B)</source>
-        <translation>Neben: {hand}, {day} (B)</translation>
+        <source>Measure again</source>
+        <translation>Noch einmal messen</translation>
+    </message>
+    <message>
+        <source>Compare with {hand}, {day} (B)</source>
+        <translation>Vergleichen mit: {hand}, {day} (B)</translation>
     </message>
 </context>
 <context>
@@ -10206,11 +10202,11 @@ von oben</translation>
         <translation>Weiter</translation>
     </message>
     <message>
-        <source>Save picture</source>
+        <source>Save image</source>
         <translation>Bild speichern</translation>
     </message>
     <message>
-        <source>no frame of it was stored</source>
+        <source>no frame of it was saved</source>
         <translation>es wurde kein Bild davon gespeichert</translation>
     </message>
 </context>
@@ -10283,7 +10279,7 @@ von oben</translation>
         <translation>Strg+Rad: Zoom</translation>
     </message>
     <message>
-        <source>hidden</source>
+        <source>occluded</source>
         <translation>verdeckt</translation>
     </message>
 </context>
@@ -10387,10 +10383,6 @@ von oben</translation>
 <context>
     <name>SetDialog</name>
     <message>
-        <source>Set</source>
-        <translation>Folge</translation>
-    </message>
-    <message>
         <source>No patient names</source>
         <translation>Keine Namen von Patienten</translation>
     </message>
@@ -10413,10 +10405,6 @@ von oben</translation>
     <message>
         <source>Close</source>
         <translation>Schließen</translation>
-    </message>
-    <message>
-        <source>Sets of exercises</source>
-        <translation>Übungsfolgen</translation>
     </message>
     <message>
         <source>Exercises that run one after the other with the same markers. Each becomes a session of its own.</source>
@@ -10453,6 +10441,14 @@ von oben</translation>
     <message>
         <source>Delete “{name}”? Press again</source>
         <translation>„{name}“ löschen? Noch einmal drücken</translation>
+    </message>
+    <message>
+        <source>Exercise set</source>
+        <translation>Übungsfolge</translation>
+    </message>
+    <message>
+        <source>Exercise sets</source>
+        <translation>Übungsfolgen</translation>
     </message>
 </context>
 <context>
@@ -10646,7 +10642,7 @@ von oben</translation>
     </message>
     <message>
         <source>Report and clinic</source>
-        <translation>Bericht und Klinik</translation>
+        <translation>Bericht und Einrichtung</translation>
     </message>
     <message>
         <source>Safety</source>
@@ -10681,14 +10677,14 @@ von oben</translation>
     </message>
     <message>
         <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
-        <translation>Tragen Sie die Winkel von Handgelenk und Unterarm ein, jetzt mit dem Goniometer gemessen. Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet sie in alle Handgelenkwinkel ein und vermerkt es im Bericht. Gebeugte Finger brauchen keinen Eintrag.</translation>
+        <translation>Messen Sie jetzt die Winkel von Handgelenk und Unterarm mit dem Goniometer und tragen Sie sie ein. Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet sie in alle Handgelenkwinkel ein und vermerkt es im Bericht. Gebeugte Finger brauchen keinen Eintrag.</translation>
     </message>
 </context>
 <context>
     <name>StraightFingers</name>
     <message>
         <source>Are the fingers straight?</source>
-        <translation>Liegen die Finger gerade?</translation>
+        <translation>Sind die Finger gestreckt?</translation>
     </message>
     <message>
         <source>{finger} bent</source>
@@ -10700,7 +10696,7 @@ von oben</translation>
     </message>
     <message>
         <source>A bent finger is measured from its own resting position, with less certainty.</source>
-        <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, und weniger sicher.</translation>
+        <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, mit geringerer Sicherheit.</translation>
     </message>
 </context>
 <context>
@@ -10764,14 +10760,6 @@ von oben</translation>
         <translation>Bericht</translation>
     </message>
     <message>
-        <source>Simulated hand: this is not {name}, and does not count.</source>
-        <translation>Simulierte Hand: Das ist nicht {name} und zählt nicht.</translation>
-    </message>
-    <message>
-        <source>This session does not count.</source>
-        <translation>Diese Sitzung zählt nicht.</translation>
-    </message>
-    <message>
         <source>Measured although uncertain: {findings}</source>
         <translation>Trotz Unsicherheit gemessen: {findings}</translation>
     </message>
@@ -10800,14 +10788,6 @@ von oben</translation>
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>Tracking again {percent}</source>
-        <translation>Neu verfolgt {percent}</translation>
-    </message>
-    <message>
-        <source>How far it is, and Stop</source>
-        <translation>Wie weit es ist, und Stopp</translation>
-    </message>
-    <message>
         <source>New result: choose</source>
         <translation>Neues Ergebnis: wählen</translation>
     </message>
@@ -10820,10 +10800,6 @@ von oben</translation>
         <translation>Wählen</translation>
     </message>
     <message>
-        <source>Old and new over each other</source>
-        <translation>Alt und neu übereinander</translation>
-    </message>
-    <message>
         <source>{count} fps</source>
         <translation>{count} fps</translation>
     </message>
@@ -10832,16 +10808,36 @@ von oben</translation>
         <translation>{count} fps (unter {least})</translation>
     </message>
     <message>
-        <source>{words}, {lost} lost</source>
-        <translation>{words}, {lost} verloren</translation>
-    </message>
-    <message>
         <source>{time} of disk left</source>
         <translation>Platz für {time}</translation>
     </message>
     <message>
-        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
-        <translation>Der Server der Einrichtung antwortet nicht: Bis er es tut, können Patienten und ihre Sitzungen weder gezeigt noch geändert werden. Messen geht weiter.</translation>
+        <source>Simulated hand: not {name}, excluded from analysis.</source>
+        <translation>Simulierte Hand: nicht {name}, von der Auswertung ausgeschlossen.</translation>
+    </message>
+    <message>
+        <source>This session is excluded from analysis.</source>
+        <translation>Diese Sitzung ist von der Auswertung ausgeschlossen.</translation>
+    </message>
+    <message>
+        <source>Re-analysing {percent}</source>
+        <translation>Neue Analyse {percent}</translation>
+    </message>
+    <message>
+        <source>Progress and Stop</source>
+        <translation>Fortschritt und Stopp</translation>
+    </message>
+    <message>
+        <source>Old and new result overlaid</source>
+        <translation>Alt und neu übereinander</translation>
+    </message>
+    <message>
+        <source>{words}, {lost} dropped</source>
+        <translation>{words}, {lost} ausgefallen</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not answer. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
+        <translation>Der Server der Einrichtung antwortet nicht. Bis dahin lassen sich Patienten und Sitzungen weder zeigen noch ändern. Messen ist weiter möglich.</translation>
     </message>
 </context>
 <context>
@@ -10928,16 +10924,16 @@ von oben</translation>
         <translation>Kameratreiber</translation>
     </message>
     <message>
-        <source>Camera rights</source>
-        <translation>Kamerarechte</translation>
-    </message>
-    <message>
         <source>Data folder</source>
         <translation>Datenordner</translation>
     </message>
     <message>
         <source>Disk</source>
         <translation>Speicherplatz</translation>
+    </message>
+    <message>
+        <source>Camera permissions</source>
+        <translation>Kamerarechte</translation>
     </message>
 </context>
 <context>

@@ -32,10 +32,6 @@
         <translation>Deviazione radio-ulnare</translation>
     </message>
     <message>
-        <source>Turning</source>
-        <translation>Rotazione</translation>
-    </message>
-    <message>
         <source>Thumb MCP, abduction–adduction</source>
         <translation>Pollice MCF, abduzione-adduzione</translation>
     </message>
@@ -216,10 +212,6 @@
         <translation>Non confrontate: {why}.</translation>
     </message>
     <message>
-        <source>Occluded frames are not analysed.</source>
-        <translation>Le immagini in cui è coperto non vengono analizzate.</translation>
-    </message>
-    <message>
         <source>No difference beyond measurement error between right and left.</source>
         <translation>Nessuna differenza oltre l’errore di misura fra destra e sinistra.</translation>
     </message>
@@ -249,7 +241,7 @@
     </message>
     <message>
         <source>partly occluded</source>
-        <translation>in parte coperto</translation>
+        <translation>in parte nascosto</translation>
     </message>
     <message>
         <source>not compared: {why}</source>
@@ -380,10 +372,6 @@
         <translation>Non nitida: tenerla ferma o dare più luce.</translation>
     </message>
     <message>
-        <source>Taken. Now another place.</source>
-        <translation>Presa. Ora un altro posto.</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Distanza</translation>
     </message>
@@ -412,16 +400,8 @@
         <translation>Non basta: errore di riproiezione {error} px.</translation>
     </message>
     <message>
-        <source>Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures again.</source>
-        <translation>Nulla è cambiato. Incollare la tavola su qualcosa di piano e rigido, illuminarla e rifare le immagini.</translation>
-    </message>
-    <message>
         <source>Depth and colour are misaligned by {apart} px.</source>
         <translation>Profondità e colore sono sfasati di {apart} px.</translation>
-    </message>
-    <message>
-        <source>Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how.</source>
-        <translation>Nulla è cambiato. Attivare l’allineamento profondità-colore della telecamera: “carpus doctor” dice come.</translation>
     </message>
     <message>
         <source>The reprojection error is {error} pixels.</source>
@@ -432,20 +412,8 @@
         <translation>La telecamera è calibrata. {depth}</translation>
     </message>
     <message>
-        <source>Its depth was not checked.</source>
-        <translation>La profondità non è stata controllata.</translation>
-    </message>
-    <message>
         <source>Depth is correct.</source>
         <translation>La profondità è corretta.</translation>
-    </message>
-    <message>
-        <source>Depth read {share} % too long.</source>
-        <translation>La profondità risultava maggiore del {share} %.</translation>
-    </message>
-    <message>
-        <source>Depth read {share} % too short.</source>
-        <translation>La profondità risultava minore del {share} %.</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -474,10 +442,6 @@
     <message>
         <source>Depth</source>
         <translation>Profondità</translation>
-    </message>
-    <message>
-        <source>too few pictures with depth on the board</source>
-        <translation>troppo poche immagini con profondità sulla tavola</translation>
     </message>
     <message>
         <source>Depth scale</source>
@@ -528,16 +492,8 @@
         <translation>Questa telecamera non è ancora stata controllata.</translation>
     </message>
     <message>
-        <source>Lay the card flat under the camera, all of it in the picture, about 60 cm away.</source>
-        <translation>Mettere il cartoncino piatto sotto la telecamera, tutto nell’immagine, a circa 60 cm.</translation>
-    </message>
-    <message>
-        <source>The card has moved: the seconds begin again.</source>
-        <translation>Il cartoncino si è mosso: i secondi ripartono.</translation>
-    </message>
-    <message>
         <source>{count} of 6 markers visible. Show the whole card in the image, in even light, with its wedge upright.</source>
-        <translation>{count} marcatori visibili su 6. Tutto il cartoncino nell’immagine, luce uniforme, cuneo in piedi.</translation>
+        <translation>{count} marcatori visibili su 6. Mostrare tutto il cartoncino nell’immagine, con luce uniforme e cuneo in piedi.</translation>
     </message>
     <message>
         <source>All six markers are visible. Do not move the card.</source>
@@ -546,10 +502,6 @@
     <message>
         <source>Palmar abduction</source>
         <translation>Abd. palmare</translation>
-    </message>
-    <message>
-        <source>Spread</source>
-        <translation>Divaricazione</translation>
     </message>
     <message>
         <source>TAM</source>
@@ -568,14 +520,6 @@
         <translation>Abduzione palmare {angle}</translation>
     </message>
     <message>
-        <source>Straight</source>
-        <translation>Dritto</translation>
-    </message>
-    <message>
-        <source>Bent {angle}</source>
-        <translation>Flesso {angle}</translation>
-    </message>
-    <message>
         <source>Ulnar {angle}</source>
         <translation>Ulnare {angle}</translation>
     </message>
@@ -590,22 +534,6 @@
     <message>
         <source>Abducted {angle}</source>
         <translation>Abdotto {angle}</translation>
-    </message>
-    <message>
-        <source>in</source>
-        <translation>dentro</translation>
-    </message>
-    <message>
-        <source>out</source>
-        <translation>fuori</translation>
-    </message>
-    <message>
-        <source>Out {angle}</source>
-        <translation>Fuori {angle}</translation>
-    </message>
-    <message>
-        <source>In {angle}</source>
-        <translation>Dentro {angle}</translation>
     </message>
     <message>
         <source>Measurement error (MDC95)</source>
@@ -881,11 +809,11 @@
     </message>
     <message>
         <source>Previous frame</source>
-        <translation>Immagine precedente</translation>
+        <translation>Fotogramma precedente</translation>
     </message>
     <message>
         <source>Next frame</source>
-        <translation>Immagine seguente</translation>
+        <translation>Fotogramma seguente</translation>
     </message>
     <message>
         <source>Exclude or include a repetition</source>
@@ -933,11 +861,11 @@
     </message>
     <message>
         <source>Previous frame to correct</source>
-        <translation>Immagine precedente da correggere</translation>
+        <translation>Fotogramma precedente da correggere</translation>
     </message>
     <message>
         <source>Next frame to correct</source>
-        <translation>Immagine seguente da correggere</translation>
+        <translation>Fotogramma seguente da correggere</translation>
     </message>
     <message>
         <source>Marker not visible here</source>
@@ -949,15 +877,15 @@
     </message>
     <message>
         <source>Next uncertain frame</source>
-        <translation>Immagine incerta seguente</translation>
+        <translation>Fotogramma incerto seguente</translation>
     </message>
     <message>
         <source>Draw the angle on the frame</source>
-        <translation>Disegna l’angolo sull’immagine</translation>
+        <translation>Disegna l’angolo sul fotogramma</translation>
     </message>
     <message>
         <source>This frame with the hand only</source>
-        <translation>Questa immagine con la sola mano</translation>
+        <translation>Questo fotogramma con la sola mano</translation>
     </message>
     <message>
         <source>Tick a session to compare</source>
@@ -1013,7 +941,7 @@
     </message>
     <message>
         <source>Whole frame or hand area</source>
-        <translation>Immagine intera o area della mano</translation>
+        <translation>Fotogramma intero o area della mano</translation>
     </message>
     <message>
         <source>Open and close the patient’s view</source>
@@ -1032,10 +960,6 @@
         <translation>Scambia due marcatori</translation>
     </message>
     <message>
-        <source>New picture</source>
-        <translation>Nuova immagine</translation>
-    </message>
-    <message>
         <source>Click again</source>
         <translation>Rifai il clic</translation>
     </message>
@@ -1046,10 +970,6 @@
     <message>
         <source>Next repetition</source>
         <translation>Ripetizione seguente</translation>
-    </message>
-    <message>
-        <source>Look at the {marker}</source>
-        <translation>Guardare: {marker}</translation>
     </message>
     <message>
         <source>Uncertain</source>
@@ -1096,10 +1016,6 @@
         <translation>Tenere la mano piatta per un momento</translation>
     </message>
     <message>
-        <source>Tracking well</source>
-        <translation>La mano è seguita bene</translation>
-    </message>
-    <message>
         <source>All {count} markers visible</source>
         <translation>Visibili tutti i {count} marcatori</translation>
     </message>
@@ -1125,7 +1041,7 @@
     </message>
     <message>
         <source>Turn the thumb side up</source>
-        <translation>Girare in su il lato del pollice</translation>
+        <translation>Girare verso l’alto il lato del pollice</translation>
     </message>
     <message>
         <source>Raise the hand</source>
@@ -1229,7 +1145,7 @@
     </message>
     <message>
         <source>Turn the little-finger side up</source>
-        <translation>Girare in su il lato del mignolo</translation>
+        <translation>Girare verso l’alto il lato del mignolo</translation>
     </message>
     <message>
         <source>Accept {count} labels</source>
@@ -1316,10 +1232,6 @@
         <translation>Correggi le etichette</translation>
     </message>
     <message>
-        <source>Take that spot</source>
-        <translation>Prendi quel punto</translation>
-    </message>
-    <message>
         <source>{done} of {asked} found</source>
         <translation>{done} su {asked}</translation>
     </message>
@@ -1377,7 +1289,7 @@
     </message>
     <message>
         <source>for {count} frames</source>
-        <translation>per {count} immagini</translation>
+        <translation>per {count} fotogrammi</translation>
     </message>
     <message>
         <source>Ready</source>
@@ -1398,10 +1310,6 @@
     <message>
         <source>up to {angle}</source>
         <translation>fino a {angle}</translation>
-    </message>
-    <message>
-        <source>usual {low}–{high} mm</source>
-        <translation>{low}–{high} mm</translation>
     </message>
     <message>
         <source>ddd d MMM</source>
@@ -1704,18 +1612,6 @@
         <translation>numero della lettura</translation>
     </message>
     <message>
-        <source>mean of both · one point each 0.2 s, {count} points</source>
-        <translation>media di entrambi · un punto ogni 0,2 s, {count} punti</translation>
-    </message>
-    <message>
-        <source>mean of both · one point each reading, {count} readings</source>
-        <translation>media di entrambi · un punto per lettura, {count} letture</translation>
-    </message>
-    <message>
-        <source>by hand, active</source>
-        <translation>a mano, attivo</translation>
-    </message>
-    <message>
         <source>old result</source>
         <translation>risultato vecchio</translation>
     </message>
@@ -1768,10 +1664,6 @@
         <translation>{number} (passiva)</translation>
     </message>
     <message>
-        <source>Place</source>
-        <translation>Posizione</translation>
-    </message>
-    <message>
         <source>Speed</source>
         <translation>Velocità</translation>
     </message>
@@ -1786,10 +1678,6 @@
     <message>
         <source>Flexion</source>
         <translation>Flessione</translation>
-    </message>
-    <message>
-        <source>Spreading</source>
-        <translation>Abduzione</translation>
     </message>
     <message>
         <source>should stay within {angle}</source>
@@ -2048,10 +1936,6 @@
         <translation>mignolo</translation>
     </message>
     <message>
-        <source>Bend together, {one}–{other} (r)</source>
-        <translation>Piegati insieme, {one}–{other} (r)</translation>
-    </message>
-    <message>
         <source>Lag of {other} after {one}</source>
         <translation>{other} dopo {one}: ritardo</translation>
     </message>
@@ -2070,10 +1954,6 @@
     <message>
         <source>Touches, {one}–{other}</source>
         <translation>Contatti, {one}–{other}</translation>
-    </message>
-    <message>
-        <source>too slow to judge</source>
-        <translation>troppo lento per valutare</translation>
     </message>
     <message>
         <source>occluded</source>
@@ -2153,7 +2033,7 @@
     </message>
     <message>
         <source>not graded</source>
-        <translation>senza grado</translation>
+        <translation>non classificato</translation>
     </message>
     <message>
         <source>excellent</source>
@@ -2170,10 +2050,6 @@
     <message>
         <source>poor</source>
         <translation>scarso</translation>
-    </message>
-    <message>
-        <source>spread</source>
-        <translation>divaricazione</translation>
     </message>
     <message>
         <source>Total (TAM)</source>
@@ -2212,16 +2088,8 @@
         <translation>IFD di: {fingers}</translation>
     </message>
     <message>
-        <source>spreading of {fingers}</source>
-        <translation>divaricazione di: {fingers}</translation>
-    </message>
-    <message>
         <source>all fingers</source>
         <translation>tutte le dita</translation>
-    </message>
-    <message>
-        <source>Partly occluded ({sign} = minimum): {parts}. Occluded frames are not analysed.</source>
-        <translation>In parte nascosti ({sign} = minimo): {parts}. I fotogrammi nascosti non vengono analizzati.</translation>
     </message>
     <message>
         <source>Not visible: {joints}.</source>
@@ -2296,10 +2164,6 @@
         <translation>TAM di tutte le dita</translation>
     </message>
     <message>
-        <source>Spreading of all fingers</source>
-        <translation>Divaricazione di tutte le dita</translation>
-    </message>
-    <message>
         <source>Palmar and radial abduction of the thumb</source>
         <translation>Abduzione palmare e radiale del pollice</translation>
     </message>
@@ -2326,10 +2190,6 @@
     <message>
         <source>X (black) to the fingers, Y (blue) from the thumb, Z (orange) up</source>
         <translation>X (nero) verso le dita, Y (blu) via dal pollice, Z (arancione) in su</translation>
-    </message>
-    <message>
-        <source>Place, speed, turning</source>
-        <translation>Posizione, velocità, rotazione</translation>
     </message>
     <message>
         <source>ZYZ angles</source>
@@ -2388,10 +2248,6 @@
         <translation>Dalla prima all’ultima seduta</translation>
     </message>
     <message>
-        <source>Entered by hand</source>
-        <translation>Inseriti a mano</translation>
-    </message>
-    <message>
         <source>not combined with the values above</source>
         <translation>non combinati con i valori sopra</translation>
     </message>
@@ -2406,10 +2262,6 @@
     <message>
         <source>Session report</source>
         <translation>Relazione della seduta</translation>
-    </message>
-    <message>
-        <source>Comment of the therapist</source>
-        <translation>Commento del terapista</translation>
     </message>
     <message>
         <source>SIMULATED</source>
@@ -2442,10 +2294,6 @@
     <message>
         <source>Length</source>
         <translation>Durata</translation>
-    </message>
-    <message>
-        <source>Markers were corrected by hand. The original result is kept.</source>
-        <translation>I marcatori sono stati corretti a mano. Il risultato originale è conservato.</translation>
     </message>
     <message>
         <source>{weeks} before</source>
@@ -2508,10 +2356,6 @@
         <translation>Il commento del terapista è nell’ultima pagina.</translation>
     </message>
     <message>
-        <source>Entered by hand, not measured by Carpus: {values}.</source>
-        <translation>Inseriti a mano, non misurati da Carpus: {values}.</translation>
-    </message>
-    <message>
         <source>Movement measured by camera: {who}</source>
         <translation>Movimento misurato con la telecamera: {who}</translation>
     </message>
@@ -2522,10 +2366,6 @@
     <message>
         <source>On {day} we measured: {exercise}, {hand}. Repetitions analysed: {count}.</source>
         <translation>In data {day} abbiamo misurato: {exercise}, {hand}. Ripetizioni analizzate: {count}.</translation>
-    </message>
-    <message>
-        <source>The comment is too long for this letter; it is in the report.</source>
-        <translation>Il commento è troppo lungo per questa lettera; si trova nella relazione.</translation>
     </message>
     <message>
         <source>Kind regards,</source>
@@ -2561,7 +2401,7 @@
     </message>
     <message>
         <source>smoothed</source>
-        <translation>lisciata</translation>
+        <translation>con smoothing</translation>
     </message>
     <message>
         <source>as measured live</source>
@@ -2582,10 +2422,6 @@
     <message>
         <source>Reference (adults)</source>
         <translation>Riferimento (adulti)</translation>
-    </message>
-    <message>
-        <source>{count} strokes out and back; ranges over the whole recording</source>
-        <translation>{count} movimenti di andata e ritorno; escursioni su tutta la registrazione</translation>
     </message>
     <message>
         <source>1 repetition</source>
@@ -2636,10 +2472,6 @@
         <translation>escursione su tutta la registrazione; nessuna ripetizione</translation>
     </message>
     <message>
-        <source>it is too short</source>
-        <translation>è troppo breve</translation>
-    </message>
-    <message>
         <source>the exercised joint was not visible</source>
         <translation>l’articolazione esercitata non era visibile</translation>
     </message>
@@ -2650,10 +2482,6 @@
     <message>
         <source>no complete movement cycle</source>
         <translation>nessun ciclo di movimento completo</translation>
-    </message>
-    <message>
-        <source>each was quicker than 0.4 s</source>
-        <translation>ognuna più veloce di 0,4 s</translation>
     </message>
     <message>
         <source>{seconds} s occluded and not analysed</source>
@@ -2697,11 +2525,11 @@
     </message>
     <message>
         <source>{name} improved by {size}</source>
-        <translation>{name} migliora di {size}</translation>
+        <translation>{name}: miglioramento di {size}</translation>
     </message>
     <message>
         <source>{name} decreased by {size}</source>
-        <translation>{name} diminuisce di {size}</translation>
+        <translation>{name}: diminuzione di {size}</translation>
     </message>
     <message>
         <source>(MDC {limit})</source>
@@ -2756,18 +2584,6 @@
         <translation>Telecamera calibrata: {day}, {days} giorni prima.</translation>
     </message>
     <message>
-        <source>± = SD between repetitions. A visible angle is known to about {sd}.</source>
-        <translation>± = DS fra le ripetizioni. Un angolo visibile è noto a circa {sd}.</translation>
-    </message>
-    <message>
-        <source>± = SD between repetitions (with fewer than 3: SD of the estimate). A visible angle is known to about {sd}.</source>
-        <translation>± = DS fra le ripetizioni (con meno di 3: DS della stima). Un angolo visibile è noto a circa {sd}.</translation>
-    </message>
-    <message>
-        <source>± = SD of the estimate, as there are too few repetitions. Each angle is known to about {sd}.</source>
-        <translation>± = DS della stima, perché le ripetizioni sono troppo poche. Ogni angolo è noto a circa {sd}.</translation>
-    </message>
-    <message>
         <source>Simulated data: no patient was measured.</source>
         <translation>Dati simulati: nessun paziente è stato misurato.</translation>
     </message>
@@ -2802,10 +2618,6 @@
     <message>
         <source>Corrected on {day}, from {time}.</source>
         <translation>Corretta in data {day}, da {time}.</translation>
-    </message>
-    <message>
-        <source>{share} of {frames}; {dropped} missed</source>
-        <translation>{share} di {frames}; {dropped} perse</translation>
     </message>
     <message>
         <source>{share} % of the time</source>
@@ -2920,10 +2732,6 @@
         <translation>Supinazione, pronazione</translation>
     </message>
     <message>
-        <source>Set: {name}</source>
-        <translation>Sequenza: {name}</translation>
-    </message>
-    <message>
         <source>{movement} {goal} (mean {mean}; detectable change from {told})</source>
         <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {told})</translation>
     </message>
@@ -2942,10 +2750,6 @@
     <message>
         <source>{exercise}, {count} s</source>
         <translation>{exercise}, {count} s</translation>
-    </message>
-    <message>
-        <source>Set “{name}”, {number} of {count}: {part}</source>
-        <translation>Sequenza “{name}”, {number} di {count}: {part}</translation>
     </message>
     <message>
         <source>Wrist flexion–extension</source>
@@ -3173,11 +2977,11 @@
     </message>
     <message>
         <source>Choose the image source, then continue here.</source>
-        <translation>Scegliere la fonte delle immagini, poi proseguire qui.</translation>
+        <translation>Scegliere la sorgente delle immagini, poi proseguire qui.</translation>
     </message>
     <message>
         <source>Take the image when the hand lies flat and every marker is visible.</source>
-        <translation>Scattare l’immagine quando la mano è piatta e tutti i marcatori sono visibili.</translation>
+        <translation>Acquisire l’immagine quando la mano è piatta e tutti i marcatori sono visibili.</translation>
     </message>
     <message>
         <source>Every marker has its label and every check is good: start here.</source>
@@ -3260,14 +3064,6 @@
         <translation>Di ogni registrazione si analizza solo il risultato più recente: {count} precedenti sono esclusi.</translation>
     </message>
     <message>
-        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people, otherwise it is the expert default of Carpus. It holds for the same protocol, side and set-up.</source>
-        <translation>MDC95 (errore di misura) è stata misurata da questo centro in data {date} con {count} persone, altrimenti è il valore predefinito degli esperti di Carpus. A parità di protocollo, lato e preparazione.</translation>
-    </message>
-    <message>
-        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same protocol, side and set-up.</source>
-        <translation>MDC (errore di misura) è il valore predefinito degli esperti di Carpus, non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. A parità di protocollo, lato e preparazione.</translation>
-    </message>
-    <message>
         <source>{size} more</source>
         <translation>{size} in più</translation>
     </message>
@@ -3310,10 +3106,6 @@
     <message>
         <source>Update the firmware with the manufacturer’s RealSense Viewer.</source>
         <translation>Aggiornare il firmware con RealSense Viewer del produttore.</translation>
-    </message>
-    <message>
-        <source>Camera rights, {title}</source>
-        <translation>Permessi della telecamera, {title}</translation>
     </message>
     <message>
         <source>Carpus cannot write to {subject} ({detail}).</source>
@@ -3444,20 +3236,8 @@
         <translation>Installarlo di nuovo.</translation>
     </message>
     <message>
-        <source>Reinstall it, and what it names.</source>
-        <translation>Reinstallarlo, insieme a ciò che nomina.</translation>
-    </message>
-    <message>
-        <source>Install the camera rights named above and plug the camera in again.</source>
-        <translation>Installare i permessi della telecamera nominati sopra e ricollegare la telecamera.</translation>
-    </message>
-    <message>
         <source>Install the packages that contain these libraries.</source>
         <translation>Installare i pacchetti che contengono queste librerie.</translation>
-    </message>
-    <message>
-        <source>It is left to that program.</source>
-        <translation>Viene lasciato a quel programma.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
@@ -3568,12 +3348,8 @@
         <translation>Driver RealSense</translation>
     </message>
     <message>
-        <source>Registration</source>
-        <translation>Allineamento profondità-colore</translation>
-    </message>
-    <message>
         <source>Run “{command}”.</source>
-        <translation>Eseguire «{command}».</translation>
+        <translation>Eseguire “{command}”.</translation>
     </message>
     <message>
         <source>Run: installer/setup.sh run. Or: install the packages that contain these libraries.</source>
@@ -3593,7 +3369,7 @@
     </message>
     <message>
         <source>Turn on depth registration in the camera settings, or track without depth.</source>
-        <translation>Attivare l’allineamento profondità-colore nelle impostazioni della telecamera, o tracciare senza profondità.</translation>
+        <translation>Attivare l’allineamento profondità-colore nelle impostazioni della telecamera, o analizzare senza profondità.</translation>
     </message>
     <message>
         <source>Choose the spot with the question mark, if it is the marker.</source>
@@ -3808,10 +3584,6 @@
         <translation>Polso, tutti i movimenti</translation>
     </message>
     <message>
-        <source>You have no permission to open {node}. Install the camera rights named above, then plug the camera in again.</source>
-        <translation>Manca il permesso di aprire {node}. Installare i permessi della telecamera nominati sopra e ricollegarla.</translation>
-    </message>
-    <message>
         <source>a folder</source>
         <translation>una cartella</translation>
     </message>
@@ -3841,19 +3613,11 @@
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
-        <translation>un file HDF5, ma non una seduta</translation>
+        <translation>un file HDF5, ma non è una seduta</translation>
     </message>
     <message>
         <source>angles deviate by {angle}°</source>
         <translation>gli angoli si scostano di {angle}°</translation>
-    </message>
-    <message>
-        <source>angles by table</source>
-        <translation>angoli da tabella</translation>
-    </message>
-    <message>
-        <source>angles by {format}</source>
-        <translation>angoli da {format}</translation>
     </message>
     <message>
         <source>another computer is sending its data</source>
@@ -3913,7 +3677,7 @@
     </message>
     <message>
         <source>damaged, or not C3D</source>
-        <translation>danneggiato, o non C3D</translation>
+        <translation>danneggiato, o non è C3D</translation>
     </message>
     <message>
         <source>damaged: unknown frame status</source>
@@ -4112,18 +3876,6 @@
         <translation>più valori dichiarati di quanti il file possa contenere</translation>
     </message>
     <message>
-        <source>no limits in it, so the default limits apply</source>
-        <translation>non contiene limiti; valgono quelli predefiniti</translation>
-    </message>
-    <message>
-        <source>it has no marker {name}</source>
-        <translation>non ha alcun marcatore {name}</translation>
-    </message>
-    <message>
-        <source>it has no frame {number}</source>
-        <translation>non ha il fotogramma {number}</translation>
-    </message>
-    <message>
         <source>no frames</source>
         <translation>nessun fotogramma</translation>
     </message>
@@ -4144,20 +3896,8 @@
         <translation>nessuna tabella</translation>
     </message>
     <message>
-        <source>it contains no stored blue spots</source>
-        <translation>non ha salvato punti blu</translation>
-    </message>
-    <message>
         <source>columns do not match their names</source>
         <translation>le colonne non corrispondono ai nomi</translation>
-    </message>
-    <message>
-        <source>its folder is not writable</source>
-        <translation>nella sua cartella non si può scrivere</translation>
-    </message>
-    <message>
-        <source>its process ended</source>
-        <translation>il suo processo è terminato</translation>
     </message>
     <message>
         <source>its side with one marker here</source>
@@ -4224,10 +3964,6 @@
         <translation>tipo di processore sconosciuto {processor}</translation>
     </message>
     <message>
-        <source>marker protocol {subject}</source>
-        <translation>protocollo di marcatori {subject}</translation>
-    </message>
-    <message>
         <source>markers</source>
         <translation>marcatori</translation>
     </message>
@@ -4289,7 +4025,7 @@
     </message>
     <message>
         <source>not MOT: the header has no end</source>
-        <translation>non MOT: manca la fine dell’intestazione</translation>
+        <translation>non è MOT: manca la fine dell’intestazione</translation>
     </message>
     <message>
         <source>no answer for {patience_s} s</source>
@@ -4357,55 +4093,51 @@
     </message>
     <message>
         <source>not JSON</source>
-        <translation>non JSON</translation>
+        <translation>non è JSON</translation>
     </message>
     <message>
         <source>not JSON, line {lineno}</source>
-        <translation>non JSON, riga {lineno}</translation>
-    </message>
-    <message>
-        <source>not TOML: tables within tables without end</source>
-        <translation>non TOML: tabelle dentro tabelle senza fine</translation>
+        <translation>non è JSON, riga {lineno}</translation>
     </message>
     <message>
         <source>not YAML</source>
-        <translation>non YAML</translation>
+        <translation>non è YAML</translation>
     </message>
     <message>
         <source>not a backup</source>
-        <translation>non una copia di sicurezza</translation>
+        <translation>non è una copia di sicurezza</translation>
     </message>
     <message>
         <source>not a camera calibration</source>
-        <translation>non una calibrazione della telecamera</translation>
+        <translation>non è una calibrazione della telecamera</translation>
     </message>
     <message>
         <source>not a folder</source>
-        <translation>non una cartella</translation>
+        <translation>non è una cartella</translation>
     </message>
     <message>
         <source>not an image</source>
-        <translation>non un’immagine</translation>
+        <translation>non è un’immagine</translation>
     </message>
     <message>
         <source>not a raw recording</source>
-        <translation>non una registrazione grezza</translation>
+        <translation>non è una registrazione grezza</translation>
     </message>
     <message>
         <source>not a session file</source>
-        <translation>non un file di seduta</translation>
+        <translation>non è un file di seduta</translation>
     </message>
     <message>
         <source>not a text file</source>
-        <translation>non un file di testo</translation>
+        <translation>non è un file di testo</translation>
     </message>
     <message>
         <source>not an .oni file</source>
-        <translation>non un file .oni</translation>
+        <translation>non è un file .oni</translation>
     </message>
     <message>
         <source>not an object with hand, protocol and markers</source>
-        <translation>non un oggetto con hand, protocol e markers</translation>
+        <translation>non è un oggetto con hand, protocol e markers</translation>
     </message>
     <message>
         <source>excluded from the group values: {people}, fewer than {fewest} pairs</source>
@@ -4413,27 +4145,19 @@
     </message>
     <message>
         <source>not in the patient list</source>
-        <translation>non nell’elenco dei pazienti</translation>
+        <translation>non è nell’elenco dei pazienti</translation>
     </message>
     <message>
         <source>not the part file of a session</source>
-        <translation>non il file parziale di una seduta</translation>
+        <translation>non è il file parziale di una seduta</translation>
     </message>
     <message>
         <source>off</source>
-        <translation>spento</translation>
-    </message>
-    <message>
-        <source>on, turned back by Carpus</source>
-        <translation>acceso, rigirato da Carpus</translation>
+        <translation>non attivo</translation>
     </message>
     <message>
         <source>paths outside the folder</source>
         <translation>percorsi fuori dalla cartella</translation>
-    </message>
-    <message>
-        <source>points by {format}</source>
-        <translation>punti da {format}</translation>
     </message>
     <message>
         <source>print again at 100 % (“actual size”).</source>
@@ -4534,10 +4258,6 @@
     <message>
         <source>{firmware}, the library asks for {wanted}</source>
         <translation>{firmware}, la libreria richiede {wanted}</translation>
-    </message>
-    <message>
-        <source>{folder}, made at the first recording</source>
-        <translation>{folder}, creata alla prima registrazione</translation>
     </message>
     <message>
         <source>{folder}: {there} cannot be written to</source>
@@ -4780,10 +4500,6 @@
         <translation>{wrong}, non possibile per una cartella di fotogrammi</translation>
     </message>
     <message>
-        <source>The language can be changed when nothing is measured or worked on any more.</source>
-        <translation>La lingua si può cambiare quando non è più in corso nessuna misura o elaborazione.</translation>
-    </message>
-    <message>
         <source>Re&amp;view it</source>
         <translation>R&amp;ivedila</translation>
     </message>
@@ -4845,7 +4561,7 @@
     </message>
     <message>
         <source>Ask your IT support. {how}</source>
-        <translation>Chiedere all’assistenza informatica. {how}</translation>
+        <translation>Chiedere al supporto informatico. {how}</translation>
     </message>
     <message>
         <source>Disk encryption</source>
@@ -4901,7 +4617,7 @@
     </message>
     <message>
         <source>Progress</source>
-        <translation>Progressi</translation>
+        <translation>Andamento</translation>
     </message>
     <message>
         <source>Review</source>
@@ -4909,11 +4625,11 @@
     </message>
     <message>
         <source>a session or the progress as a PDF in English, German or Italian</source>
-        <translation>una seduta o i progressi in PDF in inglese, tedesco o italiano</translation>
+        <translation>una seduta o l’andamento in PDF in inglese, tedesco o italiano</translation>
     </message>
     <message>
         <source>wrist and finger angles while the patient moves</source>
-        <translation>gli angoli di polso e dita mentre il paziente si muove</translation>
+        <translation>gli angoli di polso e dita durante il movimento</translation>
     </message>
     <message>
         <source>{count} pairs, {kind}</source>
@@ -5009,7 +4725,7 @@
     </message>
     <message>
         <source>the curves and camera images, and correct single repetitions</source>
-        <translation>le curve e le immagini, correggendo singole ripetizioni</translation>
+        <translation>curve e fotogrammi, con correzione delle singole ripetizioni</translation>
     </message>
     <message>
         <source>the best time shift is at the limit of the search range: it may be larger</source>
@@ -5040,20 +4756,12 @@
         <translation>{people} persone, {sessions} sedute, {kinds}</translation>
     </message>
     <message>
-        <source>it contains an invisible character</source>
-        <translation>contiene un carattere invisibile</translation>
-    </message>
-    <message>
         <source>more than {count} characters</source>
         <translation>più di {count} caratteri</translation>
     </message>
     <message>
         <source>not in the session folder</source>
-        <translation>non nella cartella delle sedute</translation>
-    </message>
-    <message>
-        <source>{count} per stroke, {seconds} s in all</source>
-        <translation>{count} per movimento, {seconds} s in tutto</translation>
+        <translation>non è nella cartella delle sedute</translation>
     </message>
     <message>
         <source>Pauses during the movement, mean</source>
@@ -5084,10 +4792,6 @@
         <translation>{sign} = minimo: la fine di questo movimento era nascosta.</translation>
     </message>
     <message>
-        <source>{sign}: measured by hand that day, active / passive; not combined with the other values.</source>
-        <translation>{sign}: misurato a mano quel giorno, attivo / passivo; non combinato con gli altri valori.</translation>
-    </message>
-    <message>
         <source>Active</source>
         <translation>Attivo</translation>
     </message>
@@ -5098,10 +4802,6 @@
     <message>
         <source>Passive minus active</source>
         <translation>Passivo meno attivo</translation>
-    </message>
-    <message>
-        <source>By hand</source>
-        <translation>A mano</translation>
     </message>
     <message>
         <source>Finger</source>
@@ -5197,7 +4897,7 @@
     </message>
     <message>
         <source>{count} frames are missing: close other programs</source>
-        <translation>{count} immagini mancano: chiudere altri programmi</translation>
+        <translation>{count} fotogrammi mancano: chiudere altri programmi</translation>
     </message>
     <message>
         <source>The computer is busy; every frame is saved</source>
@@ -5281,7 +4981,7 @@
     </message>
     <message>
         <source>not available: fewer than {count} frames a second</source>
-        <translation>non disponibile: meno di {count} immagini al secondo</translation>
+        <translation>non disponibile: meno di {count} fotogrammi al secondo</translation>
     </message>
     <message>
         <source>not available: the calculation failed</source>
@@ -5290,10 +4990,6 @@
     <message>
         <source>{verdict} Checked {day}.</source>
         <translation>{verdict} Controllata il {day}.</translation>
-    </message>
-    <message>
-        <source>Check once more, then calibrate the camera. Still out: do not measure with it.</source>
-        <translation>Ripetere il controllo, poi calibrare la telecamera. Se è ancora fuori limite, non misurare con essa.</translation>
     </message>
     <message>
         <source>never calibrated</source>
@@ -5333,7 +5029,7 @@
     </message>
     <message>
         <source>line {line}: “{cell}” is not a reading</source>
-        <translation>riga {line}: «{cell}» non è una misura</translation>
+        <translation>riga {line}: “{cell}” non è una misura</translation>
     </message>
     <message>
         <source>nothing</source>
@@ -5353,7 +5049,7 @@
     </message>
     <message>
         <source>{name}: cells that are not numbers were excluded ({count}), the first is “{cell}” in line {line}</source>
-        <translation>{name}: celle che non sono numeri escluse ({count}), la prima è «{cell}» alla riga {line}</translation>
+        <translation>{name}: celle che non sono numeri escluse ({count}), la prima è “{cell}” alla riga {line}</translation>
     </message>
     <message>
         <source>{name}: read as {unit}, because there is a row every {step}</source>
@@ -5414,10 +5110,6 @@
     <message>
         <source>rotation from the start</source>
         <translation>rotazione dall’inizio</translation>
-    </message>
-    <message>
-        <source>zero is the neutral hand</source>
-        <translation>zero è la mano neutra</translation>
     </message>
     <message>
         <source>Forearm supination</source>
@@ -5542,10 +5234,6 @@
     <message>
         <source>Passive range does not exceed active range by more than the measurement error.</source>
         <translation>L’escursione passiva non supera quella attiva oltre l’errore di misura.</translation>
-    </message>
-    <message>
-        <source>it was tracked with a filter other than that of Carpus</source>
-        <translation>è stata tracciata con un filtro diverso da quello di Carpus</translation>
     </message>
     <message>
         <source>Record this exercise again.</source>
@@ -5752,20 +5440,16 @@
         <translation>Scegliere la cartella che contiene le sedute.</translation>
     </message>
     <message>
-        <source>Click closer to the marker, or check the light.</source>
-        <translation>Cliccare più vicino al marcatore, o controllare la luce.</translation>
-    </message>
-    <message>
         <source>Click every marker again, in the order shown.</source>
-        <translation>Cliccare di nuovo tutti i marcatori, nell’ordine indicato.</translation>
+        <translation>Rifare i clic su tutti i marcatori, nell’ordine indicato.</translation>
     </message>
     <message>
         <source>Click the marker in the first frame of this recording.</source>
-        <translation>Cliccare il marcatore nel primo fotogramma di questa registrazione.</translation>
+        <translation>Fare clic sul marcatore nel primo fotogramma di questa registrazione.</translation>
     </message>
     <message>
         <source>Click the markers again, or correct the file.</source>
-        <translation>Cliccare di nuovo i marcatori, o correggere il file.</translation>
+        <translation>Rifare i clic sui marcatori, o correggere il file.</translation>
     </message>
     <message>
         <source>Close Carpus on other computers. If that does not help, ask your IT support for write access.</source>
@@ -5984,10 +5668,6 @@
         <translation>Oppure mettere il camera_info.yaml della telecamera accanto alla registrazione.</translation>
     </message>
     <message>
-        <source>Or track the recording again with “carpus track”.</source>
-        <translation>Oppure rianalizzare la registrazione con “carpus track”.</translation>
-    </message>
-    <message>
         <source>Patients</source>
         <translation>Pazienti</translation>
     </message>
@@ -6001,7 +5681,7 @@
     </message>
     <message>
         <source>Plug the camera in again. Tracking and recording then continue automatically.</source>
-        <translation>Ricollegare la telecamera. Il tracciamento e la registrazione riprendono poi automaticamente.</translation>
+        <translation>Ricollegare la telecamera. Misura e registrazione riprendono poi automaticamente.</translation>
     </message>
     <message>
         <source>Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.</source>
@@ -6065,7 +5745,7 @@
     </message>
     <message>
         <source>Smoothing of this session failed: {subject} ({detail}).</source>
-        <translation>La lisciatura di questa seduta non è riuscita: {subject} ({detail}).</translation>
+        <translation>Lo smoothing di questa seduta non è riuscito: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Some frames are smaller and were enlarged: {subject} ({detail}).</source>
@@ -6125,7 +5805,7 @@
     </message>
     <message>
         <source>The check card is not visible: {subject} ({detail}).</source>
-        <translation>La scheda di controllo non è visibile: {subject} ({detail}).</translation>
+        <translation>Il cartoncino di controllo non è visibile: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The clicked markers cannot be read: {subject} ({detail}).</source>
@@ -6137,7 +5817,7 @@
     </message>
     <message>
         <source>The clinic’s records server does not answer: {subject} ({detail}).</source>
-        <translation>Il server delle schede della clinica non risponde: {subject} ({detail}).</translation>
+        <translation>Il server del centro non risponde: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The data on this computer are intact.</source>
@@ -6252,10 +5932,6 @@
         <translation>La protezione da scrittura del registro delle operazioni in {subject} era stata rimossa. Carpus l’ha ripristinata.</translation>
     </message>
     <message>
-        <source>Their sessions are kept apart.</source>
-        <translation>Le loro sedute restano separate.</translation>
-    </message>
-    <message>
         <source>There is no backup in {subject}.</source>
         <translation>In {subject} non ci sono copie di sicurezza.</translation>
     </message>
@@ -6305,7 +5981,7 @@
     </message>
     <message>
         <source>Turn on depth registration in the camera settings next time.</source>
-        <translation>La prossima volta attivare nella telecamera l’allineamento tra profondità e colore.</translation>
+        <translation>La prossima volta attivare l’allineamento profondità-colore nelle impostazioni della telecamera.</translation>
     </message>
     <message>
         <source>Two patients had the name {subject}: the second one now has ({detail}) after it.</source>
@@ -6401,7 +6077,7 @@
     </message>
     <message>
         <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
-        <translation>“carpus track SEDUTA.h5 --output NUOVA.h5” ripete la lisciatura.</translation>
+        <translation>“carpus track SEDUTA.h5 --output NUOVA.h5” ripete lo smoothing.</translation>
     </message>
     <message>
         <source>Last backup: {day}.</source>
@@ -6425,7 +6101,7 @@
     </message>
     <message>
         <source>Not kept: {names}. Also correct a later frame.</source>
-        <translation>Non mantenute: {names}. Correggere anche un’immagine successiva.</translation>
+        <translation>Non mantenute: {names}. Correggere anche un fotogramma successivo.</translation>
     </message>
     <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
@@ -6433,19 +6109,19 @@
     </message>
     <message>
         <source>{count} of {common} frames differ by more than 2°. Largest difference at {time}: {angle}, {size}.</source>
-        <translation>{count} immagini su {common} differiscono di più di 2°. Differenza massima a {time}: {angle}, {size}.</translation>
+        <translation>{count} fotogrammi su {common} differiscono di più di 2°. Differenza massima a {time}: {angle}, {size}.</translation>
     </message>
     <message>
         <source>No frame differs by more than 2°.</source>
-        <translation>Nessuna immagine differisce di più di 2°.</translation>
+        <translation>Nessun fotogramma differisce di più di 2°.</translation>
     </message>
     <message>
         <source>{count} frames have an angle that was missing before.</source>
-        <translation>{count} immagini hanno un angolo che prima mancava.</translation>
+        <translation>{count} fotogrammi hanno un angolo che prima mancava.</translation>
     </message>
     <message>
         <source>Live values are compared, because one of the two results is not smoothed.</source>
-        <translation>Si confrontano i valori dal vivo, perché uno dei due risultati non è ricalcolato a posteriori.</translation>
+        <translation>Si confrontano i valori dal vivo, perché uno dei due risultati è senza smoothing.</translation>
     </message>
     <message>
         <source>excluded: simulated</source>
@@ -6519,6 +6195,326 @@
         <source>line {number} is not a line of GDT</source>
         <translation>la riga {number} non è una riga GDT</translation>
     </message>
+    <message>
+        <source>Rotation</source>
+        <translation>Rotazione</translation>
+    </message>
+    <message>
+        <source>Frames with occluded joints are not analysed.</source>
+        <translation>I fotogrammi con articolazioni nascoste non vengono analizzati.</translation>
+    </message>
+    <message>
+        <source>Image taken. Now another place.</source>
+        <translation>Immagine acquisita. Ora un’altra posizione.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. Glue the board onto something flat and stiff. Take the images again in good light.</source>
+        <translation>Non è stato modificato nulla. Incollare la tavola su qualcosa di piano e rigido, e rifare le immagini con buona luce.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. Turn on depth registration in the camera: “carpus doctor” shows how.</source>
+        <translation>Non è stato modificato nulla. Attivare l’allineamento profondità-colore della telecamera: “carpus doctor” indica come.</translation>
+    </message>
+    <message>
+        <source>Depth was not checked.</source>
+        <translation>La profondità non è stata controllata.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too long.</source>
+        <translation>La profondità risultava maggiore del {share} %.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too short.</source>
+        <translation>La profondità risultava minore del {share} %.</translation>
+    </message>
+    <message>
+        <source>too few images with depth on the board</source>
+        <translation>troppo poche immagini con profondità sulla tavola</translation>
+    </message>
+    <message>
+        <source>Lay the card flat under the camera, fully in view, about 60 cm away.</source>
+        <translation>Mettere il cartoncino piatto sotto la telecamera, tutto inquadrato, a circa 60 cm.</translation>
+    </message>
+    <message>
+        <source>The card moved: the countdown starts again.</source>
+        <translation>Il cartoncino si è mosso: il conto alla rovescia riparte.</translation>
+    </message>
+    <message>
+        <source>Abduction</source>
+        <translation>Abduzione</translation>
+    </message>
+    <message>
+        <source>Extended</source>
+        <translation>Esteso</translation>
+    </message>
+    <message>
+        <source>Flexed {angle}</source>
+        <translation>Flesso {angle}</translation>
+    </message>
+    <message>
+        <source>add.</source>
+        <translation>add.</translation>
+    </message>
+    <message>
+        <source>abd.</source>
+        <translation>abd.</translation>
+    </message>
+    <message>
+        <source>Abd. {angle}</source>
+        <translation>Abd. {angle}</translation>
+    </message>
+    <message>
+        <source>Add. {angle}</source>
+        <translation>Add. {angle}</translation>
+    </message>
+    <message>
+        <source>Check the {marker}</source>
+        <translation>Controllare: {marker}</translation>
+    </message>
+    <message>
+        <source>Hand tracked well</source>
+        <translation>Mano rilevata bene</translation>
+    </message>
+    <message>
+        <source>Use that spot</source>
+        <translation>Usa quel punto</translation>
+    </message>
+    <message>
+        <source>typical {low}–{high} mm</source>
+        <translation>{low}–{high} mm</translation>
+    </message>
+    <message>
+        <source>mean of both · one point every 0.2 s, {count} points</source>
+        <translation>media di entrambi · un punto ogni 0,2 s, {count} punti</translation>
+    </message>
+    <message>
+        <source>mean of both · one point per reading, {count} readings</source>
+        <translation>media di entrambi · un punto per lettura, {count} letture</translation>
+    </message>
+    <message>
+        <source>manual, active</source>
+        <translation>manuale, attivo</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Posizione</translation>
+    </message>
+    <message>
+        <source>Joint flexion, {one}–{other} (r)</source>
+        <translation>Flessione congiunta, {one}–{other} (r)</translation>
+    </message>
+    <message>
+        <source>too slow to assess</source>
+        <translation>troppo lento per valutare</translation>
+    </message>
+    <message>
+        <source>abduction</source>
+        <translation>abduzione</translation>
+    </message>
+    <message>
+        <source>abduction of {fingers}</source>
+        <translation>abduzione di: {fingers}</translation>
+    </message>
+    <message>
+        <source>Partly occluded ({sign} = minimum): {parts}. Frames with occluded joints are not analysed.</source>
+        <translation>In parte nascosti ({sign} = minimo): {parts}. I fotogrammi con articolazioni nascoste non vengono analizzati.</translation>
+    </message>
+    <message>
+        <source>Abduction of all fingers</source>
+        <translation>Abduzione di tutte le dita</translation>
+    </message>
+    <message>
+        <source>Position, speed, rotation</source>
+        <translation>Posizione, velocità, rotazione</translation>
+    </message>
+    <message>
+        <source>Manual measurements</source>
+        <translation>Misure manuali</translation>
+    </message>
+    <message>
+        <source>Therapist’s comment</source>
+        <translation>Commento del terapista</translation>
+    </message>
+    <message>
+        <source>Markers were corrected manually. The original result is kept.</source>
+        <translation>I marcatori sono stati corretti manualmente. Il risultato originale è conservato.</translation>
+    </message>
+    <message>
+        <source>Manual measurements, not made by Carpus: {values}.</source>
+        <translation>Misure manuali, non eseguite da Carpus: {values}.</translation>
+    </message>
+    <message>
+        <source>The comment is too long for this letter. It is in the report.</source>
+        <translation>Il commento è troppo lungo per questa lettera. Si trova nella relazione.</translation>
+    </message>
+    <message>
+        <source>{count} movement cycles; range over the whole recording</source>
+        <translation>{count} cicli di movimento; escursione su tutta la registrazione</translation>
+    </message>
+    <message>
+        <source>too short</source>
+        <translation>troppo breve</translation>
+    </message>
+    <message>
+        <source>each was shorter than 0.4 s</source>
+        <translation>ognuna più breve di 0,4 s</translation>
+    </message>
+    <message>
+        <source>± = SD between repetitions. The SD of a visible angle is about {sd}.</source>
+        <translation>± = DS fra le ripetizioni. La DS di un angolo visibile è di circa {sd}.</translation>
+    </message>
+    <message>
+        <source>± = SD between repetitions (with fewer than 3: SD of the estimate). The SD of a visible angle is about {sd}.</source>
+        <translation>± = DS fra le ripetizioni (con meno di 3: DS della stima). La DS di un angolo visibile è di circa {sd}.</translation>
+    </message>
+    <message>
+        <source>± = SD of the estimate, as there are too few repetitions. The SD of an angle is about {sd}.</source>
+        <translation>± = DS della stima, perché le ripetizioni sono troppo poche. La DS di un angolo è di circa {sd}.</translation>
+    </message>
+    <message>
+        <source>{share} of {frames}; {dropped} dropped</source>
+        <translation>{share} di {frames}; {dropped} persi</translation>
+    </message>
+    <message>
+        <source>Exercise set: {name}</source>
+        <translation>Sequenza: {name}</translation>
+    </message>
+    <message>
+        <source>Exercise set “{name}”, {number} of {count}: {part}</source>
+        <translation>Sequenza “{name}”, {number} di {count}: {part}</translation>
+    </message>
+    <message>
+        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people. Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up.</source>
+        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti è il valore predefinito degli esperti di Carpus. Vale a parità di marcatori, lato e preparazione.</translation>
+    </message>
+    <message>
+        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
+        <translation>MDC (errore di misura): è il valore predefinito degli esperti di Carpus, non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
+    </message>
+    <message>
+        <source>Camera permissions, {title}</source>
+        <translation>Permessi della telecamera, {title}</translation>
+    </message>
+    <message>
+        <source>Reinstall it and the library it names.</source>
+        <translation>Reinstallarlo, insieme alla libreria nominata.</translation>
+    </message>
+    <message>
+        <source>Install the camera permissions named above and plug the camera in again.</source>
+        <translation>Installare i permessi della telecamera nominati sopra e ricollegare la telecamera.</translation>
+    </message>
+    <message>
+        <source>Carpus did not write to it.</source>
+        <translation>Carpus non vi ha scritto.</translation>
+    </message>
+    <message>
+        <source>Depth registration</source>
+        <translation>Allineamento profondità-colore</translation>
+    </message>
+    <message>
+        <source>You have no permission to open {node}. Install the camera permissions named above, then plug the camera in again.</source>
+        <translation>Manca il permesso di aprire {node}. Installare i permessi della telecamera nominati sopra e ricollegarla.</translation>
+    </message>
+    <message>
+        <source>angles from a table</source>
+        <translation>angoli da una tabella</translation>
+    </message>
+    <message>
+        <source>angles from {format}</source>
+        <translation>angoli da {format}</translation>
+    </message>
+    <message>
+        <source>no limits, so the default limits apply</source>
+        <translation>nessun limite; valgono quelli predefiniti</translation>
+    </message>
+    <message>
+        <source>no marker {name}</source>
+        <translation>manca il marcatore {name}</translation>
+    </message>
+    <message>
+        <source>no frame {number}</source>
+        <translation>manca il fotogramma {number}</translation>
+    </message>
+    <message>
+        <source>no saved blue spots</source>
+        <translation>nessun punto blu salvato</translation>
+    </message>
+    <message>
+        <source>folder not writable</source>
+        <translation>cartella non scrivibile</translation>
+    </message>
+    <message>
+        <source>process ended</source>
+        <translation>processo terminato</translation>
+    </message>
+    <message>
+        <source>marker set {subject}</source>
+        <translation>insieme di marcatori {subject}</translation>
+    </message>
+    <message>
+        <source>not TOML: endlessly nested tables</source>
+        <translation>non è TOML: tabelle annidate senza fine</translation>
+    </message>
+    <message>
+        <source>on, corrected by Carpus</source>
+        <translation>attivo, corretto da Carpus</translation>
+    </message>
+    <message>
+        <source>points from {format}</source>
+        <translation>punti da {format}</translation>
+    </message>
+    <message>
+        <source>{folder}, created at the first recording</source>
+        <translation>{folder}, creata alla prima registrazione</translation>
+    </message>
+    <message>
+        <source>The language can be changed once no measurement or analysis is running.</source>
+        <translation>La lingua si può cambiare quando non è in corso nessuna misura o analisi.</translation>
+    </message>
+    <message>
+        <source>invisible character</source>
+        <translation>carattere invisibile</translation>
+    </message>
+    <message>
+        <source>{count} per movement, {seconds} s in total</source>
+        <translation>{count} per movimento, {seconds} s in totale</translation>
+    </message>
+    <message>
+        <source>{sign}: manual measurement of that day, active / passive; not combined with the other values.</source>
+        <translation>{sign}: misura manuale di quel giorno, attiva / passiva; non combinata con gli altri valori.</translation>
+    </message>
+    <message>
+        <source>Manual</source>
+        <translation>Manuale</translation>
+    </message>
+    <message>
+        <source>Check once more, then calibrate the camera. If it is still out of tolerance, do not measure with it.</source>
+        <translation>Ripetere il controllo, poi calibrare la telecamera. Se è ancora fuori tolleranza, non misurare con essa.</translation>
+    </message>
+    <message>
+        <source>0° = neutral position</source>
+        <translation>0° = posizione neutra</translation>
+    </message>
+    <message>
+        <source>Neutral</source>
+        <translation>Neutro</translation>
+    </message>
+    <message>
+        <source>tracked with another filter than that of Carpus</source>
+        <translation>analizzata con un filtro diverso da quello di Carpus</translation>
+    </message>
+    <message>
+        <source>Or analyse the recording again with “carpus track”.</source>
+        <translation>Oppure rianalizzare la registrazione con “carpus track”.</translation>
+    </message>
+    <message>
+        <source>Ab-/adduction</source>
+        <translation>Ab-/adduzione</translation>
+    </message>
+    <message>
+        <source>Their sessions stay separate.</source>
+        <translation>Le loro sedute restano separate.</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -6527,12 +6523,12 @@
         <translation>Ancora nessun appuntamento</translation>
     </message>
     <message>
-        <source>When next? Day, month, year</source>
-        <translation>Quando? Giorno, mese, anno</translation>
+        <source>Next appointment: day, month, year</source>
+        <translation>Prossimo appuntamento: giorno, mese, anno</translation>
     </message>
     <message>
-        <source>When next? That day is over</source>
-        <translation>Quando? Quel giorno è passato</translation>
+        <source>Next appointment: this day has passed</source>
+        <translation>Prossimo appuntamento: giorno già passato</translation>
     </message>
 </context>
 <context>
@@ -6552,10 +6548,6 @@
     <message>
         <source>Backup</source>
         <translation>Copia di sicurezza</translation>
-    </message>
-    <message>
-        <source>Backs up the whole data folder: patients, sessions, images and log. You can measure meanwhile.</source>
-        <translation>Copia tutta la cartella dei dati: pazienti, sedute, immagini e registro. Nel frattempo si può misurare.</translation>
     </message>
     <message>
         <source>then verified</source>
@@ -6604,6 +6596,10 @@
     <message>
         <source>{percent} %</source>
         <translation>{percent} %</translation>
+    </message>
+    <message>
+        <source>Backs up the whole data folder: patients, sessions, images and log. You can continue measuring.</source>
+        <translation>Copia tutta la cartella dei dati: pazienti, sedute, immagini e registro. Nel frattempo si può misurare.</translation>
     </message>
 </context>
 <context>
@@ -6681,7 +6677,7 @@
     </message>
     <message>
         <source>Images are taken automatically when the board is still, sharp and in a new position.</source>
-        <translation>Le immagini vengono riprese automaticamente quando la tavola è ferma, nitida e in una nuova posizione.</translation>
+        <translation>Le immagini vengono acquisite automaticamente quando la tavola è ferma, nitida e in una nuova posizione.</translation>
     </message>
     <message>
         <source>Opening the camera…</source>
@@ -6705,7 +6701,7 @@
     </message>
     <message>
         <source>No frames from the camera</source>
-        <translation>Nessuna immagine dalla telecamera</translation>
+        <translation>Nessun fotogramma dalla telecamera</translation>
     </message>
     <message>
         <source>Enough images</source>
@@ -6787,7 +6783,7 @@
     </message>
     <message>
         <source>Use even light without reflections. The screen shows where to hold the board. Images are taken automatically when it is still, sharp and in a new position. No image is saved, and nothing changes until you confirm.</source>
-        <translation>Usare luce uniforme, senza riflessi. Lo schermo indica dove tenere la tavola. Le immagini vengono riprese automaticamente quando è ferma, nitida e in una nuova posizione. Nessuna immagine viene salvata e nulla cambia prima della conferma.</translation>
+        <translation>Usare luce uniforme, senza riflessi. Lo schermo indica dove tenere la tavola. Le immagini vengono acquisite automaticamente quando è ferma, nitida e in una nuova posizione. Nessuna immagine viene salvata e nulla cambia prima della conferma.</translation>
     </message>
     <message>
         <source>The camera is connected.</source>
@@ -6882,12 +6878,12 @@
         <translation>Apertura della registrazione.</translation>
     </message>
     <message>
-        <source>The simulated patient is being drawn.</source>
-        <translation>Il paziente simulato viene disegnato.</translation>
-    </message>
-    <message>
         <source>Choose the source again</source>
         <translation>Scegli di nuovo la sorgente</translation>
+    </message>
+    <message>
+        <source>The simulated patient is being prepared.</source>
+        <translation>Il paziente simulato viene preparato.</translation>
     </message>
 </context>
 <context>
@@ -6953,7 +6949,7 @@
     </message>
     <message>
         <source>Which image source?</source>
-        <translation>Quale fonte di immagini?</translation>
+        <translation>Quale sorgente di immagini?</translation>
     </message>
     <message>
         <source>Before you continue</source>
@@ -6978,10 +6974,6 @@
     <message>
         <source>No camera</source>
         <translation>Nessuna telecamera</translation>
-    </message>
-    <message>
-        <source>A stored recording: a file of Carpus or of the camera (.oni, .db3), or a folder of pictures.</source>
-        <translation>Una registrazione salvata: un file di Carpus o della telecamera (.oni, .db3), o una cartella di immagini.</translation>
     </message>
     <message>
         <source>Open the camera</source>
@@ -7016,7 +7008,11 @@
         <translation>Scegliere una registrazione</translation>
     </message>
     <message>
-        <source>Choose a folder of pictures</source>
+        <source>A saved recording: a file of Carpus or of the camera (.oni, .db3), or an image folder.</source>
+        <translation>Una registrazione salvata: un file di Carpus o della telecamera (.oni, .db3), o una cartella di immagini.</translation>
+    </message>
+    <message>
+        <source>Choose an image folder</source>
         <translation>Scegliere una cartella di immagini</translation>
     </message>
 </context>
@@ -7158,7 +7154,7 @@
     <name>CorrectionFrameView</name>
     <message>
         <source>Frame with labels to correct</source>
-        <translation>Immagine con le etichette da correggere</translation>
+        <translation>Fotogramma con le etichette da correggere</translation>
     </message>
     <message>
         <source>{marker}, before</source>
@@ -7166,7 +7162,7 @@
     </message>
     <message>
         <source>{marker}, occluded</source>
-        <translation>{marker}, coperto</translation>
+        <translation>{marker}, nascosto</translation>
     </message>
     <message>
         <source>{marker}?</source>
@@ -7181,7 +7177,7 @@
     </message>
     <message>
         <source>Next uncertain frame</source>
-        <translation>Immagine incerta seguente</translation>
+        <translation>Fotogramma incerto seguente</translation>
     </message>
     <message>
         <source>Not visible here</source>
@@ -7201,7 +7197,7 @@
     </message>
     <message>
         <source>In this frame: distance to the expected position</source>
-        <translation>In questa immagine: distanza dalla posizione attesa</translation>
+        <translation>In questo fotogramma: distanza dalla posizione attesa</translation>
     </message>
     <message>
         <source>Drag</source>
@@ -7217,23 +7213,23 @@
     </message>
     <message>
         <source>frame</source>
-        <translation>immagine</translation>
+        <translation>fotogramma</translation>
     </message>
     <message>
         <source>next uncertain</source>
-        <translation>incerta seguente</translation>
+        <translation>incerto seguente</translation>
     </message>
     <message>
         <source>Reading the frame…</source>
-        <translation>Lettura dell’immagine…</translation>
+        <translation>Lettura del fotogramma…</translation>
     </message>
     <message>
         <source>Uncertain at {time}</source>
-        <translation>Incerta a {time}</translation>
+        <translation>Incerto a {time}</translation>
     </message>
     <message>
         <source>Frame at {time}</source>
-        <translation>Immagine a {time}</translation>
+        <translation>Fotogramma a {time}</translation>
     </message>
     <message>
         <source>Drag “{marker}” to its marker</source>
@@ -7245,11 +7241,11 @@
     </message>
     <message>
         <source>Drag a label in the frame, or select it below and click its marker.</source>
-        <translation>Trascinare un’etichetta nell’immagine, o selezionarla sotto e fare clic sul suo marcatore.</translation>
+        <translation>Trascinare un’etichetta nel fotogramma, o selezionarla sotto e fare clic sul suo marcatore.</translation>
     </message>
     <message>
         <source>No video was saved. These are the {count} blue spots of this frame. Drag a label to its spot.</source>
-        <translation>Nessun video salvato. Questi sono i {count} punti blu di questa immagine. Trascinare un’etichetta sul suo punto.</translation>
+        <translation>Nessun video salvato. Questi sono i {count} punti blu di questo fotogramma. Trascinare un’etichetta sul suo punto.</translation>
     </message>
     <message>
         <source>Re-analyse from {time}</source>
@@ -7285,7 +7281,7 @@
     </message>
     <message>
         <source>Show that frame</source>
-        <translation>Mostra quell’immagine</translation>
+        <translation>Mostra quel fotogramma</translation>
     </message>
     <message>
         <source>undo</source>
@@ -7365,10 +7361,6 @@
         <translation>Angoli, immagini, note e punteggi del dolore di questa seduta ({size} MB, file: {files}).</translation>
     </message>
     <message>
-        <source>The patient’s entry: real name, notes, values measured by hand. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
-        <translation>La scheda del paziente: nome vero, note, valori misurati a mano. Tutte le sedute ({count}): angoli, immagini, note ({size} MB, file: {files}).</translation>
-    </message>
-    <message>
         <source>Backups up to {day} and copies elsewhere.</source>
         <translation>Copie di sicurezza fino al {day} e copie altrove.</translation>
     </message>
@@ -7403,6 +7395,10 @@
     <message>
         <source>The patient’s other sessions.</source>
         <translation>Le altre sedute del paziente.</translation>
+    </message>
+    <message>
+        <source>The patient’s entry: real name, notes, manual measurements. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
+        <translation>La scheda del paziente: nome vero, note, misure manuali. Tutte le sedute ({count}): angoli, immagini, note ({size} MB, file: {files}).</translation>
     </message>
 </context>
 <context>
@@ -7548,10 +7544,6 @@
 <context>
     <name>ExerciseScreen</name>
     <message>
-        <source>Sets of exercises…</source>
-        <translation>Sequenze di esercizi…</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>senza</translation>
     </message>
@@ -7600,10 +7592,6 @@
         <translation>Quale esercizio?</translation>
     </message>
     <message>
-        <source>This set</source>
-        <translation>Questa serie</translation>
-    </message>
-    <message>
         <source>Hand to measure</source>
         <translation>Mano da misurare</translation>
     </message>
@@ -7621,7 +7609,7 @@
     </message>
     <message>
         <source>Needed to see and correct markers later: {size} MB per minute; space for {time}.</source>
-        <translation>Servono per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
+        <translation>Serve per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
     </message>
     <message>
         <source>Goal, {movement}</source>
@@ -7630,6 +7618,14 @@
     <message>
         <source>Which hand is measured?</source>
         <translation>Quale mano si misura?</translation>
+    </message>
+    <message>
+        <source>Exercise sets…</source>
+        <translation>Sequenze di esercizi…</translation>
+    </message>
+    <message>
+        <source>This recording</source>
+        <translation>Questa registrazione</translation>
     </message>
 </context>
 <context>
@@ -7749,11 +7745,11 @@
     </message>
     <message>
         <source>coupled to the PIP</source>
-        <translation>legata alla IFP</translation>
+        <translation>accoppiata alla IFP</translation>
     </message>
     <message>
         <source>coupled</source>
-        <translation>legata</translation>
+        <translation>accoppiata</translation>
     </message>
     <message>
         <source>Last 10 s</source>
@@ -7764,8 +7760,8 @@
         <translation>Flessione</translation>
     </message>
     <message>
-        <source>Spreading</source>
-        <translation>Divaricazione</translation>
+        <source>Abduction</source>
+        <translation>Abduzione</translation>
     </message>
 </context>
 <context>
@@ -7778,24 +7774,12 @@
 <context>
     <name>GuidancePanel</name>
     <message>
-        <source>Picture</source>
-        <translation>Immagine</translation>
-    </message>
-    <message>
         <source>Lay the hand flat and still</source>
         <translation>Mettere la mano piatta e ferma</translation>
     </message>
     <message>
-        <source>Palm down, fingers as straight as possible, forearm in line. Then take the picture.</source>
-        <translation>Palmo in giù, dita il più dritte possibile, avambraccio in linea. Poi scattare l’immagine.</translation>
-    </message>
-    <message>
         <source>Checks</source>
         <translation>Controlli</translation>
-    </message>
-    <message>
-        <source>Take the picture</source>
-        <translation>Scatta l’immagine</translation>
     </message>
     <message>
         <source>Marker {number} of {asked}</source>
@@ -7808,10 +7792,6 @@
     <message>
         <source>Checking the markers…</source>
         <translation>Controllo dei marcatori…</translation>
-    </message>
-    <message>
-        <source>Hold the hand in this position until the measuring begins.</source>
-        <translation>Tenere la mano in questa posizione finché inizia la misura.</translation>
     </message>
     <message>
         <source>Checking…</source>
@@ -7850,10 +7830,6 @@
         <translation>Ricerca dei marcatori…</translation>
     </message>
     <message>
-        <source>Click by hand</source>
-        <translation>Clic a mano</translation>
-    </message>
-    <message>
         <source>Labels to confirm</source>
         <translation>Etichette da confermare</translation>
     </message>
@@ -7872,6 +7848,26 @@
     <message>
         <source>Start anyway (&amp;uncertain)</source>
         <translation>Inizia &amp;comunque</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>Immagine</translation>
+    </message>
+    <message>
+        <source>Palm down, fingers as straight as possible, forearm in line. Then take the image.</source>
+        <translation>Palmo in giù, dita il più estese possibile, avambraccio in linea. Poi acquisire l’immagine.</translation>
+    </message>
+    <message>
+        <source>Take the image</source>
+        <translation>Acquisisci l’immagine</translation>
+    </message>
+    <message>
+        <source>Hold the hand in this position until measuring begins.</source>
+        <translation>Tenere la mano in questa posizione finché inizia la misura.</translation>
+    </message>
+    <message>
+        <source>Click the markers</source>
+        <translation>Clic sui marcatori</translation>
     </message>
 </context>
 <context>
@@ -8009,10 +8005,6 @@ dall’alto</translation>
         <translation>Una pagina con i valori di questa seduta e il commento. Gli indirizzi restano nell’elenco.</translation>
     </message>
     <message>
-        <source>Written to before</source>
-        <translation>Già scritto a</translation>
-    </message>
-    <message>
         <source>Name and address, up to {count} lines</source>
         <translation>Nome e indirizzo, fino a {count} righe</translation>
     </message>
@@ -8025,12 +8017,16 @@ dall’alto</translation>
         <translation>Stampa il nome vero del paziente</translation>
     </message>
     <message>
-        <source>The name goes into this letter only. Anybody who gets the file can read it.</source>
-        <translation>Il nome entra solo in questa lettera. Chiunque riceva il file può leggerlo.</translation>
-    </message>
-    <message>
         <source>Show the letter</source>
         <translation>Mostra la lettera</translation>
+    </message>
+    <message>
+        <source>Previous recipients</source>
+        <translation>Destinatari precedenti</translation>
+    </message>
+    <message>
+        <source>The name appears in this letter only. Anyone who has the file can read it.</source>
+        <translation>Il nome compare solo in questa lettera. Chi ha il file può leggerlo.</translation>
     </message>
 </context>
 <context>
@@ -8097,10 +8093,6 @@ dall’alto</translation>
         <translation>La registrazione è andata in pausa automaticamente a {time}.</translation>
     </message>
     <message>
-        <source>{time} and {count} full repetitions are stored.</source>
-        <translation>Salvati {time} e {count} ripetizioni complete.</translation>
-    </message>
-    <message>
         <source>Stop and review</source>
         <translation>Interrompi e rivedi</translation>
     </message>
@@ -8126,7 +8118,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Continue measuring or stop now?</source>
-        <translation>Continuare a misurare o fermare ora?</translation>
+        <translation>Continuare a misurare o interrompere ora?</translation>
     </message>
     <message>
         <source>Stop recording?</source>
@@ -8134,7 +8126,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Continue measuring, or stop: the session is saved and opens in the review.</source>
-        <translation>Continuare a misurare o fermare: la seduta viene salvata e si apre nella revisione.</translation>
+        <translation>Continuare a misurare o interrompere: la seduta viene salvata e si apre nella revisione.</translation>
     </message>
     <message>
         <source>Stop, save and close</source>
@@ -8150,7 +8142,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Continue measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation>Continuare a misurare, o fermare: la seduta viene salvata e Carpus si chiude.</translation>
+        <translation>Continuare a misurare o interrompere: la seduta viene salvata e Carpus si chiude.</translation>
+    </message>
+    <message>
+        <source>{time} and {count} full repetitions are saved.</source>
+        <translation>Sono salvati {time} e {count} ripetizioni complete.</translation>
     </message>
 </context>
 <context>
@@ -8165,7 +8161,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>The recording plays from its first frame</source>
-        <translation>La registrazione riparte dalla prima immagine</translation>
+        <translation>La registrazione riparte dal primo fotogramma</translation>
     </message>
     <message>
         <source>Waiting for the camera image</source>
@@ -8310,7 +8306,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Ask your IT support to remove the PIN. No data are lost.</source>
-        <translation>Chiedere all’assistenza informatica di rimuovere il PIN. Nessun dato va perso.</translation>
+        <translation>Chiedere al supporto informatico di rimuovere il PIN. Nessun dato va perso.</translation>
     </message>
     <message>
         <source>Locked at {time}.</source>
@@ -8442,7 +8438,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Manual and Carpus values stay separate</source>
-        <translation>Misure manuali e misure Carpus restano separate</translation>
+        <translation>I valori manuali e quelli di Carpus restano separati</translation>
     </message>
     <message>
         <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
@@ -8457,10 +8453,6 @@ dall’alto</translation>
         <translation>I valori si salvano con iniziali e ora. Le modifiche successive restano visibili.</translation>
     </message>
     <message>
-        <source>Measured by hand, {day}</source>
-        <translation>Misurato a mano, {day}</translation>
-    </message>
-    <message>
         <source>By {initials}.</source>
         <translation>Di {initials}.</translation>
     </message>
@@ -8468,28 +8460,16 @@ dall’alto</translation>
         <source>Other measures…</source>
         <translation>Altre misure…</translation>
     </message>
+    <message>
+        <source>Manual measurements, {day}</source>
+        <translation>Misure manuali, {day}</translation>
+    </message>
 </context>
 <context>
     <name>ManualValueChart</name>
     <message>
         <source>{name} over the days</source>
         <translation>{name} nei giorni</translation>
-    </message>
-    <message>
-        <source>Nothing measured by hand yet.</source>
-        <translation>Ancora nulla misurato a mano.</translation>
-    </message>
-    <message>
-        <source>by hand, active</source>
-        <translation>a mano, attivo</translation>
-    </message>
-    <message>
-        <source>by hand</source>
-        <translation>a mano</translation>
-    </message>
-    <message>
-        <source>by hand, passive</source>
-        <translation>a mano, passivo</translation>
     </message>
     <message>
         <source>Carpus, mean</source>
@@ -8507,13 +8487,25 @@ dall’alto</translation>
         <source>active {value}</source>
         <translation>attivo {value}</translation>
     </message>
+    <message>
+        <source>No manual measurements yet.</source>
+        <translation>Ancora nessuna misura manuale.</translation>
+    </message>
+    <message>
+        <source>manual, active</source>
+        <translation>manuale, attivo</translation>
+    </message>
+    <message>
+        <source>manual</source>
+        <translation>manuale</translation>
+    </message>
+    <message>
+        <source>manual, passive</source>
+        <translation>manuale, passivo</translation>
+    </message>
 </context>
 <context>
     <name>MarkerFrameView</name>
-    <message>
-        <source>Picture to click the markers on</source>
-        <translation>Immagine su cui fare clic sui marcatori</translation>
-    </message>
     <message>
         <source>{marker}?</source>
         <translation>{marker}?</translation>
@@ -8529,6 +8521,10 @@ dall’alto</translation>
     <message>
         <source>Found · {width} px</source>
         <translation>Trovato · {width} px</translation>
+    </message>
+    <message>
+        <source>Image to click the markers on</source>
+        <translation>Immagine su cui fare clic sui marcatori</translation>
     </message>
 </context>
 <context>
@@ -8570,7 +8566,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>occluded</source>
-        <translation>coperto</translation>
+        <translation>nascosto</translation>
     </message>
     <message>
         <source>{now}, was {size} mm</source>
@@ -8579,10 +8575,6 @@ dall’alto</translation>
 </context>
 <context>
     <name>MarkersFlow</name>
-    <message>
-        <source>Leave the markers?</source>
-        <translation>Lasciare i marcatori?</translation>
-    </message>
     <message>
         <source>The labels given on this image would be lost.</source>
         <translation>Le etichette date su questa immagine andrebbero perse.</translation>
@@ -8619,6 +8611,10 @@ dall’alto</translation>
         <source>Open it again</source>
         <translation>Riapri</translation>
     </message>
+    <message>
+        <source>Leave this screen?</source>
+        <translation>Uscire da questa schermata?</translation>
+    </message>
 </context>
 <context>
     <name>MarkersScreen</name>
@@ -8633,10 +8629,6 @@ dall’alto</translation>
     <message>
         <source>Click all again</source>
         <translation>Rifai tutti i clic</translation>
-    </message>
-    <message>
-        <source>New picture</source>
-        <translation>Nuova immagine</translation>
     </message>
     <message>
         <source>accept</source>
@@ -8657,10 +8649,6 @@ dall’alto</translation>
     <message>
         <source>next marker</source>
         <translation>marcatore seguente</translation>
-    </message>
-    <message>
-        <source>larger last picture</source>
-        <translation>ultima immagine più grande</translation>
     </message>
     <message>
         <source>Waiting for the camera image</source>
@@ -8705,6 +8693,14 @@ dall’alto</translation>
     <message>
         <source>All labels are correct</source>
         <translation>Tutte le etichette sono corrette</translation>
+    </message>
+    <message>
+        <source>New image</source>
+        <translation>Nuova immagine</translation>
+    </message>
+    <message>
+        <source>enlarge last image</source>
+        <translation>ingrandisci ultima immagine</translation>
     </message>
 </context>
 <context>
@@ -8858,7 +8854,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>coupled to the PIP</source>
-        <translation>legata alla IFP</translation>
+        <translation>accoppiata alla IFP</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -9041,7 +9037,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>In the clinic’s &amp;list</source>
-        <translation>Nell’elen&amp;co della clinica</translation>
+        <translation>Nell’elen&amp;co del centro</translation>
     </message>
     <message>
         <source>Name: {count} characters too long</source>
@@ -9286,14 +9282,6 @@ dall’alto</translation>
 <context>
     <name>PlaybackControls</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Immagine precedente (←)</translation>
-    </message>
-    <message>
-        <source>Next picture (→)</source>
-        <translation>Immagine seguente (→)</translation>
-    </message>
-    <message>
         <source>Play (Space)</source>
         <translation>Riproduci (Spazio)</translation>
     </message>
@@ -9309,17 +9297,17 @@ dall’alto</translation>
         <source>{factor}× speed</source>
         <translation>velocità {factor}×</translation>
     </message>
+    <message>
+        <source>Previous frame (←)</source>
+        <translation>Fotogramma precedente (←)</translation>
+    </message>
+    <message>
+        <source>Next frame (→)</source>
+        <translation>Fotogramma seguente (→)</translation>
+    </message>
 </context>
 <context>
     <name>Player</name>
-    <message>
-        <source>What is drawn</source>
-        <translation>Che cosa è disegnato</translation>
-    </message>
-    <message>
-        <source>What is drawn of the movement (V)</source>
-        <translation>Che cosa è disegnato del movimento (V)</translation>
-    </message>
     <message>
         <source>Angles</source>
         <translation>Angoli</translation>
@@ -9327,10 +9315,6 @@ dall’alto</translation>
     <message>
         <source>Path</source>
         <translation>Percorso</translation>
-    </message>
-    <message>
-        <source>Place, speed</source>
-        <translation>Posizione, velocità</translation>
     </message>
     <message>
         <source>ZYZ</source>
@@ -9356,6 +9340,18 @@ dall’alto</translation>
         <source>frame</source>
         <translation>fotogramma</translation>
     </message>
+    <message>
+        <source>Movement display</source>
+        <translation>Visualizzazione del movimento</translation>
+    </message>
+    <message>
+        <source>Movement display (V)</source>
+        <translation>Visualizzazione del movimento (V)</translation>
+    </message>
+    <message>
+        <source>Position, speed</source>
+        <translation>Posizione, velocità</translation>
+    </message>
 </context>
 <context>
     <name>PlotMenu</name>
@@ -9372,14 +9368,6 @@ dall’alto</translation>
         <translation>Riduci</translation>
     </message>
     <message>
-        <source>Copy picture</source>
-        <translation>Copia l’immagine</translation>
-    </message>
-    <message>
-        <source>Save picture (PNG)…</source>
-        <translation>Salva l’immagine (PNG)…</translation>
-    </message>
-    <message>
         <source>Save drawing (SVG)…</source>
         <translation>Salva il disegno (SVG)…</translation>
     </message>
@@ -9390,6 +9378,14 @@ dall’alto</translation>
     <message>
         <source>Save</source>
         <translation>Salva</translation>
+    </message>
+    <message>
+        <source>Copy image</source>
+        <translation>Copia l’immagine</translation>
+    </message>
+    <message>
+        <source>Save image (PNG)…</source>
+        <translation>Salva l’immagine (PNG)…</translation>
     </message>
 </context>
 <context>
@@ -9436,24 +9432,12 @@ dall’alto</translation>
         <translation>Relazione andamento</translation>
     </message>
     <message>
-        <source>Save picture…</source>
-        <translation>Salva grafico…</translation>
-    </message>
-    <message>
         <source>Save table…</source>
         <translation>Salva tabella…</translation>
     </message>
     <message>
-        <source>Values by &amp;hand…</source>
-        <translation>Valori a &amp;mano…</translation>
-    </message>
-    <message>
         <source>Exercise and hand</source>
         <translation>Esercizio e mano</translation>
-    </message>
-    <message>
-        <source>What is followed</source>
-        <translation>Che cosa si segue</translation>
     </message>
     <message>
         <source>1 session, {last}</source>
@@ -9500,16 +9484,28 @@ dall’alto</translation>
         <translation>MDC non ancora nota</translation>
     </message>
     <message>
-        <source>Measured by hand</source>
-        <translation>Misurati a mano</translation>
-    </message>
-    <message>
         <source>Comparability</source>
         <translation>Confrontabilità</translation>
     </message>
     <message>
         <source>All sessions used the same set-up.</source>
         <translation>Tutte le sedute hanno la stessa preparazione.</translation>
+    </message>
+    <message>
+        <source>Save image…</source>
+        <translation>Salva immagine…</translation>
+    </message>
+    <message>
+        <source>&amp;Manual values…</source>
+        <translation>Valori &amp;manuali…</translation>
+    </message>
+    <message>
+        <source>Value shown</source>
+        <translation>Valore mostrato</translation>
+    </message>
+    <message>
+        <source>Manual measurements</source>
+        <translation>Misure manuali</translation>
     </message>
 </context>
 <context>
@@ -9738,10 +9734,6 @@ dall’alto</translation>
         <translation>Dolore {score}</translation>
     </message>
     <message>
-        <source>Storing…</source>
-        <translation>Salvataggio…</translation>
-    </message>
-    <message>
         <source>Passive</source>
         <translation>Passivo</translation>
     </message>
@@ -9772,6 +9764,10 @@ dall’alto</translation>
     <message>
         <source>Space · pedal</source>
         <translation>Spazio · pedale</translation>
+    </message>
+    <message>
+        <source>Saving…</source>
+        <translation>Salvataggio…</translation>
     </message>
 </context>
 <context>
@@ -9949,10 +9945,6 @@ dall’alto</translation>
         <translation>Velocità, dolore, nota</translation>
     </message>
     <message>
-        <source>Entered by hand</source>
-        <translation>Inseriti a mano</translation>
-    </message>
-    <message>
         <source>Motion page</source>
         <translation>Pagina del movimento</translation>
     </message>
@@ -9963,6 +9955,10 @@ dall’alto</translation>
     <message>
         <source>Use these parts for all reports</source>
         <translation>Usa queste parti per tutte le relazioni</translation>
+    </message>
+    <message>
+        <source>Manual measurements</source>
+        <translation>Misure manuali</translation>
     </message>
 </context>
 <context>
@@ -10124,10 +10120,6 @@ dall’alto</translation>
         <translation>Escursione articolare</translation>
     </message>
     <message>
-        <source>Another set</source>
-        <translation>Altra serie</translation>
-    </message>
-    <message>
         <source>Exclude</source>
         <translation>Escludi</translation>
     </message>
@@ -10160,8 +10152,12 @@ dall’alto</translation>
         <translation>Nessun’altra seduta di questo esercizio.</translation>
     </message>
     <message>
-        <source>Beside the {hand} of {day} (B)</source>
-        <translation>Accanto a: {hand}, {day} (B)</translation>
+        <source>Measure again</source>
+        <translation>Misura di nuovo</translation>
+    </message>
+    <message>
+        <source>Compare with {hand}, {day} (B)</source>
+        <translation>Confronta con: {hand}, {day} (B)</translation>
     </message>
 </context>
 <context>
@@ -10206,11 +10202,11 @@ dall’alto</translation>
         <translation>Continua</translation>
     </message>
     <message>
-        <source>Save picture</source>
+        <source>Save image</source>
         <translation>Salva immagine</translation>
     </message>
     <message>
-        <source>no frame of it was stored</source>
+        <source>no frame of it was saved</source>
         <translation>non è stato salvato alcun fotogramma</translation>
     </message>
 </context>
@@ -10283,7 +10279,7 @@ dall’alto</translation>
         <translation>Ctrl+rotella: zoom</translation>
     </message>
     <message>
-        <source>hidden</source>
+        <source>occluded</source>
         <translation>nascosto</translation>
     </message>
 </context>
@@ -10387,10 +10383,6 @@ dall’alto</translation>
 <context>
     <name>SetDialog</name>
     <message>
-        <source>Set</source>
-        <translation>Sequenza</translation>
-    </message>
-    <message>
         <source>No patient names</source>
         <translation>Niente nomi di pazienti</translation>
     </message>
@@ -10413,10 +10405,6 @@ dall’alto</translation>
     <message>
         <source>Close</source>
         <translation>Chiudi</translation>
-    </message>
-    <message>
-        <source>Sets of exercises</source>
-        <translation>Sequenze di esercizi</translation>
     </message>
     <message>
         <source>Exercises that run one after the other with the same markers. Each becomes a session of its own.</source>
@@ -10453,6 +10441,14 @@ dall’alto</translation>
     <message>
         <source>Delete “{name}”? Press again</source>
         <translation>Eliminare “{name}”? Premere di nuovo</translation>
+    </message>
+    <message>
+        <source>Exercise set</source>
+        <translation>Sequenza</translation>
+    </message>
+    <message>
+        <source>Exercise sets</source>
+        <translation>Sequenze di esercizi</translation>
     </message>
 </context>
 <context>
@@ -10646,7 +10642,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Report and clinic</source>
-        <translation>Relazione e clinica</translation>
+        <translation>Relazione e centro</translation>
     </message>
     <message>
         <source>Safety</source>
@@ -10681,7 +10677,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
-        <translation>Inserire gli angoli attuali di polso e avambraccio, misurati con il goniometro. Palmo piatto sul tavolo è 90° di pronazione. Carpus li aggiunge a tutti gli angoli del polso e lo annota nel referto. Per le dita flesse non serve inserire nulla.</translation>
+        <translation>Inserire gli angoli attuali di polso e avambraccio, misurati con il goniometro. Palmo piatto sul tavolo è 90° di pronazione. Carpus li aggiunge a tutti gli angoli del polso e lo annota nella relazione. Per le dita flesse non serve inserire nulla.</translation>
     </message>
 </context>
 <context>
@@ -10764,14 +10760,6 @@ dall’alto</translation>
         <translation>Relazione</translation>
     </message>
     <message>
-        <source>Simulated hand: this is not {name}, and does not count.</source>
-        <translation>Mano simulata: non è di {name}, e non conta.</translation>
-    </message>
-    <message>
-        <source>This session does not count.</source>
-        <translation>Questa seduta non conta.</translation>
-    </message>
-    <message>
         <source>Measured although uncertain: {findings}</source>
         <translation>Misurata nonostante l’incertezza: {findings}</translation>
     </message>
@@ -10800,14 +10788,6 @@ dall’alto</translation>
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>Tracking again {percent}</source>
-        <translation>Nuovo tracciamento {percent}</translation>
-    </message>
-    <message>
-        <source>How far it is, and Stop</source>
-        <translation>Avanzamento, e Interrompi</translation>
-    </message>
-    <message>
         <source>New result: choose</source>
         <translation>Nuovo risultato: scegliere</translation>
     </message>
@@ -10820,10 +10800,6 @@ dall’alto</translation>
         <translation>Scegli</translation>
     </message>
     <message>
-        <source>Old and new over each other</source>
-        <translation>Vecchio e nuovo sovrapposti</translation>
-    </message>
-    <message>
         <source>{count} fps</source>
         <translation>{count} fps</translation>
     </message>
@@ -10832,16 +10808,36 @@ dall’alto</translation>
         <translation>{count} fps (sotto {least})</translation>
     </message>
     <message>
-        <source>{words}, {lost} lost</source>
-        <translation>{words}, {lost} perse</translation>
-    </message>
-    <message>
         <source>{time} of disk left</source>
         <translation>spazio per {time}</translation>
     </message>
     <message>
-        <source>The clinic’s server does not answer: until it does, patients and their sessions can be neither shown nor changed. Measuring goes on.</source>
-        <translation>Il server del centro non risponde: finché non risponde, i pazienti e le loro sedute non si possono né mostrare né modificare. Si può continuare a misurare.</translation>
+        <source>Simulated hand: not {name}, excluded from analysis.</source>
+        <translation>Mano simulata: non è di {name}, esclusa dall’analisi.</translation>
+    </message>
+    <message>
+        <source>This session is excluded from analysis.</source>
+        <translation>Questa seduta è esclusa dall’analisi.</translation>
+    </message>
+    <message>
+        <source>Re-analysing {percent}</source>
+        <translation>Rianalisi {percent}</translation>
+    </message>
+    <message>
+        <source>Progress and Stop</source>
+        <translation>Avanzamento e interruzione</translation>
+    </message>
+    <message>
+        <source>Old and new result overlaid</source>
+        <translation>Vecchio e nuovo sovrapposti</translation>
+    </message>
+    <message>
+        <source>{words}, {lost} dropped</source>
+        <translation>{words}, {lost} persi</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not answer. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
+        <translation>Il server del centro non risponde. Fino ad allora pazienti e sedute non si possono mostrare né modificare. Si può continuare a misurare.</translation>
     </message>
 </context>
 <context>
@@ -10928,16 +10924,16 @@ dall’alto</translation>
         <translation>Driver della telecamera</translation>
     </message>
     <message>
-        <source>Camera rights</source>
-        <translation>Permessi della telecamera</translation>
-    </message>
-    <message>
         <source>Data folder</source>
         <translation>Cartella dei dati</translation>
     </message>
     <message>
         <source>Disk</source>
         <translation>Disco</translation>
+    </message>
+    <message>
+        <source>Camera permissions</source>
+        <translation>Permessi della telecamera</translation>
     </message>
 </context>
 <context>

@@ -26,10 +26,10 @@ def test_examine_with_dummy_camera_checks_everything(tmp_path: Path) -> None:
     findings = {finding.name: finding for finding in found}
     assert list(findings) == [
         "Python", "Packages", "Compiled parts", "Window", "Fonts", "Data folder", "Disk", "Disk encryption",
-        "Driver", "RealSense driver", "Orbbec driver", "Camera rights, Asus Xtion", "Camera", "Frames",
-        "Registration", "Mirror", "Clock",
+        "Driver", "RealSense driver", "Orbbec driver", "Camera permissions, Asus Xtion", "Camera", "Frames",
+        "Depth registration", "Mirror", "Clock",
     ]  # fmt: skip
-    for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera rights, Asus Xtion"):
+    for name in ("Python", "Packages", "Fonts", "Data folder", "Driver", "Camera permissions, Asus Xtion"):
         assert findings[name].state == "good", findings[name]
     assert "OpenNI2 2.2" in findings["Driver"].observation
     assert "320x240" in findings["Frames"].observation
@@ -151,7 +151,7 @@ def test_check_camera_settings_reports_registration_mirror_and_clock(
     info = SourceInfo("a camera", DEFAULT_CAMERA, True, None, 30.0, settings)
     some = frames(1 / 30)
     findings = doctor.check_camera_settings(info, some, [frame.timestamp_s for frame in some])
-    assert [finding.name for finding in findings] == ["Registration", "Mirror", "Clock"]
+    assert [finding.name for finding in findings] == ["Depth registration", "Mirror", "Clock"]
     assert [finding.state for finding in findings] == states
 
 

@@ -224,8 +224,8 @@ def test_realsense_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.Monke
     context = partial(realsense_stand_in.plugged_in, tmp_path)
     monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, make_context=context))
     findings = {each.name: each for each in check_open_camera("realsense", 0.5)}
-    assert list(findings) == ["Frames", "Registration", "Mirror", "Clock", "Firmware", "USB"]
-    assert findings["Registration"].observation == "depth and colour are aligned, by the library"
+    assert list(findings) == ["Frames", "Depth registration", "Mirror", "Clock", "Firmware", "USB"]
+    assert findings["Depth registration"].observation == "depth and colour are aligned, by the library"
     assert findings["Firmware"].state == "warning"
     assert findings["USB"].state == "good"
 

@@ -149,7 +149,7 @@ CHECKS = (
           "a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
     Check("Camera driver", "bad", "libOpenNI2.so.0: cannot open shared object file: No such file or directory",
           "Needed for live cameras. Run: sudo apt-get install libopenni2-0"),
-    Check("Camera rights", "good", "/lib/udev/rules.d/60-libopenni2-0.rules"),
+    Check("Camera permissions", "good", "/lib/udev/rules.d/60-libopenni2-0.rules"),
     Check("Data folder", "good", "/home/clinic/.local/share/carpus, made at the first recording"),
     Check("Disk", "good", "212.4 GB free, about 1931 minutes with video"),
     Check("Fonts", "good", "6 faces"),

@@ -188,13 +188,13 @@ def test_manual_values_in_reports_and_tables_are_marked_as_manual(tmp_path: Path
     values = hand_values()
     report = build_session_report(store.session("session-7"), history=store.history("linden"), manual_values=values)
     said = words_of(write_session_report(report, tmp_path / "session.pdf"))
-    assert "Entered by hand, not measured by Carpus" in said
+    assert "Manual measurements, not made by Carpus" in said
     assert "Wrist, flexion 47° active, 58° passive" in " ".join(said.split())
     assert "17.6" not in said, "of another day"
     mine = [one for one in current_values(values) if one.side in ("right", "")]
     course = build_progress_report(store.history("linden"), manual_values=mine)
     said = " ".join(words_of(write_progress_report(course, tmp_path / "progress.pdf")).split())
-    for words in ("Entered by hand", "25° → 47° since 2 Oct", "Grip", "17.6 cm over both styloids"):
+    for words in ("Manual measurements", "25° → 47° since 2 Oct", "Grip", "17.6 cm over both styloids"):
         assert words in said, words
     path = tmp_path / "course.csv"
     write_tables(path, course.progress)

@@ -52,7 +52,6 @@ NO_TEXT_OF_THE_WINDOW = {
     "actual size", "Originalgröße", "dimensioni effettive",
     "at least", "mindestens", "almeno",
     "no change", "unverändert", "nessun cambiamento",
-    "entered by hand", "inseriti a mano",
 }  # fmt: skip
 """A command, a printer's word, and what figures are said to mean."""
 
@@ -109,6 +108,7 @@ def test_page_html_escapes_text(theme: Theme) -> None:
         assert "](" not in body
         assert body.count("<ul>") == body.count("</ul>")
         assert body.count("<ol>") == body.count("</ol>")
+        assert "|" not in body
         plain = re.sub(r"<[^>]*>", "", body)
         assert "<" not in plain
 

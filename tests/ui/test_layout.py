@@ -39,7 +39,7 @@ MAIN = (
 LOW = ((1280, 720), 1.5)
 SIGNED = ("markers", "live", "review", "exercise")
 """What may have a sign over it, or as little room."""
-SIGN = "Simulated hand: this is not Linden 42, and does not count."
+SIGN = "Simulated hand: not Linden 42, excluded from analysis."
 FAKED = (
     "Right hand", "Left hand", "Camera", "Sessions", "Review", "Report", "Progress", "Measure", "Markers", "Exercise",
     "30 fps", "212 min", "Saved", "Splint off", "Flexion", "No camera",

@@ -163,7 +163,7 @@ def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Liv
 def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme) -> None:
     card = NumberCard(theme)
     qtbot.addWidget(card)
-    for value_deg, word in ((0.4, "Straight"), (-0.4, "Straight"), (0.6, "Flexion"), (-0.6, "Extension")):
+    for value_deg, word in ((0.4, "Neutral"), (-0.4, "Neutral"), (0.6, "Flexion"), (-0.6, "Extension")):
         card.show_reading(Reading(angle=1, value_deg=value_deg, sd_deg=1.0))
         assert card.movement_name() == word
 

@@ -135,7 +135,7 @@ def test_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
 @pytest.mark.parametrize(
     ("hidden", "state", "remedy"),
     [
-        ((), "Tracking well", "All 21 markers visible"),
+        ((), "Hand tracked well", "All 21 markers visible"),
         (("TIP4",), "Ring fingertip occluded", "Raise the hand"),
         (("MCP1", "IP1", "TIP1"), "Thumb occluded", "Turn the thumb side up"),
         (("DIP2", "TIP2"), "Index finger occluded", "Turn the back of the fingers to the camera"),

@@ -266,7 +266,7 @@ def test_markers_alternative_blob_is_shown_and_accepted(qtbot: QtBot, marking: M
     screen = marking.screen
     assert screen.guidance.step_label.text().startswith("Uncertain")
     assert screen.picture.questioned_blobs == [(spot, "MCP3")]
-    assert "Take that spot" in screen.primary_button.text()
+    assert "Use that spot" in screen.primary_button.text()
     calibrator.findings = ()
     qtbot.keyClick(screen.primary_button, Qt.Key.Key_Return)
     assert tuple(marking.judge().pixel[3]) == spot

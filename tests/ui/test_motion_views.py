@@ -156,7 +156,7 @@ def test_second_page_has_papers_values(tmp_path: Path) -> None:
     path = write_session_report(made, tmp_path / "reach.pdf")
     first, second = (words_of(path, page) for page in (1, 2))
     for words in (
-        "page 2", "Path of the wrist", "Fingertip paths", "Place, speed, turning", "ZYZ angles", "XY", "ZX",
+        "page 2", "Path of the wrist", "Fingertip paths", "Position, speed, rotation", "ZYZ angles", "XY", "ZX",
         "ZY", "Movement time, out", "mm/s", "Number of speed peaks, back", "Not a medical device",
     ):  # fmt: skip
         assert words in second, words

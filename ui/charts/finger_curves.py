@@ -238,7 +238,7 @@ class FingerCurves(Chart):
         if spreading.box.height() > 0.0:
             above = 17 if self._has_spreading() else 4
             self._text(
-                painter, self.tr("Spreading"), 20, spreading.box.top() - above * scale, 14, MEDIUM, "text", room_px
+                painter, self.tr("Abduction"), 20, spreading.box.top() - above * scale, 14, MEDIUM, "text", room_px
             )
         for number, row in enumerate(self._visible_kinds()):
             top = self.values_top() + number * ROW_PX * scale

@@ -115,11 +115,11 @@ class ManualValueChart(Chart):
         when = [one for one, _ in ours]
         times = [day_timestamp(one.day, when) for one in values] + [one.timestamp() for one in when]
         if not times:
-            words = self.add_text(self.tr("Nothing measured by hand yet."), look.end_label_font, "text2")
+            words = self.add_text(self.tr("No manual measurements yet."), look.end_label_font, "text2")
             words.setPos(box.left(), box.top() + 1.4 * title)
             return
-        key = [("s", self.tr("by hand, active") if len(measure.modes) > 1 else self.tr("by hand"), "text")]
-        key += [("d", self.tr("by hand, passive"), "text")] if passive else []
+        key = [("s", self.tr("manual, active") if len(measure.modes) > 1 else self.tr("manual"), "text")]
+        key += [("d", self.tr("manual, passive"), "text")] if passive else []
         key += [("O", self.tr("Carpus, mean"), "curve_a")] if ours else []
         pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
         scale = manual_value_scale(measure, [one.value for one in values] + [value for _, value in ours])

@@ -32,7 +32,7 @@ _FILE_UNITS = ("mm", "mm_s", "deg_s")
 
 def panel_words() -> tuple[str, str, str]:
     """Return the names of the position and velocity panels."""
-    return tr("Place"), tr("Speed"), tr("Turning")
+    return tr("Position"), tr("Speed"), tr("Rotation")
 
 
 @dataclass(frozen=True, slots=True)

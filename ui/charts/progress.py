@@ -245,7 +245,7 @@ def legend_entries(progress: Progress) -> list[tuple[str, str, str]]:
     out = [("O", tr("mean, ± sd between repetitions"), "text"), ("o", tr("not compared"), "text2")]
     out += [("t1", tr("≥: partly occluded"), "text2")] if progress.keys else []
     if any(select_manual_values(progress, key) for key in panel_keys(progress)):
-        out.append(("s", tr("by hand, active"), "text"))
+        out.append(("s", tr("manual, active"), "text"))
     return out
 
 

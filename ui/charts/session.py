@@ -93,7 +93,7 @@ def missing_value_words() -> str:
 
 def angle_group_names() -> tuple[str, str]:
     """Return the names of the two groups of finger angles."""
-    return tr("Flexion"), tr("Spreading")
+    return tr("Flexion"), tr("Abduction")
 
 
 def tolerance_words(limit_deg: float, key: int) -> str:
@@ -613,7 +613,7 @@ class SessionChart(ZoomChart):
         for panel, key in self.panels():
             if panel.box.contains(position):
                 for value in plot.read_values(key, time_s):
-                    hidden = self.tr("hidden") if value.is_occluded and math.isfinite(value.value_deg) else ""
+                    hidden = self.tr("occluded") if value.is_occluded and math.isfinite(value.value_deg) else ""
                     named = (
                         value.name
                         if not math.isfinite(value.value_deg)

@@ -172,8 +172,8 @@ class PlotMenu(QObject):
             (self.tr("Zoom in") + "\t+", card.zoom_in),
             (self.tr("Zoom out") + "\t-", card.zoom_out),
             ("", None),
-            (self.tr("Copy picture"), self.copy_picture),
-            (self.tr("Save picture (PNG)…"), self.save_picture),
+            (self.tr("Copy image"), self.copy_picture),
+            (self.tr("Save image (PNG)…"), self.save_picture),
             (self.tr("Save drawing (SVG)…"), lambda: self._save_with_dialog("svg", "SVG (*.svg)")),
             (self.tr("Save values (CSV)…"), lambda: self._save_with_dialog("csv", "CSV (*.csv)")),
         ):

@@ -25,8 +25,8 @@ class PlaybackControls(QWidget):
 
     def __init__(self, theme: Theme, playing: PlaybackClock | None = None, before_speed_px: int = 8) -> None:
         super().__init__()
-        back = icon_button(theme, "step-back", self.tr("Previous picture (←)"))
-        on = icon_button(theme, "step-forward", self.tr("Next picture (→)"))
+        back = icon_button(theme, "step-back", self.tr("Previous frame (←)"))
+        on = icon_button(theme, "step-forward", self.tr("Next frame (→)"))
         parts: list[Button | int] = [back, on]
         if playing is not None:
             self._play_button = icon_button(theme, "play", self.tr("Play (Space)"), "well")

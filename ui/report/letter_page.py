@@ -101,7 +101,7 @@ def _parts(letter: LetterReport, omitted: int) -> QLayout:
     parts += [paragraph(words, SIZE_PT) for words in change_sentences(results, report.previous, first)]
     if report.comment.strip():
         has_room = omitted < MAX_OMISSIONS
-        said_of_it = tr("The comment is too long for this letter; it is in the report.")
+        said_of_it = tr("The comment is too long for this letter. It is in the report.")
         parts.append(
             comment_text(comment_lines(report.comment)) if has_room else paragraph(said_of_it, SIZE_PT, MEDIUM)
         )

@@ -45,7 +45,7 @@ def motion_page(
         least = share * (150.0 if is_hand else 205.0)
         return [section_title(heading, aside), session_chart_part(plot, least, 1.2 * least)]
 
-    parts += curves_part("place", tr("Place, speed, turning"), axes, 1.0)
+    parts += curves_part("place", tr("Position, speed, rotation"), axes, 1.0)
     parts += curves_part("zyz", tr("ZYZ angles"), tr("band: ± 1 sd; black: α + γ, with γ"), 0.75)
     foot = column(paragraph(zyz_words([motion]), 8.0, token="text2"), legal_line(), gap=3.0)
     return column(*parts, STRETCH, foot, gap=6.0)

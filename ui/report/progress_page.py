@@ -159,9 +159,8 @@ def _manual_changes(progress: Progress) -> list[Part]:
         for day in sorted({one.day for one in rest})[-MAX_DAYS:]
     )
     below = [paragraph(words, 8.5)] if words else []
-    return [
-        column(section_title(tr("Entered by hand"), tr("not combined with the values above")), shown, *below, gap=2.0)
-    ]
+    title = section_title(tr("Manual measurements"), tr("not combined with the values above"))
+    return [column(title, shown, *below, gap=2.0)]
 
 
 def _comparability(progress: Progress) -> QLayout:

@@ -168,12 +168,12 @@ def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> Q
         parts += _bars(report)
     parts += [STRETCH, *_boxes(report)]
     if report.manual_values and form.includes("by_hand"):
-        words = tr("Entered by hand, not measured by Carpus: {values}.").format(values=day_words(report.manual_values))
+        words = tr("Manual measurements, not made by Carpus: {values}.").format(values=day_words(report.manual_values))
         parts.append(paragraph(words, 8.5))
     if len(comment) > MAX_COMMENT_LINES:
         parts.append(paragraph(tr("The therapist’s comment is on the last page."), 8.5, MEDIUM))
     elif comment:
-        parts.append(column(paragraph(tr("Comment of the therapist"), 10.0, SEMIBOLD), comment_text(comment), gap=2.0))
+        parts.append(column(paragraph(tr("Therapist’s comment"), 10.0, SEMIBOLD), comment_text(comment), gap=2.0))
     return column(*parts, *_foot(report), gap=7.0)
 
 
@@ -183,7 +183,7 @@ def _motion_page(report: SessionReport, motion: MotionCurves, number: str) -> QL
 
 
 def _comment_page(report: SessionReport, lines: Sequence[str], number: str) -> QLayout:
-    heading = paragraph(tr("Comment of the therapist"), 11.5, SEMIBOLD)
+    heading = paragraph(tr("Therapist’s comment"), 11.5, SEMIBOLD)
     return column(_head(report, number), heading, comment_text(lines), STRETCH, legal_line(), gap=9.0)
 
 
@@ -219,7 +219,7 @@ def _facts(report: SessionReport) -> list[Part]:
         *((words, SEMIBOLD, "warn") for words in warning_lines(results)),
     ]
     if corrected := correction_words(results):
-        is_kept = tr("Markers were corrected by hand. The original result is kept.")
+        is_kept = tr("Markers were corrected manually. The original result is kept.")
         lines.append((f"{corrected} {is_kept}", MEDIUM, "text"))
     shown = [paragraph(words, 8.5, weight, token) for words, weight, token in lines if words]
     return [column(fact_row(pairs), *shown, gap=3.0), rule()]

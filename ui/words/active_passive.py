@@ -50,7 +50,7 @@ def build_active_passive(results: SessionResults, manual_values: Sequence[Manual
     if any(LOWER_BOUND in cell for row in rows for cell in row):
         note.append(tr("{sign} = minimum: the end of this movement was occluded.").format(sign=LOWER_BOUND))
     if _has_manual_values(results, manual_values):
-        text = tr("{sign}: measured by hand that day, active / passive; not combined with the other values.")
+        text = tr("{sign}: manual measurement of that day, active / passive; not combined with the other values.")
         note.append(text.format(sign=MANUAL_SIGN))
     shown = tuple(tuple(compress(row, known)) for row in rows if any(row[1:]))
     table = TableContent((TableColumn(),) * sum(known), tuple(compress(heads, known)), shown)
@@ -74,7 +74,7 @@ def _manual_cell(key: MeasureKey, manual_values: Sequence[ManualValue]) -> str:
 def _wrist_rows(
     results: SessionResults, passive: SessionResults | None, manual_values: Sequence[ManualValue]
 ) -> tuple[list[str], list[list[str]]]:
-    heads = [tr("Movement"), tr("Active"), tr("Passive"), tr("Passive minus active"), tr("By hand")]
+    heads = [tr("Movement"), tr("Active"), tr("Passive"), tr("Passive minus active"), tr("Manual")]
     gaps = (
         {} if passive is None else {item.key: item for item in compare_ranges(results, passive, passive.wrist_ranges)}
     )

@@ -39,7 +39,7 @@ def view_fault_words(lack: RejectReason) -> str:
         "too_tilted": tr("Turn it less: it is nearly edge-on."),
         "moving": tr("Hold still."),
         "blurred": tr("Not sharp: hold still, or give it more light."),
-        "known": tr("Taken. Now another place."),
+        "known": tr("Image taken. Now another place."),
     }[lack]
 
 
@@ -83,13 +83,13 @@ def headline(calibration: CameraCalibration) -> tuple[str, str]:
     if error_px > FAIR_ERROR_PX:
         return (
             tr("Not good enough: reprojection error {error} px.").format(error=numbers.format_fixed(error_px, 1)),
-            tr("Nothing is changed. Glue the board onto something flat and stiff, give it light, and take the pictures "
-               "again."),
+            tr("Nothing was changed. Glue the board onto something flat and stiff. Take the images again "
+               "in good light."),
         )  # fmt: skip
     if calibration.depth is not None and not calibration.depth.is_registered:
         return (
             tr("Depth and colour are misaligned by {apart} px.").format(apart=_offset_px(calibration.depth)),
-            tr("Nothing is changed. Switch the camera’s registration on: run “carpus doctor”, it says how."),
+            tr("Nothing was changed. Turn on depth registration in the camera: “carpus doctor” shows how."),
         )
     return (
         tr("The camera is calibrated. {depth}").format(depth=depth_words(calibration.depth)),
@@ -100,11 +100,11 @@ def headline(calibration: CameraCalibration) -> tuple[str, str]:
 def depth_words(depth: DepthCheck | None) -> str:
     """Say by how much depth was wrong."""
     if depth is None:
-        return tr("Its depth was not checked.")
+        return tr("Depth was not checked.")
     share, shift = 100.0 * (depth.scale - 1.0), 1e3 * depth.offset_m
     if abs(share) < 0.05 and abs(shift) < 0.5:
         return tr("Depth is correct.")
-    pattern = tr("Depth read {share} % too long.") if share > 0 else tr("Depth read {share} % too short.")
+    pattern = tr("Depth was {share} % too long.") if share > 0 else tr("Depth was {share} % too short.")
     return pattern.format(share=numbers.format_fixed(abs(share), 1))
 
 
@@ -137,7 +137,7 @@ def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, s
         ),
     ]
     if depth is None:
-        return [*rows, ("warn", tr("Depth"), numbers.UNKNOWN, tr("too few pictures with depth on the board"))]
+        return [*rows, ("warn", tr("Depth"), numbers.UNKNOWN, tr("too few images with depth on the board"))]
     scale = f"{numbers.format_signed(100 * (depth.scale - 1.0), 2)} ± {numbers.format_fixed(100 * depth.scale_sd, 2)} %"
     registered = tr("good: below {most} px").format(most=format_rounded(MAX_REGISTRATION_ERROR_PX))
     return [

@@ -27,7 +27,9 @@ def check_words(status: CheckStatus) -> tuple[State, str]:
     if status.is_recalibrated:
         return "warn", f"{words} {tr('Check it again: it was calibrated since.')}"
     if status.is_out_of_tolerance:
-        next_step = tr("Check once more, then calibrate the camera. Still out: do not measure with it.")
+        next_step = tr(
+            "Check once more, then calibrate the camera. If it is still out of tolerance, do not measure with it."
+        )
         return "bad", f"{words} {next_step}"
     if status.is_due:
         return "warn", f"{words} {tr('Check it again: once a week.')}"
@@ -74,9 +76,9 @@ class CardProgress:
 def card_hint(progress: CardProgress | None) -> str:
     """Say what to do with the card."""
     if progress is None or (progress.disc_px is None and progress.disc_count == 0):
-        return tr("Lay the card flat under the camera, all of it in the picture, about 60 cm away.")
+        return tr("Lay the card flat under the camera, fully in view, about 60 cm away.")
     if progress.has_moved:
-        return tr("The card has moved: the seconds begin again.")
+        return tr("The card moved: the countdown starts again.")
     if progress.disc_px is None:
         return tr(
             "{count} of 6 markers visible. Show the whole card in the image, in even light, with its wedge upright."

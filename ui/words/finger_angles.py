@@ -30,7 +30,7 @@ _THUMB_JOINTS: dict[AngleKind, str] = {
 
 _KIND_NAMES: Mapping[str, Phrase] = {
     "lift": phrase("Palmar abduction"), "knuckle": phrase("MCP"), "middle": phrase("PIP"), "end": phrase("DIP"),
-    "ip": phrase("IP"), "spread": phrase("Spread"), "tam": phrase("TAM"),
+    "ip": phrase("IP"), "spread": phrase("Ab-/adduction"), "tam": phrase("TAM"),
 }  # fmt: skip
 
 
@@ -117,7 +117,7 @@ def _end_names(angle: FingerAngle) -> tuple[str, str]:
     if angle.is_palmar_abduction:
         return tr("In the plane of the palm (0°)"), tr("Palmar abduction {angle}").format(angle=high)
     if angle.kind != "spread":
-        return tr("Straight"), tr("Bent {angle}").format(angle=high)
+        return tr("Extended"), tr("Flexed {angle}").format(angle=high)
     if angle.finger == 3:
         return tr("Ulnar {angle}").format(angle=low), tr("Radial {angle}").format(angle=high)
     return tr("Adducted {angle}").format(angle=low), tr("Abducted {angle}").format(angle=high)
@@ -129,7 +129,7 @@ def spread_side(value_deg: float, finger: int = 0) -> str:
         return ""
     if finger == 3:
         return tr("ulnar") if value_deg < 0 else tr("radial")
-    return tr("in") if value_deg < 0 else tr("out")
+    return tr("add.") if value_deg < 0 else tr("abd.")
 
 
 def format_spread(value_deg: float, finger: int = 0) -> str:
@@ -140,7 +140,7 @@ def format_spread(value_deg: float, finger: int = 0) -> str:
 def spread_labels(tick_deg: float, finger: int = 0) -> tuple[tuple[float, str], ...]:
     """Return the tick labels of a spread axis: ``Out 20°``, ``0°``, ``In 20°``."""
     angle = numbers.format_degrees(tick_deg)
-    out, inward = tr("Out {angle}"), tr("In {angle}")
+    out, inward = tr("Abd. {angle}"), tr("Add. {angle}")
     if finger == 3:
         out, inward = tr("Radial {angle}"), tr("Ulnar {angle}")
     out, inward = out.format(angle=angle), inward.format(angle=angle)

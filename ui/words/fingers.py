@@ -40,12 +40,12 @@ _GRADES = {
 }  # fmt: skip
 # What an exercise trains, in the head of a column and before a list of fingers.
 _MAIN_NAMES = {
-    "tam": (phrase("TAM"), phrase("TAM")), "spread": (phrase("spread"), phrase("Spreading")),
+    "tam": (phrase("TAM"), phrase("TAM")), "spread": (phrase("abduction"), phrase("Abduction")),
     "middle": (phrase("PIP"), phrase("PIP joints")),
 }  # fmt: skip
 _FINGER_GROUPS = {
     "knuckle": phrase("MCP of {fingers}"), "middle": phrase("PIP of {fingers}"),
-    "end": phrase("DIP of {fingers}"), "spread": phrase("spreading of {fingers}"),
+    "end": phrase("DIP of {fingers}"), "spread": phrase("abduction of {fingers}"),
 }  # fmt: skip
 _THUMB_NAMES: dict[AngleKind, Phrase] = {
     "knuckle": phrase("MCP"),
@@ -95,7 +95,7 @@ def _head_line(results: SessionResults, previous: SessionResults | None, other_h
     *bent, all_joints = (Cell(words, MEDIUM, "text2", mark_token=KIND_TOKENS[row]) for row, words in joints)
     last = tr("{what}, {day}").format(what=compared, day=day) if day else ""
     change = tr("Change since {day}").format(day=day) if day else ""
-    return ("", *bent, tr("Spread"), all_joints, share, last, change)
+    return ("", *bent, tr("Abduction"), all_joints, share, last, change)
 
 
 def is_joint_exercise(results: SessionResults) -> bool:
@@ -163,7 +163,7 @@ def limitation_words(results: SessionResults) -> str:
     parts += lifted
     words = []
     if parts:
-        pattern = tr("Partly occluded ({sign} = minimum): {parts}. Occluded frames are not analysed.")
+        pattern = tr("Partly occluded ({sign} = minimum): {parts}. Frames with occluded joints are not analysed.")
         words.append(pattern.format(sign=LOWER_BOUND, parts="; ".join(parts)))
     if unseen:
         words.append(tr("Not visible: {joints}.").format(joints="; ".join(unseen)))
@@ -278,7 +278,7 @@ def progress_choices(results: SessionResults) -> list[tuple[str, str]]:
     if not results.joint_ranges:
         return []
     kinds = [("tam", tr("TAM of all fingers"))] if main_kind(results) == "tam" else []
-    kinds.append(("spread", tr("Spreading of all fingers")))
+    kinds.append(("spread", tr("Abduction of all fingers")))
     kinds.append(("1", finger_name("1")))
     kinds += [(str(k), tr("{finger} finger").format(finger=finger_name(str(k)))) for k in FINGERS[1:]]
     if is_thumb_exercise(results):

@@ -55,7 +55,7 @@ def headline(progress: Progress) -> tuple[str, str]:
     elif main.verdict == "no_change":
         answer = tr("No change beyond measurement error since {day}.").format(day=day)
     elif main.is_joint and min(first.repetition_count, last.repetition_count) >= MIN_REPETITIONS_FOR_SD:
-        return tr("Not assessed: the joints were partly occluded."), tr("Occluded frames are not analysed.")
+        return tr("Not assessed: the joints were partly occluded."), tr("Frames with occluded joints are not analysed.")
     else:
         reason = reason_words(main.reasons)
         return tr("Not assessed: {why}.").format(why=reason or tr("too few repetitions to compare")), ""

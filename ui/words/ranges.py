@@ -29,12 +29,12 @@ _UNMEASURED: Mapping[str, Phrase] = {
     "cut_by_end": phrase("cut off at the end of the recording"),
 }
 _UNCOUNTED: Mapping[NoRepetitionReason, Phrase] = {
-    "too_short": phrase("it is too short"),
+    "too_short": phrase("too short"),
     "nothing_seen": phrase("the exercised joint was not visible"),
     "small_range": phrase("less than 10° of movement"),
     "cut_by_gap": phrase("the hand left the camera’s view during the movement"),
     "no_return": phrase("no complete movement cycle"),
-    "too_quick": phrase("each was quicker than 0.4 s"),
+    "too_quick": phrase("each was shorter than 0.4 s"),
 }
 
 
@@ -91,7 +91,7 @@ def repetition_words(results: SessionResults) -> str:
         words = tr("mean of {count} repetitions").format(count=count) if count else tr("no active repetition")
         parts.append(tr("1 repetition") if count == 1 else words)
     elif strokes:
-        words = tr("{count} strokes out and back; ranges over the whole recording").format(count=sum(strokes))
+        words = tr("{count} movement cycles; range over the whole recording").format(count=sum(strokes))
         return "; ".join([words, *excluded_passive])
     else:
         words = tr("range over the whole recording; no repetitions")
@@ -185,7 +185,7 @@ def _line_of_still_angle(row: Measure, results: SessionResults, previous: Sessio
 def speed_words(speed: Measure) -> str:
     """Return ``190 ± 7°/s``."""
     spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{format_rounded(speed.sd)}" if math.isfinite(speed.sd) else ""
-    return f"{format_rounded(speed.mean)}{spread}°/s" if speed.count else tr("too slow to judge")
+    return f"{format_rounded(speed.mean)}{spread}°/s" if speed.count else tr("too slow to assess")
 
 
 def mean_speed_words(results: SessionResults) -> str:

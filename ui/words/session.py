@@ -134,7 +134,7 @@ def method_words(
         else numbers.UNKNOWN
     )
     given = terms.start_angle_words(results.start_angles_deg * math.pi / 180.0)
-    zero = tr("zero is the neutral hand")
+    zero = tr("0° = neutral position")
     order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
     if results.angle_order == "isb":
         order = tr("Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.")
@@ -190,13 +190,13 @@ def _sd_words(results: SessionResults) -> str:
     """Say what the ± is: SD between repetitions, or the tracker's."""
     spreads = {has_sd(row) for row in results.measures_in_group("range") if row.count and not row.is_lower_bound}
     if spreads == {True}:
-        return tr("± = SD between repetitions. A visible angle is known to about {sd}.")
+        return tr("± = SD between repetitions. The SD of a visible angle is about {sd}.")
     if spreads == {True, False}:
         return tr(
-            "± = SD between repetitions (with fewer than 3: SD of the estimate). "
-            "A visible angle is known to about {sd}."
+            "± = SD between repetitions (with fewer than 3: SD of the estimate). The SD of a visible angle "
+            "is about {sd}."
         )
-    return tr("± = SD of the estimate, as there are too few repetitions. Each angle is known to about {sd}.")
+    return tr("± = SD of the estimate, as there are too few repetitions. The SD of an angle is about {sd}.")
 
 
 def warning_lines(results: SessionResults) -> list[str]:
@@ -233,7 +233,7 @@ def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
     """Return name, value, and whether acceptable, of each quality measure."""
     quality = results.quality
     measured = f"{numbers.format_fixed(100 * quality.measured_share, 1)}{numbers.NARROW_GAP}%"
-    missed = tr("{share} of {frames}; {dropped} missed").format(
+    missed = tr("{share} of {frames}; {dropped} dropped").format(
         share=measured, frames=f"{quality.frames:,}".replace(",", numbers.NARROW_GAP), dropped=quality.dropped_frames
     )
     pattern = tr("{share} % of the time")
@@ -279,7 +279,7 @@ def speed_pain_lines(results: SessionResults) -> list[tuple[str, str]]:
     if speed is not None and (speed.count or speed.unknown_reason):
         lines.append((tr("Peak speed, mean ± sd"), speed_words(speed)))
     if smooth is not None and smooth.unknown_reason:
-        lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to judge")))
+        lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to assess")))
     if smooth is not None and smooth.count:
         spread = (
             f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{numbers.format_fixed(smooth.sd, 1)}"
@@ -289,7 +289,7 @@ def speed_pain_lines(results: SessionResults) -> list[tuple[str, str]]:
         value = numbers.format_fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
     if pauses is not None and pause_time is not None and pauses.count:
-        words = tr("{count} per stroke, {seconds} s in all") if pauses.mean else tr("none")
+        words = tr("{count} per movement, {seconds} s in total") if pauses.mean else tr("none")
         count, seconds = numbers.format_fixed(pauses.mean, 1), numbers.format_fixed(pause_time.mean, 1)
         lines.append((tr("Pauses during the movement, mean"), words.format(count=count, seconds=seconds)))
     if targets := target_words(results):

@@ -26,7 +26,7 @@ _DIGITS = {
     "1": phrase("thumb"), "2": phrase("index"), "3": phrase("middle"), "4": phrase("ring"), "5": phrase("little"),
 }  # fmt: skip
 _UNKNOWN = {
-    "too_slow": phrase("too slow to judge"),
+    "too_slow": phrase("too slow to assess"),
     "hidden": phrase("occluded"),
     "few_frames": phrase("not available: fewer than {count} frames a second", count=round(MIN_TREMOR_FPS)),
     "failed": phrase("not available: the calculation failed"),

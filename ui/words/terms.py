@@ -127,7 +127,7 @@ def thumb_up_words() -> str:
 def neutral_name(angle: int, exercise: Exercise) -> str:
     """Return the name of the neutral position of a wrist angle (column ``angle``)."""
     if angle != PRONOSUPINATION:
-        return tr("Straight")
+        return tr("Neutral")
     return tr("Thumb up") if is_counted_from_thumb_up(exercise) else tr("As at the start")
 
 

@@ -63,13 +63,13 @@ def error_limit_words(study: RetestStudy | None = None) -> str:
     """Explain the measurement error; ``study`` is the clinic's own."""
     if study is not None:
         return tr(
-            "MDC95 (measurement error) was measured by this clinic on {date} with {count} people, otherwise it is "
-            "the expert default of Carpus. It holds for the same protocol, side and set-up."
+            "MDC95 (measurement error) was measured by this clinic on {date} with {count} people. "
+            "Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up."
         ).format(date=numbers.format_date(datetime.fromisoformat(study.made)), count=study.people)
     return tr(
-        "MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has "
-        "measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same "
-        "protocol, side and set-up."
+        "MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic "
+        "has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for "
+        "the same markers, side and set-up."
     )
 
 

@@ -57,7 +57,7 @@ def check_package(
     except (DriverMissing, ChildDiedError) as cause:
         trouble = cause.detail if isinstance(cause, DriverMissing) else "it ends its process"
         words = phrase("{found}, cannot be loaded: {trouble}", found=found, trouble=trouble)
-        return Finding(name, "bad", words, phrase("Reinstall it, and what it names."))
+        return Finding(name, "bad", words, phrase("Reinstall it and the library it names."))
     return Finding(name, "good", found)
 
 

@@ -115,7 +115,7 @@ def read_reference(
     if suffix in POINT_FILES:
         return _from_points(path, suffix, markers or {}, hand)
     if suffix in ANGLE_FILES:
-        kind = phrase("angles by {format}", format=suffix[1:].upper())
+        kind = phrase("angles from {format}", format=suffix[1:].upper())
         return _from_angles(path, kind, read_mot(path), columns or {}, radians, hand)
     if suffix in TABLE_FILES:
         return _from_table(path, columns or {}, radians, hand)
@@ -154,7 +154,7 @@ def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side
     reason = phrase("no markers by their names, of the other hand, or never visible")
     unused = _list_unused(phrase("markers"), others, reason)
     return Reference(
-        path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s,
+        path, phrase("points from {format}", format=suffix[1:].upper()), track.time_s,
         points_m={name: track.position_m[:, k] for name, k in taken.items()}, unused=unused, names=track.names,
         remarks=_hand_remarks([track.names[k] for name, k in taken.items() if name not in markers], track.names, hand),
     )  # fmt: skip
@@ -280,7 +280,7 @@ def _from_table(path: Path, columns: Mapping[str, str], radians: bool | None, ha
     if radians is None and any(_has_unit(name, "rad") for name in values):
         radians = not any(_has_unit(name, "deg") for name in values)
     table_values = TimeTable(time_s[known], values, None)
-    found = _from_angles(path, phrase("angles by table"), table_values, columns, radians, hand)
+    found = _from_angles(path, phrase("angles from a table"), table_values, columns, radians, hand)
     return replace(found, remarks=(*found.remarks, *remarks))
 
 

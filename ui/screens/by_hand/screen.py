@@ -205,7 +205,8 @@ class ManualMeasurementsScreen(FittedWidget):
         self.form.set_measures(usual | {one.measure for one in self.record.values} | self._added_measures)
         self.form.show_values(self._all_values(), self.side, self.current_day, self._carpus_measures())
         self._fill_more()
-        self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.format_short_date(self.current_day)))
+        day = numbers.format_short_date(self.current_day)
+        self.title.setText(self.tr("Manual measurements, {day}").format(day=day))
         self._show_basis()
         shown = self.chart.measure.id if self.chart.measure else ""
         self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))

@@ -79,7 +79,7 @@ def headline(pair: SessionPair) -> tuple[str, str]:
         return progress_headline(_to_progress(pair))
     if main.verdict == "not_judged":
         why = reason_words(main.reasons) or tr("not measured")
-        return tr("Not compared: {why}.").format(why=why), tr("Occluded frames are not analysed.")
+        return tr("Not compared: {why}.").format(why=why), tr("Frames with occluded joints are not analysed.")
     note = tr("The other hand is a comparison, not a norm: left and right differ in healthy people too.")
     if not main.is_beyond_error:
         return tr("No difference beyond measurement error between right and left."), note

@@ -14,8 +14,8 @@ from carpus.ui.kit.theme import Theme
 DEFAULT_LANGUAGE = "en"
 """Language of the guide where it is not translated."""
 PAGES = (
-    "session", "discs", "camera", "cameracheck", "calibration", "exercises", "measuring", "patient", "figures",
-    "limits", "correct", "sessions", "checking", "trouble", "data",
+    "session", "exercises", "discs", "camera", "calibration", "measuring", "patient", "figures", "limits", "correct",
+    "sessions", "data", "trouble", "cameracheck", "checking",
 )  # fmt: skip
 """Pages in the order of the guide."""
 KEYS_PAGE = "keys"
@@ -28,7 +28,7 @@ _NUMBERED = re.compile(r"\d+\. ")
 def load_page(page: str) -> str:
     """Load a page in the current language.
 
-    It is a subset of Markdown: headings, paragraphs, lists, bold, links, pictures.
+    It is a subset of Markdown: headings, paragraphs, lists, tables, bold, links, pictures.
     """
     return _read_page(language.current_language(), page)
 
@@ -78,12 +78,17 @@ def _markdown_to_html(text: str, width_px: int) -> str:
     out: list[str] = []
     listed = ""
     for line in text.splitlines():
-        kind = "ol" if _NUMBERED.match(line) else "ul" if line.startswith("- ") else ""
+        kind = "ol" if _NUMBERED.match(line) else {"-": "ul", "|": "table"}.get(line[:1], "")
         if kind != listed:
             out += [f"</{listed}>"] if listed else []
             out += [f"<{kind}>"] if kind else []
             listed = kind
-        if kind:
+        if kind == "table":
+            cells = [_format_inline(cell.strip()) for cell in line.strip("|").split("|")]
+            if set(line) != {"|", "-"}:  # the rule below the head
+                tag = "td" if out[-1] != "<table>" else "th"
+                out.append(f"<tr>{''.join(f'<{tag}>{cell}</{tag}>' for cell in cells)}</tr>")
+        elif kind:
             out.append(f"<li>{_format_inline(line.split(' ', 1)[1])}</li>")
         elif line.startswith("## "):
             out.append(f"<h2>{_format_inline(line[3:])}</h2>")
@@ -110,6 +115,7 @@ def _apply_style(body: str, theme: Theme) -> str:
         f"h1 {{ font-size: {px(28)}px; font-weight: 600; margin-bottom: {px(12)}px; }}"
         f"h2 {{ font-size: {px(20)}px; font-weight: 600; margin-top: {px(20)}px; margin-bottom: {px(6)}px; }}"
         f"p, li {{ margin-top: {px(4)}px; margin-bottom: {px(8)}px; }}"
+        f"th, td {{ text-align: left; padding: {px(3)}px {px(24)}px {px(3)}px 0; }}"
         f".caption, .key {{ color: {tokens.text2}; font-size: {px(14)}px; }}"
         f"a {{ color: {tokens.accent}; font-weight: 600; text-decoration: none; }}"
     )

@@ -62,7 +62,7 @@ class RecordingControls(Surface):
 
     def show_storing(self, words: str = "") -> None:
         """Show that the recording is being stored, or how long catching up takes."""
-        self.main_button.set_label(words or self.tr("Storing…"), icon="", hint="")
+        self.main_button.set_label(words or self.tr("Saving…"), icon="", hint="")
 
     def refresh(self) -> None:
         recording = self._recording

@@ -99,7 +99,7 @@ class LiveFlow(Flow):
             at = numbers.format_clock(live.recording.duration_s)
             detail = self.tr("Recording paused automatically at {time}.").format(time=at)
             done = live.recording.repetitions
-            safe = self.tr("{time} and {count} full repetitions are stored.").format(time=at, count=done)
+            safe = self.tr("{time} and {count} full repetitions are saved.").format(time=at, count=done)
         answer = (
             Answer(self.tr("Stop and review"), live.recording.stop)
             if recording

@@ -120,7 +120,7 @@ def question_light(doubt: MarkerDoubt) -> StatusLight:
     """Return the tracking light while a question is open."""
     lower = marker_in_sentence(doubt.marker)
     if not doubt.has_other:
-        words = tr("Look at the {marker}").format(marker=lower)
+        words = tr("Check the {marker}").format(marker=lower)
         return StatusLight("warn", tr("Uncertain"), words)
     if doubt.is_hidden:
         return StatusLight("warn", tr("Another blue spot is here"), tr("Is it the {marker}?").format(marker=lower))

@@ -61,7 +61,7 @@ def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_move
         return StatusLight("warn", tr("Forearm moved"), tr("Lay the forearm back where it was"))
     if not np.isfinite(frame.kinematics.angles_rad).any():
         return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
-    return StatusLight("good", tr("Tracking well"), tr("All {count} markers visible").format(count=len(markers)))
+    return StatusLight("good", tr("Hand tracked well"), tr("All {count} markers visible").format(count=len(markers)))
 
 
 class SteadyLight:
@@ -116,7 +116,8 @@ def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibi
     if not hidden and not np.isfinite(frame.kinematics.joint_angles_rad).any():
         return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
     if not hidden:
-        return StatusLight("good", tr("Tracking well"), tr("All {count} markers visible").format(count=len(visibility)))
+        count = len(visibility)
+        return StatusLight("good", tr("Hand tracked well"), tr("All {count} markers visible").format(count=count))
     return StatusLight("warn", occlusion_words(hidden), remedy_words(hidden))
 
 

@@ -49,7 +49,7 @@ class MarkersFlow(Flow):
             return
         self.context.messages.show_question(
             MessageText(
-                self.tr("Leave the markers?"),
+                self.tr("Leave this screen?"),
                 self.tr("The labels given on this image would be lost."),
                 self.tr("Stay here, or go back to the camera."),
             ),

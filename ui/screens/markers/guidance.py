@@ -106,16 +106,16 @@ class GuidancePanel(QWidget):
         return self._column.minimumHeightForWidth(self._theme.px(COLUMN_PX)) + 2 * (MARGIN_PX - 4)
 
     def show_preview(self, calibrator: Calibrator) -> None:
-        self.step_label.show_state("none", self.tr("Picture"))
+        self.step_label.show_state("none", self.tr("Image"))
         self.title_label.setText(self.tr("Lay the hand flat and still"))
         self.instruction_label.setText(
-            self.tr("Palm down, fingers as straight as possible, forearm in line. Then take the picture.")
+            self.tr("Palm down, fingers as straight as possible, forearm in line. Then take the image.")
         )
         order = calibrator.protocol.markers
         self.hand_drawing.show_markers(calibrator.side, dict.fromkeys(order, "later"))
         self.verdict_panel.show_rows(self.tr("Checks"), "none", pending_rows(0, len(order), calibrator.limits))
         self.primary_button.setEnabled(True)
-        self.primary_button.set_label(self.tr("Take the picture"), icon="", hint=ENTER_KEY)
+        self.primary_button.set_label(self.tr("Take the image"), icon="", hint=ENTER_KEY)
         self.second_button.hide()
 
     def show_labelling(
@@ -133,7 +133,7 @@ class GuidancePanel(QWidget):
         if labels.is_complete:  # nothing is left to click while they are checked
             self.step_label.show_state("good", self.tr("All markers found"))
             self.title_label.setText(self.tr("Checking the markers…"))
-            self.instruction_label.setText(self.tr("Hold the hand in this position until the measuring begins."))
+            self.instruction_label.setText(self.tr("Hold the hand in this position until measuring begins."))
         self.hand_drawing.show_markers(labels.side, _hand_states(labels, ()))
         words = self.tr("Checking…") if labels.is_complete else self.tr("Good so far") if done else self.tr("Checks")
         state = "good" if done and not labels.is_complete else "none"
@@ -161,7 +161,7 @@ class GuidancePanel(QWidget):
         self.instruction_label.setText(words.instruction)
         self.primary_button.setEnabled(True)
         self.primary_button.set_label(words.primary, icon="", hint=ENTER_KEY)
-        self.second_button.set_label(self.tr("Click by hand"), hint="C")
+        self.second_button.set_label(self.tr("Click the markers"), hint="C")
         self.second_button.show()
         asked, proposed = len(labels.order), len(labels.proposals) + len(labels.confirmed_px)
         checks = self.tr("Labels to confirm")
@@ -180,7 +180,7 @@ class GuidancePanel(QWidget):
         if verdict.is_good:
             self.step_label.show_state("good", self.tr("All markers found"))
             self.title_label.setText(self.tr("Ready to measure"))
-            self.instruction_label.setText(self.tr("Hold the hand in this position until the measuring begins."))
+            self.instruction_label.setText(self.tr("Hold the hand in this position until measuring begins."))
             self.primary_button.set_label(self.tr("Start measuring"), icon="play", hint=ENTER_KEY)
             self.second_button.hide()
         else:

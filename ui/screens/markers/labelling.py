@@ -278,6 +278,6 @@ def remedy_face(remedy: Remedy) -> tuple[str, str]:
         "swap": (tr("Swap the two"), ENTER_KEY),
         "click_these": (tr("Click again"), "C"),
         "correct": (tr("Correct labels"), ""),
-        "take_spot": (tr("Take that spot"), ""),
-        "new_picture": (tr("New picture"), "N"),
+        "take_spot": (tr("Use that spot"), ""),
+        "new_picture": (tr("New image"), "N"),
     }[remedy]

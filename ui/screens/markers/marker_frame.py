@@ -89,7 +89,7 @@ class MarkerFrameView(FrameView):
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
-        self.setAccessibleName(self.tr("Picture to click the markers on"))
+        self.setAccessibleName(self.tr("Image to click the markers on"))
 
     def show_wrong(self, names: Collection[str]) -> None:
         self.wrong_labels = frozenset(names)

@@ -56,7 +56,7 @@ class MarkersScreen(FittedWidget):
         self.start_anyway_button = Button(theme, self.tr("Start anyway (&uncertain)"), "quiet", height_px=32)
         self.accept_all_button = Button(theme, self.tr("All labels are correct"), "quiet", height_px=32)
         self.click_again_button = Button(theme, self.tr("Click all again"), "quiet", hint="C", height_px=32)
-        self.new_frame_button = Button(theme, self.tr("New picture"), "quiet", hint="N", height_px=32)
+        self.new_frame_button = Button(theme, self.tr("New image"), "quiet", hint="N", height_px=32)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.angle_dialog = StartAngleDialog(self, theme)
         self.key_caps = KeyCaps(theme, self._current_keys())
@@ -104,7 +104,7 @@ class MarkersScreen(FittedWidget):
             return keys  # nothing to undo, to move or to name
         return [
             *keys, ("Backspace", self.tr("undo")), ("← ↑ → ↓", self.tr("move 1 px")), ("+ −", self.tr("zoom")),
-            ("Tab", self.tr("next marker")), ("M", self.tr("larger last picture")),
+            ("Tab", self.tr("next marker")), ("M", self.tr("enlarge last image")),
         ]  # fmt: skip
 
     def _fit(self) -> None:

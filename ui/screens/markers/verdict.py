@@ -185,7 +185,7 @@ def _tilt_limit(limits: CalibrationLimits) -> str:
 
 def _length_limit(limits: CalibrationLimits) -> str:
     low, high = limits.hand_length_mm
-    return tr("usual {low}–{high} mm").format(low=format_rounded(low), high=format_rounded(high))
+    return tr("typical {low}–{high} mm").format(low=format_rounded(low), high=format_rounded(high))
 
 
 def _cm(value_m: float) -> str:

@@ -80,9 +80,9 @@ class ProgressScreen(FittedWidget):
         self.report_button = Button(
             theme, self.tr("Progress report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
         )
-        self.picture_button = Button(theme, self.tr("Save picture…"), "plain")
+        self.picture_button = Button(theme, self.tr("Save image…"), "plain")
         self.table_button = Button(theme, self.tr("Save table…"), "plain", hint="Ctrl+E")
-        self.manual_values_button = Button(theme, self.tr("Values by &hand…"), "plain")
+        self.manual_values_button = Button(theme, self.tr("&Manual values…"), "plain")
         self.manual_values_button.set_label(
             self.manual_values_button.text(), hint=mnemonic_key(self.manual_values_button.text())
         )
@@ -116,7 +116,7 @@ class ProgressScreen(FittedWidget):
         self._filters.setSpacing(12)
         self.exercise_choice.setAccessibleName(self.tr("Exercise and hand"))
         self.exercise_choice.setMinimumContentsLength(MIN_LETTERS)
-        self.measure_choice.setAccessibleName(self.tr("What is followed"))
+        self.measure_choice.setAccessibleName(self.tr("Value shown"))
         self.measure_choice.hide()  # until a session of the whole hand is shown
         what = row_layout(self.exercise_choice, self.measure_choice, self.span_text, STRETCH, gap=12)
         made = row_layout(STRETCH, self.table_button, self.picture_button, self.report_button, gap=12)
@@ -278,7 +278,7 @@ class ProgressScreen(FittedWidget):
         if not values:
             return
         body, changed = self._manual_card.body, find_changes(values)
-        body.addWidget(Text(theme, self.tr("Measured by hand"), 16, SEMIBOLD))
+        body.addWidget(Text(theme, self.tr("Manual measurements"), 16, SEMIBOLD))
         add_change_rows(body, theme, changed)
         known = {key for key, _ in changed}
         once = [one for one in values if one.key not in known]

@@ -39,7 +39,7 @@ class BackupCard(Card):
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Backup"), 20, SEMIBOLD))
         words = self.tr(
-            "Backs up the whole data folder: patients, sessions, images and log. You can measure meanwhile."
+            "Backs up the whole data folder: patients, sessions, images and log. You can continue measuring."
         )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.state_card = Card(theme, 14, "soft", "soft")

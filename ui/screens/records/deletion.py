@@ -266,8 +266,8 @@ class DeleteDialog(Dialog):
         words = self.tr("Angles, images, notes and pain scores of this session ({size} MB, files: {files}).")
         if plan.kind == "patient":
             words = self.tr(
-                "The patient’s entry: real name, notes, values measured by hand. All sessions ({count}): angles, "
-                "images, notes ({size} MB, files: {files})."
+                "The patient’s entry: real name, notes, manual measurements. All sessions ({count}): "
+                "angles, images, notes ({size} MB, files: {files})."
             )
         size_mb = plan.size_bytes / 1e6
         size = format_rounded(size_mb) if size_mb >= 10 else numbers.format_fixed(size_mb, 1)

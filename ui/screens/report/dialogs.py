@@ -65,7 +65,11 @@ class AppointmentBox(Combo):
         """Return what is wrong with the typed day."""
         if self.value() is not None or self.currentText().strip() in ("", self.itemText(0)):
             return ""
-        return self.tr("When next? Day, month, year") if self._day() is None else self.tr("When next? That day is over")
+        return (
+            self.tr("Next appointment: day, month, year")
+            if self._day() is None
+            else self.tr("Next appointment: this day has passed")
+        )
 
 
 class HomeDialog(Dialog):
@@ -178,8 +182,8 @@ class LetterDialog(Dialog):
         self.add_heading(self.tr("Letter to the doctor"), words, gap=8)
         self.recipients = Combo()
         self.recipients.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.recipients.setPlaceholderText(self.tr("Written to before"))
-        self.recipients.setAccessibleName(self.tr("Written to before"))
+        self.recipients.setPlaceholderText(self.tr("Previous recipients"))
+        self.recipients.setAccessibleName(self.tr("Previous recipients"))
         lines = self.tr("Name and address, up to {count} lines").format(count=MAX_ADDRESS_LINES)
         self.name_check = CheckButton(theme, self.tr("Print the patient’s real name"))
         self.form = Form(
@@ -198,7 +202,7 @@ class LetterDialog(Dialog):
         theme.on_change(recipient, lambda: recipient.setFixedHeight(theme.px(ADDRESS_PX)))
         self.length_warning = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.length_warning.hide()
-        words = self.tr("The name goes into this letter only. Anybody who gets the file can read it.")
+        words = self.tr("The name appears in this letter only. Anyone who has the file can read it.")
         self.name_warning = Text(theme, words, 14, SEMIBOLD, "warn", wrap=True)
         parts = self.form.labelled_widgets
         fill(

@@ -66,7 +66,7 @@ class ReportPanel(QWidget):
             "table": self.tr("Table"), "curves": self.tr("Curves and repetitions"),
             "bars": self.tr("Range of motion as bars"),
             "quality": self.tr("Reliability of the values"), "speed": self.tr("Speed, pain, note"),
-            "by_hand": self.tr("Entered by hand"), "motion": self.tr("Motion page"),
+            "by_hand": self.tr("Manual measurements"), "motion": self.tr("Motion page"),
         }  # fmt: skip
         self.section_checks: dict[str, CheckButton] = {}
         for name in SECTIONS:

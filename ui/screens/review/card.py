@@ -54,7 +54,7 @@ class ReviewCard(Card):
         self.count_text = ElidedText(
             theme, "", 14, REGULAR, "text2"
         )  # one line: what it says comes when all has its place
-        self.repeat_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
+        self.repeat_button = Button(theme, self.tr("Measure again"), "quiet", icon="plus")
         self.include_button = Button(theme, self.tr("Exclude"), "quiet")
         self.include_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # Space stays with the player after a click
         self.include_button.setToolTip(self.tr("The session is kept but not analysed. It can be included again."))
@@ -111,7 +111,7 @@ class ReviewCard(Card):
         self.compare_button.setEnabled(partner is not None)
         words = self.tr("No other session of this exercise yet.")
         if partner is not None:
-            words = self.tr("Beside the {hand} of {day} (B)").format(
+            words = self.tr("Compare with {hand}, {day} (B)").format(
                 hand=terms.hand_name(partner.side).lower(),
                 day=numbers.format_distinct_day(partner.when, reviewed.results.when),
             )

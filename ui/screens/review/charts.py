@@ -110,11 +110,11 @@ class Player(Card):
         self._end_s = 1.0
         self.transport = PlaybackControls(theme, playing)
         self.view = Combo()
-        self.view.setAccessibleName(self.tr("What is drawn"))
-        self.view.setToolTip(self.tr("What is drawn of the movement (V)"))
+        self.view.setAccessibleName(self.tr("Movement display"))
+        self.view.setToolTip(self.tr("Movement display (V)"))
         self.view.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
         self.view.set_choices([
-            ("angles", self.tr("Angles")), ("path", self.tr("Path")), ("place", self.tr("Place, speed")),
+            ("angles", self.tr("Angles")), ("path", self.tr("Path")), ("place", self.tr("Position, speed")),
             ("zyz", self.tr("ZYZ")),
         ])  # fmt: skip
         self.view_key = KeyCaps(theme, [("V", "")])

@@ -98,7 +98,7 @@ class ReviewFlow(Flow):
         library, head = self.context.library, hand_image.session.header
         what = f"{head.exercise.lower().replace('_', '-')}_{head.hand}"
         name = f"carpus_{head.recording_time:%Y-%m-%d_%H-%M}_{what}_{hand_image.row}.png"
-        path = self.choose_save_path("exports", name, self.tr("Save picture"), "PNG (*.png)")
+        path = self.choose_save_path("exports", name, self.tr("Save image"), "PNG (*.png)")
         if path is None:
             return
         target = path if path.suffix.lower() == ".png" else path.with_name(f"{path.name}.png")
@@ -107,7 +107,7 @@ class ReviewFlow(Flow):
             frame = library.read_frame(head.session_id, hand_image.row)
             image = None if frame is None else draw_hand_image(self.context.theme, hand_image, frame)
             if image is None:
-                raise OutputNotWritable(target, self.tr("no frame of it was stored"))
+                raise OutputNotWritable(target, self.tr("no frame of it was saved"))
 
             def save(part: Path) -> None:
                 if not image.save(str(part), "PNG"):  # type: ignore[call-overload]

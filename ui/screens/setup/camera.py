@@ -154,9 +154,7 @@ class CameraScreen(QWidget):
                 "good" if there else "bad",
                 self.tr("Camera ready") if there else self.tr("No camera"),
             )
-        recording = self.tr(
-            "A stored recording: a file of Carpus or of the camera (.oni, .db3), or a folder of pictures."
-        )
+        recording = self.tr("A saved recording: a file of Carpus or of the camera (.oni, .db3), or an image folder.")
         self.sources.option("file").show_sentence(self._path or recording)
         kind = self.sources.value()
         self._files.setVisible(kind == "file")
@@ -184,7 +182,7 @@ class CameraScreen(QWidget):
         self._set_chosen_path(path)
 
     def _choose_folder(self) -> None:
-        title = self.tr("Choose a folder of pictures")
+        title = self.tr("Choose an image folder")
         self._set_chosen_path(QFileDialog.getExistingDirectory(self, title, self._dialog_folder()))
 
     def _dialog_folder(self) -> str:

@@ -60,7 +60,7 @@ class ExerciseScreen(QWidget):
         self.exercise_lists: dict[str, Options] = {}
         self._list_layout = QVBoxLayout()
         self._build_lists()
-        self.sets_button = Button(theme, self.tr("Sets of exercises…"), "plain", height_px=40)
+        self.sets_button = Button(theme, self.tr("Exercise sets…"), "plain", height_px=40)
         self.problem_label = Text(theme, "", 14, token="bad", wrap=True)
         self.visibility_label = Text(theme, "", 14, token="text2", wrap=True)
         self.proposal_label = Text(theme, "", 14, token="text2", wrap=True)
@@ -117,7 +117,7 @@ class ExerciseScreen(QWidget):
         fill(left, (scroll_column(self._list_layout), 1), (self.sets_button, 0, Qt.AlignmentFlag.AlignLeft))
         self._card = Card(theme, 24)
         self._card.body.setSpacing(12)
-        self._card.body.addWidget(Text(theme, self.tr("This set"), 20, SEMIBOLD))
+        self._card.body.addWidget(Text(theme, self.tr("This recording"), 20, SEMIBOLD))
         side, repetitions, targets, *others = self.form.layout_rows()
         body = column_layout(
             side, repetitions, targets, self.problem_label, self.visibility_label, self.proposal_label,
@@ -318,7 +318,7 @@ def _list_options(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list
         for item in exercises_for_protocol(protocol)
     ]
     several = [
-        (_set_option_id(one.set_id), tr("Set: {name}").format(name=translate_phrase(one.name)), set_words(one))
+        (_set_option_id(one.set_id), tr("Exercise set: {name}").format(name=translate_phrase(one.name)), set_words(one))
         for one in sets
         if one.protocol_name == protocol.name
     ]

@@ -169,7 +169,7 @@ class CameraFlow(Flow):
         words = {
             "camera": self.tr("The camera is being opened."),
             "file": self.tr("The recording is being opened."),
-            "practice": self.tr("The simulated patient is being drawn."),
+            "practice": self.tr("The simulated patient is being prepared."),
         }[choice.kind]
         self.screen.show_opening(True, words)
 

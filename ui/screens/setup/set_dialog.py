@@ -102,7 +102,7 @@ class SetDialog(Dialog):
         self._is_delete_confirmed = False
         self.rows = [PartRow(theme, self) for _ in range(MAX_PARTS)]
         self.set_choice = Combo()
-        self.set_choice.setAccessibleName(self.tr("Set"))
+        self.set_choice.setAccessibleName(self.tr("Exercise set"))
         self.name_field = QLineEdit(maxLength=MAX_NAME_CHARACTERS, placeholderText=self.tr("No patient names"))
         self.name_field.setAccessibleName(self.tr("Name of the set"))
         self.add_button = Button(theme, self.tr("Add an exercise"), "plain", icon="plus", height_px=40)
@@ -122,8 +122,8 @@ class SetDialog(Dialog):
         words = self.tr(
             "Exercises that run one after the other with the same markers. Each becomes a session of its own."
         )
-        self.add_heading(self.tr("Sets of exercises"), words)
-        top = row_layout((LabelledField(theme, self.tr("Set"), self.set_choice), 1), gap=16)
+        self.add_heading(self.tr("Exercise sets"), words)
+        top = row_layout((LabelledField(theme, self.tr("Exercise set"), self.set_choice), 1), gap=16)
         top.addWidget(LabelledField(theme, self.tr("Name of the set"), self.name_field), 1)
         body.addLayout(top)
         for column, head in enumerate((self.tr("Exercise"), self.tr("How much"), "", self.tr("Rest after it"))):

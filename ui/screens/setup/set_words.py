@@ -22,7 +22,7 @@ def set_words(one: ExerciseSet) -> str:
 
 def course_words(course: SetRun) -> str:
     """Format the present part: ``Set “Wrist”, 2 of 3: Radial–ulnar deviation, 10 times``."""
-    return tr("Set “{name}”, {number} of {count}: {part}").format(
+    return tr("Exercise set “{name}”, {number} of {count}: {part}").format(
         name=translate_phrase(course.name),
         number=course.part_index + 1,
         count=len(course.parts),
