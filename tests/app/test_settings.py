@@ -202,3 +202,9 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
     assert (found.recording.folder, found.report.therapist) == ("/home/clinic/Carpus", "AB")
     save_preferences(found, dataclasses.replace(found, lock=LockSettings(5)), tmp_path)
     assert load_settings(tmp_path) == dataclasses.replace(found, lock=LockSettings(5))
+
+
+def test_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
+    desktop = open_desktop(is_demo=True)
+    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
+    assert not (tmp_path / "settings").exists()

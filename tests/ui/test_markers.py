@@ -314,3 +314,11 @@ def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: M
     marking.enter()
     assert not marking.started
     assert marking.clicking.missing == WRIST6.markers
+
+
+def test_undo_walks_back_through_any_order() -> None:
+    clicking = LabelState(WRIST6, "right")
+    for name in ("MCP4", "WRIST", "MCP2"):
+        clicking.current = name
+        clicking.set_label(np.zeros(2), 9.0)
+    assert [clicking.undo() for _ in range(4)] == ["MCP2", "WRIST", "MCP4", ""]
