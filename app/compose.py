@@ -75,7 +75,7 @@ def compose(
     library = Library(settings.data_folder, url=settings.records.url, sessions_folder=sessions_folder(settings))
     library.get_initials = lambda: settings.report.therapist
     library.get_angle_order = lambda: settings.report.angle_order
-    LOG_FORMATTER.find_pseudonyms = library.pseudonyms
+    LOG_FORMATTER.find_names = library.identifying_texts
     recovered, faults = recover_sessions(library)
 
     @cache

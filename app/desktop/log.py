@@ -21,16 +21,16 @@ LOG_FILE, LOG_BYTES = "carpus.log", 1_000_000
 
 
 class RedactingFormatter(logging.Formatter):
-    """Formatter that cuts pseudonyms and the paths of patients out of each line."""
+    """Formatter that cuts names and the paths of patients out of each line."""
 
     def __init__(self) -> None:
         super().__init__("%(asctime)s %(name)s %(levelname)s %(message)s")
-        self.find_pseudonyms: Callable[[], Sequence[str]] = lambda: ()
+        self.find_names: Callable[[], Sequence[str]] = lambda: ()
         """Returns further names to cut out; called for each line, of which there are few."""
 
     def format(self, record: logging.LogRecord) -> str:
         text = SESSION_PATH.sub("…", super().format(record))
-        for name in self.find_pseudonyms():
+        for name in self.find_names():
             text = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", "…", text, flags=re.IGNORECASE)
         return text
 

@@ -86,7 +86,7 @@ def apply_changes(connection: Connection, changes: ChangeSet) -> None:
         try:
             _apply_row_change(connection, TABLES[row.table], row)
         except IntegrityError as cause:
-            if "folded" in str(cause.orig):
+            if "pseudonym_key" in str(cause.orig):
                 raise PseudonymTaken(row.values.get("pseudonym", "")) from cause
             raise ConcurrentChange(row.table) from cause
     for patient_id in sorted(owners):
@@ -142,7 +142,7 @@ def update_session_counts(connection: Connection, patient_id: str) -> None:
         .order_by(SESSION.c.recorded_s.desc(), SESSION.c.created_s.desc())
         .limit(1)
     ).one_or_none() or ("", 0.0, "")
-    last_columns = dict(zip(("last", "last_s", "last_exercise"), last, strict=True))
+    last_columns = dict(zip(("last_session", "last_s", "last_exercise"), last, strict=True))
     connection.execute(
         update(PATIENT).where(PATIENT.c.id == patient_id).values(sessions=recordings, results=results, **last_columns)
     )

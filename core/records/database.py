@@ -25,7 +25,7 @@ from carpus.core.model.errors import (
 )
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import is_disk_full, make_private_file, write_fault
-from carpus.core.records.schema import METADATA, SESSION, SQLITE_LOG, TABLES, VERSION
+from carpus.core.records.schema import METADATA, SESSION, SQLITE_LOG, TABLES, VERSION, rename_former_columns
 from carpus.core.session.atomic_files import find_free_name
 
 STORE_FILE = "records.sqlite3"
@@ -255,9 +255,9 @@ def rescue_rows(damaged: Path, target: Database) -> int:
             there = set[str]()
             with contextlib.suppress(sqlite3.Error):
                 there = {one for _, one, *_ in old.execute(f"PRAGMA table_info({table.name})")}
-            columns = [column.name for column in table.c if column.name in there]
-            names = ", ".join(f'"{one}"' for one in columns)
-            put = f"INSERT OR IGNORE INTO {table.name} ({names}) VALUES ({', '.join('?' * len(columns))})"
+            columns = rename_former_columns(table, {one: f'"{one}"' for one in there})
+            names = ", ".join(columns.values())
+            put = f"INSERT OR IGNORE INTO {table.name} ({', '.join(columns)}) VALUES ({', '.join('?' * len(columns))})"
             for order in ("ASC", "DESC"):
                 with contextlib.suppress(sqlite3.Error):
                     for row in old.execute(f"SELECT {names} FROM {table.name} ORDER BY rowid {order}"):

@@ -146,7 +146,7 @@ def _erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
 
 def resume_erasures(store: Store, log: AuditLogWriter) -> frozenset[str]:
     """Finish interrupted erasures; return the folded pseudonyms of patients erased by it."""
-    people = frozenset(str(row[0]) for row in store.rows(select(PATIENT.c.folded).where(PATIENT.c.erasing == 1)))
+    people = frozenset(str(row[0]) for row in store.rows(select(PATIENT.c.pseudonym_key).where(PATIENT.c.erasing == 1)))
     remaining: list[Path] = []
     if people or store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)):
         remaining = finish_pending(store)
@@ -199,7 +199,7 @@ def finish_pending(store: Store) -> list[Path]:
                 folder.rmdir()
     if remaining:
         return remaining
-    stored_names = (one for row in people for one in (row.folded, row.name, *row.former.split("\n")))
+    stored_names = (one for row in people for one in (row.pseudonym_key, row.name, *row.former_pseudonyms.split("\n")))
     names = [fold_name(one) for one in stored_names if one]
     # What leads here goes first: as long as the rows are marked, a kill in between is made good.
     root = store.sessions_folder
@@ -280,7 +280,7 @@ def _find_unassigned_files(store: Store, patient_id: str) -> tuple[Path, ...]:
         return re.sub(r"\W+", "-", fold_name(text))
 
     patient = store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
-    names = [patient.pseudonym, patient.name, *patient.former.split("\n")] if patient is not None else []
+    names = [patient.pseudonym, patient.name, *patient.former_pseudonyms.split("\n")] if patient is not None else []
     stems = [to_file_name(name) for name in names if name]
     return tuple(sorted(found, key=lambda path: (not any(one in to_file_name(f"{path}") for one in stems), path)))
 

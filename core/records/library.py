@@ -149,13 +149,15 @@ class Library:
         """Close the store; may be called twice."""
         self.store.close()
 
-    def pseudonyms(self) -> Sequence[str]:
-        """Return every pseudonym and name, for texts that must not contain them."""
+    def identifying_texts(self) -> Sequence[str]:
+        """Return what names patients, for texts that must not contain it."""
         with suppress(CarpusFault):  # those known last, while the store cannot be read
             self._last_names = [
-                text
+                str(text)
                 for one in self.patients.search(include_archived=True)
-                for text in (one.pseudonym, one.pseudonym.replace(" ", "-"), one.name)
+                for text in (
+                    one.pseudonym, one.pseudonym.replace(" ", "-"), one.name, one.record_number, one.birth_day
+                )
                 if text
             ]
         return self._last_names

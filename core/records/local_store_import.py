@@ -25,7 +25,7 @@ from carpus.core.records.changes import (
     fingerprint,
     update_session_counts,
 )
-from carpus.core.records.schema import PATIENT, SESSION, TABLES
+from carpus.core.records.schema import PATIENT, SESSION, TABLES, rename_former_columns
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 
 BATCH_ROWS = 500
@@ -63,7 +63,7 @@ class LocalStoreImport:
                 and own_server[0] == str(server.execute(_SERVER_ID_QUERY).scalar())
             )
             if not self.was_server_copy:
-                for table in TABLES.values():
+                for table in (TABLES[name] for name in TABLES if name in tables):
                     rows = old.execute(f"SELECT * FROM {table.name}")
                     while part := rows.fetchmany(BATCH_ROWS):
                         self._import_rows(table, [dict(row) for row in part])
@@ -78,9 +78,8 @@ class LocalStoreImport:
         A pseudonym that is taken gets a number; a session whose path is taken goes to :data:`LOST_FOLDER`.
         """
         known = self._existing_values(table.c.id, [row["id"] for row in rows])
-        names = {column.name for column in table.c}
         mine = [
-            {name: value for name, value in row.items() if name in names}
+            rename_former_columns(table, row)
             for row in rows
             if row["id"] not in known and fingerprint(row["id"]) not in self._erased
             and PRACTICE_PATIENT not in (row["id"], row.get("patient_id"))
@@ -93,10 +92,10 @@ class LocalStoreImport:
             taken = self._existing_values(SESSION.c.path, [row["path"] for row in mine])
             mine = [row | {"path": f"{LOST_FOLDER}{row['id']}"} if row["path"] in taken else row for row in mine]
         if table is PATIENT:
-            taken = self._existing_values(PATIENT.c.folded, [row["folded"] for row in mine])
-            for row in (row for row in mine if row["folded"] in taken):
+            taken = self._existing_values(PATIENT.c.pseudonym_key, [row["pseudonym_key"] for row in mine])
+            for row in (row for row in mine if row["pseudonym_key"] in taken):
                 self._apply([RowChange("new", table.name, row["id"], {k: v for k, v in row.items() if k != "id"})])
-            mine = [row for row in mine if row["folded"] not in taken]
+            mine = [row for row in mine if row["pseudonym_key"] not in taken]
             self._new_patients |= {row["id"] for row in mine}
         if mine:
             self._server.execute(insert(table), mine)
@@ -112,7 +111,12 @@ class LocalStoreImport:
         if change and change[0][0] == "join":
             self._import_rows(TABLES[change[0][1]], [{"id": row_id, **values} for _, _, row_id, values, *_ in change])
         else:
-            self._apply([RowChange(*row[:5]) for row in change])
+            self._apply(
+                [
+                    RowChange(action, name, row_id, rename_former_columns(TABLES[name], values), version)
+                    for action, name, row_id, values, version, *_ in change
+                ]
+            )
 
     def _apply(self, change: Sequence[RowChange]) -> None:
         for number in range(1, MAX_NAMESAKES):
@@ -134,5 +138,5 @@ def _with_number(row: RowChange, number: int) -> RowChange:
     """Put a number behind the pseudonym of a new patient, from the second on."""
     if number == 1 or row.action != "new" or row.table != PATIENT.name:
         return row
-    named = {name: f"{row.values[name]} ({number})" for name in ("pseudonym", "folded")}
+    named = {name: f"{row.values[name]} ({number})" for name in ("pseudonym", "pseudonym_key")}
     return replace(row, values={**row.values, **named})

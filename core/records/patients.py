@@ -67,7 +67,7 @@ class Patients:
         """Called with the action and the id after a patient was added or changed."""
 
     def search(self, text: str = "", *, include_archived: bool = False, limit: int | None = None) -> list[Patient]:
-        """Find patients whose pseudonym, name, diagnosis or note contains every word of ``text``.
+        """Find patients whose :data:`SEARCHED_FIELDS` contain every word of ``text``, a date as ISO 8601.
 
         Last session first. Archived patients are left out unless ``include_archived``; archived sessions are never
         counted.
@@ -99,7 +99,7 @@ class Patients:
 
     def id_of_pseudonym(self, pseudonym: str) -> str:
         """Return the id of a pseudonym, empty if there is none."""
-        row = self._store.row(select(PATIENT.c.id).where(PATIENT.c.folded == fold_name(pseudonym)))
+        row = self._store.row(select(PATIENT.c.id).where(PATIENT.c.pseudonym_key == fold_name(pseudonym)))
         return str(row[0]) if row else ""
 
     def suggest_pseudonym(self, chance: random.Random | None = None) -> str:
@@ -133,9 +133,9 @@ class Patients:
         pseudonym.
         """
         values = patient_columns(patient)
-        row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former).where(PATIENT.c.id == patient.patient_id))
+        row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former_pseudonyms).where(PATIENT.c.id == patient.patient_id))
         if row is not None and row.pseudonym != values["pseudonym"]:
-            values["former"] = "\n".join(dict.fromkeys([*row.former.split("\n"), row.pseudonym])).strip()
+            values["former_pseudonyms"] = "\n".join(dict.fromkeys([*row.former_pseudonyms.split("\n"), row.pseudonym])).strip()
         self._store.apply([update_row(PATIENT, patient.patient_id, patient.version, **values)])
         self._store.purge_deleted()  # of a name that was taken away
         self.on_change("changed", patient.patient_id)
@@ -176,6 +176,7 @@ def _column_types(kind: Any) -> ColumnTypes:
 
 
 _PATIENT, _HOME_PLAN = _column_types(Patient), _column_types(HomePlan)
+SEARCHED_FIELDS = ("pseudonym", "name", "record_number", "birth_day", "diagnosis", "note")
 
 
 def _to_columns(value: object, types: ColumnTypes) -> dict[str, Any]:
@@ -206,15 +207,16 @@ def _from_columns(row: Row[Any], types: ColumnTypes) -> dict[str, Any]:
 def patient_columns(patient: Patient) -> dict[str, Any]:
     """Return a patient's columns. Raises :class:`NameUnsuited`."""
     kept = patient.with_normalized_names()
-    search = fold_name(f"{kept.pseudonym} {kept.name} {kept.diagnosis} {kept.note}")
-    return _to_columns(kept, _PATIENT) | {"folded": fold_name(kept.pseudonym), "search": search}
+    columns = _to_columns(kept, _PATIENT)
+    search = " ".join(columns[name] for name in SEARCHED_FIELDS)
+    return columns | {"pseudonym_key": fold_name(kept.pseudonym), "search": fold_name(search)}
 
 
 def _patient_from_row(row: Row[Any]) -> Patient:
     return Patient(
         **_from_columns(row, _PATIENT) | {"pseudonym": row.pseudonym.strip() or "?"}, patient_id=row.id,
         session_count=row.sessions, result_count=row.results, last_exercise=row.last_exercise, version=row.version,
-        last_session=parse_time(row.last, row.last_s) if row.last else None,
+        last_session=parse_time(row.last_session, row.last_s) if row.last_session else None,
     )  # fmt: skip
 
 

@@ -6,12 +6,13 @@ ISO 8601 texts with zone; ``*_s`` (seconds since 1970) and ``*_ns`` sort rows.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from sqlalchemy import REAL, BigInteger, Column, Double, ForeignKey, Index, Integer, MetaData, Table, Text
 from sqlalchemy.types import TypeEngine
 
-VERSION = "2"
+VERSION = "3"
 """Schema version; each has a migration script."""
 METADATA = MetaData()
 _REAL: TypeEngine[float] = Double().with_variant(REAL(), "sqlite")
@@ -46,15 +47,17 @@ def _table(name: str, *columns: Column[Any] | list[Column[Any]]) -> Table:
 
 PATIENT = _table(
     "patient",
-    Column("folded", Text, nullable=False, unique=True),
-    _texts("pseudonym", "name", "side", "dominance", "age_band", "note", "search", "archived", "last", "last_exercise"),
-    _texts("former", "diagnosis", "onset", "onset_day"),
-    _numbers("sessions", "results", "erasing", "takes_part"),
+    Column("pseudonym_key", Text, nullable=False, unique=True),
+    _texts("pseudonym", "name", "birth_day", "record_number", "sex", "side", "dominance", "note", "search"),
+    _texts("archived", "last_session", "last_exercise", "former_pseudonyms", "diagnosis", "onset", "onset_day"),
+    _numbers("sessions", "results", "erasing"),
     _reals("added_s", "last_s"),
 )
-"""``folded``: the pseudonym as it is compared. ``former``: earlier pseudonyms, one per line, which files may still
-have. ``onset``: operation or injury, on ``onset_day``. ``archived``: since when, else empty. Counts and ``last*``
-are of listed, not simulated recordings, updated with each session."""
+"""``pseudonym_key``: the pseudonym as it is compared. ``former_pseudonyms``: one per line, which files may still have.
+``onset``: operation or injury, on ``onset_day``. ``archived``: since when, else empty. Counts and ``last*`` are of
+listed, not simulated recordings, updated with each session."""
+FORMER_COLUMNS = {"folded": "pseudonym_key", "former": "former_pseudonyms", "last": "last_session"}
+"""Names of columns before version 3."""
 Index("patient_last", PATIENT.c.last_s, PATIENT.c.added_s)
 Index(
     "patient_copy_found", PATIENT.c.search, PATIENT.c.archived, PATIENT.c.erasing, PATIENT.c.last_s, PATIENT.c.added_s,
@@ -101,7 +104,10 @@ HOME_PLAN = _table(
 )  # fmt: skip
 """Last home plan; ``exercises`` one per line, ``again``: the next appointment."""
 EXERCISE_SET = _table("exercise_set", _texts("name", "discs", "parts"), _numbers("place", "gone"))
-REPORT_FORM = _table("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
+REPORT_FORM = _table(
+    "report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"), _numbers("prints_names")
+)
+THERAPIST = _table("therapist", _texts("initials", "name"))
 RECIPIENT = _table("recipient", _texts("address"), _reals("used_s"))
 DIAGNOSIS = _table("diagnosis", _texts("words"))
 """The clinic's own list to choose from; a patient's diagnosis is in the patient's row."""
@@ -132,6 +138,7 @@ TABLES = {
         HOME_PLAN,
         EXERCISE_SET,
         REPORT_FORM,
+        THERAPIST,
         RECIPIENT,
         DIAGNOSIS,
         OUTPUT_FILE,
@@ -140,6 +147,13 @@ TABLES = {
     )
 }
 """Tables of what people write, ordered so that rows come after those they refer to."""
+
+
+def rename_former_columns(table: Table, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a row of an earlier version under the present names, without columns that are gone."""
+    renamed = {FORMER_COLUMNS.get(name, name): value for name, value in values.items()}
+    return {name: value for name, value in renamed.items() if name in table.c}
+
 
 SQLITE_LOG = """
 CREATE TRIGGER deed_stays BEFORE UPDATE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;

@@ -405,9 +405,9 @@ class SessionFileScanner:
         holds = {path: outline.header.session_id for path, outline in found}
         other = {row.id for path, row in known.items() if holds.get(path, row.id) != row.id}
         place = {row.id: path for path, row in known.items() if path in current and row.id not in other}
-        rows_of_people = self._store.rows(select(PATIENT.c.id, PATIENT.c.folded, PATIENT.c.former))
-        people = {str(row.folded): str(row.id) for row in rows_of_people}
-        former = {str(row.id): {fold_name(one) for one in row.former.split("\n")} for row in rows_of_people}
+        rows_of_people = self._store.rows(select(PATIENT.c.id, PATIENT.c.pseudonym_key, PATIENT.c.former_pseudonyms))
+        people = {str(row.pseudonym_key): str(row.id) for row in rows_of_people}
+        former = {str(row.id): {fold_name(one) for one in row.former_pseudonyms.split("\n")} for row in rows_of_people}
         gone = {str(row[0]) for row in self._store.rows(changes.ERASED_SUBJECTS)} if found else set()
         change: list[changes.RowChange] = []
         taken = 0

@@ -247,7 +247,7 @@ def _exclusive_lock(path: Path) -> Iterator[None]:
 def _ensure_practice_patient(connection: Connection) -> None:
     if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE_PATIENT)).first() is None:
         practice = insert_row(
-            PATIENT, PRACTICE_PATIENT, folded=f"\N{BULLET}{PRACTICE_PATIENT}", pseudonym=PRACTICE_NAME, side="right"
+            PATIENT, PRACTICE_PATIENT, pseudonym_key=f"\N{BULLET}{PRACTICE_PATIENT}", pseudonym=PRACTICE_NAME, side="right"
         )
         apply_changes(connection, [practice])
 

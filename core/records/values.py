@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from datetime import UTC, date, datetime
 from pathlib import Path
-from typing import Literal, TypeVar, get_args
+from typing import Literal, TypeVar
 
 from carpus.core.model.dates import is_moment
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
@@ -16,7 +16,7 @@ from carpus.core.session.values import SessionOutline
 
 AffectedSide = Literal["both", "right", "left"]
 Dominance = Literal["unknown", "right", "left", "both"]
-AgeBand = Literal["", "0-9", "10-19", "20-29", "30-39", "40-49", "50-59", "60-69", "70-79", "80 and over"]
+Sex = Literal["", "female", "male", "diverse"]
 Onset = Literal["", "operation", "injury"]
 """In all of these an unknown value from another program becomes the first choice."""
 
@@ -25,17 +25,19 @@ Onset = Literal["", "operation", "injury"]
 class Patient:
     """Patient, the same from the store to the screens.
 
-    The positional fields are filled in by a person and are columns of the store. Name, diagnosis and onset are stored
-    here only. Keyword fields come from the store: ``session_count`` counts each recording once, ``result_count`` every
+    The positional fields are filled in by a person and are columns of the store. All but the pseudonym and the side are
+    stored there only: in no session file, export or log. Keyword fields come from the store: ``session_count`` counts each recording once, ``result_count`` every
     file; simulated sessions are not counted. ``version`` rises with every change.
     """
 
     pseudonym: str
     side: AffectedSide
     dominance: Dominance = "unknown"
-    age_band: AgeBand = ""
     note: str = ""
     name: str = ""
+    birth_day: date | None = None
+    record_number: str = ""
+    sex: Sex = ""
     diagnosis: str = ""
     onset: Onset = ""
     onset_day: date | None = None
@@ -50,17 +52,19 @@ class Patient:
     def __post_init__(self) -> None:
         if not self.pseudonym.strip():
             raise ValueError("no pseudonym")
-        if self.age_band not in get_args(AgeBand):
-            raise ValueError(f"age band {self.age_band!r}")
 
     def with_normalized_names(self) -> Patient:
         """Return the patient with names in their stored form. Raises :class:`NameUnsuited`."""
-        return replace(
-            self,
-            pseudonym=normalize_name(self.pseudonym),
-            name=normalize_name(self.name),
-            diagnosis=normalize_name(self.diagnosis),
-        )
+        names = ("pseudonym", "name", "record_number", "diagnosis")
+        return replace(self, **{name: normalize_name(getattr(self, name)) for name in names})
+
+
+@dataclass(frozen=True, slots=True)
+class Therapist:
+    """Therapist of the clinic; ``initials`` stand in sessions, reports and the log."""
+
+    initials: str
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -176,7 +176,7 @@ DAMAGE: dict[str, Callable[[Path], object]] = {
     "another column": rows("ALTER TABLE patient RENAME COLUMN note TO remark"),
     "no time": rows("UPDATE session SET created = 'yesterday'"),
     "no pseudonym": rows("UPDATE patient SET pseudonym = ' '"),
-    "no age": rows("UPDATE patient SET age_band = 'old', side = '7'"),
+    "no sex": rows("UPDATE patient SET sex = 'old', side = '7'"),
 }
 
 

@@ -35,10 +35,10 @@ from tests.session.samples import begun
 LONG_S = 120.0
 T0 = datetime(2026, 10, 9, 9, 51, tzinfo=UTC)
 LINDEN = Patient(
-    "Linden 42", "right", "left", "40-49", "flexor tendon", "Erika Mustermann", "Flexor tendon repair", "operation",
-    date(2026, 8, 21),
+    "Linden 42", "right", "left", "flexor tendon", "Erika Mustermann", date(1981, 3, 12), "PR-4711", "female",
+    "Flexor tendon repair", "operation", date(2026, 8, 21),
 )  # fmt: skip
-NAMES = ("Linden", "Erika Mustermann", "flexor tendon")
+NAMES = ("Linden", "Erika Mustermann", "flexor tendon", "1981-03-12", "PR-4711")
 """Of Linden 42."""
 HERON = Patient("Heron 17", "left", name="Otto Normal")
 _RECORDED: dict[tuple[Any, ...], list[bytes]] = {}

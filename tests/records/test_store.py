@@ -97,6 +97,7 @@ def test_patient_search_finds_every_word(tmp_path: Path) -> None:
         linden, heron = {"Linden 42"}, {"Heron 17"}
         for search, found in {
             "": linden | heron, "lind": linden, "42 linden": linden, "MUSTER": linden, "tendon": linden, "17": heron,
+            "4711": linden, "1981-03-12 erika": linden,
             "heron 42": set(), "%": set(),
         }.items():  # fmt: skip
             assert set(house.names(search)) == found, search
@@ -358,17 +359,33 @@ def test_store_unknown_version_is_reported_and_unchanged(tmp_path: Path, version
     assert not list(tmp_path.glob("*damaged*"))
 
 
-def test_store_first_version_is_migrated(tmp_path: Path) -> None:
-    """The golden file was made by the first version."""
-    golden = Path(__file__).with_name("golden") / "version-1.sqlite3"
+@pytest.mark.parametrize("version", [1, 2])
+def test_store_earlier_version_is_migrated(tmp_path: Path, version: int) -> None:
+    """The golden files were made by these versions."""
+    golden = Path(__file__).with_name("golden") / f"version-{version}.sqlite3"
     (tmp_path / STORE_FILE).write_bytes(golden.read_bytes())
     with opened(tmp_path) as house:
         (linden,) = house.patients.search("muster")
         (session,) = house.index.patient_sessions(linden.patient_id)
-        assert (written(linden), session.exercise) == (LINDEN, "WRIST_FE")
+        before = replace(LINDEN, note="flexor tendon (40-49)", birth_day=None, record_number="", sex="")
+        assert (written(linden), session.exercise) == (before, "WRIST_FE")
+        assert (linden.session_count, linden.last_session) == (1, session.recorded)
+        assert house.patients.id_of_pseudonym("linden 42") == linden.patient_id
         assert [one.text for one in session_records.read_comments(house.store, session.session_id)] == [
             "Less swelling."
         ]
+        house.patients.change(replace(LINDEN, patient_id=linden.patient_id, version=linden.version))
+        assert written(house.patients.get(linden.patient_id)) == LINDEN
+
+
+def test_store_earlier_version_damaged_is_rescued(tmp_path: Path) -> None:
+    content = bytearray(Path(__file__).with_name("golden").joinpath("version-2.sqlite3").read_bytes())
+    page = content.index(b"Less swelling.") // 4096 * 4096
+    content[page : page + 4096] = bytes(4096)
+    (tmp_path / STORE_FILE).write_bytes(content)
+    with opened(tmp_path) as house:
+        assert [type(one) for one in house.store.startup_faults] == [PatientListRebuilt]
+        assert house.names() == ["Linden 42"]
 
 
 def test_scan_assigns_file_by_patient_folder(tmp_path: Path, url: str) -> None:
