@@ -35,6 +35,7 @@ from carpus.ui.screens.records.backup import BackupController
 from carpus.ui.screens.records.deletion import DeletionController
 from carpus.ui.screens.records.lock import LockController
 from carpus.ui.screens.records.record_lists import RecordListsController
+from carpus.ui.screens.settings.therapist_store import TherapistController
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.words.camera_check import camera_words
 from carpus.ui.words.fault_words import fault_words
@@ -103,8 +104,13 @@ def compose(
     library.get_initials = lambda: controller.settings.report.therapist
     library.get_angle_order = lambda: controller.settings.report.angle_order
     AccessLogger(controller, library)
-    data_protection = _build_data_protection(controller, preferences, settings, settings_folder)
-    controller.navigator.run_when_created("settings", lambda: _connect_settings(preferences.screen, controller, theme))
+    therapists = TherapistController(
+        controller.context, lambda: preferences.settings.report.therapist, preferences.choose_therapist
+    )
+    data_protection = _build_data_protection(controller, preferences, therapists, settings, settings_folder)
+    controller.navigator.run_when_created(
+        "settings", lambda: _connect_settings(preferences.screen, controller, therapists, theme)
+    )
     tour = TourController(controller)
     welcome = WelcomeController(controller, theme, tour, preferences, library)
     ends = qt.commitDataRequest.connect(lambda _: shell.close_without_prompt())
@@ -133,7 +139,9 @@ def _show_startup_notices(
         messages.show_notice(place, fault_words(fault), tr("I have read it"), lambda: None, icon="hard-drive")
 
 
-def _connect_settings(screen: SettingsScreen, controller: MainController, theme: Theme) -> None:
+def _connect_settings(
+    screen: SettingsScreen, controller: MainController, therapists: TherapistController, theme: Theme
+) -> None:
     from carpus.ui.screens.settings.camera_card import CameraCard
 
     navigator, camera = controller.navigator, controller.camera_state
@@ -146,11 +154,15 @@ def _connect_settings(screen: SettingsScreen, controller: MainController, theme:
         camera.status_changed.connect(lambda: card.show_status(*camera_words(camera.status)))
         card.show_status(*camera_words(camera.status))
     screen.add_cards("camera", card)
-    screen.add_cards("report", controller.report.form_store.card)
+    screen.add_cards("report", therapists.card, controller.report.form_store.card)
 
 
 def _build_data_protection(
-    controller: MainController, preferences: PreferencesController, settings: Settings, folder: Path | None
+    controller: MainController,
+    preferences: PreferencesController,
+    therapists: TherapistController,
+    settings: Settings,
+    folder: Path | None,
 ) -> DataProtection:
     """Build the dialogs for backup, lock, records and erasure, and their cards in the settings."""
     context, patients = controller.context, controller.patients.screen
@@ -179,7 +191,7 @@ def _build_data_protection(
         save_years=lambda years: preferences.save(records=replace(settings.records, retention_years=years)),
     )
     locking = LockController(
-        context, minutes=settings.lock.after_min,
+        context, therapists, minutes=settings.lock.after_min,
         save_minutes=lambda minutes: preferences.save(lock=LockSettings(minutes)),
     )  # fmt: skip
 

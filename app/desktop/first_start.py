@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -213,8 +214,13 @@ class WelcomeController(QObject):
         panel.again_button.clicked.connect(self.run_checks)
         panel.folder_button.clicked.connect(lambda: self._preferences.screen.choose_folder())
         panel.close_button.clicked.connect(self._controller.patients.screen.window().close)
+        panel.prints_names.chosen.connect(self._save_prints_names)
         self._controller.patients.screen.show_welcome(panel)
         self.run_checks()
+
+    def _save_prints_names(self, prints_names: bool) -> None:
+        form_store = self._controller.report.form_store
+        form_store.save(replace(form_store.form, prints_names=prints_names))
 
     def stop(self) -> None:
         self._background.join()

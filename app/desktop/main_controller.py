@@ -28,6 +28,7 @@ from carpus.ui.shell.current_selection import CurrentSelection, SourceChoice
 from carpus.ui.shell.flow import PATIENT_TABS, SETUP_STEPS, Flow, Navigator, ScreenContext
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Messages
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.recent_locations import RecentLocations
 from carpus.ui.shell.source_opener import OpenSourceFunction, SourceOpener
 
@@ -74,6 +75,7 @@ class MainController(Screens):
             messages,
             self.navigator,
             self.current,
+            NameDisplay(self),
             self.opener,
             self.camera_state,
             services.cameras,

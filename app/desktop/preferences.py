@@ -20,6 +20,7 @@ from carpus.app.settings import (
 )
 from carpus.core.model.errors import CarpusFault
 from carpus.core.records.values import BackupSettings
+from carpus.core.results.report_form import ReportSettings
 from carpus.ui.kit.theme import Theme, ThemeName
 from carpus.ui.shell.view_models import Preferences
 
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 SETTING_PATHS = {
     "theme": ("screen", "theme"), "text_scale": ("screen", "text_scale"), "language": ("screen", "language"),
-    "research": ("screen", "research"), "therapist": ("report", "therapist"), "angle_order": ("report", "angle_order"),
+    "research": ("screen", "research"), "angle_order": ("report", "angle_order"),
     "stream": ("stream", "on"), "patient_sound": ("patient", "sound"), "start": ("recording", "start"),
 }  # fmt: skip
 """Section and field of each preference in the settings."""
@@ -100,16 +101,21 @@ class PreferencesController(QObject):
         self._controller.navigator.show_research(on=chosen.research)
         if "live" in self._controller.navigator.flows:
             self._apply_start_mode()
-        self._controller.settings = replace(
-            self._controller.settings,
-            report=self._settings.report,
-            stream=self._settings.stream,
-        )
-        self._controller.context.report_settings = self._settings.report
+        self._share_settings()
         self._controller.context.patient_sound = chosen.patient_sound
         self._save_changes(before)
         if other_language:
             self.language_chosen.emit()
+
+    def _share_settings(self) -> None:
+        settings, controller = self._settings, self._controller
+        controller.settings = replace(controller.settings, report=settings.report, stream=settings.stream)
+        controller.context.report_settings = settings.report
+
+    def choose_therapist(self, initials: str) -> None:
+        """Apply and save who works now."""
+        self.save(report=replace(self._settings.report, therapist=initials))
+        self._share_settings()
 
     @property
     def settings(self) -> Settings:
@@ -128,7 +134,9 @@ class PreferencesController(QObject):
         except CarpusFault as fault:
             self._controller.messages.show_fault(fault)
 
-    def save(self, **changed: BackupSettings | RecordsSettings | LockSettings | WelcomeSettings) -> None:
+    def save(
+        self, **changed: BackupSettings | RecordsSettings | LockSettings | ReportSettings | WelcomeSettings
+    ) -> None:
         """Save sections of the settings that a card of its own has changed."""
         before, self._settings = self._settings, replace(self._settings, **changed)  # type: ignore[arg-type]
         self._save_changes(before)

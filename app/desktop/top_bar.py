@@ -6,13 +6,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.fault_text import shorten
 from carpus.core.model.rounding import round_half_away
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.ui.kit import numbers
+from carpus.ui.kit.keys import bind_key
 from carpus.ui.shell.flow import PATIENT_TABS, SETUP_STEPS, ScreenContext
 from carpus.ui.words import terms
 from carpus.ui.words.fault_words import finding_words
@@ -35,6 +36,11 @@ class TopBarController(QObject):
         self._lost_before_recording = 0
         self._navigator.screen_changed.connect(lambda _: self.refresh())
         self._navigator.banner_changed.connect(self.refresh)
+        names, button = context.names, self._shell.top_bar.names_button
+        button.toggled.connect(names.set_hidden)
+        names.changed.connect(lambda: button.setChecked(names.is_hidden))
+        names.changed.connect(self.refresh)
+        bind_key(self._shell, "hide_names", button.toggle, Qt.ShortcutContext.WindowShortcut)
         self._camera.availability_checked.connect(self.show_camera)
 
     def refresh(self) -> None:

@@ -1,4 +1,4 @@
-"""Records of the clinic: report form, recipients of letters, backups, and last used folders."""
+"""Records of the clinic: report form, therapists, recipients of letters, backups, and last used folders."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from sqlalchemy import Row, select
 from carpus.core.model.errors import ConcurrentChange
 from carpus.core.model.names import fold_name
 from carpus.core.platform.durable import replace_text
-from carpus.core.records.changes import insert_row, update_row, upsert_row
-from carpus.core.records.schema import BACKUP, RECIPIENT, REPORT_FORM, SESSION
+from carpus.core.records.changes import delete_row, insert_row, update_row, upsert_row
+from carpus.core.records.schema import BACKUP, RECIPIENT, REPORT_FORM, SESSION, THERAPIST
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import parse_time
+from carpus.core.records.values import Therapist, parse_time
 from carpus.core.results.report_form import Letterhead, Paper, ReportForm
 
 MAX_RECIPIENTS = 50
@@ -111,7 +111,7 @@ def save_form(store: Store, form: ReportForm, previous: ReportForm) -> None:
     values = {
         "name": head.name, "address": json.dumps(head.address, ensure_ascii=False), "paper": form.paper,
         "logo": base64.b64encode(head.logo_png).decode("ascii"), "left_out": json.dumps(sorted(form.excluded_sections)),
-        "sentences": json.dumps(form.sentences, ensure_ascii=False),
+        "sentences": json.dumps(form.sentences, ensure_ascii=False), "prints_names": int(form.prints_names),
     }  # fmt: skip
     row = _form_row(store)
     if row is None:
@@ -122,6 +122,26 @@ def save_form(store: Store, form: ReportForm, previous: ReportForm) -> None:
         store.apply([update_row(REPORT_FORM, _FORM_ID, row.version, **values)])
 
 
+def read_therapists(store: Store) -> list[Therapist]:
+    """Return the clinic's therapists by initials."""
+    rows = store.rows(select(THERAPIST).order_by(THERAPIST.c.initials))
+    return [Therapist(row.initials, row.name) for row in rows]
+
+
+def save_therapists(store: Store, therapists: Iterable[Therapist]) -> None:
+    """Store the list in place of the last one; of two with the same initials the later stays."""
+    rows = {uuid.uuid5(uuid.NAMESPACE_OID, one.initials).hex: one for one in therapists if one.initials}
+    gone = [row.id for row in store.rows(select(THERAPIST.c.id)) if row.id not in rows]
+    kept = [upsert_row(THERAPIST, row_id, initials=one.initials, name=one.name) for row_id, one in rows.items()]
+    store.apply([*(delete_row(THERAPIST, one) for one in gone), *kept])
+
+
+def therapist_words(store: Store, initials: str) -> str:
+    """Return ``Katrin Berger (KB)``, the initials alone if the list has no name."""
+    name = next((one.name for one in read_therapists(store) if one.initials == initials), "")
+    return f"{name} ({initials})" if name else initials
+
+
 def _form_row(store: Store) -> Row[Any] | None:
     return store.row(select(REPORT_FORM).where(REPORT_FORM.c.id == _FORM_ID))
 
@@ -129,5 +149,5 @@ def _form_row(store: Store) -> Row[Any] | None:
 def _form_from_row(row: Row[Any]) -> ReportForm:
     return ReportForm(
         Letterhead(row.name, tuple(json.loads(row.address)), base64.b64decode(row.logo)), row.paper,
-        frozenset(json.loads(row.left_out)), tuple(json.loads(row.sentences)),
+        frozenset(json.loads(row.left_out)), tuple(json.loads(row.sentences)), bool(row.prints_names),
     )  # fmt: skip

@@ -155,9 +155,7 @@ class Library:
             self._last_names = [
                 str(text)
                 for one in self.patients.search(include_archived=True)
-                for text in (
-                    one.pseudonym, one.pseudonym.replace(" ", "-"), one.name, one.record_number, one.birth_day
-                )
+                for text in (one.pseudonym, one.pseudonym.replace(" ", "-"), one.name, one.record_number, one.birth_day)
                 if text
             ]
         return self._last_names

@@ -23,9 +23,7 @@ from carpus.core.records.changes import fingerprint, insert_row
 from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import parse_time
-
-MAX_INITIALS = 12
+from carpus.core.records.values import MAX_INITIALS, parse_time
 
 AuditAction = Literal[
     "opened", "recorded", "added", "changed", "exported", "reported", "set_aside", "taken_back", "moved", "renamed",

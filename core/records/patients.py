@@ -133,9 +133,10 @@ class Patients:
         pseudonym.
         """
         values = patient_columns(patient)
-        row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former_pseudonyms).where(PATIENT.c.id == patient.patient_id))
+        row = self._store.row(select(PATIENT).where(PATIENT.c.id == patient.patient_id))
         if row is not None and row.pseudonym != values["pseudonym"]:
-            values["former_pseudonyms"] = "\n".join(dict.fromkeys([*row.former_pseudonyms.split("\n"), row.pseudonym])).strip()
+            former = dict.fromkeys([*row.former_pseudonyms.split("\n"), row.pseudonym])
+            values["former_pseudonyms"] = "\n".join(former).strip()
         self._store.apply([update_row(PATIENT, patient.patient_id, patient.version, **values)])
         self._store.purge_deleted()  # of a name that was taken away
         self.on_change("changed", patient.patient_id)

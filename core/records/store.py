@@ -246,10 +246,8 @@ def _exclusive_lock(path: Path) -> Iterator[None]:
 
 def _ensure_practice_patient(connection: Connection) -> None:
     if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE_PATIENT)).first() is None:
-        practice = insert_row(
-            PATIENT, PRACTICE_PATIENT, pseudonym_key=f"\N{BULLET}{PRACTICE_PATIENT}", pseudonym=PRACTICE_NAME, side="right"
-        )
-        apply_changes(connection, [practice])
+        names = {"pseudonym_key": f"\N{BULLET}{PRACTICE_PATIENT}", "pseudonym": PRACTICE_NAME}
+        apply_changes(connection, [insert_row(PATIENT, PRACTICE_PATIENT, **names, side="right")])
 
 
 def new_id() -> str:

@@ -25,9 +25,10 @@ Onset = Literal["", "operation", "injury"]
 class Patient:
     """Patient, the same from the store to the screens.
 
-    The positional fields are filled in by a person and are columns of the store. All but the pseudonym and the side are
-    stored there only: in no session file, export or log. Keyword fields come from the store: ``session_count`` counts each recording once, ``result_count`` every
-    file; simulated sessions are not counted. ``version`` rises with every change.
+    The positional fields are filled in by a person and are columns of the store. Names, birth date, number, sex,
+    diagnosis and onset are there only: in no session file, export or log. Keyword fields come from the store:
+    ``session_count`` counts each recording once, ``result_count`` every file; simulated sessions are not counted.
+    ``version`` rises with every change.
     """
 
     pseudonym: str
@@ -55,8 +56,16 @@ class Patient:
 
     def with_normalized_names(self) -> Patient:
         """Return the patient with names in their stored form. Raises :class:`NameUnsuited`."""
-        names = ("pseudonym", "name", "record_number", "diagnosis")
-        return replace(self, **{name: normalize_name(getattr(self, name)) for name in names})
+        return replace(
+            self,
+            pseudonym=normalize_name(self.pseudonym),
+            name=normalize_name(self.name),
+            record_number=normalize_name(self.record_number),
+            diagnosis=normalize_name(self.diagnosis),
+        )
+
+
+MAX_INITIALS = 12
 
 
 @dataclass(frozen=True, slots=True)

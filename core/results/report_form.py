@@ -44,12 +44,16 @@ class Letterhead:
 
 @dataclass(frozen=True, slots=True)
 class ReportForm:
-    """Form of reports; ``sentences`` are the therapist's own for comments."""
+    """Form of reports; ``sentences`` are the therapist's own for comments.
+
+    ``prints_names``: real name, birth date and record number stand beside the pseudonym.
+    """
 
     letterhead: Letterhead = field(default_factory=Letterhead)
     paper: Paper = "a4"
     excluded_sections: frozenset[str] = DEFAULT_EXCLUDED
     sentences: tuple[str, ...] = ()
+    prints_names: bool = False
 
     def includes(self, section: str) -> bool:
         return section not in self.excluded_sections

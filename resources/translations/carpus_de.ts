@@ -6515,6 +6515,30 @@
         <source>Their sessions stay separate.</source>
         <translation>Ihre Sitzungen bleiben getrennt.</translation>
     </message>
+    <message>
+        <source>Hide or show names</source>
+        <translation>Namen aus- oder einblenden</translation>
+    </message>
+    <message>
+        <source>born {day}</source>
+        <translation>geb. {day}</translation>
+    </message>
+    <message>
+        <source>No. {number}</source>
+        <translation>Nr. {number}</translation>
+    </message>
+    <message>
+        <source>female</source>
+        <translation>weiblich</translation>
+    </message>
+    <message>
+        <source>male</source>
+        <translation>männlich</translation>
+    </message>
+    <message>
+        <source>diverse</source>
+        <translation>divers</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -8312,6 +8336,10 @@ von oben</translation>
         <source>Locked at {time}.</source>
         <translation>Um {time} gesperrt.</translation>
     </message>
+    <message>
+        <source>Who works now?</source>
+        <translation>Wer arbeitet jetzt?</translation>
+    </message>
 </context>
 <context>
     <name>LogDialog</name>
@@ -8965,10 +8993,6 @@ von oben</translation>
         <translation>Alle &amp;Sitzungen</translation>
     </message>
     <message>
-        <source>Name: {name}</source>
-        <translation>Name: {name}</translation>
-    </message>
-    <message>
         <source>Simulated: excluded from analysis</source>
         <translation>Simuliert: von der Auswertung ausgeschlossen</translation>
     </message>
@@ -9044,24 +9068,12 @@ von oben</translation>
         <translation>Name: {count} Zeichen zu lang</translation>
     </message>
     <message>
-        <source>&amp;Real name, optional (stays in this list, never in a session or report)</source>
-        <translation>&amp;Echter Name, optional (nur in dieser Liste)</translation>
-    </message>
-    <message>
         <source>Real name: {count} characters too long</source>
         <translation>Echter Name: {count} Zeichen zu lang</translation>
     </message>
     <message>
-        <source>&amp;Diagnosis or operation (stays in this list, never in a session)</source>
-        <translation>&amp;Diagnose oder Operation (nur in dieser Liste, in keiner Sitzung)</translation>
-    </message>
-    <message>
         <source>Diagnosis: {count} characters too long</source>
         <translation>Diagnose: {count} Zeichen zu lang</translation>
-    </message>
-    <message>
-        <source>day month year</source>
-        <translation>Tag Monat Jahr</translation>
     </message>
     <message>
         <source>Operation</source>
@@ -9080,24 +9092,12 @@ von oben</translation>
         <translation>Esc</translation>
     </message>
     <message>
-        <source>A made-up name that can be spoken aloud. No real name, no initials, no date of birth.</source>
-        <translation>Ein erfundener Name, den man laut sagen kann. Kein echter Name, keine Anfangsbuchstaben, kein Geburtsdatum.</translation>
-    </message>
-    <message>
         <source>Edit patient</source>
         <translation>Patient bearbeiten</translation>
     </message>
     <message>
         <source>Save changes</source>
         <translation>Änderungen speichern</translation>
-    </message>
-    <message>
-        <source>Since when? The date is in the future</source>
-        <translation>Seit wann? Das Datum liegt in der Zukunft</translation>
-    </message>
-    <message>
-        <source>Since when? This date does not exist</source>
-        <translation>Seit wann? Dieses Datum gibt es nicht</translation>
     </message>
     <message>
         <source>Enter a name.</source>
@@ -9148,12 +9148,56 @@ von oben</translation>
         <translation>Welche Hand schreibt?</translation>
     </message>
     <message>
-        <source>Since when? Day, month, year</source>
-        <translation>Seit wann? Tag, Monat, Jahr</translation>
-    </message>
-    <message>
         <source>Operation or injury?</source>
         <translation>Operation oder Verletzung?</translation>
+    </message>
+    <message>
+        <source>&amp;Real name</source>
+        <translation>&amp;Echter Name</translation>
+    </message>
+    <message>
+        <source>&amp;Born</source>
+        <translation>&amp;Geboren</translation>
+    </message>
+    <message>
+        <source>Record nu&amp;mber</source>
+        <translation>Aktenn&amp;ummer</translation>
+    </message>
+    <message>
+        <source>Record number: {count} characters too long</source>
+        <translation>Aktennummer: {count} Zeichen zu lang</translation>
+    </message>
+    <message>
+        <source>Sex</source>
+        <translation>Geschlecht</translation>
+    </message>
+    <message>
+        <source>Female</source>
+        <translation>Weiblich</translation>
+    </message>
+    <message>
+        <source>Male</source>
+        <translation>Männlich</translation>
+    </message>
+    <message>
+        <source>Diverse</source>
+        <translation>Divers</translation>
+    </message>
+    <message>
+        <source>&amp;Diagnosis or operation</source>
+        <translation>&amp;Diagnose oder Operation</translation>
+    </message>
+    <message>
+        <source>Born when? {problem}</source>
+        <translation>Wann geboren? {problem}</translation>
+    </message>
+    <message>
+        <source>Since when? {problem}</source>
+        <translation>Seit wann? {problem}</translation>
+    </message>
+    <message>
+        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a session file or an export.</source>
+        <translation>Der Name in Carpus ist erfunden und kann laut gesagt werden: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
     </message>
 </context>
 <context>
@@ -9190,10 +9234,6 @@ von oben</translation>
     <message>
         <source>Ctrl+F</source>
         <translation>Strg+F</translation>
-    </message>
-    <message>
-        <source>Name or diagnosis</source>
-        <translation>Name, Diagnose</translation>
     </message>
     <message>
         <source>New patient</source>
@@ -9234,6 +9274,22 @@ von oben</translation>
     <message>
         <source>Made-up name</source>
         <translation>Erfundener Name</translation>
+    </message>
+    <message>
+        <source>Name, number, birth date or diagnosis</source>
+        <translation>Name, Nummer, Geburtsdatum oder Diagnose</translation>
+    </message>
+    <message>
+        <source>found by name</source>
+        <translation>gefunden über den Namen</translation>
+    </message>
+    <message>
+        <source>found by birth date</source>
+        <translation>gefunden über das Geburtsdatum</translation>
+    </message>
+    <message>
+        <source>found by record number</source>
+        <translation>gefunden über die Aktennummer</translation>
     </message>
 </context>
 <context>
@@ -9877,6 +9933,10 @@ von oben</translation>
         <source>Choose a logo</source>
         <translation>Logo wählen</translation>
     </message>
+    <message>
+        <source>Print real name, birth date and record number</source>
+        <translation>Echten Namen, Geburtsdatum und Aktennummer drucken</translation>
+    </message>
 </context>
 <context>
     <name>ReportPanel</name>
@@ -10008,10 +10068,6 @@ von oben</translation>
         <translation>{count} A4-Seiten</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. Contains the pseudonym, never the real name.</source>
-        <translation>{pages}, in Grau lesbar. Enthält das Pseudonym, nie den echten Namen.</translation>
-    </message>
-    <message>
         <source>Not saved yet</source>
         <translation>Noch nicht gespeichert</translation>
     </message>
@@ -10030,6 +10086,10 @@ von oben</translation>
     <message>
         <source>Saved</source>
         <translation>Gespeichert</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in grey. Contains the pseudonym, not the real name.</source>
+        <translation>{pages}, auch in Grau lesbar. Enthält das Pseudonym, nicht den echten Namen.</translation>
     </message>
 </context>
 <context>
@@ -10481,10 +10541,6 @@ von oben</translation>
         <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
     </message>
     <message>
-        <source>Initials on reports</source>
-        <translation>Kürzel auf Berichten</translation>
-    </message>
-    <message>
         <source>As in the papers: deviation first</source>
         <translation>Wie in den Veröffentlichungen: Radial-/Ulnarduktion zuerst</translation>
     </message>
@@ -10723,6 +10779,26 @@ von oben</translation>
     <message>
         <source>After the recording</source>
         <translation>Nach der Aufnahme</translation>
+    </message>
+    <message>
+        <source>Hide names (Ctrl+D)</source>
+        <translation>Namen ausblenden (Strg+D)</translation>
+    </message>
+    <message>
+        <source>Therapist: {initials}</source>
+        <translation>Therapeut/in: {initials}</translation>
+    </message>
+    <message>
+        <source>Choose a therapist</source>
+        <translation>Therapeut/in wählen</translation>
+    </message>
+    <message>
+        <source>Therapist</source>
+        <translation>Therapeut/in</translation>
+    </message>
+    <message>
+        <source>Show names (Ctrl+D)</source>
+        <translation>Namen einblenden (Strg+D)</translation>
     </message>
 </context>
 <context>
@@ -10994,6 +11070,18 @@ von oben</translation>
         <source>The new folder is used from the next start. Close Carpus and open it again before you measure.</source>
         <translation>Der Ordner gilt ab dem nächsten Start: Schließen Sie Carpus und öffnen Sie es wieder, bevor Sie messen.</translation>
     </message>
+    <message>
+        <source>Pseudonym only</source>
+        <translation>Nur das Pseudonym</translation>
+    </message>
+    <message>
+        <source>Real name too</source>
+        <translation>Auch den echten Namen</translation>
+    </message>
+    <message>
+        <source>What should reports and letters print?</source>
+        <translation>Was soll auf Berichten und Briefen stehen?</translation>
+    </message>
 </context>
 <context>
     <name>ZoomChart</name>
@@ -11030,6 +11118,51 @@ von oben</translation>
     <message>
         <source>Measure without the list</source>
         <translation>Ohne die Liste messen</translation>
+    </message>
+</context>
+<context>
+    <name>DateField</name>
+    <message>
+        <source>day month year</source>
+        <translation>Tag Monat Jahr</translation>
+    </message>
+    <message>
+        <source>The date is in the future</source>
+        <translation>Das Datum liegt in der Zukunft</translation>
+    </message>
+    <message>
+        <source>This date does not exist</source>
+        <translation>Dieses Datum gibt es nicht</translation>
+    </message>
+    <message>
+        <source>Day, month, year</source>
+        <translation>Tag, Monat, Jahr</translation>
+    </message>
+</context>
+<context>
+    <name>TherapistCard</name>
+    <message>
+        <source>The initials of who works stand in sessions, reports, letters and the log. Choose who works in the top bar. Clear the initials to remove a therapist.</source>
+        <translation>Die Kürzel stehen in Sitzungen, Berichten, Briefen und im Protokoll. Wer gerade arbeitet, wird in der Leiste oben gewählt. Wer gelöscht werden soll: das Kürzel leeren.</translation>
+    </message>
+    <message>
+        <source>Initials</source>
+        <translation>Kürzel</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Therapists</source>
+        <translation>Therapeutinnen und Therapeuten</translation>
+    </message>
+</context>
+<context>
+    <name>TherapistController</name>
+    <message>
+        <source>Edit the list…</source>
+        <translation>Liste bearbeiten…</translation>
     </message>
 </context>
 </TS>

@@ -6515,6 +6515,30 @@
         <source>Their sessions stay separate.</source>
         <translation>Le loro sedute restano separate.</translation>
     </message>
+    <message>
+        <source>Hide or show names</source>
+        <translation>Nascondi o mostra i nomi</translation>
+    </message>
+    <message>
+        <source>born {day}</source>
+        <translation>nato/a il {day}</translation>
+    </message>
+    <message>
+        <source>No. {number}</source>
+        <translation>N. {number}</translation>
+    </message>
+    <message>
+        <source>female</source>
+        <translation>femmina</translation>
+    </message>
+    <message>
+        <source>male</source>
+        <translation>maschio</translation>
+    </message>
+    <message>
+        <source>diverse</source>
+        <translation>altro</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -8312,6 +8336,10 @@ dall’alto</translation>
         <source>Locked at {time}.</source>
         <translation>Bloccato alle {time}.</translation>
     </message>
+    <message>
+        <source>Who works now?</source>
+        <translation>Chi lavora adesso?</translation>
+    </message>
 </context>
 <context>
     <name>LogDialog</name>
@@ -8965,10 +8993,6 @@ dall’alto</translation>
         <translation>Tutte le &amp;sedute</translation>
     </message>
     <message>
-        <source>Name: {name}</source>
-        <translation>Nome: {name}</translation>
-    </message>
-    <message>
         <source>Simulated: excluded from analysis</source>
         <translation>Simulato: escluso dall’analisi</translation>
     </message>
@@ -9044,24 +9068,12 @@ dall’alto</translation>
         <translation>Nome: {count} caratteri di troppo</translation>
     </message>
     <message>
-        <source>&amp;Real name, optional (stays in this list, never in a session or report)</source>
-        <translation>Nome &amp;vero, facoltativo (resta in questo elenco, mai in una seduta o relazione)</translation>
-    </message>
-    <message>
         <source>Real name: {count} characters too long</source>
         <translation>Nome vero: {count} caratteri di troppo</translation>
     </message>
     <message>
-        <source>&amp;Diagnosis or operation (stays in this list, never in a session)</source>
-        <translation>&amp;Diagnosi o intervento (resta in questo elenco, in nessuna seduta)</translation>
-    </message>
-    <message>
         <source>Diagnosis: {count} characters too long</source>
         <translation>Diagnosi: {count} caratteri di troppo</translation>
-    </message>
-    <message>
-        <source>day month year</source>
-        <translation>giorno mese anno</translation>
     </message>
     <message>
         <source>Operation</source>
@@ -9080,24 +9092,12 @@ dall’alto</translation>
         <translation>Esc</translation>
     </message>
     <message>
-        <source>A made-up name that can be spoken aloud. No real name, no initials, no date of birth.</source>
-        <translation>Un nome inventato che si possa dire ad alta voce. Né nome vero, né iniziali, né data di nascita.</translation>
-    </message>
-    <message>
         <source>Edit patient</source>
         <translation>Modificare il paziente</translation>
     </message>
     <message>
         <source>Save changes</source>
         <translation>Salva le modifiche</translation>
-    </message>
-    <message>
-        <source>Since when? The date is in the future</source>
-        <translation>Da quando? La data è nel futuro</translation>
-    </message>
-    <message>
-        <source>Since when? This date does not exist</source>
-        <translation>Da quando? Questa data non esiste</translation>
     </message>
     <message>
         <source>Enter a name.</source>
@@ -9148,12 +9148,56 @@ dall’alto</translation>
         <translation>Con quale mano scrive?</translation>
     </message>
     <message>
-        <source>Since when? Day, month, year</source>
-        <translation>Da quando? Giorno, mese, anno</translation>
-    </message>
-    <message>
         <source>Operation or injury?</source>
         <translation>Intervento o lesione?</translation>
+    </message>
+    <message>
+        <source>&amp;Real name</source>
+        <translation>Nome ve&amp;ro</translation>
+    </message>
+    <message>
+        <source>&amp;Born</source>
+        <translation>Da&amp;ta di nascita</translation>
+    </message>
+    <message>
+        <source>Record nu&amp;mber</source>
+        <translation>Nu&amp;mero di cartella</translation>
+    </message>
+    <message>
+        <source>Record number: {count} characters too long</source>
+        <translation>Numero di cartella: {count} caratteri di troppo</translation>
+    </message>
+    <message>
+        <source>Sex</source>
+        <translation>Sesso</translation>
+    </message>
+    <message>
+        <source>Female</source>
+        <translation>Femmina</translation>
+    </message>
+    <message>
+        <source>Male</source>
+        <translation>Maschio</translation>
+    </message>
+    <message>
+        <source>Diverse</source>
+        <translation>Altro</translation>
+    </message>
+    <message>
+        <source>&amp;Diagnosis or operation</source>
+        <translation>&amp;Diagnosi o intervento</translation>
+    </message>
+    <message>
+        <source>Born when? {problem}</source>
+        <translation>Data di nascita? {problem}</translation>
+    </message>
+    <message>
+        <source>Since when? {problem}</source>
+        <translation>Da quando? {problem}</translation>
+    </message>
+    <message>
+        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a session file or an export.</source>
+        <translation>Il nome in Carpus è inventato e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
     </message>
 </context>
 <context>
@@ -9190,10 +9234,6 @@ dall’alto</translation>
     <message>
         <source>Ctrl+F</source>
         <translation>Ctrl+F</translation>
-    </message>
-    <message>
-        <source>Name or diagnosis</source>
-        <translation>Nome o diagnosi</translation>
     </message>
     <message>
         <source>New patient</source>
@@ -9234,6 +9274,22 @@ dall’alto</translation>
     <message>
         <source>Made-up name</source>
         <translation>Nome inventato</translation>
+    </message>
+    <message>
+        <source>Name, number, birth date or diagnosis</source>
+        <translation>Nome, numero, data di nascita o diagnosi</translation>
+    </message>
+    <message>
+        <source>found by name</source>
+        <translation>trovato per nome</translation>
+    </message>
+    <message>
+        <source>found by birth date</source>
+        <translation>trovato per data di nascita</translation>
+    </message>
+    <message>
+        <source>found by record number</source>
+        <translation>trovato per numero di cartella</translation>
     </message>
 </context>
 <context>
@@ -9877,6 +9933,10 @@ dall’alto</translation>
         <source>Choose a logo</source>
         <translation>Scegliere un logo</translation>
     </message>
+    <message>
+        <source>Print real name, birth date and record number</source>
+        <translation>Stampa nome vero, data di nascita e numero di cartella</translation>
+    </message>
 </context>
 <context>
     <name>ReportPanel</name>
@@ -10008,10 +10068,6 @@ dall’alto</translation>
         <translation>{count} pagine A4</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. Contains the pseudonym, never the real name.</source>
-        <translation>{pages}, leggibile in grigio. Contiene lo pseudonimo, mai il nome reale.</translation>
-    </message>
-    <message>
         <source>Not saved yet</source>
         <translation>Non ancora salvata</translation>
     </message>
@@ -10030,6 +10086,10 @@ dall’alto</translation>
     <message>
         <source>Saved</source>
         <translation>Salvata</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in grey. Contains the pseudonym, not the real name.</source>
+        <translation>{pages}, leggibile anche in grigio. Contiene lo pseudonimo, non il nome vero.</translation>
     </message>
 </context>
 <context>
@@ -10481,10 +10541,6 @@ dall’alto</translation>
         <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misura. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
     </message>
     <message>
-        <source>Initials on reports</source>
-        <translation>Iniziali sulle relazioni</translation>
-    </message>
-    <message>
         <source>As in the papers: deviation first</source>
         <translation>Come negli articoli: prima la deviazione</translation>
     </message>
@@ -10723,6 +10779,26 @@ dall’alto</translation>
     <message>
         <source>After the recording</source>
         <translation>Dopo la registrazione</translation>
+    </message>
+    <message>
+        <source>Hide names (Ctrl+D)</source>
+        <translation>Nascondi i nomi (Ctrl+D)</translation>
+    </message>
+    <message>
+        <source>Therapist: {initials}</source>
+        <translation>Terapista: {initials}</translation>
+    </message>
+    <message>
+        <source>Choose a therapist</source>
+        <translation>Scegli il terapista</translation>
+    </message>
+    <message>
+        <source>Therapist</source>
+        <translation>Terapista</translation>
+    </message>
+    <message>
+        <source>Show names (Ctrl+D)</source>
+        <translation>Mostra i nomi (Ctrl+D)</translation>
     </message>
 </context>
 <context>
@@ -10994,6 +11070,18 @@ dall’alto</translation>
         <source>The new folder is used from the next start. Close Carpus and open it again before you measure.</source>
         <translation>La cartella vale dal prossimo avvio: chiudere Carpus e riaprirlo prima di misurare.</translation>
     </message>
+    <message>
+        <source>Pseudonym only</source>
+        <translation>Solo lo pseudonimo</translation>
+    </message>
+    <message>
+        <source>Real name too</source>
+        <translation>Anche il nome vero</translation>
+    </message>
+    <message>
+        <source>What should reports and letters print?</source>
+        <translation>Che cosa stampare su referti e lettere?</translation>
+    </message>
 </context>
 <context>
     <name>ZoomChart</name>
@@ -11030,6 +11118,51 @@ dall’alto</translation>
     <message>
         <source>Measure without the list</source>
         <translation>Misurare senza l’elenco</translation>
+    </message>
+</context>
+<context>
+    <name>DateField</name>
+    <message>
+        <source>day month year</source>
+        <translation>giorno mese anno</translation>
+    </message>
+    <message>
+        <source>The date is in the future</source>
+        <translation>La data è nel futuro</translation>
+    </message>
+    <message>
+        <source>This date does not exist</source>
+        <translation>Questa data non esiste</translation>
+    </message>
+    <message>
+        <source>Day, month, year</source>
+        <translation>Giorno, mese, anno</translation>
+    </message>
+</context>
+<context>
+    <name>TherapistCard</name>
+    <message>
+        <source>The initials of who works stand in sessions, reports, letters and the log. Choose who works in the top bar. Clear the initials to remove a therapist.</source>
+        <translation>Le iniziali compaiono in sedute, referti, lettere e registro. Chi lavora si sceglie nella barra in alto. Per togliere un terapista, cancellare le iniziali.</translation>
+    </message>
+    <message>
+        <source>Initials</source>
+        <translation>Iniziali</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nome</translation>
+    </message>
+    <message>
+        <source>Therapists</source>
+        <translation>Terapisti</translation>
+    </message>
+</context>
+<context>
+    <name>TherapistController</name>
+    <message>
+        <source>Edit the list…</source>
+        <translation>Modifica l’elenco…</translation>
     </message>
 </context>
 </TS>

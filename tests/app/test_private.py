@@ -6,23 +6,31 @@ import logging
 import subprocess
 import sys
 import uuid
+from contextlib import closing
+from datetime import date
 from pathlib import Path
 
+import h5py
 import pytest
 
 from carpus.app.desktop.log import RedactingFormatter
 from carpus.app.settings import load_valid_settings
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
+from carpus.core.formats.export import FORMATS
 from carpus.core.formats.output_files import TableDialect, escape_formula, write_new_table
 from carpus.core.model.camera import Camera
 from carpus.core.model.errors import RecordingUnreadable, SettingsInvalid
 from carpus.core.records.library import Library
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
+from carpus.ui.report.builders import build_session_report
+from carpus.ui.report.pdf import write_report
 from tests.commands import Command
 from tests.formats.takes import stored
+from tests.records.samples import T0, kept
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, stored_journal
+from tests.ui.printed import words_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -51,13 +59,15 @@ def test_command_output_is_private_to_owner(tmp_path: Path, command: Command) ->
 
 def test_log_names_no_one(tmp_path: Path, own_folders: Path) -> None:
     library = Library(tmp_path)
-    library.patients.add(Patient("Linden Birke", "right", name="Ada Miller"))
+    born = date(1931, 2, 17)
+    library.patients.add(Patient("Linden Birke", "right", "right", "", "Ada Miller", born, "QX-1"))
     lines = RedactingFormatter()
-    lines.find_pseudonyms = library.pseudonyms
+    lines.find_names = library.identifying_texts
     try:
         path = tmp_path / "sessions" / "Linden-Birke" / "Linden-Birke_2026-11-13_153000_wrist-flexion_left.h5"
         try:
-            raise SettingsInvalid(path, "of ADA MILLER, linden birke, Linden-Birke_2026-11-13_153000_x_left.h5")
+            words = "of ADA MILLER, QX-1, 1931-02-17, linden birke, Linden-Birke_2026-11-13_153000_x_left.h5"
+            raise SettingsInvalid(path, words)
         except SettingsInvalid as fault:
             info = (type(fault), fault, fault.__traceback__)
         record = logging.LogRecord("carpus", logging.WARNING, "x.py", 1, "told %s", (str(path),), info)
@@ -65,8 +75,46 @@ def test_log_names_no_one(tmp_path: Path, own_folders: Path) -> None:
     finally:
         library.close()
     assert "SettingsInvalid" in said
-    for part in ("linden", "miller", "birke"):
+    for part in ("linden", "miller", "birke", "qx-1", "1931"):
         assert part not in said.casefold()
+
+
+def _unpacked(one: h5py.Group | h5py.Dataset) -> bytes:
+    """All texts of a part of an HDF5 file, which may be compressed in it."""
+    held = one[()].tolist() if isinstance(one, h5py.Dataset) and one.dtype.kind in "OSV" else ""
+    return repr([*one.attrs.values(), held]).encode()
+
+
+def test_identity_is_in_no_byte_outside_the_store(tmp_path: Path, own_folders: Path, command: Command) -> None:
+    """Sessions, what lies beside them, every export, reports, tables and the log: searched as written and unpacked."""
+    secret = Patient(
+        "Linden 42", "right", name="Zyxnamovich Quarz", birth_day=date(1931, 2, 17), record_number="QX-99417",
+        sex="diverse", diagnosis="Kienboeck",
+    )  # fmt: skip
+    data, out = tmp_path / "data", tmp_path / "out"
+    patient_id = kept(data, secret, (stored(tmp_path, frames=40), T0, "AB"))
+    with closing(Library(data)) as library:
+        (entry,) = library.sessions(patient_id)
+        library.save_comment(entry.session_id, "Less swelling.")
+        for deidentified in (False, True):
+            folder = out / str(deidentified)
+            library.export(entry.session_id, str(folder), [*FORMATS], deidentified=deidentified)
+        report = build_session_report(library.session(entry.session_id), history=library.history(patient_id))
+        write_report(report, out / "report.pdf")
+    assert command("report", entry.path, "--output", out / "again.pdf").code == 0
+    assert command("log", "--data-folder", data, "--output", out / "log.csv").code == 0
+    files = [one for one in tmp_path.rglob("*") if one.is_file() and not one.name.startswith("records.sqlite3")]
+    assert len(files) > 12
+    spelled = ("zyxnamovich", "quarz", "qx-99417", "1931-02", "feb 1931", "02.1931", "kienboeck", "diverse")
+    for path in files:
+        texts = [path.name.encode(), path.read_bytes()]
+        if path.suffix == ".h5":
+            with h5py.File(path) as file:
+                file.visititems(lambda _, one, texts=texts: texts.append(_unpacked(one)))
+        if path.suffix == ".pdf":
+            texts.append(words_of(path).encode())
+        found = [word for word in spelled for text in texts if word.encode() in text.lower()]
+        assert found == [], path
 
 
 @pytest.mark.parametrize("text", ["-1.5", "+2", "-.5e-3", "n/a", "'=x", "", "2026-11-13"])
@@ -94,6 +142,7 @@ from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.platform.durable import replace_file
+from carpus.core.formats.export import FORMATS
 from carpus.core.formats.output_files import write_new_text
 from carpus.core.model.hand.protocols import WRIST6
 import numpy as np

@@ -47,8 +47,9 @@ def fill(store: Store, patients: int) -> None:
             days = sorted(rng.randrange(3650) for _ in range(SESSIONS_EACH))
             when = [FIRST + timedelta(days=day, minutes=rng.randrange(600)) for day in days]
             people.append({
-                "id": patient_id, "pseudonym_key": fold_name(pseudonym), "pseudonym": pseudonym, "name": name, "side": "right",
-                "dominance": "right", "note": "distal radius", "search": fold_name(f"{pseudonym} {name} distal radius"),
+                "id": patient_id, "pseudonym_key": fold_name(pseudonym), "pseudonym": pseudonym, "name": name,
+                "side": "right", "dominance": "right", "note": "distal radius",
+                "search": fold_name(f"{pseudonym} {name} distal radius"),
                 "sessions": SESSIONS_EACH, "results": SESSIONS_EACH, "last_session": when[-1].isoformat(),
                 "last_s": when[-1].timestamp(), "last_exercise": "WRIST_FE", "added_s": when[0].timestamp(),
             })  # fmt: skip

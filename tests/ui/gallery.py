@@ -26,7 +26,7 @@ from carpus.core.model.types import ByteImage, Side
 from carpus.core.records.corrections import ResultDifference
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.session_setup import DEFAULT_SETS
-from carpus.core.records.values import SessionEntry
+from carpus.core.records.values import Patient, SessionEntry
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.report_form import Letterhead, ReportForm
 from carpus.core.results.session_results import compute_session_results
@@ -73,6 +73,7 @@ from carpus.ui.screens.tour.bubbles import Bubble
 from carpus.ui.screens.welcome.panel import Check, WelcomePanel
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Answer, MessageDialog, NoticeStrip
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import Preferences
 from carpus.ui.words.camera_check import camera_words
 from carpus.ui.words.fault_words import fault_words
@@ -284,7 +285,7 @@ class Gallery(GalleryWindow):
     """Each method shows one state; their order is that of the journey."""
 
     def _patients(self, store: FakeStore, chosen: str = "", *, camera: bool = False) -> PatientsScreen:
-        screen = PatientsScreen(self.theme, store, lambda: TODAY)
+        screen = PatientsScreen(self.theme, store, lambda: TODAY, NameDisplay())
         screen.set_camera_ready(camera)
         screen.refresh(chosen)
         return self.show(screen, screen.search, where="")
@@ -625,7 +626,8 @@ class Gallery(GalleryWindow):
         self._report(self._session_report(form=form, comment="Splint at night.\nCome back."))
 
     def report_letter(self) -> None:
-        self._report(LetterReport(self._session_report(), DOCTOR, TODAY, "Maria Muster"))
+        maria = Patient("Linden 42", "right", name="Maria Muster")
+        self._report(LetterReport(self._session_report(), DOCTOR, TODAY, maria))
 
     def letter_sheet(self) -> None:
         self.report_own()
@@ -682,7 +684,7 @@ class Gallery(GalleryWindow):
         self.show(HelpScreen(self.theme), where="")
 
     def _welcome(self, checks: Sequence[Check], *, counts_later: bool = False) -> None:
-        screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY)
+        screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY, NameDisplay())
         panel = WelcomePanel(self.theme)
         panel.show_folder("/home/clinic/.local/share/carpus", needs_restart=counts_later)
         panel.show_checks(checks)

@@ -148,7 +148,7 @@ def test_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme: T
     assert value_pair(item).count("deficit") == 2
     panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, 1) if key[1] == "extension")
     assert panel.scale.low < item.before.mean + 5.0
-    card = PatientCardView(theme, NOW.date)
+    card = PatientCardView(theme, NOW.date, NameDisplay())
     row = replace(item.after, mean=-20.0)
     card.show_card(PatientCard(FakeStore().rows[5], ((row, None),), has_sessions=True), is_camera_ready=True)
     assert "1° deficit" in said(card)

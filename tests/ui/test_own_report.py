@@ -14,6 +14,7 @@ from carpus.app.session_commands import read_report_form
 from carpus.core.model.errors import ConcurrentChange
 from carpus.core.records.clinic_records import read_form, save_form
 from carpus.core.records.store import Store
+from carpus.core.records.values import Patient
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.kit.language import use_language
 from carpus.ui.report.builders import build_session_report, write_session_report
@@ -127,11 +128,16 @@ def test_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, tmp
         stored, history=store.history("linden"), form=form, language=language, therapist="M. R."
     )
     made = replace(made, results=replace(made.results, is_simulated=True, is_recovered=True, is_excluded=True))
+    named = Patient("Linden 42", "right", name="Real Name")
     for comment in (
         ("Short, and kept.", LONG) if language == "de" else ("Short, and kept.",)
     ):  # it has the longest words
         letter = LetterReport(
-            replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), "Real Name", language
+            replace(made, comment=comment),
+            "\n".join(["D" * 80] * 6),
+            date(2026, 11, 22),
+            named,
+            language,
         )
         path = write_report(letter, tmp_path / f"{len(comment)}.pdf")
         assert pages_of(path) == 1

@@ -10,6 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.core.model.errors import PatientListBusy, PseudonymTaken
 from carpus.core.model.names import MAX_NAME_CHARACTERS
 from carpus.core.records.values import Patient
 from carpus.ui.kit.numbers import (
@@ -25,6 +26,7 @@ from carpus.ui.kit.text import Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.patients.screen import PatientsScreen
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeStore
@@ -40,7 +42,7 @@ def store() -> FakeStore:
 
 @pytest.fixture
 def screen(theme: Theme, show: Show[PatientsScreen], store: FakeStore) -> PatientsScreen:
-    screen = show(PatientsScreen(theme, store, lambda: TODAY), active=True)
+    screen = show(PatientsScreen(theme, store, lambda: TODAY, NameDisplay()), active=True)
     screen.set_camera_ready(True)
     screen.refresh()
     screen.search.setFocus()
@@ -73,29 +75,54 @@ def test_patient_list_search_matches_pseudonym_real_name_and_exercise(
         assert shown == expected
 
 
+ROSA = {"name": "Rosa Muster", "birth_day": date(1981, 3, 12), "record_number": "PR-4711", "sex": "female"}
+
+
+@pytest.mark.parametrize("is_hidden", [False, True])
 @pytest.mark.parametrize(
-    ("typed", "is_shown"),
+    ("typed", "found_by", "hidden_words"),
     [
-        ("linden", False),
-        ("wu", True),
-        ("os", False),
-        ("fracture mus", True),
+        ("linden", "", ""),
+        ("mus", "", "found by name"),
+        ("4711", "No. PR-4711", "found by record number"),
+        ("12.3.1981", "born 12 Mar 1981", "found by birth date"),
+        ("fracture 12.3.81", "born 12 Mar 1981", "found by birth date"),
     ],
 )
-def test_patient_list_real_name_is_shown_only_if_searched_for(
-    qtbot: QtBot, screen: PatientsScreen, store: FakeStore, typed: str, is_shown: bool
+def test_patient_search_says_what_it_found_by_and_hides_names(
+    qtbot: QtBot,
+    screen: PatientsScreen,
+    store: FakeStore,
+    typed: str,
+    found_by: str,
+    hidden_words: str,
+    is_hidden: bool,
 ) -> None:
-    store.rows[5] = replace(store.rows[5], name="Rosa Muster Wu")
+    store.rows[5] = replace(store.rows[5], **ROSA)
+    screen._names.set_hidden(is_hidden)
     screen.refresh("linden")
     qtbot.keyClicks(screen.search, typed)
-    row = screen.list.patient_model.find_row("linden")
-    assert (
-        "Rosa Muster Wu · Wrist fracture" in screen.list.patient_model.row_cells(screen.list.patient_model.row(row))[2]
-    ) == is_shown
-    screen.list.setCurrentIndex(screen.list.patient_model.index(row))
-    assert ("Name: Rosa Muster Wu" in shown_texts(screen.card)) == is_shown
+    model, words = screen.list.patient_model, hidden_words if is_hidden else found_by
+    row = model.find_row("linden")
+    screen.list.setCurrentIndex(model.index(row))
+    assert model.row_cells(model.row(row))[2].split(" · ") == [*([words] if words else []), "Wrist fracture, plate"]
+    shown = " ".join([*shown_texts(screen.card), str(model.data(model.index(row)))])
+    assert words in shown
+    for text in ("Rosa Muster", "born 12 Mar 1981", "PR-4711", "female"):
+        assert (text in shown) is not is_hidden, text
     screen.search.clear()
-    assert "Name: Rosa Muster Wu" not in shown_texts(screen.card)
+    qtbot.keyClicks(screen.search, "13.3.1981")
+    assert model.rowCount() == 0
+
+
+def test_patient_list_namesakes_are_told_apart(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+    store.rows[5] = replace(store.rows[5], **ROSA)
+    screen.refresh("linden")
+    model = screen.list.patient_model
+    assert model.name_parts(store.rows[5]) == ("Rosa Muster", "")
+    store.rows[4] = replace(store.rows[4], name="rosa muster", record_number="77")
+    screen.refresh("linden")
+    assert [model.name_parts(store.rows[number])[1] for number in (4, 5)] == ["77", "12 Mar 1981"]
 
 
 def test_patient_form_name_in_use_is_refused(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
@@ -204,6 +231,34 @@ def test_patient_form_diagnosis_with_date_is_saved_and_listed(
     assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
 
 
+def error_of(form: PatientForm, name: str) -> Text:
+    """The message below a field."""
+    return form.fields.labelled_widgets[name].error
+
+
+def test_patient_form_identity_is_saved_and_failed_save_keeps_entries(
+    qtbot: QtBot, form: PatientForm, given: Given, store: FakeStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    form.edit_patient(Patient("Fir 12", "left", "right"), frozenset())
+    for name, typed in (("name", "Rosa  Muster"), ("birth_day", "12.3.81"), ("record_number", "PR-4711")):
+        qtbot.keyClicks(form.fields[name], typed)
+    form.fields["sex"].buttons()[0].click()
+    save = store.save
+    for fault, name in ((PseudonymTaken("Fir 12"), "pseudonym"), (PatientListBusy("x", "locked"), "")):
+        monkeypatch.setattr(store, "save", lambda _, fault=fault: (_ for _ in ()).throw(fault))
+        form.save_button.click()
+        assert form.isVisible(), "nothing is closed that is not saved"
+        assert (error_of(form, name) if name else form._error_text).isVisible()
+        assert error_of(form, "pseudonym").isVisible() is bool(name)
+    monkeypatch.setattr(store, "save", save)
+    form.save_button.click()
+    assert given == [Patient("Fir 12", "left", "right", **ROSA)]
+    form.edit_patient(given[0], frozenset())
+    assert form.fields["birth_day"].text() == "12 Mar 1981"
+    form.fields["birth_day"].setText("13.13.1981")
+    assert (form.save_button.text(), form.save_button.isEnabled()) == ("Born when? This date does not exist", False)
+
+
 def test_patient_form_invisible_character_is_reported_and_entries_stay(
     form: PatientForm, given: Given, store: FakeStore
 ) -> None:
@@ -215,7 +270,7 @@ def test_patient_form_invisible_character_is_reported_and_entries_stay(
     assert store.listed == before
     form.save_button.click()
     assert form.isVisible()
-    assert "soft hyphen" in form._error_text.text()
+    assert "soft hyphen" in error_of(form, "diagnosis").text()
     assert form.fields["note"].toPlainText() == "a long note"
     for typed in ("21.8.99999999999", "21.8.202"):
         form.fields["onset_day"].setText(typed)

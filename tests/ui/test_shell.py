@@ -48,7 +48,7 @@ def settings(theme: Theme, show: Show[SettingsScreen]) -> Settings:
 
 
 def test_settings_that_are_not_offered_stay_when_another_is_chosen(settings: Settings) -> None:
-    by_hand = {"text_scale": 1.2, "language": "fr", "therapist": "Initials of many"}
+    by_hand = {"text_scale": 1.2, "language": "fr", "data_folder": "/elsewhere"}
     screen, told = settings(**by_hand)
     screen.form["research"].click()
     assert told == [Preferences(research=True, **by_hand)]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Callable, Iterable, Sequence
 from datetime import date
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
@@ -23,7 +24,7 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.fonts import font
 from carpus.ui.kit.layouts import FlowLayout, column_layout, row_layout
-from carpus.ui.kit.text import MEDIUM, Icon, Text, caption
+from carpus.ui.kit.text import MEDIUM, SEMIBOLD, Icon, Text, caption
 from carpus.ui.kit.theme import Theme
 
 
@@ -102,8 +103,14 @@ class Combo(QComboBox):
         option.currentText = self.fontMetrics().elidedText(option.currentText, Qt.TextElideMode.ElideRight, room)
 
 
+COMPLETE_DATE = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")
+"""Day, month and year are present, so an invalid date does not exist."""
+MONTH_FIRST = re.compile(r"(?:0?\d|1[0-2])\D+(?:1[3-9]|[2-9]\d)\D")
+"""Day and month are swapped: the order is wrong."""
+
+
 class LabelledField(QWidget):
-    """Field under its label, with widgets ``beside`` it."""
+    """Field under its label, with widgets ``beside`` it and room for a message below."""
 
     def __init__(self, theme: Theme, label: str, field: QWidget, *beside: QWidget) -> None:
         super().__init__()
@@ -115,6 +122,9 @@ class LabelledField(QWidget):
             column.addLayout(row_layout((field, 1), *beside, gap=6))
         else:
             column.addWidget(field)
+        self.error = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.error.hide()
+        column.addWidget(self.error)
 
 
 def number_field(theme: Theme, maximum: int, suffix: str = "", empty_text: str = "", minimum: int = 0) -> QSpinBox:
@@ -130,11 +140,34 @@ def number_field(theme: Theme, maximum: int, suffix: str = "", empty_text: str =
 
 
 class DateField(QLineEdit):
-    """Line for a date as people type one."""
+    """Line for a past day as people type one; ``today`` is called each time."""
+
+    def __init__(self, today: Callable[[], date]) -> None:
+        super().__init__()
+        self._today = today
+        self.setPlaceholderText(self.tr("day month year"))
 
     def value(self) -> date | None:
-        """Return the date, None for nothing or anything else."""
-        return numbers.parse_date(self.text())
+        """Return the day, None for nothing, a coming day or anything else."""
+        day = numbers.parse_date(self.text(), self._today())
+        return day if day is not None and day <= self._today() else None
+
+    @property
+    def error(self) -> str:
+        """Why the text is no past day; empty if it is one, or empty."""
+        typed = self.text().strip()
+        if not typed or self.value() is not None:
+            return ""
+        if numbers.parse_date(typed) is not None:
+            return self.tr("The date is in the future")
+        if COMPLETE_DATE.fullmatch(typed) and not MONTH_FIRST.match(typed):
+            return self.tr("This date does not exist")
+        return self.tr("Day, month, year")
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether a year was typed out, so that the date can be checked while typing."""
+        return re.search(r"\D\d{4}$|^\d{4}\D+\d+\D+\d\d$", self.text().strip()) is not None
 
     def set_value(self, day: date | None) -> None:
         self.setText(numbers.format_date(day) if day is not None else "")

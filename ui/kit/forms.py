@@ -118,6 +118,12 @@ class Form(QObject):
         """Return the values of all widgets, by field name."""
         return {name: read() for name, (read, _) in self._accessors.items()}
 
+    def show_error(self, name: str = "", message: str = "") -> None:
+        """Show a message below the field ``name``, and none below any other."""
+        for other, labelled in self.labelled_widgets.items():
+            if isinstance(labelled, LabelledField):
+                labelled.error.show_text(message if other == name else "")
+
     def find_error(self) -> tuple[QWidget | None, str]:
         """Return the widget of the first invalid field and its message; (None, "") if all are valid."""
         for name, value in self.values().items():

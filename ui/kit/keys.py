@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QWidget
 from carpus.ui.kit.translate import tr
 
 KEYS = {
-    "help": "F1", "settings": "Ctrl+,", "lock": "Ctrl+L", "search": "Ctrl+F", "new_patient": "Ctrl+N",
+    "help": "F1", "settings": "Ctrl+,", "lock": "Ctrl+L", "hide_names": "Ctrl+D",
+    "search": "Ctrl+F", "new_patient": "Ctrl+N",
     "report": "Ctrl+P", "home_sheet": "Ctrl+H",
     "export": "Ctrl+E", "back": "Esc", "quit": "Ctrl+Q",
     "record": "Space", "pedal": "PgDown", "note": "F5", "pain": "F6", "pause": "F7",
@@ -76,7 +77,8 @@ def mnemonic_key(text: str) -> str:
 def action_words(name: str) -> str:
     """Return what a shortcut does, for the help."""
     words = {
-        "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
+        "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"),
+        "hide_names": tr("Hide or show names"), "search": tr("Search for a patient"),
         "new_patient": tr("New patient"), "report": tr("Report"), "home_sheet": tr("Home exercise sheet"),
             "export": tr("Export"),
         "back": tr("Back"), "quit": tr("Close Carpus"), "note": tr("Note"),

@@ -208,13 +208,17 @@ def format_weeks_since(day: date, today: date) -> str:
 MIN_YEAR = 1900
 
 
-def parse_date(text: str) -> date | None:
+def parse_date(text: str, latest: date | None = None) -> date | None:
     """Parse a date as people type it, day before month, or as Carpus writes it; None for anything else.
+
+    A year of two digits is of the last century where it would be after ``latest``.
 
     >>> parse_date("21.8.26"), parse_date("2026-08-21"), parse_date("31.2.2026"), parse_date("soon")
     (datetime.date(2026, 8, 21), datetime.date(2026, 8, 21), None, None)
     >>> parse_date("21.8.202"), parse_date("21.8.99999999999"), parse_date("21.8.2026 5")  # slips
     (None, None, None)
+    >>> parse_date("12.3.81", date(2026, 10, 3))
+    datetime.date(1981, 3, 12)
     >>> parse_date("3 Oct 2026") == parse_date("3 October 2026") == date(2026, 10, 3)
     True
     """
@@ -222,6 +226,8 @@ def parse_date(text: str) -> date | None:
         day, month, year = map(int, found.groups() if len(found[1]) < 3 else reversed(found.groups()))
         with suppress(ValueError):
             typed_day = date(year + 2000 if year < 100 else year, month, day)
+            if year < 100 and latest is not None and typed_day > latest:
+                typed_day = date(year + 1900, month, day)
             return typed_day if typed_day.year >= MIN_YEAR else None
         return None
     for pattern in (qt_date_format(), qt_date_format().replace("MMM", "MMMM")):  # the month written out too

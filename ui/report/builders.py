@@ -126,4 +126,6 @@ def build_progress_report(
     course = compute_progress(alike, other_hand or find_other_hand(sessions, newest), followed)
     course = replace(course, manual_measurements=tuple(manual_values))
     name = pseudonym or newest.subject_id or "–"
-    return ProgressReport(course, name, therapist, version_with_revision(), form or ReportForm(), language)
+    return ProgressReport(
+        course, name, therapist=therapist, made_by=version_with_revision(), form=form or ReportForm(), language=language
+    )

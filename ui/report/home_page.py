@@ -77,7 +77,7 @@ def _kind() -> str:
 
 @dataclass(frozen=True, slots=True)
 class HomeReport(DerivedReport):
-    """Home exercise sheet; never with a diagnosis or the real name.
+    """Home exercise sheet; never with a diagnosis.
 
     ``next_appointment`` is None for a line to write on, ``appointment_time`` as it was typed; ``language`` is the
     patient's.
@@ -153,7 +153,9 @@ def home_progress_words(progress: HomeProgress) -> str:
 def _body(home: HomeReport, number: str) -> QLayout:
     patient = f"{home.pseudonym}, {to_mid_sentence(terms.hand_name(home.side))}"
     tick = label(tr("Tick a box when all rounds of the day are done."), 8.5, REGULAR, "text2")
-    parts: list[Part] = [page_head(numbers.format_long_date(home.day), number, tr("Your hand at home"), patient)]
+    parts: list[Part] = [
+        page_head(numbers.format_long_date(home.day), number, tr("Your hand at home"), patient, home.printed_patient)
+    ]
     parts += [_task(home, task, place) for place, task in enumerate(home.tasks, 1)]
     parts.append((tick, 0, Qt.AlignmentFlag.AlignRight))
     if home.progress is not None:

@@ -13,6 +13,7 @@ from functools import partial
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLayout
 
+from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
 from carpus.ui.kit.cells import TableColumn, cell_text
 from carpus.ui.kit.layouts import STRETCH, Item, Part
@@ -34,6 +35,7 @@ from carpus.ui.report.page import (
 from carpus.ui.report.session_page import DerivedReport, SessionReport, comment_lines, comment_text
 from carpus.ui.words import terms
 from carpus.ui.words.fingers import LOWER_BOUND, is_thumb_exercise, main_angles, range_words
+from carpus.ui.words.identity import printed_name
 from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import range_table
@@ -51,11 +53,11 @@ def _kind() -> str:
 
 @dataclass(frozen=True, slots=True)
 class LetterReport(DerivedReport):
-    """Letter made of a session report; ``real_name`` is printed beside the pseudonym if it is not empty."""
+    """Letter made of a session report; ``printed_patient`` is the patient whose real name is printed."""
 
     recipient: str
     day: date
-    real_name: str = ""
+    printed_patient: Patient | None = None
     language: str = ""
 
     @property
@@ -75,7 +77,11 @@ def _body(letter: LetterReport, number: str) -> QLayout:
 
 def _parts(letter: LetterReport, omitted: int) -> QLayout:
     report, results = letter.report, letter.report.results
-    patient = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
+    patient = (
+        f"{printed_name(letter.printed_patient)} ({letter.pseudonym})"
+        if letter.printed_patient is not None
+        else letter.pseudonym
+    )
     measured = tr("On {day} we measured: {exercise}, {hand}. Repetitions analysed: {count}.").format(
         day=numbers.format_date(results.when),
         exercise=terms.exercise_name(results.exercise.id),

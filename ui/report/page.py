@@ -9,6 +9,7 @@ from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter, QPaintEvent, QPen, QRegion, QTextLayout, QTextOption
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QSizePolicy, QVBoxLayout, QWidget
 
+from carpus.core.records.values import Patient
 from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.session import SessionPlot, paint_session
@@ -23,6 +24,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.words import terms
+from carpus.ui.words.identity import printed_name
 
 # Layout pixels per point: Qt places in whole pixels, and a quarter of a point is finer than print.
 UNIT = 4
@@ -119,7 +121,7 @@ def section_title(words: str, *aside: str | QWidget | float) -> QLayout:
     return line_or_column(label(words, 11.5, SEMIBOLD), *behind)
 
 
-def page_head(kind: str, number: str, who: str, what: str) -> QLayout:
+def page_head(kind: str, number: str, who: str, what: str, printed_patient: Patient | None = None) -> QLayout:
     """Return the page head: logo, kind and number of the page, patient and content."""
     aside = f"{kind} · {number}" if number else kind
     top = line(
@@ -130,13 +132,16 @@ def page_head(kind: str, number: str, who: str, what: str) -> QLayout:
         label(aside, 8.5, token="text2"),
     )
     name = line_or_column(label(who, 21.0, SEMIBOLD), label(what, 14.0, REGULAR, "text2"), is_apart=False)
-    return column(top, 9.0, name, 4.0, rule())
+    below = [paragraph(printed_name(printed_patient), 12.0, SEMIBOLD)] if printed_patient is not None else []
+    return column(top, 9.0, name, *below, 4.0, rule())
 
 
-def session_page_head(newest: SessionResults, who: str, kind: str, number: str) -> QLayout:
+def session_page_head(
+    newest: SessionResults, who: str, kind: str, number: str, printed_patient: Patient | None = None
+) -> QLayout:
     """Return the head of a page about an exercise of one hand."""
     what = f"{terms.exercise_name(newest.exercise.id)}, {to_mid_sentence(terms.hand_name(newest.side))}"
-    return page_head(kind, number, who, what)
+    return page_head(kind, number, who, what, printed_patient)
 
 
 def fact_row(pairs: Sequence[tuple[str, str]]) -> QLayout:

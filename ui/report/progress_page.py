@@ -8,6 +8,7 @@ from functools import partial
 
 from PySide6.QtWidgets import QLayout
 
+from carpus.core.records.values import Patient
 from carpus.core.results.progress import Progress
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
@@ -60,6 +61,7 @@ class ProgressReport:
 
     progress: Progress
     pseudonym: str
+    printed_patient: Patient | None = None
     therapist: str = ""
     # Version and revision of the program.
     made_by: str = ""
@@ -93,7 +95,7 @@ def _body(report: ProgressReport, number: str) -> QLayout:
         lambda painter, box: paint_progress_chart(painter, CHART, box, progress), MIN_CHART_PT, MAX_CHART_PT
     )
     return column(
-        session_page_head(newest, report.pseudonym, tr("Progress report"), number),
+        session_page_head(newest, report.pseudonym, tr("Progress report"), number, report.printed_patient),
         fact_row(pairs),
         rule(),
         column(paragraph(answer, 14.0, SEMIBOLD), paragraph(basis, 9.5, REGULAR, "text2")),

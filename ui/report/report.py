@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
+from carpus.core.records.values import Patient
 from carpus.core.results.report_form import ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit.language import use_language
@@ -28,6 +29,10 @@ class Report(Protocol):
 
     @property
     def pseudonym(self) -> str: ...
+
+    @property
+    def printed_patient(self) -> Patient | None:
+        """Patient whose real name is printed beside the pseudonym; None for the pseudonym alone."""
 
     @property
     def sessions(self) -> Sequence[SessionResults]: ...

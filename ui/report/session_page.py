@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QLayout
 
 from carpus.core.measures.manual_measurements import ManualValue
 from carpus.core.model.types import Side
+from carpus.core.records.values import Patient
 from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.results.progress import compare_ranges
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
@@ -79,6 +80,8 @@ class SessionReport:
     curves: WristCurves
     markers: int
     pseudonym: str
+    # Whose real name is printed.
+    printed_patient: Patient | None = None
     session_number: int = 0
     dominance: str = "unknown"
     diagnosis: str = ""
@@ -138,6 +141,10 @@ class DerivedReport:
         return self.report.pseudonym
 
     @property
+    def printed_patient(self) -> Patient | None:
+        return self.report.printed_patient
+
+    @property
     def side(self) -> Side:
         return self.report.results.side
 
@@ -147,7 +154,7 @@ class DerivedReport:
 
 
 def _head(report: SessionReport, number: str) -> QLayout:
-    return session_page_head(report.results, report.pseudonym, tr("Session report"), number)
+    return session_page_head(report.results, report.pseudonym, tr("Session report"), number, report.printed_patient)
 
 
 def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> QLayout:

@@ -22,6 +22,7 @@ from carpus.ui.shell.camera_state import CameraAccess, CameraState
 from carpus.ui.shell.current_selection import CurrentSelection
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Messages, show_files_written
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.recent_locations import FolderKind, RecentLocations
 from carpus.ui.shell.source_opener import SourceOpener
 
@@ -45,6 +46,7 @@ class ScreenContext:
     messages: Messages
     navigator: Navigator
     current: CurrentSelection
+    names: NameDisplay
     opener: SourceOpener
     camera: CameraState
     cameras: CameraAccess
@@ -85,8 +87,8 @@ class Flow(QObject):
         self.context.navigator.switch_screen(self.screen_name)
 
     def title(self) -> str:
-        """Return the title for the top bar, by default the patient's name."""
-        return self.context.current.patient_name
+        """Return the title for the top bar, by default the patient's names."""
+        return self.context.names.title(self.context.current.patient)
 
     def initial_focus(self) -> QWidget:
         """Return the widget that gets the focus: the screen's choice, else the screen."""

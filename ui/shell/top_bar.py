@@ -7,7 +7,7 @@ from typing import Literal
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QWidget
 
 from carpus.ui.kit import numbers
 from carpus.ui.kit.button import Button, icon_button
@@ -45,6 +45,11 @@ class TopBar(Surface):
         self.disk = StateText(theme)
         self.recording_pill = RecordingPill(theme)
         self.reanalysis_button = ReanalysisButton(theme)
+        self.therapist_button = Button(theme, "", "quiet", height_px=40)
+        self.therapist_button.setMenu(QMenu(self))
+        self.names_button = icon_button(theme, "eye", self.tr("Hide names (Ctrl+D)"))
+        self.names_button.setCheckable(True)
+        self.names_button.toggled.connect(self._show_names_hidden)
         self.help_button = icon_button(theme, "circle-help", self.tr("Help (F1)"))
         self.settings_button = icon_button(theme, "settings", self.tr("Settings (Ctrl+,)"))
         self._navigation = row_layout(gap=4)
@@ -55,8 +60,9 @@ class TopBar(Surface):
         right = _row(self._right, 16, self.camera, self.disk, self.reanalysis_button, self.recording_pill)
         right.insertStretch(0, 1)
         right.addSpacing(-4)
-        right.addWidget(self.help_button)
-        right.addSpacing(-12)
+        for button in (self.therapist_button, self.names_button, self.help_button):
+            right.addWidget(button)
+            right.addSpacing(-12)
         right.addWidget(self.settings_button)
         row = row_layout(
             (self._left, 1), self._navigation, (self._right, 1), gap=8, margins=(MARGIN_PX - 4, 0, MARGIN_PX - 10, 0)
@@ -107,7 +113,8 @@ class TopBar(Surface):
         named = [self._separator, self.back_button, self.patient_name] if self.patient_name.text() else []
         left = [self.brand.width_px(is_shown["name"]), *(one.sizeHint().width() for one in named)]
         left += [self.session_label.sizeHint().width()] if is_shown["where"] else []
-        right = [one.sizeHint().width() for one in (self.help_button, self.settings_button)]
+        buttons = (self.therapist_button, self.names_button, self.help_button, self.settings_button)
+        right = [sum(one.sizeHint().width() + 4 for one in buttons)]
         right += [
             one.width() for one in (self.camera, self.disk) if is_shown["camera" if one is self.camera else "disk"]
         ]
@@ -129,6 +136,20 @@ class TopBar(Surface):
             widget.setVisible(bool(pseudonym))
         self.session_label.setText(label)
         self._fit()
+
+    def show_therapist(self, initials: str) -> None:
+        """Show who works now; empty for nobody."""
+        name = self.tr("Therapist: {initials}").format(initials=initials) if initials else self.tr("Choose a therapist")
+        self.therapist_button.set_label(initials or self.tr("Therapist"))
+        self.therapist_button.setToolTip(name)
+        self.therapist_button.setAccessibleName(name)
+        self._fit()
+
+    def _show_names_hidden(self, is_hidden: bool) -> None:
+        name = self.tr("Show names (Ctrl+D)") if is_hidden else self.tr("Hide names (Ctrl+D)")
+        self.names_button.set_label("", icon="eye-off" if is_hidden else "eye")
+        self.names_button.setToolTip(name)
+        self.names_button.setAccessibleName(name)
 
     def show_steps(self, names: Sequence[str], current: int) -> None:
         self._show_navigation(
@@ -166,7 +187,8 @@ class TopBar(Surface):
         self._bottom_line.set_colors("band_bad" if is_recording else "surface")
 
     def lock_overlays(self, is_locked: bool) -> None:
-        """Disable help and settings during a recording."""
+        """Disable help, settings and the therapist during a recording."""
+        self.therapist_button.setEnabled(not is_locked)
         for button, words in (
             (self.help_button, self.tr("Help (F1)")),
             (self.settings_button, self.tr("Settings (Ctrl+,)")),

@@ -145,14 +145,12 @@ ThemeChoice = Literal["light", "dark", "system"]
 class Preferences:
     """Choices of the settings screen.
 
-    ``therapist`` initials are printed on reports, ``angle_order`` is zyx or isb, ``stream`` sends live values to
-    other programs.
+    ``angle_order`` is zyx or isb, ``stream`` sends live values to other programs.
     """
 
     theme: ThemeChoice = "system"
     text_scale: float = 1.0
     data_folder: str = ""
-    therapist: str = ""
     angle_order: AngleOrder = "zyx"
     stream: bool = False
     patient_sound: bool = False

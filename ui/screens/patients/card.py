@@ -20,6 +20,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, capt
 from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.photo import Photo
 from carpus.ui.screens.tour.bubble import BubbleView
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import MeasureWithChange, PatientCard
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle, progress_measure_name
@@ -33,11 +34,13 @@ SUMMARY_BESIDE_TOUR_PX = 440
 class PatientCardView(Card):
     """Right column of the patient list."""
 
-    def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
+    def __init__(self, theme: Theme, today: Callable[[], date], names: NameDisplay) -> None:
         super().__init__(theme, 24)
-        self._theme, self._today = theme, today
+        self._theme, self._today, self._names = theme, today, names
         self._name = ElidedText(theme, "", 28, SEMIBOLD)
-        self._matched_name = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self._real_name = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self._identity = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self._found_by = Text(theme, "", 14, SEMIBOLD, "accent", wrap=True)
         self._hand = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._diagnosis = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self._onset = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -68,7 +71,9 @@ class PatientCardView(Card):
         column_layout(why, margins=(0, 0, 0, 12), parent=self._diagnosis_card)
         recall = QWidget()
         column_layout(
-            self._matched_name,
+            self._real_name,
+            self._identity,
+            self._found_by,
             self._hand,
             12,
             self._diagnosis_card,
@@ -113,16 +118,18 @@ class PatientCardView(Card):
         needed_px = PHOTO_MIN_HEIGHT_PX + (0 if self._diagnosis_card.isHidden() else DIAGNOSIS_PX)
         self._photo.set_has_room(self.height() >= self._theme.px(needed_px))
 
-    def show_card(self, card: PatientCard | None, is_camera_ready: bool, matched_name: str = "") -> None:
+    def show_card(self, card: PatientCard | None, is_camera_ready: bool, found_by: str = "") -> None:
         self.setVisible(card is not None)
         if card is None:
             return
         row = card.patient
         practice = row.patient_id == PRACTICE_PATIENT
         self._name.setText(row.pseudonym)
-        self._name.setToolTip(plain_tooltip(" · ".join(part for part in (row.pseudonym, row.name) if part)))
+        self._name.setToolTip(plain_tooltip(self._names.title(row)))
         self.edit_button.setVisible(not practice)
-        self._matched_name.show_text(self.tr("Name: {name}").format(name=matched_name) if matched_name else "")
+        self._real_name.show_text(self._names.real_name(row))
+        self._identity.show_text(self._names.identity(row))
+        self._found_by.show_text(found_by)
         self._hand.setText(
             self.tr("Simulated: excluded from analysis")
             if practice

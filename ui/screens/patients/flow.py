@@ -23,7 +23,8 @@ class PatientsFlow(Flow):
     screen: PatientsScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, PatientsScreen(context.theme, PatientStore(context.library), context.today))
+        store = PatientStore(context.library)
+        super().__init__(context, PatientsScreen(context.theme, store, context.today, context.names))
         screen, way, camera = self.screen, context.navigator, context.camera
         camera.notify_availability(lambda: screen.set_camera_ready(camera.is_connected))
         screen.start_requested.connect(lambda patient_id: way.open_screen("camera", patient_id))

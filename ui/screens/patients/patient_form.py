@@ -1,4 +1,4 @@
-"""Form for a new or an existing patient: pseudonym first, real name optional."""
+"""Form for a new or an existing patient: pseudonym first, all that names a person optional."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from PySide6.QtCore import QStringListModel, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QCompleter, QLineEdit, QPlainTextEdit, QWidget
 
-from carpus.core.model.errors import NameUnsuited
+from carpus.core.model.errors import CarpusFault, NameUnsuited, PseudonymTaken
 from carpus.core.model.names import MAX_NAME_CHARACTERS, fold_name, normalize_name
 from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
@@ -30,11 +30,6 @@ if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.patients import Patients
 
 NOTE_HEIGHT_PX = 84
-COMPLETE_DATE = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")
-"""Day, month and year are present, so an invalid date does not exist."""
-MONTH_FIRST = re.compile(r"(?:0?\d|1[0-2])\D+(?:1[3-9]|[2-9]\d)\D")
-"""Day and month are swapped: the order is wrong."""
-
 GENERATED_PSEUDONYM = re.compile(r"\w+ \d+")
 """A pseudonym as Carpus proposes it; any other searched name may be a real one."""
 
@@ -74,6 +69,7 @@ class PatientForm(Dialog):
 
     def _make_fields(self, theme: Theme) -> list[Field]:
         """Return the fields in order; each is an attribute of a patient."""
+        born, since = DateField(self._today), DateField(self._today)
         another = Button(theme, self.tr("&Another"), "plain", height_px=40)
         another.clicked.connect(lambda: self.fields["pseudonym"].setText(self._register.suggest_pseudonym()))
         return [
@@ -83,12 +79,32 @@ class PatientForm(Dialog):
                 QLineEdit(),
                 limit_length(MAX_NAME_CHARACTERS, self.tr("Name: {count} characters too long")),
                 (another,),
+                stretch=1,
             ),
             Field(
                 "name",
-                self.tr("&Real name, optional (stays in this list, never in a session or report)"),
+                self.tr("&Real name"),
                 QLineEdit(),
                 limit_length(MAX_NAME_CHARACTERS, self.tr("Real name: {count} characters too long")),
+                continues_row=True,
+                stretch=1,
+            ),
+            Field("birth_day", self.tr("&Born"), born, lambda _: self._date_error("birth_day"), stretch=1),
+            Field(
+                "record_number",
+                self.tr("Record nu&mber"),
+                QLineEdit(),
+                limit_length(MAX_NAME_CHARACTERS, self.tr("Record number: {count} characters too long")),
+                continues_row=True,
+                stretch=1,
+            ),
+            Field(
+                "sex",
+                self.tr("Sex"),
+                ChoiceRow(
+                    theme, [("female", self.tr("Female")), ("male", self.tr("Male")), ("diverse", self.tr("Diverse"))]
+                ),
+                continues_row=True,
             ),
             Field(
                 "side",
@@ -107,7 +123,7 @@ class PatientForm(Dialog):
             ),
             Field(
                 "diagnosis",
-                self.tr("&Diagnosis or operation (stays in this list, never in a session)"),
+                self.tr("&Diagnosis or operation"),
                 QLineEdit(),
                 limit_length(MAX_NAME_CHARACTERS, self.tr("Diagnosis: {count} characters too long")),
                 (self.listed_tick,),
@@ -115,17 +131,15 @@ class PatientForm(Dialog):
             Field(
                 "onset_day",
                 self.tr("&Since"),
-                DateField(placeholderText=self.tr("day month year")),
-                lambda _: self._onset_day_error(),
+                since,
+                lambda _: self._date_error("onset_day"),
                 (self.weeks_text,),
             ),
             Field(
                 "onset",
                 "",
                 ChoiceRow(theme, [("operation", self.tr("Operation")), ("injury", self.tr("Injury"))]),
-                lambda onset: (
-                    self.tr("Operation or injury?") if self._onset_day() is not None and onset is None else ""
-                ),
+                lambda onset: self.tr("Operation or injury?") if since.value() is not None and onset is None else "",
                 continues_row=True,
             ),
             Field("note", self.tr("N&ote (no names)"), QPlainTextEdit()),
@@ -134,7 +148,11 @@ class PatientForm(Dialog):
     def _build_layout(self, theme: Theme) -> None:
         cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
         cancel.clicked.connect(self.close_dialog)
-        rule = self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth.")
+        rule = self.tr(
+            "The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. "
+            "Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a "
+            "session file or an export."
+        )
         self._form_page = QWidget()
         column_layout(*self.fields.layout_rows(), gap=14, margins=(0, 0, 0, 0), parent=self._form_page)
         self._scroll = ScrollArea(self._form_page)  # large text on a small screen: the fields scroll, the buttons stay
@@ -154,9 +172,11 @@ class PatientForm(Dialog):
         self.remove_button.clicked.connect(self.close_dialog)
         self.save_button.clicked.connect(self._accept)
         self.fields.changed.connect(self._validate)
-        for name in ("pseudonym", "name", "diagnosis", "onset_day"):
-            self.fields[name].textEdited.connect(lambda _: self._error_text.hide())
-        self.fields["onset_day"].editingFinished.connect(lambda: self._error_text.show_text(self._onset_day_error()))
+        for name in ("pseudonym", "name", "record_number", "diagnosis", "birth_day", "onset_day"):
+            self.fields[name].textEdited.connect(lambda _: self._clear_errors())
+        for name in ("birth_day", "onset_day"):
+            self.fields[name].textEdited.connect(lambda _, name=name: self._check_date(name))
+            self.fields[name].editingFinished.connect(lambda name=name: self._check_date(name, is_finished=True))
         self.fields["diagnosis"].textChanged.connect(lambda _: self._show_diagnosis_listed())
         self.listed_tick.clicked.connect(self._set_diagnosis_listed)
         self.set_default(self.save_button)
@@ -181,7 +201,7 @@ class PatientForm(Dialog):
             self.fields["dominance"].choose(None)
         self._show_diagnosis_listed()
         self._validate()
-        self._error_text.hide()
+        self._clear_errors()
         self._fit()
         self._scroll.verticalScrollBar().setValue(0)
         self.open(self.fields["pseudonym"])
@@ -207,30 +227,29 @@ class PatientForm(Dialog):
 
     def _validate(self) -> None:
         """Show what is missing on the save button."""
-        day = self._onset_day()
+        day = self.fields["onset_day"].value()
         self.weeks_text.setText(numbers.format_weeks_since(day, self._today()) if day is not None else "")
-        if self._onset_day_error() and re.search(
-            r"\D\d{4}$|^\d{4}\D+\d+\D+\d\d$", self.fields["onset_day"].text().strip()
-        ):
-            self._error_text.show_text(self._onset_day_error())  # a complete date is checked at once
         _, asked = self.fields.find_error()
         self.save_button.set_label(asked or self._save_words)
         self.save_button.setEnabled(not asked)
 
-    def _onset_day(self) -> date | None:
-        day: date | None = self.fields["onset_day"].value()
-        return day if day is not None and day <= self._today() else None
+    def _date_error(self, name: str) -> str:
+        labels = {"birth_day": self.tr("Born when? {problem}"), "onset_day": self.tr("Since when? {problem}")}
+        problem = self.fields[name].error
+        return labels[name].format(problem=problem) if problem else ""
 
-    def _onset_day_error(self) -> str:
-        """Return the message for an invalid or future date."""
-        typed = self.fields["onset_day"].text().strip()
-        if not typed or self._onset_day() is not None:
-            return ""
-        if numbers.parse_date(typed) is not None:
-            return self.tr("Since when? The date is in the future")
-        if COMPLETE_DATE.fullmatch(typed) and not MONTH_FIRST.match(typed):
-            return self.tr("Since when? This date does not exist")
-        return self.tr("Since when? Day, month, year")
+    def _check_date(self, name: str, *, is_finished: bool = False) -> None:
+        """Show a wrong date below its field: a complete one at once, others when the field is left."""
+        if is_finished or self.fields[name].is_complete:
+            self._show_error(name, self._date_error(name))
+
+    def _clear_errors(self) -> None:
+        self._show_error("", "")
+
+    def _show_error(self, name: str, message: str) -> None:
+        """Show a message below its field, or above the buttons if it is of no field."""
+        self.fields.show_error(name, message)
+        self._error_text.show_text("" if name else message)
 
     def _show_diagnosis_listed(self) -> None:
         words = fold_name(self.fields.values()["diagnosis"])
@@ -240,12 +259,13 @@ class PatientForm(Dialog):
     def _set_diagnosis_listed(self, is_listed: bool) -> None:
         try:
             self._register.set_diagnosis_listed(normalize_name(self.fields.values()["diagnosis"]), is_listed=is_listed)
-        except NameUnsuited as fault:
-            self._show_error(fault)
+        except CarpusFault as fault:
+            self._show_error("diagnosis", _fault_message(fault))
         self._known_diagnoses.setStringList(list(self._register.diagnoses()))
         self._show_diagnosis_listed()
 
     def _accept(self) -> None:
+        """Save, and close only what was saved."""
         values = self.fields.values()
         name = values["pseudonym"]
         if not name or name.casefold() in self._taken_names:
@@ -254,19 +274,25 @@ class PatientForm(Dialog):
                 if not name
                 else self.tr("“{name}” is already in use. Choose another name.").format(name=name)
             )
-            self._error_text.show_text(words)
+            self._show_error("pseudonym", words)
             self.fields["pseudonym"].setFocus(Qt.FocusReason.OtherFocusReason)
             return
+        values |= {field: values[field] or getattr(self.patient, field) for field in ("onset", "dominance", "sex")}
+        field = ""
         try:
-            values |= {"onset": values["onset"] or "", "dominance": values["dominance"] or self.patient.dominance}
-            patient = replace(self.patient, **values)
-            patient.with_normalized_names()
-        except NameUnsuited as fault:  # shown here, so that the entries stay
-            self._show_error(fault)
+            for field in ("pseudonym", "name", "record_number", "diagnosis"):
+                normalize_name(values[field])
+            field = "pseudonym"  # what only the store knows: it is taken
+            patient_id = self._register.save(replace(self.patient, **values))
+        except (NameUnsuited, PseudonymTaken) as fault:
+            self._show_error(field, _fault_message(fault))
+        except CarpusFault as fault:
+            self._show_error("", _fault_message(fault))
         else:
             self.close_dialog()
-            self.saved.emit(self._register.save(patient))
+            self.saved.emit(patient_id)
 
-    def _show_error(self, fault: NameUnsuited) -> None:
-        words = fault_words(fault)
-        self._error_text.show_text(f"{words.summary} {words.remedy}")
+
+def _fault_message(fault: CarpusFault) -> str:
+    words = fault_words(fault)
+    return f"{words.summary} {words.remedy}"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Collection, Mapping, Sequence
 from datetime import date
 from types import MappingProxyType
 
@@ -10,6 +11,7 @@ from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelInde
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
+from carpus.core.model.names import fold_name
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
@@ -17,11 +19,12 @@ from carpus.ui.kit.fonts import MEDIUM, font
 from carpus.ui.kit.text import ElidedText
 from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.kit.translate import tr
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.words import terms
 
 ROW_PX = 56
-COLUMNS = (0.024, 0.206, 0.3, 0.526, 0.645)
-LARGE_COLUMNS = (0.024, 0.235, 0.368, 0.65, 0.65)
+COLUMNS = (0.024, 0.256, 0.345, 0.546, 0.655)
+LARGE_COLUMNS = (0.024, 0.262, 0.394, 0.65, 0.65)
 """Left edges of name, hand, diagnosis, time since onset and last session as shares of the width; the count ends at
 the right. With large text only the card shows the time since onset."""
 LARGE_TEXT_SCALE = 1.25
@@ -31,17 +34,20 @@ RIGHT_PAD_PX = 28
 class PatientListModel(QAbstractListModel):
     """Patients for Qt's views and screen readers."""
 
-    def __init__(self, today: Callable[[], date]) -> None:
+    def __init__(self, today: Callable[[], date], names: NameDisplay) -> None:
         super().__init__()
         self._rows: tuple[Patient, ...] = ()
-        self.matched_names: Mapping[str, str] = {}
-        """Real names of patients that a search found by these alone, by id."""
-        self.today = today
+        self.found_by: Mapping[str, str] = {}
+        """What a search found patients by, in words, where the row does not show it; by id."""
+        self.today, self._names = today, names
+        self._namesakes: Collection[str] = ()
 
-    def show_rows(self, rows: Sequence[Patient], matched_names: Mapping[str, str] = MappingProxyType({})) -> None:
+    def show_rows(self, rows: Sequence[Patient], found_by: Mapping[str, str] = MappingProxyType({})) -> None:
         self.beginResetModel()
-        self.matched_names = matched_names
+        self.found_by = found_by
         self._rows = tuple(rows)
+        count = Counter(fold_name(row.name) for row in rows if row.name)
+        self._namesakes = {name for name, times in count.items() if times > 1}
         self.endResetModel()
 
     def row(self, number: int) -> Patient:
@@ -59,24 +65,32 @@ class PatientListModel(QAbstractListModel):
             return None
         row = self._rows[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
-            return ", ".join(part for part in self.row_cells(row) if part)
+            name, *others = self.row_cells(row)
+            return ", ".join(part for part in (name, *self.name_parts(row), *others) if part)
         return row if role == Qt.ItemDataRole.UserRole else None
 
     def row_cells(self, row: Patient) -> tuple[str, str, str, str, str, str, str]:
         """Return the cells of a patient today."""
-        return row_cells(row, self.today(), self.matched_names.get(row.patient_id, ""))
+        return row_cells(row, self.today(), self.found_by.get(row.patient_id, ""))
+
+    def name_parts(self, row: Patient) -> tuple[str, str]:
+        """Return the real name, and of two of one name what tells them apart."""
+        name = self._names.real_name(row)
+        if fold_name(name) not in self._namesakes:
+            return name, ""
+        return name, numbers.format_date(row.birth_day) if row.birth_day else row.record_number
 
 
-def row_cells(row: Patient, today: date, matched_name: str = "") -> tuple[str, str, str, str, str, str, str]:
+def row_cells(row: Patient, today: date, found_by: str = "") -> tuple[str, str, str, str, str, str, str]:
     """Return the texts of a patient's row.
 
-    They are pseudonym, hand, diagnosis (after the matched name), time since onset, last session, its age and the number
-    of sessions.
+    They are pseudonym, hand, diagnosis (after what it was found by), time since onset, last session, its age and the
+    number of sessions.
     """
     side = terms.side_name(row.side)
     if row.patient_id == PRACTICE_PATIENT:
         return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
-    about = " · ".join(part for part in (matched_name, row.diagnosis) if part)
+    about = " · ".join(part for part in (found_by, row.diagnosis) if part)
     since = numbers.format_weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
         return row.pseudonym, side, about, since, tr("No analysed session yet"), "", ""
@@ -142,6 +156,18 @@ class PatientRowPainter(QStyledItemDelegate):
             face = font(14 * scale) if number else font(16 * scale, MEDIUM)
             last = next((later for later, one in enumerate([*texts, when]) if later > number and one), len(edges) - 1)
             room = QRectF(edges[number], box.top(), edges[last] - edges[number] - 8, box.height())
+            name, apart = self._model.name_parts(row)
+            if number == 0 and name:
+                below, small = room.adjusted(0, 0.48 * room.height(), 0, -0.1 * room.height()), font(14 * scale)
+                if apart:  # never cut: it tells two patients apart
+                    width = QFontMetricsF(small).horizontalAdvance
+                    behind = below.adjusted(
+                        max(0.0, min(width(f"{name} "), below.width() - width(f"{apart} "))), 0, 0, 0
+                    )
+                    self._paint_text(painter, small, apart, behind, "text2")
+                    below.setRight(behind.left())
+                self._paint_text(painter, small, name, below, "text2")
+                room.adjust(0, 0.08 * room.height(), 0, -0.48 * room.height())
             if edges[number + 1] > edges[number]:
                 self._paint_text(painter, face, text, room, "text")
         face = font(14 * scale)
@@ -200,10 +226,10 @@ class ListHeader(QWidget):
 class PatientList(QListView):
     """List on a rounded card that is as high as its rows, or scrolls."""
 
-    def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
+    def __init__(self, theme: Theme, today: Callable[[], date], names: NameDisplay) -> None:
         super().__init__()
         self._theme = theme
-        self.patient_model = PatientListModel(today)
+        self.patient_model = PatientListModel(today, names)
         self.setModel(self.patient_model)
         self._delegate = PatientRowPainter(theme, self.patient_model)
         self.setItemDelegate(self._delegate)

@@ -26,8 +26,10 @@ from carpus.ui.screens.patients.card import PatientCardView
 from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.patients.patient_list import ListHeader, PatientList
 from carpus.ui.screens.welcome.panel import WelcomePanel
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS
 from carpus.ui.words import terms
+from carpus.ui.words.identity import birth_words, record_number_words
 
 if TYPE_CHECKING:  # it reads and writes files
     from carpus.ui.screens.patients.patient_store import PatientStore
@@ -53,17 +55,18 @@ class PatientsScreen(QWidget):
     unlisted_start_requested = Signal(object)
     """A :class:`Patient` to measure while the list is unavailable, without id for a typed name."""
 
-    def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
+    def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date], names: NameDisplay) -> None:
         """``today`` is called each time: the program may stay open for days."""
         super().__init__()
-        self._theme, self._store, self._today = theme, store, today
+        self._theme, self._store, self._today, self._names = theme, store, today, names
         self._rows: tuple[Patient, ...] = ()
         self._camera_ready = False
-        self.search = SearchField(theme, self.tr("Name or diagnosis"), self.tr("Ctrl+F"))
+        self._search_words = self.tr("Name, number, birth date or diagnosis")
+        self.search = SearchField(theme, self._search_words, self.tr("Ctrl+F"))
         self.new_button = Button(theme, self.tr("New patient"), icon="plus", hint=self.tr("Ctrl+N"))
-        self.list = PatientList(theme, today)
+        self.list = PatientList(theme, today, names)
         self.header = ListHeader(theme, self.list)
-        self.card = PatientCardView(theme, today)
+        self.card = PatientCardView(theme, today, names)
         self.date_text = Text(theme, "", 14, REGULAR, "text2")
         self._date_timer = QTimer(self, interval=DATE_CHECK_INTERVAL_MS)
         self._date_timer.timeout.connect(self.refresh_date)
@@ -125,6 +128,7 @@ class PatientsScreen(QWidget):
         self.card.progress_button.clicked.connect(lambda: self.progress_requested.emit(self._current_patient_id()))
         self.card.sessions_button.clicked.connect(lambda: self.sessions_requested.emit(self._current_patient_id()))
         self.card.edit_button.clicked.connect(lambda: self.change_patient(self._current_patient_id()))
+        self._names.changed.connect(lambda: self._apply_filter(self._current_patient_id()))
         self.form.saved.connect(self._show_saved)
         self.form.remove_button.clicked.connect(lambda: self.delete_requested.emit(self.form.patient.patient_id))
 
@@ -147,7 +151,7 @@ class PatientsScreen(QWidget):
         if was_away:
             self._offline_view.hide()
             self.search.clear()
-            self.search.setPlaceholderText(self.tr("Name or diagnosis"))
+            self.search.setPlaceholderText(self._search_words)
             self.new_button.setEnabled(True)
         self._rows, self._archived_names = rows, archived
         self._apply_filter(selected_id or self._current_patient_id())
@@ -207,7 +211,7 @@ class PatientsScreen(QWidget):
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _apply_filter(self, selected_id: str) -> None:
-        wanted = self.search.text().casefold().split()
+        wanted = self._wanted_words()
         rows = self._rows
         if not self._offline_view.isHidden():
             self._offline_view.show_search(self.search.text())
@@ -216,13 +220,10 @@ class PatientsScreen(QWidget):
             self.card.show_card(None, self._camera_ready)
             return
         if wanted and len(rows) > MAX_LISTED_PATIENTS:  # with the practice patient: there may be more than are shown
-            rows = (*self._store.list_patients(self.search.text()), rows[-1])
-        shown = [
-            row for row in rows if all(word in f"{_searchable_text(row)} {row.name}".casefold() for word in wanted)
-        ]
-        self.list.patient_model.show_rows(
-            shown, {row.patient_id: row.name for row in shown if _is_name_match(row, wanted)}
-        )
+            rows = (*self._store.list_patients(" ".join(wanted)), rows[-1])
+        found = {row.patient_id: self._describe_match(row, wanted) for row in rows}
+        shown = [row for row in rows if found[row.patient_id] is not None]
+        self.list.patient_model.show_rows(shown, {patient_id: words for patient_id, words in found.items() if words})
         self.list.setVisible(bool(shown))
         self.header.setVisible(bool(shown))
         only_practice = len(self._rows) == 1 and self.welcome is None
@@ -234,6 +235,32 @@ class PatientsScreen(QWidget):
         if shown:
             self.list.setCurrentIndex(self.list.patient_model.index(row))
         self._show_selected()
+
+    def _wanted_words(self) -> list[str]:
+        """Return the searched words; a date, also in several words, as ISO 8601."""
+        text = self.search.text()
+        words = [text] if numbers.parse_date(text, self._today()) else text.split()
+        days = [numbers.parse_date(word, self._today()) for word in words]
+        return [day.isoformat() if day else fold_name(word) for word, day in zip(words, days, strict=True)]
+
+    def _describe_match(self, row: Patient, wanted: list[str]) -> str | None:
+        """Return in words what the row does not show and the search found it by; None if it did not find it."""
+        exercise = terms.exercise_name(row.last_exercise) if row.last_exercise else ""
+        shown = fold_name(f"{row.pseudonym} {row.diagnosis} {exercise} {self._names.real_name(row)}")
+        born = row.birth_day.isoformat() if row.birth_day else ""
+        is_hidden, found = self._names.is_hidden, []
+        for word in wanted:
+            if word in shown:
+                continue
+            if word in fold_name(row.name):
+                found.append(self.tr("found by name"))
+            elif word == born:
+                found.append(self.tr("found by birth date") if is_hidden else birth_words(row))
+            elif word in fold_name(row.record_number):
+                found.append(self.tr("found by record number") if is_hidden else record_number_words(row))
+            else:
+                return None
+        return ", ".join(dict.fromkeys(found))
 
     def _show_archived(self, wanted: list[str]) -> None:
         """Offer archived patients that match the search."""
@@ -256,7 +283,7 @@ class PatientsScreen(QWidget):
             self.card.show_card(replace(card, patient=replace(card.patient, pseudonym=name)), self._camera_ready)
         else:
             self.card.show_card(
-                self._store.card(chosen), self._camera_ready, self.list.patient_model.matched_names.get(chosen, "")
+                self._store.card(chosen), self._camera_ready, self.list.patient_model.found_by.get(chosen, "")
             )
 
     def _start(self) -> None:
@@ -326,17 +353,3 @@ class _OfflineView(QWidget):
         self.button.setEnabled(bool(name.strip()))
         words = self.tr("Measure “{name}”").format(name=name.strip().replace("&", "&&"))
         self.button.set_label(words if name.strip() else self.tr("Measure without the list"))
-
-
-def _is_name_match(row: Patient, wanted: list[str]) -> bool:
-    """Return whether a word matches the real name only, which is then shown.
-
-    One or two letters match too many names and show none, unless they are a whole name.
-    """
-    text, names = _searchable_text(row).casefold(), row.name.casefold().split()
-    return any(len(one) > 2 or one in names for one in wanted if one not in text)
-
-
-def _searchable_text(row: Patient) -> str:
-    exercise = terms.exercise_name(row.last_exercise) if row.last_exercise else ""
-    return f"{row.pseudonym} {row.diagnosis} {exercise}"

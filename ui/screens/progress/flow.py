@@ -53,7 +53,6 @@ class ProgressFlow(Flow):
         report = build_progress_report(
             sessions,
             pseudonym=self.context.current.patient_name,
-            therapist=self.context.report_settings.therapist,
             choice=followed if isinstance(followed, str) else None,
             manual_values=self.screen.progress.manual_measurements,
             other_hand=self.screen.progress.other_hand,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import datetime
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
@@ -14,17 +14,19 @@ from carpus.core.model.installation import Finding
 from carpus.core.model.rounding import round_half_away
 from carpus.core.platform.disks import check_disk_encryption, detect_encryption
 from carpus.core.records.pin import Pin
+from carpus.core.records.values import Therapist
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Separator, Surface
 from carpus.ui.kit.dialog import Dialog
-from carpus.ui.kit.field import LabelledField
+from carpus.ui.kit.field import Combo, LabelledField
 from carpus.ui.kit.keys import KEYS
 from carpus.ui.kit.layouts import fill, row_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.screens.records.cards import LockCard
+from carpus.ui.screens.settings.therapist_store import TherapistController
 from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.words.fault_words import fault_words
 
@@ -33,18 +35,25 @@ RETRY_INTERVAL_MS = 60_000
 
 
 class LockController(QObject):
-    """Locks by shortcut, after idle time and at the start; never during a recording.
+    """Locks by shortcut, after idle time and at the start; never during a recording. Names stay hidden afterwards.
 
     Signals: ``privacy_changed`` with whether other windows must hide their content.
     """
 
     privacy_changed = Signal(bool)
 
-    def __init__(self, context: ScreenContext, *, minutes: int, save_minutes: Callable[[int], None]) -> None:
+    def __init__(
+        self,
+        context: ScreenContext,
+        therapists: TherapistController,
+        *,
+        minutes: int,
+        save_minutes: Callable[[int], None],
+    ) -> None:
         super().__init__(context.window)
         shell, theme, library = context.window, context.theme, context.library
         self._context, self._shell, self._library = context, shell, library
-        self._minutes, self._save_minutes = minutes, save_minutes
+        self._minutes, self._save_minutes, self._therapists = minutes, save_minutes, therapists
         self.pin = Pin(library.folder)
         self.lock_screen = LockScreen(shell, theme)
         self.lock_screen.pin_entered.connect(self._check_pin)
@@ -115,6 +124,8 @@ class LockController(QObject):
             if widget is not self._shell and widget.isVisible():
                 widget.close()  # menus and dialogs name patients too
         self.privacy_changed.emit(True)
+        self._context.names.set_hidden(True)
+        self.lock_screen.show_therapists(self._therapists.list_therapists(), self._therapists.current)
         stored = self._context.current.session_id != ""
         self.lock_screen.lock(self.lock_screen.lock_reason(datetime.now(), minutes), is_session_saved=stored)
         for widget in self._hidden_widgets:
@@ -135,6 +146,8 @@ class LockController(QObject):
             self._library.audit_log.log_program("pin_refused", left=tried.tries_left)
             self.lock_screen.show_wrong_pin(tried.tries_left, round_half_away(tried.pause_s))
             return
+        if (chosen := self.lock_screen.therapist.currentData()) is not None:
+            self._therapists.choose(chosen)
         self._library.audit_log.log_program("unlocked")
         self.privacy_changed.emit(False)
         for widget in self._hidden_widgets:
@@ -307,6 +320,8 @@ class LockScreen(Dialog):
         self.pin_field = QLineEdit(echoMode=QLineEdit.EchoMode.Password, maxLength=MAX_PIN_LENGTH)
         self.pin_field.setAccessibleName(self.tr("PIN"))
         self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.therapist = Combo()
+        self._therapist_row = LabelledField(theme, self.tr("Who works now?"), self.therapist)
         self.unlock_button = Button(theme, self.tr("Unlock"), "primary")
         self.unlock_button.clicked.connect(self._submit)
         self.set_default(self.unlock_button)
@@ -326,6 +341,7 @@ class LockScreen(Dialog):
             Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
             self.pin_field,
             self.error_text,
+            self._therapist_row,
             self.unlock_button,
             4,
             Separator(theme),
@@ -335,6 +351,12 @@ class LockScreen(Dialog):
         )
         self._clock = QTimer(self, interval=1000)
         self._clock.timeout.connect(self._count_seconds)
+
+    def show_therapists(self, therapists: Sequence[Therapist], current: str) -> None:
+        """Ask who works now, where there is a choice."""
+        self._therapist_row.setVisible(len(therapists) > 1)
+        choices = [(one.initials, " · ".join(part for part in (one.initials, one.name) if part)) for one in therapists]
+        self.therapist.set_choices(choices, current)
 
     def lock(self, reason: str, *, is_session_saved: bool) -> None:
         """Cover the window; ``is_session_saved`` if a session was open."""

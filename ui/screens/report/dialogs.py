@@ -222,14 +222,14 @@ class LetterDialog(Dialog):
         self.name_check.toggled.connect(self.name_warning.setVisible)
         self.accept_button.clicked.connect(self._accept)
 
-    def open_form(self, recipients: Sequence[str], *, has_name: bool) -> None:
-        """Show the form; the real name is never preselected."""
+    def open_form(self, recipients: Sequence[str], *, has_name: bool, prints_name: bool = False) -> None:
+        """Show the form; the real name is preselected where reports print it."""
         self.recipients.set_choices([(one, ", ".join(address_lines(one))) for one in recipients])
         self.recipients.setCurrentIndex(-1)
         self.recipients.setVisible(bool(recipients))
-        self.name_check.setChecked(False)
+        self.name_check.setChecked(has_name and prints_name)
         self.name_check.setVisible(has_name)
-        self.name_warning.hide()
+        self.name_warning.setVisible(self.name_check.isChecked())
         self._language = self._language or current_language()
         self.form["language"].choose(self._language)
         self.open(self.form["recipient"])

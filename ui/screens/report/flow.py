@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.model.errors import CarpusFault
 from carpus.core.records import clinic_records, patients
 from carpus.core.records.clinic_records import read_form, save_form
-from carpus.core.records.values import read_or_default
+from carpus.core.records.values import Patient, read_or_default
 from carpus.core.results.report_form import ReportForm, default_paper
 from carpus.ui.report.builders import build_session_report
 from carpus.ui.report.home_page import HomeReport, build_home_progress
@@ -61,7 +61,10 @@ class ReportFlow(Flow):
             self._show_session(report)
         else:
             self._sessions = sessions
-            self._show_report(replace(report, form=self.form_store.form))
+            therapist = self._therapist_words(self.context.report_settings.therapist)
+            self._show_report(
+                replace(report, form=self.form_store.form, therapist=therapist, printed_patient=self._printed_patient())
+            )
             self.context.navigator.switch_screen("report")
 
     def initial_focus(self) -> QWidget:
@@ -78,6 +81,7 @@ class ReportFlow(Flow):
 
     def _show_session(self, session_id: str) -> None:
         row, stored, name = self.context.current.patient, self.context.library, self.context.current.patient_name
+        printed_patient, current = self._printed_patient(), self.context.report_settings.therapist
         assert row is not None
 
         def build_report() -> SessionReport:
@@ -88,12 +92,18 @@ class ReportFlow(Flow):
                 history=stored.history(row.patient_id),
                 pseudonym=name,
                 dominance=row.dominance,
-                therapist=self.context.report_settings.therapist,
+                therapist=self._therapist_words(stored.entry(session_id).initials or current),
                 manual_values=stored.manual_measurements(row.patient_id),
                 comment=stored.comment(session_id),
                 form=self.form_store.form,
             )
-            report = replace(report, diagnosis=row.diagnosis, onset=row.onset, onset_day=row.onset_day)
+            report = replace(
+                report,
+                printed_patient=printed_patient,
+                diagnosis=row.diagnosis,
+                onset=row.onset,
+                onset_day=row.onset_day,
+            )
             return report if self._research else replace(report, motion=None)
 
         def show_report(report: SessionReport) -> None:
@@ -102,6 +112,14 @@ class ReportFlow(Flow):
             self.context.navigator.switch_screen("report")
 
         self.run(build_report, show_report)
+
+    def _printed_patient(self) -> Patient | None:
+        """Return the patient if reports print the name and it is not hidden."""
+        is_printed = self.form_store.form.prints_names and not self.context.names.is_hidden
+        return self.context.current.patient if is_printed else None
+
+    def _therapist_words(self, initials: str) -> str:
+        return read_or_default(lambda: clinic_records.therapist_words(self.context.library.store, initials), initials)
 
     def _show_report(self, report: Report) -> None:
         self.screen.show_report(report, self.context.recent_locations.folder("reports"))
@@ -125,18 +143,25 @@ class ReportFlow(Flow):
             self._letter_source = report
             self.letter_dialog.open_form(
                 self._run_or_report(lambda: clinic_records.read_recipients(self.context.library.store)) or [],
-                has_name=bool(row.name),
+                has_name=bool(self.context.names.real_name(row)),
+                prints_name=report.printed_patient is not None,
             )
 
     def _show_letter(self, recipient: str, language: str, has_real_name: bool) -> None:
-        """Show the letter; the real name goes no further than its page."""
+        """Show the letter; a real name chosen for it goes no further than its page."""
         row, report = self.context.current.patient, self._letter_source
         if row is None or report is None:
             return
         if recipient:
             self._run_or_report(lambda: clinic_records.save_recipient(self.context.library.store, recipient))
         self._show_report(
-            LetterReport(report, recipient, self.context.today(), row.name if has_real_name else "", language)
+            LetterReport(
+                replace(report, therapist=self._therapist_words(self.context.report_settings.therapist)),
+                recipient,
+                self.context.today(),
+                row if has_real_name else None,
+                language,
+            )
         )
 
     def _open_home_dialog(self, report: SessionReport) -> None:

@@ -18,7 +18,7 @@ class SessionsFlow(Flow):
     screen: SessionsScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        stored = SessionStore(context.library)
+        stored = SessionStore(context.library, context.names.title)
         super().__init__(context, SessionsScreen(context.theme, context.background, stored))
         screen, way = self.screen, context.navigator
         screen.fault_raised.connect(context.messages.show_fault)

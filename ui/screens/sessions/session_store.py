@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from carpus.core.model.errors import SessionUnreadable
@@ -10,6 +10,7 @@ from carpus.core.records.changes import fingerprint
 from carpus.core.records.library import Library
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import PRACTICE_PATIENT
+from carpus.core.records.values import Patient
 from carpus.ui.screens.sessions.session_list import SessionLine
 from carpus.ui.words.fingers import main_result_words
 from carpus.ui.words.progress import correction_words
@@ -23,8 +24,10 @@ class SessionStore:
     All methods but ``list_sessions`` and ``target_patients`` access the disk and run in the background.
     """
 
-    def __init__(self, library: Library) -> None:
-        self._library = library
+    def __init__(
+        self, library: Library, name_patient: Callable[[Patient], str] = lambda patient: patient.pseudonym
+    ) -> None:
+        self._library, self._name_patient = library, name_patient
 
     def list_sessions(self, patient_id: str) -> Sequence[SessionLine]:
         """Return sessions, newest first, without what only their files contain."""
@@ -58,7 +61,7 @@ class SessionStore:
 
     def target_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
         rows = self._library.patients.search()
-        return [(row.patient_id, row.pseudonym) for row in rows if row.patient_id != patient_id]
+        return [(row.patient_id, self._name_patient(row)) for row in rows if row.patient_id != patient_id]
 
     def count_archived(self, patient_id: str) -> int:
         found = RecordRetention(self._library).list_archived()

@@ -10,7 +10,7 @@ from PySide6.QtGui import QImage, QImageReader, QPixmap
 from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QPlainTextEdit
 
 from carpus.core.results.report_form import MAX_ADDRESS_CHARACTERS, MAX_ADDRESS_LINES, MAX_NAME_CHARACTERS, ReportForm
-from carpus.ui.kit.button import Button
+from carpus.ui.kit.button import Button, CheckButton
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.field import ChoiceRow, LabelledField
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
@@ -52,6 +52,9 @@ class ReportCard(Card):
         self.body.addLayout(row)
         self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.error_text.hide()
+        self.names = CheckButton(theme, self.tr("Print real name, birth date and record number"))
+        self.names.setChecked(form.prints_names)
+        self.body.addWidget(self.names, 0, Qt.AlignmentFlag.AlignLeft)
         fill(self.body, self.error_text, Text(theme, self.tr("Paper"), 14, REGULAR, "text2"))
         self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", self.tr("US Letter"))], form.paper)
         self.body.addWidget(self.paper)
@@ -59,11 +62,13 @@ class ReportCard(Card):
         self.address.textChanged.connect(self._apply_letterhead)
         self.choose_button.clicked.connect(self.choose_logo)
         self.remove_button.clicked.connect(lambda: self._set_logo(b""))
+        self.names.toggled.connect(lambda on: self._change(replace(self._form, prints_names=on)))
         self.paper.chosen.connect(lambda paper: self._change(replace(self._form, paper=paper)))
         self._show_logo()
 
     def show_form(self, form: ReportForm) -> None:
         self._form = form
+        self.names.setChecked(form.prints_names)
 
     def choose_logo(self) -> None:
         kinds = self.tr("Images (*.png *.jpg *.jpeg)")

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QApplication, QButtonGroup, QFileDialog, QLineEdit, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QButtonGroup, QFileDialog, QStackedWidget, QVBoxLayout, QWidget
 
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.model.rounding import format_rounded
@@ -42,7 +42,6 @@ class SettingsScreen(QWidget):
         self.form = Form(theme, [field for *_, fields in table for field in fields])
         self.form.fill(preferences)
         self._shown_values = self.form.values()
-        self.form["therapist"].setMaximumWidth(theme.px(220))
         self.language_note = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.language_note.hide()
         self.folder_text = Text(theme, preferences.data_folder, 14)
@@ -86,10 +85,6 @@ class SettingsScreen(QWidget):
                     "the exercise whether it addresses a child or an adult."
                 ),
                 [Field("patient_sound", "", ChoiceRow(theme, sounds))],
-            ),
-            (
-                "report", self.tr("Initials on reports"), "",
-                [Field("therapist", "", QLineEdit(maxLength=12), change_signal="editingFinished")],
             ),
             (
                 "looks", self.tr("Appearance"), "",

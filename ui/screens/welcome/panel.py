@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 from carpus.core.model.purpose import PURPOSE
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, Separator
+from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.icons import State
 from carpus.ui.kit.layouts import STRETCH, column_layout, fill, row_layout, scroll_column
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, Text
@@ -54,6 +55,8 @@ class WelcomePanel(Card):
         self.details_button.setCheckable(True)
         self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
         self.later_button = Button(theme, self.tr("Not now"), "quiet", hint=self.tr("Esc"))
+        names = [(False, self.tr("Pseudonym only")), (True, self.tr("Real name too"))]
+        self.prints_names = ChoiceRow(theme, names)
         self._rows = column_layout(gap=4)
         self._build_layout()
         for button in (
@@ -74,6 +77,8 @@ class WelcomePanel(Card):
         note = self.tr("Patients and sessions are saved here. Nothing leaves this computer.")
         lies = column_layout(Text(theme, note, 14, REGULAR, "text2", wrap=True), self.folder_label, gap=0)
         text.addLayout(row_layout((lies, 1), self.folder_button, gap=12))
+        text.addWidget(Text(theme, self.tr("What should reports and letters print?"), 14, REGULAR, "text2", wrap=True))
+        text.addWidget(self.prints_names)
         later = QHBoxLayout()
         later.setContentsMargins(20, 6, 20, 8)  # its widgets hide it whole, and this with it
         later.setSpacing(12)

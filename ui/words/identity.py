@@ -1,0 +1,28 @@
+"""Texts that say who a patient is."""
+
+from __future__ import annotations
+
+from carpus.core.records.values import Patient
+from carpus.ui.kit import numbers
+from carpus.ui.kit.translate import tr
+
+
+def birth_words(patient: Patient) -> str:
+    """Return ``born 12 Mar 1981``; empty if unknown."""
+    return tr("born {day}").format(day=numbers.format_date(patient.birth_day)) if patient.birth_day else ""
+
+
+def record_number_words(patient: Patient) -> str:
+    """Return ``No. 4711``; empty if there is none."""
+    return tr("No. {number}").format(number=patient.record_number) if patient.record_number else ""
+
+
+def identity_words(patient: Patient) -> str:
+    """Return ``born 12 Mar 1981, female, No. 4711``."""
+    sex = {"female": tr("female"), "male": tr("male"), "diverse": tr("diverse")}.get(patient.sex, "")
+    return ", ".join(part for part in (birth_words(patient), sex, record_number_words(patient)) if part)
+
+
+def printed_name(patient: Patient) -> str:
+    """Return ``Erika Mustermann, born 12 Mar 1981, female, No. 4711``."""
+    return ", ".join(part for part in (patient.name, identity_words(patient)) if part)
