@@ -34,6 +34,7 @@ from carpus.ui.kit.text import StateText, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.patients.card import PatientCardView
 from carpus.ui.screens.progress.screen import ProgressScreen
+from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import PatientCard
 from carpus.ui.words.finger_angles import find_finger_angle
 from carpus.ui.words.fingers import main_angles, main_result_words
