@@ -166,7 +166,7 @@ def is_written(told: str) -> bool:
 
 def test_docstrings_name_existing_things_only() -> None:
     told = [(where, role, name) for where, text in docstrings() for role, name in ROLE.findall(text)]
-    assert len(told) > 400
+    assert len(told) > 300
     assert [one for one in told if not leads_somewhere(*one[1:])] == []
     shown = [(where, name) for where, text in docstrings() for name in PLAIN.findall(text)]
     assert len(shown) > 1000

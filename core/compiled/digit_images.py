@@ -320,7 +320,7 @@ def measure_assigned_discs(
     disc_m2: cython.const[double][:, ::1] = as_array(scene.disc_m2, "the discs' sizes", (5, 3))
     visible: cython.const[double][:, ::1] = as_array(scene.visible, "chances", (5, 3))
     expected: cython.const[double][:, ::1] = as_array(scene.linearised.value, "images", (5, 9))
-    spread: cython.const[double][:, :, ::1] = as_array(scene.spread, "their covariance", (5, 9, 9))
+    spread: cython.const[double][:, :, ::1] = as_array(scene.image_covariance, "their covariance", (5, 9, 9))
     factor: cython.const[double][:, ::1] = as_array(scene.noise_factor, "factors", (5, 9))
     has_discs: cython.const[cython.uchar][::1] = as_array(scene.has_discs, "digits with discs", (5,)).view(np.uint8)
     assigned: cython.const[cython.longlong][:, ::1] = as_array(names.assigned, "names", (5, 3))

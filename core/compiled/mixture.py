@@ -100,14 +100,14 @@ def predict_palm_modes(mixture: Any, step: Any, nominal: Array, switch: Array | 
     arrays = as_arrays(mixture)
     moving: cython.const[double][:, ::1] = np.ascontiguousarray(step.moving)
     driven: cython.const[double][:, :, ::1] = np.ascontiguousarray(step.driven)
-    kept: cython.const[double][:, ::1] = np.ascontiguousarray(step.kept)
+    kept: cython.const[double][:, ::1] = np.ascontiguousarray(step.decay)
     relaxing: cython.const[double][:, :, ::1] = np.ascontiguousarray(step.relaxing)
     mean: cython.const[double][:, :, ::1] = arrays[0]
     covariance: cython.const[double][:, :, :, ::1] = arrays[1]
     chains, modes, n = mean.shape[0], mean.shape[1], mean.shape[2]
     m: Py_ssize_t = moving.shape[0]
     first: Py_ssize_t = n - relaxing.shape[1]
-    sizes = [x.shape for x in (step.moving, step.driven, step.kept, step.relaxing)]
+    sizes = [x.shape for x in (step.moving, step.driven, step.decay, step.relaxing)]
     if sizes != [(m, m), (modes, m, m), (modes, n), (modes, n - first, n - first)] or m > n or first < 0:
         raise ValueError("a step is not of the mixture's size")
     share, probability = compute_shares(arrays[2], switch)
@@ -146,7 +146,7 @@ def predict_palm_modes(mixture: Any, step: Any, nominal: Array, switch: Array | 
                 for j in range(first, i + 1):
                     p[i, j] += relaxing[k, i - first, j - first]
             mirror(p)
-    moved = mixed * step.kept + (step.kept - 1.0) * nominal
+    moved = mixed * step.decay + (step.decay - 1.0) * nominal
     moved[..., :m] = mixed[..., :m] @ step.moving.T
     return moved, out, probability
 
@@ -249,14 +249,14 @@ def transpose(matrix: double[:, ::1], out: double[:, ::1]) -> cython.void:
 class InnovationWorkspace:
     """What was measured of one chain at a time, in units of its noise, and what a correction works out of it.
 
-    y = H (x - about) + e with the covariance ``own`` of e. A number that was not measured has no slope and the noise
+    y = H (x - point) + e with the covariance ``own`` of e. A number that was not measured has no slope and the noise
     alone.
     """
 
     value: cython.const[double][:, ::1]
     slope: cython.const[double][:, :, ::1]
     error: cython.const[double][:, :, ::1]
-    about: cython.const[double][:, ::1]
+    point: cython.const[double][:, ::1]
     measured: cython.const[double][:, ::1]
     variance: cython.const[double][:, ::1]
     line: double[:, ::1]
@@ -279,11 +279,11 @@ class InnovationWorkspace:
         if shared is not None and shared.shape != linearised.error.shape:
             raise ValueError("a shared covariance is not of the size of what was measured")
         error = linearised.error if shared is None else linearised.error + shared
-        arrays = linearised.value, linearised.slope, error, linearised.about, measured, variance
+        arrays = linearised.value, linearised.slope, error, linearised.point, measured, variance
         sizes = [(chains, m), (chains, m, n), (chains, m, m), (chains, n), (chains, m), (chains, m)]
         if [x.shape for x in arrays] != sizes:
             raise ValueError("what was measured is not of one size, or not of the mixture's")
-        self.value, self.slope, self.error, self.about, self.measured, self.variance = map(np.ascontiguousarray, arrays)
+        self.value, self.slope, self.error, self.point, self.measured, self.variance = map(np.ascontiguousarray, arrays)
         # Room to work in, two arrays cut up: to make one costs as much as to fill it.
         wide: double[:, ::1] = np.empty((3 * m + 2, n))
         self.line, self.cross, self.white = wide[:m], wide[m : 2 * m], wide[2 * m : 3 * m]
@@ -307,7 +307,7 @@ class InnovationWorkspace:
             self.off[i] = (self.measured[c, i] - self.value[c, i]) * self.unit[i] if known else 0.0
             for j in range(n):
                 self.line[i, j] = self.slope[c, i, j] * self.unit[i]
-                self.off[i] += self.line[i, j] * self.about[c, j]
+                self.off[i] += self.line[i, j] * self.point[c, j]
             for j in range(i + 1):
                 self.own[i, j] = self.own[j, i] = self.error[c, i, j] * (self.unit[i] * self.unit[j])
             self.own[i, i] += 1.0

@@ -77,8 +77,8 @@ def compute_palm_transition(
     tissue_of: cython.const[cython.longlong][::1] = motion.tissue_of
     hidden: cython.const[double][:, ::1] = as_array(_NONE if unseen is None else unseen, "turns not seen", (3, 3))
     dt: double = dt_s
-    push: double = noise.push
-    turning: double = noise.turning
+    push: double = noise.acceleration_density
+    turning: double = noise.turn_acceleration_density
     unseen_scale: double = motion.unseen_scale
 
     moving, turns = np.zeros((MOVING, MOVING)), np.empty((5, 3, 3))
@@ -204,7 +204,7 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
     mean: cython.const[double][:, :, ::1] = as_array(mixture.mean, "means of the modes", (1, modes, SIZE))
     weight: cython.const[double][:, ::1] = as_array(mixture.probability, "the modes' probability", (1, modes))
     palm: cython.const[double][:, ::1] = as_array(view.palm_m, "places of the discs", (DISCS, 3))
-    hidden: cython.const[double][:, ::1] = as_array(view.hidden, "what calibration hides", (DISCS, SEEN))
+    hidden: cython.const[double][:, ::1] = as_array(view.depth_bias, "what calibration hides", (DISCS, SEEN))
     w0_cam: cython.const[double][:, ::1] = as_array(view.rotation_w0_cam, "the camera's rotation", (3, 3))
     at: cython.const[double][::1] = as_array(view.translation_w0_cam_m, "the camera's place", (3,))
     of_middle: double = weights.mean[0]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
-from enum import IntEnum
+from enum import Enum, IntEnum
 from typing import Literal
 
 import numpy as np
@@ -32,6 +32,15 @@ class TrackStatus(IntEnum):
     PREDICTED = 1
     LOST = 2
     DOUBTFUL = 3  # measured, but contradicted by what is seen; the standard deviations are widened
+
+
+class LossReason(Enum):
+    """Why the track was lost, as the log says it."""
+
+    NO_FRAMES = "no frame arrived for too long"
+    TOO_FEW_MARKERS = "too few markers of the palm were visible for too long"
+    UNCONFIRMED_POSE = "the next frames did not confirm the pose that was found"
+    MARKERS_CORRECTED = "its markers were corrected by hand"
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,8 +173,9 @@ class TrackedFrame:
     the update, with its covariance ``marker_predicted_cov_px2`` (M, 2, 2); ``marker_measured_px`` (M, 2) and
     ``marker_measured_depth_m`` (M,) of the blob associated with the marker. ``measured_share`` (3,) or (J,) is the
     share of direct measurement in the last second; ``nis`` the normalised innovation squared with ``nis_dof`` degrees
-    of freedom. ``doubted`` (M,) markers whose measurements contradict the estimate; ``is_rejected`` (D,) detections
-    that a person said are no marker (not used, not stored). Both default to none.
+    of freedom; ``loss_reason`` (not stored) while the track is lost. ``doubted`` (M,) markers whose measurements
+    contradict the estimate; ``is_rejected`` (D,) detections that a person said are no marker (not used, not stored).
+    Both default to none.
     """
 
     index: int
@@ -182,6 +192,7 @@ class TrackedFrame:
     measured_share: FloatArray
     nis: float
     nis_dof: int
+    loss_reason: LossReason | None = None
     doubted: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
     is_rejected: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
 

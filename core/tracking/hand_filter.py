@@ -123,13 +123,13 @@ def reinitialise_disc(
     mixture = ModeMixture(mean, _with_block(predicted.mixture.covariance, own, fresh), predicted.mixture.probability)
 
     # How wrong its depth was at the calibration says nothing of it any more.
-    hidden = view.hidden.copy()
-    hidden[disc, 3 * disc : 3 * disc + 3] = 0.0
-    view = replace(view, hidden=hidden)
+    depth_bias = view.depth_bias.copy()
+    depth_bias[disc, 3 * disc : 3 * disc + 3] = 0.0
+    view = replace(view, depth_bias=depth_bias)
     assigned: NDArray[np.int64] = np.full(len(predicted.mean), -1, dtype=np.int64)
     assigned[disc] = blob
     with_depth: BoolArray = (assigned >= 0) & np.isfinite(blobs.value[blob, 2])
-    whole = predict_measurement(estimate, mixture, view, settings.spread)
+    whole = predict_measurement(estimate, mixture, view, settings.scaling)
     measured = update_palm(whole, blobs, assigned, with_depth, np.full((assigned.size, 3), _REREAD_NOISE_FACTOR))
     return *reset_error(estimate, measured.mixture), view
 

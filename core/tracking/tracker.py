@@ -17,7 +17,15 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand.protocols import MarkerProtocol
-from carpus.core.model.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
+from carpus.core.model.types import (
+    Detections,
+    FloatArray,
+    KinematicState,
+    LossReason,
+    MarkerLabel,
+    TrackedFrame,
+    TrackStatus,
+)
 from carpus.core.tracking.association.consistency import ConsistencyTest, find_unused_markers
 from carpus.core.tracking.association.operator_labels import LabelledDetections, OperatorLabels
 from carpus.core.tracking.association.reacquire import MIN_FOUND_MARKERS
@@ -191,7 +199,7 @@ class Tracker:
 
     def drop_track(self, after_s: float) -> None:
         """Drop the track after a wrong association; learnt anatomy is kept."""
-        self._drop_track(after_s)
+        self._drop_track(after_s, LossReason.MARKERS_CORRECTED)
         self._frame_builder.reset_consistency()
 
     @property
@@ -239,7 +247,7 @@ class Tracker:
         ideal = undistort_detections(detections, self._filter.view.camera)
         is_linked = self._manager.start_frame(timestamp_s)
         if self._manager.is_timed_out(timestamp_s):
-            self._drop_track(timestamp_s)
+            self._drop_track(timestamp_s, LossReason.NO_FRAMES)
         if self.is_lost:  # initiate a track where the blobs show a palm, wherever it was
             is_linked = False
             found = self._filter.find_palm(ideal, self._manager.widest_turn_limits())
@@ -270,13 +278,13 @@ class Tracker:
         ):
             posterior = self._filter.update(predicted, scan.without_blobs())
 
-        status = TrackStatus.LOST
-        if not self._manager.is_refuted(posterior.seen_count, timestamp_s):
+        loss_reason = self._manager.find_loss_reason(posterior.seen_count, timestamp_s)
+        if loss_reason is not LossReason.UNCONFIRMED_POSE:
             self._filter.learn(posterior, dt_s)
-            is_consistent = self._filter.is_consistent(posterior)
-            status = self._manager.update_status(timestamp_s, posterior.seen_count, is_consistent=is_consistent)
-        if status is TrackStatus.LOST:
-            return self._build_lost_frame(index, timestamp_s, detections, dropped_before)
+        if loss_reason is not None:
+            return self._build_lost_frame(index, timestamp_s, detections, dropped_before, loss_reason)
+        is_consistent = self._filter.is_consistent(posterior)
+        status = self._manager.update_status(timestamp_s, posterior.seen_count, is_consistent=is_consistent)
         steps = self._filter.accept(posterior, scan, is_seen=status is TrackStatus.TRACKED, is_linked=is_linked)
         if self._keep_history:
             self.record.append(*steps)
@@ -314,17 +322,23 @@ class Tracker:
         manager.accept_found(found)
         return reacquired
 
-    def _drop_track(self, timestamp_s: float) -> None:
+    def _drop_track(self, timestamp_s: float, reason: LossReason | None) -> None:
         self._filter.drop_track()
-        self._manager.drop_track(timestamp_s)
+        self._manager.drop_track(timestamp_s, reason)
 
     def _build_lost_frame(
-        self, index: int, timestamp_s: float, detections: Detections, dropped_before: int
+        self,
+        index: int,
+        timestamp_s: float,
+        detections: Detections,
+        dropped_before: int,
+        reason: LossReason | None = None,
     ) -> TrackedFrame:
-        self._drop_track(timestamp_s)
+        self._drop_track(timestamp_s, reason)
         if self._keep_history:
             self.record.append(FilterStep(timestamp_s, None, self._filter.motion.initial_probability, False), None)
-        return self._frame_builder.build_lost_frame(index, timestamp_s, detections, dropped_before)
+        frame = self._frame_builder.build_lost_frame(index, timestamp_s, detections, dropped_before)
+        return replace(frame, loss_reason=self._manager.loss_reason)
 
     def _predict_pixels(self, timestamp_s: float) -> FloatArray:
         """Return where the markers should be in the image (M, 2), NaN while the hand is lost."""

@@ -55,7 +55,7 @@ def informed_run(
         step = palm_transition(estimate.rate_rad_s, motion, dt_s)
         mixture = propagate_mixture(mixture, step, estimate.value, step.switch)
         ahead_of = replace(step.propagate(estimate, dt_s), covariance=mixture.merge()[1][0])
-        ahead = predict_measurement(ahead_of, mixture, view, settings.spread)
+        ahead = predict_measurement(ahead_of, mixture, view, settings.scaling)
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)
         blobs = Measurements(seen, np.broadcast_to(variance, seen.shape))
         estimate, mixture = reset_error(

@@ -125,7 +125,7 @@ def test_labelled_blob_measurement_matches_oracle(blobs: int) -> None:
     crowded = replace(linearised, value=np.where(np.arange(9) % 3 == 2, 0.7, linearised.value * 0.05))
     for seen in (linearised, crowded):
         scene = DigitScene(
-            it.covariance, seen, seen.spread, seen.spread, rng.uniform(0.3, 0.98, size=(5, 3)),
+            it.covariance, seen, seen.image_covariance, seen.image_covariance, rng.uniform(0.3, 0.98, size=(5, 3)),
             Measurements(value, rng.uniform(0.01, 0.1, size=(blobs, 3))), np.ones(blobs, dtype=bool),
             rng.uniform(10.0, 90.0, size=blobs), whole_px, whole_px * 1e-6, rng.uniform(0.6, 3.0, size=(5, 9)), 3e5,
             it.base.view, 0.2, np.arange(5) < 4,

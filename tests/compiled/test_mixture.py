@@ -182,7 +182,7 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
     step = step_of(np.random.default_rng(2), 3, 5)
     wide = np.ones((3, 9, 9))
     for wrong_step in (
-        replace(step, kept=step.kept[:2]),
+        replace(step, decay=step.decay[:2]),
         replace(step, moving=step.moving[:, :0]),
         replace(step, moving=np.ones((len(step.moving), 99))),
         replace(step, relaxing=step.relaxing[..., :-1]),
@@ -202,7 +202,7 @@ def test_measurement_of_another_size_is_refused(wrong: str) -> None:
     if wrong == "covariance":
         mixture = replace(mixture, covariance=mixture.covariance[:1])
     elif wrong == "about":
-        line = replace(line, about=line.about[:1])
+        line = replace(line, point=line.point[:1])
     else:
         given[wrong] = given[wrong][:1]
     with pytest.raises(ValueError, match="size"):

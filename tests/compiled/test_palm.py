@@ -82,7 +82,7 @@ def test_arrays_stored_otherwise_are_read_as_they_are(layout: Callable[[np.ndarr
     estimate, view = moving(4), view_of(rng)
     mixture, unseen = mixture_about(estimate, rng, 3), np.diag([1.0, 0.0, 0.0])
     palm, modes = laid_out(estimate, layout), laid_out(mixture, layout)
-    seen = replace(view, palm_m=layout(view.palm_m), hidden=layout(view.hidden))
+    seen = replace(view, palm_m=layout(view.palm_m), depth_bias=layout(view.depth_bias))
     assert_same(
         compiled.predict_palm_measurement(palm, modes, seen, WEIGHTS), oracle.see_palm(estimate, mixture, view, WEIGHTS)
     )
@@ -123,7 +123,7 @@ def test_sizes_and_types_that_do_not_fit_are_refused() -> None:
         (replace(estimate, value=estimate.value.astype(np.float32)), mixture, view),
         (estimate, replace(mixture, mean=mixture.mean[0]), view),
         (estimate, replace(mixture, probability=mixture.probability[:, :1]), view),
-        (estimate, mixture, replace(view, hidden=view.hidden[:5])),
+        (estimate, mixture, replace(view, depth_bias=view.depth_bias[:5])),
     ):
         with pytest.raises(ValueError, match=r"where|dtype"):
             compiled.predict_palm_measurement(palm, modes, seen, WEIGHTS)

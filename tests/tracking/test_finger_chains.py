@@ -127,9 +127,8 @@ def test_digit_linearisation_of_a_sure_state_is_the_projection() -> None:
         by_difference = (images(ahead) - images(back)) / 2e-5
         assert np.allclose(linearised.slope[:, :, slot], by_difference, rtol=1e-3, atol=0.05), slot
     assert np.allclose(linearised.slope[:, :, RATES], 0.0)
-    assert np.allclose(
-        linearised.spread, linearised.slope @ covariance @ np.swapaxes(linearised.slope, 1, 2), rtol=1e-2, atol=1e-4
-    )
+    by_slope = linearised.slope @ covariance @ np.swapaxes(linearised.slope, 1, 2)
+    assert np.allclose(linearised.image_covariance, by_slope, rtol=1e-2, atol=1e-4)
 
 
 @pytest.mark.parametrize("dip_free", [False, True])

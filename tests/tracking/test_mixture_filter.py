@@ -60,7 +60,7 @@ def test_update_mixture_is_kalmans_without_nan_components(seed: int) -> None:
             p = mixture.covariance[c, k]
             s = h @ p @ h.T + r
             gain = p @ h.T @ np.linalg.inv(s)
-            off = measured[c][used] - linearised.value[c][used] - h @ (mixture.mean[c, k] - linearised.about[c])
+            off = measured[c][used] - linearised.value[c][used] - h @ (mixture.mean[c, k] - linearised.point[c])
             assert np.allclose(found.mixture.mean[c, k], mixture.mean[c, k] + gain @ off, atol=1e-10)
             assert np.allclose(found.mixture.covariance[c, k], p - gain @ s @ gain.T, atol=1e-10)
             nis[k] = off @ np.linalg.inv(s) @ off

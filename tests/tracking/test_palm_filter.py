@@ -71,10 +71,10 @@ def moving(seed: int = 0) -> PalmEstimate:
     return PalmEstimate(so3.exp(0.3 * rng.normal(size=3)), value, covariance)
 
 
-def linearised_about(estimate: PalmEstimate, view: PalmView, spread: UnscentedParameters) -> Linearisation:
+def linearised_about(estimate: PalmEstimate, view: PalmView, scaling: UnscentedParameters) -> Linearisation:
     """H about an estimate, of one mode without errors."""
     mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), estimate.covariance[None], 1)
-    return predict_measurement(estimate, mixture, view, spread).linearised
+    return predict_measurement(estimate, mixture, view, scaling).linearised
 
 
 def coasting(estimate: PalmEstimate, dt_s: float) -> PalmEstimate:

@@ -58,7 +58,7 @@ def test_depth_bias_matrix_hides_its_share(share: float) -> None:
         seen.append(linearised_about(estimate, view, UnscentedParameters()).value.reshape(6, 3))
     change = seen[0] - seen[1]
     assert change[:, 2] == pytest.approx([0.0, 0.0, 0.0, (1.0 - share) * 0.001, 0.0, 0.0], abs=1e-9)
-    assert np.array_equal(depth_bias_matrix(calibration(), share), view.hidden)
+    assert np.array_equal(depth_bias_matrix(calibration(), share), view.depth_bias)
 
 
 def test_shape_covariance_is_larger_along_the_ray() -> None:

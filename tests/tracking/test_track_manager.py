@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import logging
+
 import numpy as np
 import pytest
 
 from carpus.core.model import so3
-from carpus.core.model.types import TrackStatus
+from carpus.core.model.types import LossReason, TrackStatus
 from carpus.core.tracking.association.reacquire import FoundPalm
 from carpus.core.tracking.association.track_manager import (
     CONFIRMATION_S,
@@ -84,16 +86,28 @@ def test_track_unconfirmed_or_few_markers_is_uncertain() -> None:
     assert not track.is_uncertain(6, 0.0)
 
 
-def test_track_reacquired_is_refuted_within_probation_only() -> None:
+def test_track_reacquired_unconfirmed_pose_is_lost_within_probation_only() -> None:
     track = manager()
     track.drop_track(1.0)
     track.try_initiate(build_found(6), 1.1)
-    least = MIN_PALM_MARKERS
-    assert track.is_refuted(least, 1.1)
-    assert not track.is_refuted(least + 1, 1.1)
-    assert track.is_refuted(least - 1, 1.1 + 0.9 * PROBATION_S)
-    assert not track.is_refuted(least, 1.1 + 0.9 * PROBATION_S)
-    assert not track.is_refuted(0, 1.1 + 1.1 * PROBATION_S)
+    least, unconfirmed = MIN_PALM_MARKERS, LossReason.UNCONFIRMED_POSE
+    assert track.find_loss_reason(least, 1.1) is unconfirmed
+    assert track.find_loss_reason(least + 1, 1.1) is None
+    assert track.find_loss_reason(least - 1, 1.1 + 0.9 * PROBATION_S) is unconfirmed
+    assert track.find_loss_reason(least, 1.1 + 0.9 * PROBATION_S) is None
+    assert track.find_loss_reason(0, 1.1 + 1.1 * PROBATION_S) is None
+
+
+def test_track_lost_keeps_and_logs_the_first_reason(caplog: pytest.LogCaptureFixture) -> None:
+    track = manager()
+    update_track(track, 0.0, 6)
+    reason = track.find_loss_reason(MIN_PALM_MARKERS - 1, LOST_AFTER_S + 0.1)
+    with caplog.at_level(logging.INFO):
+        track.drop_track(LOST_AFTER_S + 0.1, reason)
+        track.drop_track(9.0, LossReason.NO_FRAMES)
+    assert track.loss_reason is LossReason.TOO_FEW_MARKERS
+    assert len(caplog.records) == 1
+    assert LossReason.TOO_FEW_MARKERS.value in caplog.text
 
 
 def test_track_four_markers_among_fingers_need_confirmation() -> None:

@@ -69,7 +69,7 @@ class PaperSettings:
         return cls(*_MOTION[name])
 
     @property
-    def spread(self) -> UnscentedParameters:
+    def scaling(self) -> UnscentedParameters:
         return UnscentedParameters(self.alpha, self.beta, self.kappa)
 
 

@@ -75,7 +75,7 @@ class UpdatedState:
 
 
 def predict_state(
-    state: AugmentedGaussian, noise_covariance: FloatArray, motion: StateTransition, spread: UnscentedParameters
+    state: AugmentedGaussian, noise_covariance: FloatArray, motion: StateTransition, scaling: UnscentedParameters
 ) -> PredictedState:
     """Draw points over state and noise (k, k) together and move them.
 
@@ -85,7 +85,7 @@ def predict_state(
         When the covariance of the state is none.
     """
     n, k = state.mean.size, noise_covariance.shape[0]
-    weights = compute_weights(n + k, spread)
+    weights = compute_weights(n + k, scaling)
     both = np.zeros((n + k, n + k))
     both[:n, :n], both[n:, n:] = state.covariance, noise_covariance
     offsets = compute_sigma_offsets(both, weights.scale)
@@ -289,7 +289,7 @@ class PaperTracker:
         pixel, resolution_px2 = camera.undistort(detections.pixel), float(camera.width_px * camera.height_px)
         try:
             predicted = predict_state(
-                self._state, self._motion.noise_covariance, self._motion.build_transition(dt_s), settings.spread
+                self._state, self._motion.noise_covariance, self._motion.build_transition(dt_s), settings.scaling
             )
             # (2): pixels (P, 2 M) of all markers for the sigma points
             projected = camera.project(self._discs_cam_m(predicted.points)).reshape(len(predicted.points), -1)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from enum import Enum, auto
 
 import numpy as np
 
 from carpus.core.model import so3
-from carpus.core.model.types import FloatArray, TrackStatus
+from carpus.core.model.types import FloatArray, LossReason, TrackStatus
 from carpus.core.tracking.association.reacquire import FoundPalm, TurnLimits
+
+log = logging.getLogger(__name__)
 
 COLLINEAR_RMS_M = 0.008  # discs that lie as near (rms) to one line say nothing of turning about it
 MIN_PALM_MARKERS = 3  # that determine the pose of the palm; with fewer a frame is predicted
@@ -46,6 +49,7 @@ class TrackManager:
         self._min_found, self._lost_after_s, self._has_digits = min_found, lost_after_s, has_digits
         self._ambiguous_sd_rad = AMBIGUOUS_WITH_FINGERS_SD_RAD if has_digits else AMBIGUOUS_SD_RAD
         self.stage = TrackStage.CONFIRMED
+        self.loss_reason: LossReason | None = None
         self._time_s: float | None = None
         self._last_seen_s = self._started_s = self._found_s = -math.inf
         self._is_at_start = True
@@ -147,15 +151,18 @@ class TrackManager:
         """Return whether any so many blobs would do for markers of so unsure a prediction."""
         return seen < len(self._ambiguous_sd_rad) and turn_sd_rad > self._ambiguous_sd_rad[seen]
 
-    def is_refuted(self, seen: int, timestamp_s: float) -> bool:
-        """Return whether the next frames do not bear out a hand just found."""
-        least = MIN_PALM_MARKERS
-        if timestamp_s == self._found_s:
-            return seen < least + 1
-        return timestamp_s - self._found_s < PROBATION_S and seen < least
+    def find_loss_reason(self, seen: int, timestamp_s: float) -> LossReason | None:
+        """Return why the track ends with a frame of ``seen`` markers; None where it goes on."""
+        least = MIN_PALM_MARKERS + 1 if timestamp_s == self._found_s else MIN_PALM_MARKERS
+        if timestamp_s - self._found_s < PROBATION_S and seen < least:
+            return LossReason.UNCONFIRMED_POSE
+        unseen_s = timestamp_s - max(self._last_seen_s, self._started_s)
+        if seen < MIN_PALM_MARKERS and unseen_s > self._lost_after_s:
+            return LossReason.TOO_FEW_MARKERS
+        return None
 
     def update_status(self, timestamp_s: float, seen: int, *, is_consistent: bool) -> TrackStatus:
-        """Confirm, coast or delete the track after a frame with ``seen`` markers.
+        """Confirm or coast the track after a frame with ``seen`` markers.
 
         ``is_consistent``: they lie where the updated pose puts them.
         """
@@ -165,12 +172,14 @@ class TrackManager:
             self._last_seen_s = timestamp_s
             self.stage = TrackStage.CONFIRMED if is_believed else TrackStage.TENTATIVE
             return TrackStatus.TRACKED
-        if timestamp_s - max(self._last_seen_s, self._started_s) > self._lost_after_s:
-            return TrackStatus.LOST
         self.stage = TrackStage.COASTED if is_believed else TrackStage.TENTATIVE
         return TrackStatus.PREDICTED
 
-    def drop_track(self, timestamp_s: float) -> None:
+    def drop_track(self, timestamp_s: float, reason: LossReason | None = None) -> None:
+        """Delete the track, and log why; one that is lost already keeps its reason."""
+        if not self.is_lost and reason is not None:
+            self.loss_reason = reason
+            log.info("The track was lost at %.2f s: %s.", timestamp_s, reason.value)
         self.stage, self._time_s = TrackStage.LOST, timestamp_s
 
 

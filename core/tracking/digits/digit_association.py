@@ -74,21 +74,21 @@ class UpdatedDigits:
 class DigitScene:
     """One frame before the fingers are associated.
 
-    ``covariance`` (5, n, n) of the digits; ``linearised`` h; ``spread`` (5, 9, 9) covariance of the discs' images, the
-    palm's error included; ``palm_covariance`` that error alone; ``visible`` (5, 3) probability that each disc is to be
-    seen; ``free`` (D,) blobs that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc
-    where nothing hides it and ``disc_m2`` (5, 3) its area, NaN where not known yet; ``noise_factor`` (5, 9);
+    ``state_covariance`` (5, n, n) of the digits; ``linearised`` h; ``image_covariance`` (5, 9, 9) of the discs' images,
+    the palm's error included; ``palm_covariance`` that error alone; ``visible`` (5, 3) probability that each disc is to
+    be seen; ``is_free`` (D,) blobs that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each
+    disc where nothing hides it and ``disc_m2`` (5, 3) its area, NaN where not known yet; ``noise_factor`` (5, 9);
     ``learning_share`` of the information on the anatomy that is used; ``has_discs`` (5,) digits that carry discs at
     all.
     """
 
-    covariance: FloatArray
+    state_covariance: FloatArray
     linearised: DigitLinearisation
-    spread: FloatArray
+    image_covariance: FloatArray
     palm_covariance: FloatArray
     visible: FloatArray
     blobs: Measurements
-    free: NDArray[np.bool_]
+    is_free: NDArray[np.bool_]
     area_px: FloatArray
     whole_px: FloatArray
     disc_m2: FloatArray
@@ -113,7 +113,7 @@ def associate_digits(estimates: ModeMixture, scene: DigitScene, settings: Tracke
         assigned, with_depth = assignment.assigned.copy(), assignment.with_depth.copy()
         assigned[doubtful] = -1
         for chain in doubtful:
-            rest = np.setdiff1d(np.flatnonzero(scene.free), assigned.ravel())
+            rest = np.setdiff1d(np.flatnonzero(scene.is_free), assigned.ravel())
             assigned[chain], with_depth[chain] = _associate_digit_jointly(chain, scene, rest, settings)
         assignment = DigitAssignment(assigned, with_depth)
         updated = update_digits(estimates, scene, assignment, settings)
@@ -135,7 +135,7 @@ def associate_digits(estimates: ModeMixture, scene: DigitScene, settings: Tracke
     is_lone[:, 0] = False
     is_lone[0, 2] |= is_assigned[0, 2] & ~is_assigned[0, 1]
     if is_lone.any():
-        is_removed = is_removed | (is_lone & find_far_digits(scene.covariance, is_assigned)[:, None])
+        is_removed = is_removed | (is_lone & find_far_digits(scene.state_covariance, is_assigned)[:, None])
     return remove_markers(is_removed, updated, estimates, scene, settings) if is_removed.any() else updated
 
 
@@ -173,7 +173,7 @@ def _associate_separately(scene: DigitScene, settings: TrackerSettings) -> Digit
     own = settings.association
     by_disc = association.log_odds(
         scene.linearised.value.reshape(-1, 3),
-        scene.spread[:, _OF_DISC, _OF_DISC.swapaxes(1, 2)].reshape(-1, 3, 3),
+        scene.image_covariance[:, _OF_DISC, _OF_DISC.swapaxes(1, 2)].reshape(-1, 3, 3),
         scene.blobs.value,
         scene.blobs.variance,
         scene.resolution_px2 / EXPECTED_CLUTTER,
@@ -182,7 +182,7 @@ def _associate_separately(scene: DigitScene, settings: TrackerSettings) -> Digit
     )
     # A marker's prior says how likely it is to be seen, which is known better here.
     log_seen = np.log(scene.visible / (1.0 - scene.visible)) - math.log(own.prior_marker / own.prior_clutter)
-    is_possible = (scene.has_discs[:, None] & np.ones(N_DISCS, dtype=bool)).reshape(-1, 1) & scene.free
+    is_possible = (scene.has_discs[:, None] & np.ones(N_DISCS, dtype=bool)).reshape(-1, 1) & scene.is_free
     odds = np.where(is_possible, by_disc.value + log_seen.reshape(-1, 1), association.LOG_IMPOSSIBLE)
     assigned = association.assign_blobs(odds)
     uses_depth = by_disc.with_depth[np.arange(assigned.size), assigned] & (assigned >= 0)
@@ -220,19 +220,20 @@ def _associate_digit_jointly(
     """Find the most probable association (3,) of one digit's discs with ``blobs``, and depths used."""
     if not blobs.size:
         return np.full(N_DISCS, -1, dtype=np.int64), np.zeros(N_DISCS, dtype=bool)
-    value, spread = scene.linearised.value[chain], scene.spread[chain]
-    gate2 = 2.0 * settings.association.gate_sd**2
+    value, spread = scene.linearised.value[chain], scene.image_covariance[chain]
+    gate_squared = 2.0 * settings.association.gate_sd**2
     candidates: list[list[tuple[int, bool]]] = []  # blob, and whether its depth is used
     for disc in range(N_DISCS):
         rows = slice(3 * disc, 3 * disc + 3)
         difference = scene.blobs.value[blobs] - value[rows]
         variance = np.diagonal(spread[rows, rows]) + scene.blobs.variance[blobs]
-        pixel2 = (difference[:, :2] ** 2 / variance[:, :2]).sum(axis=1)
-        whole2 = pixel2 + difference[:, 2] ** 2 / variance[:, 2]
-        without2 = pixel2 + NO_DEPTH_PENALTY
-        nearest = np.argsort(np.where(np.isfinite(whole2), np.minimum(whole2, without2), without2))[:MAX_CANDIDATES]
-        candidates.append([(-1, False)])
-        candidates[disc] += [(int(blobs[i]), bool(whole2[i] <= gate2)) for i in nearest if not pixel2[i] > gate2]
+        in_image = (difference[:, :2] ** 2 / variance[:, :2]).sum(axis=1)
+        in_space = in_image + difference[:, 2] ** 2 / variance[:, 2]
+        without_depth = in_image + NO_DEPTH_PENALTY
+        nearest = np.argsort(np.fmin(in_space, without_depth))[:MAX_CANDIDATES]
+        is_deep = in_space <= gate_squared
+        near = [(int(blobs[i]), bool(is_deep[i])) for i in nearest if not in_image[i] > gate_squared]
+        candidates.append([(-1, False), *near])
     branches = [
         one for one in product(*candidates) if len({b for b, _ in one if b >= 0}) == sum(b >= 0 for b, _ in one)
     ]

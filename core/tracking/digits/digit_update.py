@@ -94,7 +94,7 @@ class DigitPosterior:
     @property
     def prediction_cov_px2(self) -> FloatArray:
         """Covariance (5, 3, 2, 2) of the predicted pixels."""
-        return self.scene.spread[:, _UV[:, :, None], _UV[:, None, :]]
+        return self.scene.image_covariance[:, _UV[:, :, None], _UV[:, None, :]]
 
     @property
     def residual_norm2(self) -> FloatArray:
@@ -202,7 +202,7 @@ class DigitUpdater:
         estimates, points = predicted.estimates, predicted.points
         posterior = self._associate_and_update(estimates, points, frame)
         # Where joints may be far from where h was linearised: iterated posterior linearisation (Garcia-Fernandez 2015).
-        is_given_up = is_far = find_far_digits(posterior.scene.covariance, posterior.blob >= 0)
+        is_given_up = is_far = find_far_digits(posterior.scene.state_covariance, posterior.blob >= 0)
         if is_far.any():
             posterior = self._iterate_linearisation(estimates, posterior)
             is_given_up = is_far & is_beyond_limits(*posterior.update.update.mixture.merge())
@@ -221,7 +221,7 @@ class DigitUpdater:
             return posterior
         chains = np.array(list(postures))
         restarted = self._model.restart_at_postures(estimates, postures)
-        points = draw_sigma_points(*restarted.merge(), self._history.palm.disc_m[1:], self._settings.spread)
+        points = draw_sigma_points(*restarted.merge(), self._history.palm.disc_m[1:], self._settings.scaling)
         other = self._iterate_linearisation(restarted, self._associate_and_update(restarted, points, frame))
         is_better = np.count_nonzero(other.blob[chains] >= 0) > np.count_nonzero(posterior.blob[chains] >= 0)
         if is_better and other.is_jointly_compatible(chains, self._settings.association):
@@ -232,9 +232,9 @@ class DigitUpdater:
         """Update by the same association, h linearised again about what it says."""
         for _ in range(EXTRA_LINEARISATIONS):
             points = draw_sigma_points(
-                *posterior.update.update.mixture.merge(), self._history.palm.disc_m[1:], self._settings.spread
+                *posterior.update.update.mixture.merge(), self._history.palm.disc_m[1:], self._settings.scaling
             )
-            linearised = linearise_digits(points, posterior.base.view, self._settings.spread)
+            linearised = linearise_digits(points, posterior.base.view, self._settings.scaling)
             scene = replace(posterior.scene, linearised=linearised)
             update = update_digits(estimates, scene, posterior.update.assignment, self._settings)
             posterior = replace(posterior, update=update)
@@ -263,7 +263,7 @@ class DigitUpdater:
         self, estimates: ModeMixture, points: DigitSigmaPoints, frame: DigitFrame
     ) -> DigitPosterior:
         base, history = frame.base, self._history
-        linearised = linearise_digits(points, base.view, self._settings.spread)
+        linearised = linearise_digits(points, base.view, self._settings.scaling)
         tilt_rad, variance = compute_tilts(points.normal, points.covariance, linearised, base.view)
         visible = compute_visibility(history.visible_probability, tilt_rad, variance, frame.dt_s)
         px_per_m2 = compute_disc_scale(tilt_rad, linearised, base.view)
@@ -271,7 +271,7 @@ class DigitUpdater:
         scene = DigitScene(
             points.covariance,
             linearised,
-            linearised.spread + palm_covariance,
+            linearised.image_covariance + palm_covariance,
             palm_covariance,
             visible,
             frame.blobs,

@@ -277,7 +277,7 @@ class FingerModel:
     ) -> tuple[ModeMixture, DigitSigmaPoints]:
         """Predict the digits ``dt_s`` ahead, and draw sigma points of them under ``root_disc_m`` (5, 3)."""
         ahead = self.predict(estimates, unseen_s, dt_s)
-        return ahead, draw_sigma_points(*ahead.merge(), root_disc_m, self.settings.spread)
+        return ahead, draw_sigma_points(*ahead.merge(), root_disc_m, self.settings.scaling)
 
     def compute_forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """Return the prediction of slots that nothing shows, of digits at ``mean`` (5, n); None for none.

@@ -116,16 +116,16 @@ class DigitSigmaPoints:
     covariance: FloatArray
 
 
-def digit_sigma_weights(spread: UnscentedParameters) -> SigmaWeights:
+def digit_sigma_weights(scaling: UnscentedParameters) -> SigmaWeights:
     """Return the weights of a digit's sigma points."""
-    return compute_weights(digits.BENT.size, spread)
+    return compute_weights(digits.BENT.size, scaling)
 
 
 def draw_sigma_points(
-    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
+    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, scaling: UnscentedParameters
 ) -> DigitSigmaPoints:
     """Draw sigma points of states (5, n), on the discs ``root_disc_m`` (5, 3) under which they begin."""
-    found = digits.compute_digit_sigma_points(mean, covariance, root_disc_m, digit_sigma_weights(spread).scale)
+    found = digits.compute_digit_sigma_points(mean, covariance, root_disc_m, digit_sigma_weights(scaling).scale)
     return DigitSigmaPoints(*found, mean, covariance)
 
 
@@ -153,18 +153,18 @@ class DigitView:
 class DigitLinearisation(Linearisation):
     """Predicted u, v, z of the three discs in turn, (5, 9), linearised.
 
-    ``spread`` (5, 9, 9) covariance of the images, slope and error together. ``centre_m`` (5, 3, 3) the discs in camera
-    axes; ``by_place`` (5, 3, 3, 3) derivative of the images by that.
+    ``image_covariance`` (5, 9, 9), slope and error together. ``centre_m`` (5, 3, 3) the discs in camera axes;
+    ``by_place`` (5, 3, 3, 3) derivative of the images by that.
     """
 
-    spread: FloatArray
+    image_covariance: FloatArray
     centre_m: FloatArray
     by_place: FloatArray
 
 
-def linearise_digits(points: DigitSigmaPoints, view: DigitView, spread: UnscentedParameters) -> DigitLinearisation:
+def linearise_digits(points: DigitSigmaPoints, view: DigitView, scaling: UnscentedParameters) -> DigitLinearisation:
     """Linearise the discs' images: regression on the joints, derivative by the constants."""
     value, slope, error, whole, centre_m, by_place = digit_images.linearise_images(
-        points, view, digit_sigma_weights(spread)
+        points, view, digit_sigma_weights(scaling)
     )
     return DigitLinearisation(value, slope, error, points.mean, whole, centre_m, by_place)

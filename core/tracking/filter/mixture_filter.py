@@ -78,13 +78,13 @@ def predict_mixture(
 class Transition:
     """A step of a chain of which only the first m numbers mix.
 
-    ``moving`` (m, m) is F of these with the noise ``driven`` (K, m, m); of every number the share ``kept`` (K, n) is
-    left, one for the moving; the last r numbers are driven by ``relaxing`` (K, r, r).
+    ``moving`` (m, m) is F of these with the noise ``driven`` (K, m, m); every number decays by the factor ``decay``
+    (K, n), one for the moving; the last r numbers are driven by ``relaxing`` (K, r, r).
     """
 
     moving: FloatArray
     driven: FloatArray
-    kept: FloatArray
+    decay: FloatArray
     relaxing: FloatArray
 
 
@@ -101,15 +101,15 @@ def propagate_mixture(
 
 @dataclass(frozen=True, slots=True)
 class Linearisation:
-    """A measurement linearised statistically: y = ``value`` + ``slope`` (x - ``about``) + error.
+    """A measurement linearised statistically: y = ``value`` + ``slope`` (x - ``point``) + error.
 
-    ``value`` (C, m), ``slope`` (C, m, n), ``error`` (C, m, m) covariance of what that misses, ``about`` (C, n).
+    ``value`` (C, m), ``slope`` (C, m, n), ``error`` (C, m, m) covariance of what that misses, ``point`` (C, n).
     """
 
     value: FloatArray
     slope: FloatArray
     error: FloatArray
-    about: FloatArray
+    point: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,38 +172,3 @@ def update_mixture(
     tested = measured.shape[1] if tested is None else tested
     found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial, tested)
     return Update(ModeMixture(*found[:3]), *found[3:])
-
-
-def rts_step(
-    covariance: FloatArray,
-    forward: FloatArray,
-    noise: FloatArray,
-    difference: FloatArray,
-    later_covariance: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Take one step back of the smoother of Rauch, Tung and Striebel.
-
-    Parameters
-    ----------
-    covariance : (C, n, n)
-        Filtered covariance.
-    forward, noise : (C, n, n)
-        Transition F and process noise Q of the step.
-    difference : (C, n)
-        Later smoothed mean less the predicted one.
-    later_covariance : (C, n, n)
-        Later smoothed covariance.
-
-    Returns
-    -------
-    correction : (C, n)
-        Of the filtered mean.
-    smoothed : (C, n, n)
-        Smoothed covariance.
-    """
-    across = forward @ covariance
-    ahead = across @ np.swapaxes(forward, -1, -2) + noise
-    gain = np.swapaxes(np.linalg.solve(ahead, across), -1, -2)
-    smoothed = covariance + gain @ (later_covariance - ahead) @ np.swapaxes(gain, -1, -2)
-    correction = (gain @ difference[..., None])[..., 0]
-    return correction, 0.5 * (smoothed + np.swapaxes(smoothed, -1, -2))

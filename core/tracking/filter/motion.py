@@ -38,12 +38,12 @@ class MotionNoise:
     joint_acceleration_rad_s2: float = 12.0
 
     @property
-    def push(self) -> float:
+    def acceleration_density(self) -> float:
         """Density q of the wrist's acceleration, m^2/s^3."""
         return self.acceleration_m_s2**2 * REFERENCE_DT_S
 
     @property
-    def turning(self) -> float:
+    def turn_acceleration_density(self) -> float:
         """Density q of its angular acceleration, rad^2/s^3."""
         return self.turn_acceleration_rad_s2**2 * REFERENCE_DT_S
 

@@ -130,15 +130,15 @@ ZERO_ERROR = np.zeros((1, SIZE))
 class PalmView:
     """A palm of known geometry before a camera of known pose (g_w0c of the wrist paper).
 
-    ``palm_m`` (6, 3) calibrated places of the discs on the fixed unit. ``hidden`` (6, 18): by how much each number of
-    the shape moves the depths less than the discs' places say, because those of the calibration were as wrong.
+    ``palm_m`` (6, 3) calibrated places of the discs on the fixed unit. ``depth_bias`` (6, 18): by how much each number
+    of the shape moves the depths less than the discs' places say, because those of the calibration were as wrong.
     """
 
     camera: Camera
     rotation_w0_cam: FloatArray
     translation_w0_cam_m: FloatArray
     palm_m: FloatArray
-    hidden: FloatArray
+    depth_bias: FloatArray
 
     def discs_cam_m(self, estimate: PalmEstimate) -> FloatArray:
         """Return the disc centres (6, 3) in camera axes."""

@@ -129,14 +129,14 @@ class PredictedDigits:
     palm: PalmGeometry
 
     def project(
-        self, estimate: PalmEstimate, view: PalmView, spread: UnscentedParameters
+        self, estimate: PalmEstimate, view: PalmView, scaling: UnscentedParameters
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
         own_view = DigitView(*view.to_camera(estimate, self.palm.axes, self.palm.origin_m), view.camera)
         disc_m = self.points.disc_m
         count, image = disc_m.shape[1] // 2, own_view.observe(disc_m.reshape(-1, 3)).reshape(disc_m.shape)
         by_column = (image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]) * (
-            0.5 / digit_sigma_weights(spread).scale
+            0.5 / digit_sigma_weights(scaling).scale
         )
         covariance = np.add.reduce(by_column[..., None] * by_column[..., None, :], axis=1)
         return image[:, 0, :, :2], covariance, image[:, 0, :, 2]
@@ -157,7 +157,7 @@ class PredictedMeasurement:
     mean: FloatArray
     covariance: FloatArray
     view: PalmView
-    spread: UnscentedParameters
+    scaling: UnscentedParameters
     partial: FloatArray | None = None
     digits: PredictedDigits | None = None
     order: MarkerOrder | None = None
@@ -167,7 +167,7 @@ class PredictedMeasurement:
     ) -> PredictedMeasurement:
         """Return the predicted measurement at the same moment for another state."""
         view = self.view if view is None else view
-        return predict_measurement(nominal, mixture, view, self.spread, self.partial, self.digits, self.order)
+        return predict_measurement(nominal, mixture, view, self.scaling, self.partial, self.digits, self.order)
 
     def mode_predictions(self) -> tuple[FloatArray, FloatArray]:
         """Return mean (K, 18), eq. (10), and covariance (K, 18, 18), eq. (11), in every mode.
@@ -181,7 +181,7 @@ class PredictedMeasurement:
 
     @cached_property
     def _digit_image(self) -> tuple[FloatArray, FloatArray, FloatArray] | None:
-        return None if self.digits is None else self.digits.project(self.nominal, self.view, self.spread)
+        return None if self.digits is None else self.digits.project(self.nominal, self.view, self.scaling)
 
     def _to_protocol_order(self, palm: FloatArray, digits: FloatArray | None) -> FloatArray:
         return palm if self.order is None else self.order.to_protocol_order(palm, digits)
@@ -222,17 +222,17 @@ def predict_measurement(
     nominal: PalmEstimate,
     mixture: ModeMixture,
     view: PalmView,
-    spread: UnscentedParameters,
+    scaling: UnscentedParameters,
     partial: FloatArray | None = None,
     digits: PredictedDigits | None = None,
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
     """Return the predicted measurement of a mixture of errors about ``nominal``."""
     value, slope, error, mean, own = predict_palm_measurement(
-        nominal, mixture, view, compute_weights(POSE.size, spread)
+        nominal, mixture, view, compute_weights(POSE.size, scaling)
     )
     linearised = Linearisation(value, slope, error, ZERO_ERROR)
-    return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, spread, partial, digits, order)
+    return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, scaling, partial, digits, order)
 
 
 def predict_measurement_ahead(
@@ -254,7 +254,7 @@ def predict_measurement_ahead(
         estimate, mixture = predict_palm(estimate, mixture, motion, dt_s, unobserved_turns, speeds)
         fresh = compute_fresh_share(view.discs_cam_m(before), view.discs_cam_m(estimate), view.camera)
     partial = shape_partial_update(SHAPE_LEARNING_SHARE * max(fresh, SHAPE_STILL_SHARE))
-    return predict_measurement(estimate, mixture, view, settings.spread, partial, digits, order)
+    return predict_measurement(estimate, mixture, view, settings.scaling, partial, digits, order)
 
 
 def adapt_noise_factor(

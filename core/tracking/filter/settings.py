@@ -104,7 +104,7 @@ class TrackerSettings:
     profiles: Profiles = field(default_factory=Profiles, metadata=NOT_IN_FILE)
     shape_hidden: float = field(default=0.3, metadata=NOT_IN_FILE)
     mode_scales: tuple[float, ...] = field(default=(0.5, 4.0), metadata=NOT_IN_FILE)
-    spread: UnscentedParameters = field(default_factory=UnscentedParameters, metadata=NOT_IN_FILE)
+    scaling: UnscentedParameters = field(default_factory=UnscentedParameters, metadata=NOT_IN_FILE)
     initial: InitialSd = field(default_factory=InitialSd, metadata=NOT_IN_FILE)
     noise: MeasurementNoise = field(default_factory=MeasurementNoise, metadata=NOT_IN_FILE)
     association: AssociationSettings = field(default_factory=AssociationSettings, metadata=NOT_IN_FILE)

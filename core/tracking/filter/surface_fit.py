@@ -76,7 +76,7 @@ class SurfaceMeasurement:
                 np.concatenate((discs.value, own.value), axis=1),
                 np.concatenate((discs.slope, own.slope), axis=1),
                 error,
-                discs.about,
+                discs.point,
             ),
             np.concatenate((measured, self.value[None]), axis=1),
             np.concatenate((variance, NO_NOISE), axis=1),

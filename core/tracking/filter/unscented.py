@@ -33,14 +33,14 @@ class SigmaWeights:
 
 
 @lru_cache(maxsize=64)
-def compute_weights(dimension: int, spread: UnscentedParameters) -> SigmaWeights:
+def compute_weights(dimension: int, scaling: UnscentedParameters) -> SigmaWeights:
     """Return the weights of the 2n+1 points of an n-dimensional Gaussian."""
-    lam = spread.alpha**2 * (dimension + spread.kappa) - dimension
+    lam = scaling.alpha**2 * (dimension + scaling.kappa) - dimension
     total = dimension + lam
     mean = np.full(2 * dimension + 1, 0.5 / total)
     covariance = mean.copy()
     mean[0] = lam / total
-    covariance[0] = mean[0] + 1.0 - spread.alpha**2 + spread.beta
+    covariance[0] = mean[0] + 1.0 - scaling.alpha**2 + scaling.beta
     mean.setflags(write=False)
     covariance.setflags(write=False)
     return SigmaWeights(mean, covariance, float(np.sqrt(total)))

@@ -164,9 +164,9 @@ def smooth_fingers(
 
 
 def _linearise(model: FingerModel, mean: FloatArray, covariance: FloatArray, base: DigitBase) -> DigitLinearisation:
-    spread = model.settings.spread
-    points = draw_sigma_points(mean, covariance, base.palm.disc_m[1:], spread)
-    return linearise_digits(points, base.view, spread)
+    scaling = model.settings.scaling
+    points = draw_sigma_points(mean, covariance, base.palm.disc_m[1:], scaling)
+    return linearise_digits(points, base.view, scaling)
 
 
 def _filter_again(

@@ -16,7 +16,6 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.filter.mixture_filter import rts_step
 from carpus.core.tracking.filter.motion import PalmMotion, palm_transition
 from carpus.core.tracking.filter.palm_state import RIGID_MOTION, SIZE, SOFT_TISSUE, TURN, PalmEstimate
 from carpus.core.tracking.filter.soft_tissue import ZERO_SPEEDS, DigitSpeeds
@@ -57,6 +56,18 @@ class Trajectory(Protocol[Estimate]):
         """Return an estimate moved by a correction (C, n), with another covariance (C, n, n)."""
 
 
+def compute_rts_correction(step: SmootherTransition) -> tuple[FloatArray, FloatArray]:
+    """Compute the correction (C, n) of the filtered mean and the smoothed covariance (C, n, n).
+
+    One step back of the smoother of Rauch, Tung and Striebel.
+    """
+    across = step.forward @ step.covariance
+    ahead = across @ np.swapaxes(step.forward, -1, -2) + step.noise
+    gain = np.swapaxes(np.linalg.solve(ahead, across), -1, -2)
+    smoothed = step.covariance + gain @ (step.later_covariance - ahead) @ np.swapaxes(gain, -1, -2)
+    return (gain @ step.difference[..., None])[..., 0], 0.5 * (smoothed + np.swapaxes(smoothed, -1, -2))
+
+
 def smooth_backwards(trajectory: Trajectory[Estimate]) -> Iterator[tuple[int, Estimate | None]]:
     """Iterate over every frame and its smoothed estimate (None for none), the last frame first."""
     later: Estimate | None = None
@@ -66,9 +77,7 @@ def smooth_backwards(trajectory: Trajectory[Estimate]) -> Iterator[tuple[int, Es
             later = filtered
         elif dt_s > 0.0:  # otherwise the same moment: nothing lies between
             step = trajectory.compute_transition(frame, filtered, later, dt_s)
-            correction, covariance = rts_step(
-                step.covariance, step.forward, step.noise, step.difference, step.later_covariance
-            )
+            correction, covariance = compute_rts_correction(step)
             later = trajectory.apply_correction(filtered, correction, covariance)
         yield frame, later
 

@@ -47,9 +47,9 @@ from carpus.core.tracking.filter.unscented import UnscentedParameters
 from tests.compiled.oracle.palm import camera_slope
 
 
-def linearise_images(points: DigitSigmaPoints, view: DigitView, spread: UnscentedParameters) -> DigitLinearisation:
+def linearise_images(points: DigitSigmaPoints, view: DigitView, scaling: UnscentedParameters) -> DigitLinearisation:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
-    count, weights = BENT.size, digit_sigma_weights(spread)
+    count, weights = BENT.size, digit_sigma_weights(scaling)
     image = view.observe(points.disc_m).reshape(N_DIGITS, 2 * count + 1, 3 * N_DISCS)
     value: FloatArray = weights.mean @ image
     plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]
@@ -127,7 +127,7 @@ def _measure_unresolved(
     either lies half of that from the centre, along the line on which they are expected, as surely as that is known. The
     depth is of either. A disc that was hidden a moment ago may have been given any blob.
     """
-    expected, spread = scene.linearised.value.reshape(N_DIGITS, N_DISCS, 3), scene.spread
+    expected, spread = scene.linearised.value.reshape(N_DIGITS, N_DISCS, 3), scene.image_covariance
     face_px = scene.disc_m2 * (scene.view.camera.fx_px / expected[..., 2]) ** 2
     area_px = scene.area_px[np.maximum(assigned, 0)]
     alone = (assigned < 0) & scene.has_discs[:, None]

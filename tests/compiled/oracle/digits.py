@@ -191,10 +191,10 @@ def slope_by_constants(state: FloatArray, frames: DigitFrames, joints_m: FloatAr
 
 
 def compute_digit_sigma_points(
-    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: UnscentedParameters
+    mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, scaling: UnscentedParameters
 ) -> DigitSigmaPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
-    bent, other, scale = OBSERVED[BENT], OBSERVED[OTHER], digit_sigma_weights(spread).scale
+    bent, other, scale = OBSERVED[BENT], OBSERVED[OTHER], digit_sigma_weights(scaling).scale
     root = np.linalg.cholesky(covariance[:, bent[:, None], bent] + FLOOR * np.eye(BENT.size))
     unroot = np.linalg.inv(root)
     along = unroot @ covariance[:, bent[:, None], other]

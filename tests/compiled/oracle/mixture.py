@@ -57,11 +57,11 @@ def transitioned(
     what of that a mode does not keep is an error of the mode. Its modes are :func:`mixed` before where there is a
     ``switch``."""
     mixture = mixture if switch is None else mixed(mixture, switch)
-    mixing, first = len(step.moving), step.kept.shape[1] - step.relaxing.shape[1]
-    mean = mixture.mean * step.kept + (step.kept - 1.0) * nominal
+    mixing, first = len(step.moving), step.decay.shape[1] - step.relaxing.shape[1]
+    mean = mixture.mean * step.decay + (step.decay - 1.0) * nominal
     mean[..., :mixing] = mixture.mean[..., :mixing] @ step.moving.T
-    covariance = step.kept[:, :, None] * mixture.covariance
-    covariance *= step.kept[:, None, :]
+    covariance = step.decay[:, :, None] * mixture.covariance
+    covariance *= step.decay[:, None, :]
     rows = step.moving @ covariance[..., :mixing, :]
     covariance[..., :mixing, mixing:] = rows[..., mixing:]
     covariance[..., mixing:, :mixing] = np.swapaxes(rows[..., mixing:], -1, -2)
@@ -93,7 +93,7 @@ def corrected(
     own = own * (unit[:, :, None] * unit[:, None, :])
     diagonal = np.arange(measured.shape[1])
     own[:, diagonal, diagonal] += 1.0
-    guess = (slope[:, None] @ (mixture.mean - linearised.about[:, None])[..., None])[..., 0]
+    guess = (slope[:, None] @ (mixture.mean - linearised.point[:, None])[..., None])[..., 0]
     value = (np.where(used, measured - linearised.value, 0.0) * unit)[:, None] - guess
     cross = slope[:, None] @ mixture.covariance  # (C, K, m, n)
     s = cross @ np.swapaxes(slope, 1, 2)[:, None] + own[:, None]

@@ -97,8 +97,8 @@ def move_palm(
     moving[TURN, TURN], moving[TURN, RATE] = turned.T, dt_s * on_the_way
     driven = np.zeros((motion.modes, RIGID_MOTION.stop, RIGID_MOTION.stop))
     for place, speed, q, along, unscaled in (
-        (POSITION, VELOCITY, noise.push, np.eye(3), np.zeros((3, 3))),
-        (TURN, RATE, noise.turning, on_the_way, np.zeros((3, 3)) if unseen is None else unseen),
+        (POSITION, VELOCITY, noise.acceleration_density, np.eye(3), np.zeros((3, 3))),
+        (TURN, RATE, noise.turn_acceleration_density, on_the_way, np.zeros((3, 3)) if unseen is None else unseen),
     ):
         more = np.maximum(motion.unseen_scale**2 - scales2, 0.0)
         across = along @ unscaled
@@ -140,8 +140,8 @@ def see_palm(
     slope[:, POSE] = solve_triangular(root, half, lower=True, trans="T", check_finite=False).T
     by_place = camera_slope(view.camera, image[0]) @ (view.rotation_w0_cam @ estimate.rotation_w2_w0)
     slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = by_place
-    slope[2::3, SHAPE] -= view.hidden
-    value[2::3] -= view.hidden @ estimate.value[SHAPE]
+    slope[2::3, SHAPE] -= view.depth_bias
+    value[2::3] -= view.depth_bias @ estimate.value[SHAPE]
     mean = (value + slope @ (mixture.probability[0] @ mixture.mean[0])).reshape(-1, 3)
     whole = (slope @ estimate.covariance @ slope.T + error).reshape(6, 3, 6, 3)
     return value[None], slope[None], error[None], mean, whole[DISCS, :, DISCS, :]

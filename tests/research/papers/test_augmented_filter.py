@@ -10,7 +10,7 @@ from carpus.core.model.types import FloatArray
 from carpus.core.research.papers.tracker import AugmentedGaussian, predict_outputs, predict_state, update_state
 from carpus.core.tracking.filter.unscented import UnscentedParameters
 
-SPREADS = [UnscentedParameters(1.0, 2.0, 0.0), UnscentedParameters(0.25, 2.0, 0.0), UnscentedParameters(0.5, 0.0, 1.0)]
+SCALINGS = [UnscentedParameters(1.0, 2.0, 0.0), UnscentedParameters(0.25, 2.0, 0.0), UnscentedParameters(0.5, 0.0, 1.0)]
 
 
 def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
@@ -19,7 +19,7 @@ def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
 
 
 def test_update_without_measurement_changes_nothing() -> None:
-    ahead = predict_state(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
+    ahead = predict_state(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SCALINGS[0])
     after = update_state(ahead, predict_outputs(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
     assert after.state is ahead.state
     assert np.isnan(after.nis)
@@ -37,14 +37,14 @@ def project_state(state: FloatArray) -> FloatArray:
     return np.stack((np.hypot(x + 4.0, y), np.arctan2(y, x + 4.0)), axis=-1)
 
 
-@pytest.mark.parametrize("spread", SPREADS)
+@pytest.mark.parametrize("scaling", SCALINGS)
 @pytest.mark.parametrize("seed", range(3))
-def test_predict_and_update_are_filterpys(spread: UnscentedParameters, seed: int) -> None:
+def test_predict_and_update_are_filterpys(scaling: UnscentedParameters, seed: int) -> None:
     rng = np.random.default_rng(seed)
     x, p, q = rng.normal(size=3), 0.02 * some_covariance(rng, 3), 0.03 * some_covariance(rng, 2)
     r, y = np.array([0.04, 0.01]), project_state(x) + 0.2 * rng.normal(size=2)
 
-    points = MerweScaledSigmaPoints(5, spread.alpha, spread.beta, spread.kappa)
+    points = MerweScaledSigmaPoints(5, scaling.alpha, scaling.beta, scaling.kappa)
     oracle = UnscentedKalmanFilter(
         5, 2, 1.0, lambda s: project_state(s[:3]), lambda s, _dt: np.concatenate((moved(s[:3], s[3:]), s[3:])), points
     )
@@ -54,7 +54,7 @@ def test_predict_and_update_are_filterpys(spread: UnscentedParameters, seed: int
     oracle.compute_process_sigmas(1.0)
     predicted_points = oracle.sigmas_f.copy()
     oracle.predict()
-    ahead = predict_state(AugmentedGaussian(x, p), q, moved, spread)
+    ahead = predict_state(AugmentedGaussian(x, p), q, moved, scaling)
     assert np.allclose(ahead.state.mean, oracle.x[:3], rtol=1e-9, atol=1e-12)
     assert np.allclose(ahead.state.covariance, oracle.P[:3, :3], rtol=1e-9, atol=1e-12)
 
