@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import json
 import math
 import os
 import signal
@@ -15,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 
 from carpus.core.capture.devices.cameras import CAMERAS, validate_address
-from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect
+from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect, nan_to_none
 from carpus.core.model.errors import CameraUnknown
 from carpus.core.model.names import describe_known_names, find_similar_name
 from carpus.core.model.rounding import format_rounded
@@ -71,6 +72,22 @@ def print_fault(fault: CarpusFault) -> None:
     from carpus.core.model.fault_text import format_fault_line
 
     print_message(format_fault_line(fault))
+
+
+def print_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print a table for people, numbers to the right."""
+    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+    for row in (head, *rows):
+        cells = (
+            f"{cell:>{width}}" if cell[:1].isdigit() or cell[:1] == "-" else f"{cell:{width}}"
+            for cell, width in zip(row, widths, strict=True)
+        )
+        print("  ".join(cells).rstrip())
+
+
+def print_json(content: Any) -> None:
+    """Print values for programs: unknown numbers are null."""
+    print(json.dumps(nan_to_none(content), indent=2, ensure_ascii=False))
 
 
 def report_usage_error(command: str, sentence: str) -> int:

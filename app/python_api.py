@@ -198,8 +198,8 @@ def write_session(
 ) -> OpenedSession:
     """Track a stored recording into a new session file, as ``carpus track``, and open it.
 
-    The repetitions of an ``exercise`` (its id, such as ``WRIST_FE``) are counted. ``smooth`` is ignored by the
-    papers' method, which has no smoother. Other parameters as in :func:`track`.
+    The repetitions of an ``exercise`` are counted: its id, such as ``WRIST_FE``; that of the clicks without it. The
+    papers' method has no smoother and ignores ``smooth``. Other parameters as in :func:`track`.
     """
     where = "carpus.write_session"
     _check(where, "smooth", smooth, bool)
@@ -214,7 +214,7 @@ def write_session(
     try:
         track_recording(
             source, told, out, replace(chosen, smooth=smooth and chosen.smooth),
-            subject_id=subject_id, exercise=exercise, path=recorded,
+            subject_id=subject_id, exercise=exercise or told.exercise, path=recorded,
         )  # fmt: skip
     finally:
         source.close()

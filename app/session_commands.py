@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from carpus.core.results.session_results import SessionResults
 
 
+TRUTH_FILE = "truth.h5"
+"""Of a simulated recording: named, a session as any other; in a folder, none that was measured."""
 STORE_FILE = "records.sqlite3"
 """As in :mod:`core.records`, which is imported only for files of a data folder."""
 
@@ -155,7 +157,8 @@ def find_session_files(places: Sequence[Path]) -> list[Path]:
     for place in places:
         if not place.exists():
             raise FolderMissing(place)
-        found |= dict.fromkeys(sorted(place.rglob("*.h5")) if place.is_dir() else [place])
+        some = sorted(place.rglob("*.h5")) if place.is_dir() else [place]
+        found |= dict.fromkeys(path for path in some if path.name != TRUTH_FILE or path == place)
     if not found:
         raise SessionsMissing(places[0])
     return list(found)

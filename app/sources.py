@@ -113,12 +113,16 @@ class TrackingInput:
     """One recording or session to track.
 
     ``clicks`` is None for a session; ``session`` is the file to write, and ``name`` its relative path for tables.
+    Subject, exercise and ``facts``, the further columns of the tables, are those of a study's list.
     """
 
     recording: Path
     clicks: Path | None
     session: Path
     name: str
+    subject_id: str = ""
+    exercise: str = ""
+    facts: tuple[str, ...] = ()
 
 
 def is_recording(path: Path) -> bool:

@@ -26,6 +26,7 @@ from carpus.core.platform.version import __version__
 from carpus.core.research.papers.track_settings import settings_from_json
 from carpus.core.results.measures_table import MeasureRow, build_measure_rows
 from carpus.core.results.session_results import compute_session_results
+from carpus.core.results.session_summary import exercise_warnings
 from carpus.core.session.reader import read_session
 
 Result = Literal["tracked", "kept", "fault"]
@@ -106,6 +107,9 @@ def _track_and_measure(task: TrackingTask) -> TrackingOutcome:
     told = settings_from_json(session.header.parameters)
     if result == "kept" and (told is None or list_differences(told.settings, task.settings)):
         said.append("tracked before with other settings, left as it is")
+    results = compute_session_results(session)
+    if place.clicks is not None:
+        said += exercise_warnings(session, results)
     shares = [float((session.status == status).mean()) if len(session) else float("nan") for status in TrackStatus]
     return TrackingOutcome(
         place,
@@ -114,7 +118,7 @@ def _track_and_measure(task: TrackingTask) -> TrackingOutcome:
         len(session),
         shares[TrackStatus.TRACKED],
         shares[TrackStatus.LOST],
-        build_measure_rows(compute_session_results(session), place.name),
+        build_measure_rows(results, place.name),
     )
 
 
@@ -144,13 +148,14 @@ def _track(task: TrackingTask, messages: list[str]) -> None:
     try:
         camera = source.info.camera
         warn_assumed_intrinsics(source, place.recording, add_fault)
+        clicks = read_clicks(place.clicks, camera.width_px, camera.height_px)
         track_recording(
             source,
-            read_clicks(place.clicks, camera.width_px, camera.height_px),
+            clicks,
             place.session,
             task.settings,
             subject_id=task.subject_id,
-            exercise=task.exercise,
+            exercise=task.exercise or clicks.exercise,
             on_verdict=add_findings,
             path=place.recording,
             on_date=add_date_message,

@@ -16,6 +16,7 @@ COMMANDS = {
     "verify": "Say whether a session or recording is whole and unchanged.",
     "report": "The report of a session, or the progress report of several, as a PDF.",
     "progress": "A patient's figures over all sessions, as a table or as a report.",
+    "results": "The measures of all sessions of a study, as one table.",
     "export": "A session in open formats.",
     "log": "Who opened, changed, exported or erased what.",
     "erase": "Erase a session or a patient for good, with everything Carpus knows of.",

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.command_line import add_region_option, number_type, report_usage_error
+from carpus.app.command_line import add_region_option, number_type, print_json, report_usage_error
 from carpus.core.model.hand.protocols import SITES
 from carpus.core.model.names import describe_known_names
 from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S
@@ -49,6 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "are needed columns, markers, unit, lag_s, drift_percent",
     )  # fmt: skip
     parser.add_argument("--output", type=Path, metavar="FOLDER", help="tables and plots; nothing in it is overwritten")
+    parser.add_argument("--json", action="store_true", help="print the figures of one session as JSON, for programs")
     add_region_option(parser)
     parser.add_argument(
         "--columns",
@@ -93,6 +94,8 @@ def run(arguments: argparse.Namespace) -> int:
         compare_files,
         format_comparison,
         format_limit_verdicts,
+        to_json,
+        trace_comparison,
         write_comparison,
     )
 
@@ -110,11 +113,11 @@ def run(arguments: argparse.Namespace) -> int:
         drift=0.01 * arguments.drift,
         choices=read_choices(arguments.session),
     )
-    for line in [
-        *format_comparison(result.comparison),
-        *format_limit_verdicts(result.comparison.pairs, arguments.limit),
-    ]:
-        print(line)
+    if arguments.json:
+        print_json(to_json(result.comparison, trace_comparison(result), result.reference.name))
+    else:
+        verdicts = format_limit_verdicts(result.comparison.pairs, arguments.limit)
+        print("\n".join([*format_comparison(result.comparison), *verdicts]))
     if arguments.output is not None:
         for path in write_comparison(result, arguments.output, arguments.form):
             print(f"Written: {path}")

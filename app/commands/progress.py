@@ -6,16 +6,18 @@ import argparse
 import csv
 import sys
 from contextlib import closing
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import add_region_option, output_type, print_fault, report_usage_error
+from carpus.app.command_line import add_region_option, output_type, print_fault, print_json, report_usage_error
 from carpus.core.measures.change_limits import ErrorLimits
 from carpus.core.model.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.model.names import describe_known_names, fold_name
 
 if TYPE_CHECKING:
+    from carpus.app.settings import Settings
+    from carpus.core.results.measures_table import MeasureRow
     from carpus.core.results.session_results import SessionResults
 
 EXAMPLE = """carpus progress "Fern 12"
@@ -40,15 +42,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help=".csv or .parquet: the table; .pdf: the progress report; may be given more than once; else CSV on stdout",
     )
+    parser.add_argument("--json", action="store_true", help="print the table as JSON, not as CSV")
     add_region_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.formats.measures_files import MEASURES_HEADER, to_csv_rows, write_measures
-    from carpus.core.records.limits_file import read_limits
-    from carpus.core.results.measures_table import build_measure_rows
-    from carpus.core.results.progress import select_latest_versions
 
     for path in arguments.output:
         if path.exists():
@@ -56,11 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
         if path.suffix.lower() == ".pdf" and arguments.subject == ALL_PATIENTS:
             return report_usage_error("progress", "a report is of one patient; name the pseudonym.")
     settings = load_settings()
-    places = arguments.sessions or [settings.data_folder]
-    found = _find_figures(arguments.subject, places, read_limits(settings.data_folder))
-    figures = select_latest_versions([one for _, one in found])
-    names = {id(one): path.stem for path, one in found}
-    rows = [row for one in figures for row in build_measure_rows(one, names[id(one)])]
+    figures, rows = read_measures(arguments.subject, arguments.sessions or [settings.data_folder], settings)
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
             from carpus.app.session_commands import read_report_form
@@ -76,11 +72,27 @@ def run(arguments: argparse.Namespace) -> int:
         else:
             write_measures(rows, path, arguments.form)
         print(f"Written: {path}")
-    if not arguments.output:
+    if arguments.json:
+        print_json([asdict(row) for row in rows])
+    elif not arguments.output:
         table = csv.writer(sys.stdout, lineterminator="\n")
         table.writerow(MEASURES_HEADER)
         table.writerows(to_csv_rows(rows))
     return 0
+
+
+def read_measures(
+    subject: str, places: list[Path], settings: Settings
+) -> tuple[list[SessionResults], list[MeasureRow]]:
+    """Return a patient's sessions, each in its newest version, and the rows of all their measures."""
+    from carpus.core.records.limits_file import read_limits
+    from carpus.core.results.measures_table import build_measure_rows
+    from carpus.core.results.progress import select_latest_versions
+
+    found = _find_figures(subject, places, read_limits(settings.data_folder))
+    figures = select_latest_versions([one for _, one in found])
+    names = {id(one): path.stem for path, one in found}
+    return figures, [row for one in figures for row in build_measure_rows(one, names[id(one)])]
 
 
 def _find_figures(subject: str, places: list[Path], limits: ErrorLimits) -> list[tuple[Path, SessionResults]]:

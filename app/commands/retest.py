@@ -8,13 +8,18 @@ from __future__ import annotations
 import argparse
 import math
 from collections import Counter
+from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from carpus.app.command_line import add_region_option, output_type, print_fault
+from carpus.app.command_line import add_region_option, output_type, print_fault, print_json
 from carpus.app.session_commands import read_figures
 from carpus.core.model.errors import ReferenceUnreadable, StudyUnsuited
 from carpus.core.model.rounding import format_rounded
+
+if TYPE_CHECKING:
+    from carpus.core.research.agreement.retest import RetestAnalysis
 
 EXAMPLE = "carpus retest sessions --output retest.csv"
 _REASONS = {
@@ -46,16 +51,38 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="put the limits into force in progress and reports of the data folder, with today's date",
     )
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON, for programs")
     add_region_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.records.limits_file import save_limits
-    from carpus.core.research.agreement.retest import analyse_retests, write_retests
+    from carpus.core.research.agreement.retest import analyse_retests, list_retests, write_retests
 
     figures, raters = read_figures(arguments.sessions, print_fault, _read_raters(arguments.raters))
     found = analyse_retests(figures, raters)
+    if arguments.json:
+        print_json(list_retests(found))
+    else:
+        _print_analyses(found)
+    if arguments.output is not None:
+        print(f"Written: {write_retests(found, arguments.output, arguments.form)}")
+    usable = [one for one in found if one.is_usable]
+    if not any(one.people > 1 for one in found):
+        raise StudyUnsuited(arguments.sessions[0], "nobody was measured twice, or fewer than two people were")
+    if not arguments.store:
+        return 0
+    if not usable:
+        most = max(one.people for one in found)
+        why = "of a simulated hand" if any(one.simulated for one in found) else f"{most} people"
+        raise StudyUnsuited(arguments.sessions[0], why)
+    path = save_limits(load_settings().data_folder, [one.to_study(date.today().isoformat()) for one in usable])
+    print(f"In force: {', '.join(one.exercise or 'free movement' for one in usable)} ({path})")
+    return 0
+
+
+def _print_analyses(found: Sequence[RetestAnalysis]) -> None:
     for one in found:
         who = f", {one.raters} raters" if one.raters else ""
         print(f"{one.exercise or 'free movement'}, {one.protocol}: {one.people} people, {one.sessions} sessions{who}")
@@ -80,20 +107,6 @@ def run(arguments: argparse.Namespace) -> int:
                 f"  {f'{of} {movement}':26} {f.people:3d}  {f.sem:5.2f}   {mdc:22}   {iccs[0]:20}   {iccs[1]:20}   "
                 f"{f.systematic_change:12.2f}   {own}"
             )
-    if arguments.output is not None:
-        print(f"Written: {write_retests(found, arguments.output, arguments.form)}")
-    usable = [one for one in found if one.is_usable]
-    if not any(one.people > 1 for one in found):
-        raise StudyUnsuited(arguments.sessions[0], "nobody was measured twice, or fewer than two people were")
-    if not arguments.store:
-        return 0
-    if not usable:
-        most = max(one.people for one in found)
-        why = "of a simulated hand" if any(one.simulated for one in found) else f"{most} people"
-        raise StudyUnsuited(arguments.sessions[0], why)
-    path = save_limits(load_settings().data_folder, [one.to_study(date.today().isoformat()) for one in usable])
-    print(f"In force: {', '.join(one.exercise or 'free movement' for one in usable)} ({path})")
-    return 0
 
 
 def _read_raters(path: Path | None) -> dict[str, str]:

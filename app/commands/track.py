@@ -12,6 +12,7 @@ import numpy as np
 
 from carpus.app.command_line import (
     count_type,
+    describe_wrong_suffix,
     number_type,
     output_type,
     print_fault,
@@ -21,7 +22,13 @@ from carpus.app.command_line import (
 )
 from carpus.app.session_commands import log_session_action
 from carpus.app.settings import load_settings
-from carpus.app.sources import is_batch, open_recording, warn_assumed_intrinsics
+from carpus.app.sources import (
+    SESSION_SUFFIX,
+    find_clicks_file,
+    is_batch,
+    open_recording,
+    warn_assumed_intrinsics,
+)
 from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
 from carpus.core.capture.playback_sources import PacedSource
@@ -40,8 +47,9 @@ from carpus.core.research.papers.track_settings import PaperTrackSettings, setti
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.tracking.filter.settings import Profile
 
-EXAMPLE = """carpus track out/demo --calibration out/demo/calibration.json --output out/demo.h5
-carpus track recordings --output sessions"""
+EXAMPLE = """carpus track out/demo --output out/demo.h5
+carpus track recordings --output sessions
+carpus track --manifest study.csv --output sessions"""
 MAX_START_DEG = 120.0
 LISTENER_TIMEOUT_S = 20.0
 EXERCISE_NAMES = tuple(exercise.id for exercise in EXERCISES)
@@ -70,7 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "recording",
         type=Path,
-        nargs="+",
+        nargs="*",
         metavar="RECORDING",
         help="TUM folder, .oni, RealSense or raw recording, or a session (.h5); several, or a folder that is searched "
         "for recordings, are tracked side by side into the folder --output, what is there already left as it is",
@@ -79,8 +87,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--calibration",
         type=Path,
         metavar="CLICKS.json",
-        help="first-frame clicks (not for a session; of many recordings calibration.json in each one's folder, or "
-        "NAME.calibration.json beside its file)",
+        help="first-frame clicks (not for a session); without it, and of many recordings, calibration.json in each "
+        "one's folder, or NAME.calibration.json beside its file",
     )
     parser.add_argument(
         "--output",
@@ -99,6 +107,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_batch_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--manifest",
+        type=Path,
+        metavar="STUDY.csv",
+        help="the recordings of a study, instead of RECORDING: columns recording, subject, hand, exercise, clicks, "
+        "label (all but the first may be missing) and any further ones, which the table of measures repeats; all "
+        "lines are checked before the first recording is tracked",
+    )
     parser.add_argument(
         "--jobs",
         type=count_type(1, 1000),
@@ -180,7 +196,8 @@ def _add_recording_options(parser: argparse.ArgumentParser) -> None:
         choices=EXERCISE_NAMES,
         default="",
         metavar="EXERCISE",
-        help=f"stored in the session; one of {', '.join(EXERCISE_NAMES)}",
+        help="whose repetitions are counted, stored in the session; that of the file of clicks without it; one of "
+        + ", ".join(EXERCISE_NAMES),
     )
     parser.add_argument(
         "--recorded",
@@ -251,13 +268,17 @@ def _has_conflict(arguments: argparse.Namespace, settings: TrackSettings) -> boo
 
 def run(arguments: argparse.Namespace) -> int:
     named = arguments.recording
-    if is_batch(named, arguments.output):
+    if bool(named) == (arguments.manifest is not None):
+        return report_usage_error("track", "give recordings, or a list of them with --manifest STUDY.csv.")
+    if arguments.manifest is not None or is_batch(named, arguments.output):
         if arguments.stream:
             return report_usage_error("track", "--stream is for one recording; leave it out.")
         return _track_many(named, arguments)
     of_many = [name for name in ("jobs", "scheduler", "table", "time_limit") if getattr(arguments, name) is not None]
     if of_many:
         return report_usage_error("track", f"--{of_many[0].replace('_', '-')} is for many recordings; leave it out.")
+    if wrong := describe_wrong_suffix(arguments.output, (SESSION_SUFFIX,)):
+        return report_usage_error("track", f"{wrong}.")
     arguments.recording = named[0]
     is_session = arguments.recording.suffix == ".h5" and arguments.recording.is_file()
     settings = apply_options(arguments, TrackSettings() if is_session else load_settings().track)
@@ -267,8 +288,14 @@ def run(arguments: argparse.Namespace) -> int:
         raise RecordingMissing(arguments.recording)
     if is_session:
         return _retrack_session(arguments, was_warned=not settings.uses_depth)
-    if arguments.calibration is None:
-        return report_usage_error("track", "a recording needs --calibration CLICKS.json.")
+    beside = find_clicks_file(arguments.recording)
+    if arguments.calibration is None and not (beside and beside.exists()):
+        return report_usage_error(
+            "track",
+            f"no clicks on the first frame: there is no {beside}; --calibration CLICKS.json names them "
+            "(carpus.propose_clicks makes them in Python).",
+        )
+    arguments.calibration = arguments.calibration or beside
     return 2 if _has_conflict(arguments, settings) else _track_recording(arguments, settings)
 
 
@@ -295,7 +322,7 @@ def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> 
                 arguments.output,
                 settings,
                 subject_id=arguments.subject or "",
-                exercise=arguments.exercise,
+                exercise=arguments.exercise or clicks.exercise,
                 start_angles_rad=start,
                 progress=progress,
                 on_verdict=warn_of_findings,
@@ -306,7 +333,8 @@ def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> 
             )
     finally:
         source.close()
-    print_report(report)
+    for sentence in print_report(report):
+        print_message(f"warning: {sentence}")
     return 0
 
 
@@ -395,12 +423,11 @@ def warn_of_findings(verdict: Verdict) -> None:
         print_message(f"warning: {finding_sentence(finding)}")
 
 
-def print_report(report: TrackReport) -> None:
-    """Print the session file and its main results."""
-    from carpus.core.results.session_results import (
-        compute_session_results,  # all measures: nobody waits for them at the start
-    )
-    from carpus.core.results.session_summary import range_lines
+def print_report(report: TrackReport) -> list[str]:
+    """Print the session file and its main results; return what is doubtful about its exercise."""
+    # All measures: nobody waits for them at the start.
+    from carpus.core.results.session_results import compute_session_results
+    from carpus.core.results.session_summary import exercise_warnings, range_lines
 
     print(f"Session: {report.output}")
     doubtful = f", doubtful {report.doubtful}" if report.doubtful else ""
@@ -408,5 +435,7 @@ def print_report(report: TrackReport) -> None:
         f"Frames: {report.frames}, tracked {report.tracked}, predicted {report.predicted}, lost {report.lost}{doubtful}"
     )
     session = read_session(report.output)
-    for line in range_lines(session, compute_session_results(session)):
+    results = compute_session_results(session)
+    for line in range_lines(session, results):
         print(line.strip())
+    return exercise_warnings(session, results)

@@ -13,8 +13,9 @@ from pathlib import Path
 
 from carpus.app.batch.tracking_task import TrackingOutcome, TrackingTask, fault_outcome
 from carpus.app.batch.worker_pool import TIME_LIMIT_S, count_cores, run_tasks
-from carpus.app.command_line import progress_bar, report_usage_error
-from carpus.app.sources import SESSION_SUFFIX, TrackingInput, plan_inputs
+from carpus.app.command_line import print_message, progress_bar, report_usage_error
+from carpus.app.manifest import read_manifest
+from carpus.app.sources import SESSION_SUFFIX, plan_inputs
 from carpus.core.formats.measures_files import check_measures_path, open_measures_file
 from carpus.core.formats.output_files import format_cell, write_new_table
 from carpus.core.model.errors import CarpusFault, OutputExists, RecordingMissing
@@ -98,21 +99,36 @@ def run_many(
         )
     if output.suffix == SESSION_SUFFIX or output.is_file():
         return report_usage_error("track", "many recordings need a folder as --output.")
-    for path in paths:
-        if not path.exists():
-            raise RecordingMissing(path)
-    found = plan_inputs(paths, output.absolute())
-    if not found:
-        raise RecordingMissing(paths[0], "no recording in this folder or in those in it")
+    columns: tuple[str, ...] = ()
+    if arguments.manifest is not None:
+        manifest = read_manifest(arguments.manifest, output.absolute())
+        for problem in manifest.problems:
+            print_message(f"{arguments.manifest}, {problem}.")
+        if manifest.problems:
+            return report_usage_error("track", f"{len(manifest.problems)} faults in the list; nothing was tracked.")
+        found, columns = list(manifest.inputs), manifest.columns
+    else:
+        for path in paths:
+            if not path.exists():
+                raise RecordingMissing(path)
+        found = plan_inputs(paths, output.absolute())
+        if not found:
+            raise RecordingMissing(paths[0], "no recording in this folder or in those in it")
     check_outcomes(output)
     tables = [output / MEASURES_FILE, *([] if arguments.table is None else [arguments.table])]
     for table in tables:
-        check_measures_path(table)
+        check_measures_path(table, columns)
     done: list[TrackingOutcome] = []
     tasks: list[TrackingTask] = []
     for place in found:
         try:
-            tasks.append(_build_task(place, arguments, default_settings, apply_options))
+            settings = default_settings
+            if place.clicks is None:
+                told = settings_from_json(read_outline(place.recording).header.parameters)
+                settings = default_settings if told is None else told.settings
+            subject, exercise = place.subject_id or arguments.subject or "", place.exercise or arguments.exercise
+            task = TrackingTask(place, apply_options(settings), subject, exercise, arguments.leave_out_damaged)
+            tasks.append(task)
         except CarpusFault as fault:
             done.append(fault_outcome(place, format_fault_line(fault)))
     try:
@@ -121,21 +137,17 @@ def run_many(
         raise write_fault(output, cause) from cause
     begin_s = time.monotonic()
     with ExitStack() as open_tables, progress_bar("tracking", "recording") as progress:
-        takers = [open_tables.enter_context(open_measures_file(table, overwrite=True)) for table in tables]
+        takers = [open_tables.enter_context(open_measures_file(table, columns, overwrite=True)) for table in tables]
         for outcome in _run_tasks(tasks, arguments):
             for take in takers:
-                take(outcome.measures)
+                take(outcome.measures, outcome.tracking_input.facts)
             done.append(replace(outcome, measures=()))  # of thousands of sessions they would fill the memory
-            progress(len(done), len(found), _format_pace(done, begin_s))
+            frames = sum(each.frames for each in done if each.result == "tracked")
+            pace = f"{format_rounded(frames / max(time.monotonic() - begin_s, 1e-3))} frames a second"
+            progress(len(done), len(found), pace if frames else "")
     order = {place.session: number for number, place in enumerate(found)}
     done.sort(key=lambda each: order[each.tracking_input.session])
     return _print_summary(done, [write_outcomes(done, output), *tables], time.monotonic() - begin_s)
-
-
-def _format_pace(done: Sequence[TrackingOutcome], begin_s: float) -> str:
-    """Format the frames per second of all processes together; empty before the first."""
-    frames = sum(each.frames for each in done if each.result == "tracked")
-    return f"{format_rounded(frames / max(time.monotonic() - begin_s, 1e-3))} frames a second" if frames else ""
 
 
 def _run_tasks(tasks: Sequence[TrackingTask], arguments: argparse.Namespace) -> Iterator[TrackingOutcome]:
@@ -145,25 +157,6 @@ def _run_tasks(tasks: Sequence[TrackingTask], arguments: argparse.Namespace) -> 
     from carpus.app.batch.worker_pool import run_tasks_on_scheduler
 
     return run_tasks_on_scheduler(arguments.scheduler, tasks, limit_s)
-
-
-def _build_task(
-    tracking_input: TrackingInput,
-    arguments: argparse.Namespace,
-    default_settings: TrackSettings,
-    apply_options: ApplyOptions,
-) -> TrackingTask:
-    settings = default_settings
-    if tracking_input.clicks is None:
-        told = settings_from_json(read_outline(tracking_input.recording).header.parameters)
-        settings = default_settings if told is None else told.settings
-    return TrackingTask(
-        tracking_input,
-        apply_options(settings),
-        arguments.subject or "",
-        arguments.exercise or "",
-        arguments.leave_out_damaged,
-    )
 
 
 def _print_summary(done: Sequence[TrackingOutcome], tables: Sequence[Path], seconds: float) -> int:

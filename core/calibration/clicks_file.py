@@ -10,7 +10,9 @@ import numpy as np
 
 from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
 from carpus.core.model.errors import ClickOutsideImage, ClicksUnreadable, OutputExists, ProtocolUnknown
+from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.model.hand.protocols import get_protocol
+from carpus.core.model.names import describe_known_names
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import open_private, write_fault
 
@@ -45,7 +47,10 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
     is_list = isinstance(straight, list) and len(straight) == len(ALL_STRAIGHT)
     if straight is not None and not (is_list and all(isinstance(each, bool) for each in straight)):
         raise ClicksUnreadable(path, phrase("straight_fingers is not five times true or false, thumb to little"))
-    clicks = Clicks(side, protocol, pixel, tuple(straight or ()))
+    exercise, known = str(content.get("exercise", ""))[:40], [one.id for one in EXERCISES]
+    if exercise and exercise not in known:
+        raise ClicksUnreadable(path, f"exercise {exercise}; {describe_known_names(exercise, known)}")
+    clicks = Clicks(side, protocol, pixel, tuple(straight or ()), exercise)
     if width_px is not None and height_px is not None:
         check_clicks_inside(clicks, width_px, height_px)
     return clicks
@@ -57,6 +62,8 @@ def write_clicks(path: Path, clicks: Clicks) -> None:
     content: dict[str, Any] = {"hand": clicks.side, "protocol": clicks.protocol.name, "markers": markers}
     if clicks.straight_fingers:
         content["straight_fingers"] = list(clicks.straight_fingers)
+    if clicks.exercise:
+        content["exercise"] = clicks.exercise
     text = json.dumps(content, indent=1)
     try:
         with open(path, "x", encoding="utf-8", opener=open_private) as file:

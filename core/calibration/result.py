@@ -43,13 +43,15 @@ ALL_STRAIGHT = (True, True, True, True, True)
 class Clicks:
     """Labelled pixels (M, 2) on the first frame, in the order of the protocol.
 
-    ``straight_fingers``: thumb to little finger, empty if nothing was entered.
+    ``straight_fingers``: thumb to little finger, empty if nothing was entered; ``exercise``: id of what the recording
+    shows, empty if unknown.
     """
 
     side: Side
     protocol: MarkerProtocol
     pixel: FloatArray
     straight_fingers: tuple[bool, ...] = ()
+    exercise: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,10 +26,10 @@ BATCH_ROWS = 10_000
 MEASURES_HEADER = tuple(field.name for field in fields(MeasureRow))
 
 
-def check_measures_path(path: Path) -> None:
+def check_measures_path(path: Path, columns: Sequence[str] = ()) -> None:
     """Raise before hours of work what :func:`open_measures_file` would raise for a path.
 
-    A table of measures may be replaced, any other file may not.
+    A table of measures with these further columns may be replaced, any other file may not.
     """
     parquet = _import_pyarrow()[1] if path.suffix.lower() == PARQUET else None
     if not path.exists():
@@ -42,7 +42,7 @@ def check_measures_path(path: Path) -> None:
                 head = tuple(next(csv.reader(file), ()))
     except (OSError, ValueError, csv.Error) as cause:  # pyarrow's own are of these
         raise OutputExists(path) from cause
-    if head != MEASURES_HEADER:
+    if head != (*MEASURES_HEADER, *columns):
         raise OutputExists(path)
 
 
@@ -56,8 +56,10 @@ def _import_pyarrow() -> tuple[Any, Any]:
 
 
 @contextmanager
-def open_measures_file(path: Path, *, overwrite: bool = False) -> Iterator[Callable[[Sequence[MeasureRow]], None]]:
-    """Open a table (Parquet by its ending, else CSV) that takes rows as they come.
+def open_measures_file(
+    path: Path, columns: Sequence[str] = (), *, overwrite: bool = False
+) -> Iterator[Callable[[Sequence[MeasureRow], Sequence[str]], None]]:
+    """Open a table (Parquet by its ending, else CSV) that takes rows as they come, with texts of further columns.
 
     The file gets its name when it is complete. Raises :class:`OutputExists`, :class:`OutputNotWritable`, or
     :class:`ExtraMissing` without pyarrow.
@@ -66,24 +68,25 @@ def open_measures_file(path: Path, *, overwrite: bool = False) -> Iterator[Calla
         with open_new_file(path, overwrite=overwrite) as file:
             text = io.TextIOWrapper(file, "utf-8", newline="")
             table = csv.writer(text, lineterminator="\n")
-            table.writerow(MEASURES_HEADER)
-            yield lambda rows: table.writerows(to_csv_rows(rows))
+            table.writerow((*MEASURES_HEADER, *columns))
+            yield lambda rows, facts: table.writerows([*row, *map(escape_formula, facts)] for row in to_csv_rows(rows))
             text.detach()
         return
     pyarrow, parquet = _import_pyarrow()
     by_kind = {"str": pyarrow.string(), "float": pyarrow.float64(), "int": pyarrow.int64(), "bool": pyarrow.bool_()}
-    schema = pyarrow.schema([(field.name, by_kind[str(field.type)]) for field in fields(MeasureRow)])
-    waiting: list[MeasureRow] = []
+    kinds = [(field.name, by_kind[str(field.type)]) for field in fields(MeasureRow)]
+    schema = pyarrow.schema([*kinds, *((name, pyarrow.string()) for name in columns)])
+    waiting: list[tuple[Any, ...]] = []
     with open_new_file(path, overwrite=overwrite) as file, parquet.ParquetWriter(file, schema) as writer:
 
         def write_batch() -> None:
-            columns = list(zip(*map(astuple, waiting), strict=True))
-            arrays = [pyarrow.array(values, kind.type) for values, kind in zip(columns, schema, strict=True)]
+            values = zip(*waiting, strict=True)
+            arrays = [pyarrow.array(each, kind.type) for each, kind in zip(values, schema, strict=True)]
             writer.write_table(pyarrow.table(arrays, schema=schema))
             waiting.clear()
 
-        def add_rows(rows: Sequence[MeasureRow]) -> None:
-            waiting.extend(rows)
+        def add_rows(rows: Sequence[MeasureRow], facts: Sequence[str]) -> None:
+            waiting.extend((*astuple(row), *facts) for row in rows)
             if len(waiting) >= BATCH_ROWS:
                 write_batch()
 
@@ -97,7 +100,7 @@ def write_measures(rows: Sequence[MeasureRow], path: Path, dialect: TableDialect
     if path.suffix.lower() != PARQUET:
         return write_new_table(path, MEASURES_HEADER, to_csv_rows(rows), dialect)
     with open_measures_file(path) as take:
-        take(rows)
+        take(rows, ())
     return path
 
 

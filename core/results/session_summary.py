@@ -15,7 +15,7 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import ASSUMED, DepthSensor
-from carpus.core.model.hand.exercises import DIRECTIONS, PRONOSUPINATION
+from carpus.core.model.hand.exercises import DIRECTIONS, EXERCISES, PRONOSUPINATION
 from carpus.core.model.hand.forearm_rotation import is_counted_from_thumb_up, to_clinical_rad
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.rounding import format_rounded
@@ -218,6 +218,33 @@ def range_lines(session: Session, figures: SessionResults) -> list[str]:
             text += ", of 1 repetition" if of.repetition_count == 1 else f", mean of {of.repetition_count} repetitions"
         lines.append(f"  {name:<18} {text}" + (LIMITED_BY_VIEW if rows["arc"].is_lower_bound else ""))
     return lines
+
+
+MIN_ARC_DEG, MAIN_ARC_RATIO = 15.0, 3.0
+"""An angle that moved this far, and so many times as far as the trained one, is what the hand did."""
+
+
+def exercise_warnings(session: Session, figures: SessionResults) -> list[str]:
+    """Return sentences about an exercise that is unknown, or that the hand did not do."""
+    exercise = session.header.exercise
+    if not exercise:
+        lacking = "no exercise is known, so repetitions, speed and smoothness are not measured"
+        return [f"{lacking}; --exercise names it, or “exercise” in the file of clicks."]
+    out, trained = [], figures.exercise.angle
+    known = session.motion.angles_rad[np.isfinite(session.motion.angles_rad).all(axis=1)]
+    if trained is not None and len(known):
+        arcs_deg = np.degrees(np.subtract(*np.percentile(known, (99.0, 1.0), axis=0)))
+        main = int(np.argmax(arcs_deg))
+        if arcs_deg[main] > max(MIN_ARC_DEG, MAIN_ARC_RATIO * arcs_deg[trained]):
+            meant = next(one.id for one in EXERCISES if one.angle == main)
+            arcs = [format_rounded(arcs_deg[k]) for k in (main, trained)]
+            out.append(
+                f"the hand moved {arcs[0]}° in {WRIST_ANGLES[main]} and {arcs[1]}° in {WRIST_ANGLES[trained]}, which "
+                f"{exercise} trains; if the exercise was another, track again with --exercise {meant}."
+            )
+    if figures.exercise.has_repetitions and not figures.repetition_count:
+        out.append(f"no repetition of {exercise} is counted.")
+    return out
 
 
 def repetition_lines(figures: SessionResults) -> list[str]:

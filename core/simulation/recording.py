@@ -23,6 +23,7 @@ from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.errors import OutputExists, OutputNotWritable
+from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.model.types import SIMULATED, ByteImage, DepthImage, FloatArray, Frame
 from carpus.core.platform.durable import write_fault
 from carpus.core.simulation.disturbances import FrameTimes, sample_covered_markers, sample_frame_times
@@ -112,7 +113,9 @@ def sample_clicks(truth: Truth) -> Clicks:
     rng = spec.generator(RandomStream.CLICKS)
     error = rng.normal(0.0, 1.0, truth.marker_px[0].shape) * spec.click_error_px
     limit = max(_LARGEST_CLICK_ERROR_PX, spec.click_error_px)
-    return Clicks(spec.hand, spec.marker_protocol, np.round(truth.marker_px[0] + np.clip(error, -limit, limit), 1))
+    pixel = np.round(truth.marker_px[0] + np.clip(error, -limit, limit), 1)
+    exercise = next((one.id for one in EXERCISES if one.simulated_motion == spec.motion), "")
+    return Clicks(spec.hand, spec.marker_protocol, pixel, exercise=exercise)
 
 
 def simulate(spec: RecordingSpec, folder: Path, progress: Progress | None = None, workers: int = 1) -> Truth:

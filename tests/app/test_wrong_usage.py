@@ -112,6 +112,12 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{empty}", 1, "There is no session in {empty}"),
         ("{session} --raters {gone}", 1, "No such file"),
     ],
+    "results": [
+        ("", 2, "SESSION.h5"),
+        ("{gone}", 1, "There is no folder {gone}"),
+        ("{empty}", 1, "There is no session in {empty}"),
+        ("{session} --output {new}.pdf", 2, "ends in .pdf, and what is written is .csv or .parquet"),
+    ],
     "log": [
         ("--data-folder {gone}", 1, "There is no folder {gone}"),
         ("--data-folder {data} --output {gone}/log.csv", 1, "gone"),

@@ -128,7 +128,7 @@ def test_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.Monk
     row = MeasureRow(**{field.name: kinds[str(field.type)] for field in fields(MeasureRow)})  # type: ignore[arg-type]
     with measures_files.open_measures_file(tmp_path / "t.parquet") as take:
         for _ in range(4):
-            take([row] * 3)
+            take([row] * 3, ())
         assert (tmp_path / "t.parquet.half").exists(), "written as it comes"
     told = parquet.ParquetFile(tmp_path / "t.parquet").metadata
     assert (told.num_rows, told.num_row_groups) == (12, 2), "a group of six each"

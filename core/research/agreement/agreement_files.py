@@ -78,10 +78,15 @@ def compare_files(
     return FileComparison(comparison, session, reference_path)
 
 
+def trace_comparison(comparison: FileComparison) -> dict[str, Any]:
+    """Return the provenance of a comparison: that of the session and what it is compared with."""
+    reference = {"file": comparison.reference.name, "sha256": sha256_of_file(comparison.reference)}
+    return build_provenance(comparison.session) | {"reference": reference}
+
+
 def write_comparison(comparison: FileComparison, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
     """Write the tables into a folder and return their paths; an existing file is not replaced."""
-    provenance = build_provenance(comparison.session)
-    provenance["reference"] = {"file": comparison.reference.name, "sha256": sha256_of_file(comparison.reference)}
+    provenance = trace_comparison(comparison)
     return write_tables(comparison.comparison, folder, comparison.stem, provenance, comparison.reference.name, form)
 
 

@@ -11,6 +11,7 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import scipy
@@ -218,8 +219,8 @@ RETEST_COLUMNS = (
 )  # fmt: skip
 
 
-def write_retests(analyses: Sequence[RetestAnalysis], path: Path, form: TableDialect = MACHINE_DIALECT) -> Path:
-    """Write one row for each quantity; an existing file is not replaced."""
+def list_retests(analyses: Sequence[RetestAnalysis]) -> list[dict[str, Any]]:
+    """Return a row for each quantity, by the names of :data:`RETEST_COLUMNS`."""
     rows = []
     for one in analyses:
         for (of, movement), f in one.results.items():
@@ -227,6 +228,12 @@ def write_retests(analyses: Sequence[RetestAnalysis], path: Path, form: TableDia
                 f.icc, *f.icc_interval, f.icc_3_1, *f.icc_3_1_interval, f.sem, *f.sem_interval, f.mdc95,
                 *f.mdc95_interval, f.intra_rater_sem, f.systematic_change,
             )  # fmt: skip
-            counts = (str(f.people), str(f.readings))
-            rows.append((one.protocol, one.exercise, of, movement, *counts, *map(format_cell, values)))
+            names = (one.protocol, one.exercise, of, movement, f.people, f.readings)
+            rows.append(dict(zip(RETEST_COLUMNS, (*names, *values), strict=True)))
+    return rows
+
+
+def write_retests(analyses: Sequence[RetestAnalysis], path: Path, form: TableDialect = MACHINE_DIALECT) -> Path:
+    """Write one row for each quantity; an existing file is not replaced."""
+    rows = (map(format_cell, row.values()) for row in list_retests(analyses))
     return write_new_table(path, RETEST_COLUMNS, rows, form)
