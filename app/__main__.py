@@ -48,7 +48,7 @@ def build_parser(asked: Sequence[str]) -> CommandParser:
     """Return the parser of the command line; only the requested command is imported."""
     out = CommandParser(
         prog="carpus",
-        description="Carpus follows blue paper discs on a hand with a depth camera, for hand rehabilitation.\n\n"
+        description="Carpus tracks blue paper markers on a hand with a depth camera, for hand rehabilitation.\n\n"
         + "\n".join(f"  {word:<9} {meaning}" for word, meaning in PURPOSE)
         + "\n\nWithout a command the desktop opens, which does all of it.",
         epilog="For research and education. Not a medical device.",

@@ -12,7 +12,7 @@ PAGE = Path(__file__).parents[1] / "resources" / "faults.md"
 HEAD = """# Fault codes
 
 Each message of Carpus has a code, in the window, on the command line and in the log. This page is made from the
-program: what happened, whether data are safe, what to do, and what IT support can do besides. `C-000` is a mistake of
+program. It says what happened, whether data are safe, what to do, and what IT support can do. `C-000` is an error in
 the program itself.
 
 | code | about | what happened | data | what to do | for IT support |
@@ -32,10 +32,9 @@ def fault_page() -> str:
     """Markdown text; kept in ``resources/faults.md``."""
     rows = []
     for kind in sorted(all_faults(), key=lambda kind: kind.code):
-        words = format_fault(kind(), is_brief=True)
-        rows.append(
-            f"| `{kind.code}` | {words.title} | {words.summary} | {words.data_safety} | {words.remedy} | {kind.support} |"  # noqa: E501
-        )
+        words = format_fault(kind("…", "…"), is_brief=True)
+        cells = (f"`{kind.code}`", words.title, words.summary, words.data_safety, words.remedy, kind.support)
+        rows.append(f"| {' | '.join(cells)} |".replace(": ….", "."))
     return HEAD + "\n".join(rows) + "\n"
 
 

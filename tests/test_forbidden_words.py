@@ -14,26 +14,35 @@ FORBIDDEN = {
         r"anew", r"is told", r"to be seen", r"discs?", r"knuckles?", r"middle joints?", r"end joints?",
         r"counts? nowhere", r"seal(ed)?", r"figures", r"signs? too many", r"letters too many", r"out of its limits",
         r"back-ups?", r"whoever", r"nobody", r"judged", r"left out", r"work out", r"pictures/s", r"use as targets",
+        r"pictures?", r"by hand", r"does not count", r"meanwhile", r"anybody", r"strokes?", r"beside", r"kept apart",
+        r"known to about", r"tracking again", r"trained", r"usual", r"doubtful", r"not to be", r"put right",
     ),
     "de": (
         r"Umfang", r"Umfänge", r"Winkelmesser", r"Hand verloren", r"Mittelgelenke?", r"Endgelenke?",
         r"Seitbewegung", r"Drehung", r"Zeitverschiebung", r"ungemessen", r"Spitzentempo", r"berichtigen",
         r"Deckung", r"Wiedersehen", r"versiegel\w*", r"über Fehler", r"Bilder/s",
+        r"Bemerkung\w*", r"IT-Support", r"Verteiler", r"Hinlangen", r"Flüssigkeit", r"von Hand", r"Markerset",
+        r"Berichtigt", r"zählt nicht", r"zweifelhaft\w*", r"Platte wie",
     ),
     "it": (
         r"session[ei]", r"mano persa", r"segni di troppo", r"lettere di troppo", r"nocc(a|he)", r"ferma e rivedi",
         r"dischett[oi]", r"intanto", r"registrazione profondità-colore", r"va oltre", r"sigilla\w*", r"\w'\w+",
+        r"assistenza informatica", r"lisciat\w+", r"fonte", r"cliccare", r"referto", r"a mano", r"scheda di controllo", r"«",
+        r"non conta", r"dubbi[oae]?", r"immagine (precedente|seguente|incerta)",
     ),
 }  # fmt: skip
 """Regular expressions of whole words, by language."""
+GUIDE = KEPT.parent / "guide"
 
 
 def texts(language: str) -> list[str]:
-    """Return all texts of a language; English ones are the sources of a translation."""
+    """Return all texts of window and guide in a language; English ones are the sources of a translation."""
+    pages = "".join(page.read_text("utf-8") for page in sorted((GUIDE / language).glob("*.md")))
+    guide = re.sub(r"\]\([^)]*\)", "]", pages).splitlines()  # without the names of files
     root = ElementTree.parse(KEPT / f"carpus_{'de' if language == 'en' else language}.ts").getroot()
     if language == "en":
-        return [message.findtext("source", "") for message in root.iter("message")]
-    return ["".join(node.itertext()) for node in root.iter("translation")]
+        return [*guide, *(message.findtext("source", "") for message in root.iter("message"))]
+    return [*guide, *("".join(node.itertext()) for node in root.iter("translation"))]
 
 
 @pytest.mark.parametrize("language", FORBIDDEN)

@@ -18,10 +18,10 @@ carpus backup /media/backup --list"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("place", type=Path, metavar="FOLDER", help="for back-ups, on another disk; made if need be")
+    parser.add_argument("place", type=Path, metavar="FOLDER", help="for backups, on another disk; created if missing")
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
-    parser.add_argument("--list", action="store_true", help="only say which back-ups there are")
-    parser.add_argument("--compare", action="store_true", help="only read the newest back-up and compare")
+    parser.add_argument("--list", action="store_true", help="only list the backups")
+    parser.add_argument("--compare", action="store_true", help="only verify the newest backup")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.compare:
         with progress_bar("reading", "file") as progress:
             verify_backup(place, there[0], progress)
-        print(f"{there[0].name}: {len(there[0].files)} files read and compared: all equal.")
+        print(f"{there[0].name}: {len(there[0].files)} files verified.")
         return 0
     folder: Path = arguments.data_folder or settings.data_folder
     share = sessions_folder(settings) if folder == settings.data_folder else None
@@ -67,6 +67,6 @@ def run(arguments: argparse.Namespace) -> int:
     except CarpusFault as fault:  # of a folder that can only be read: the back-up is made all the same
         print_fault(fault)
     size = format_rounded(made.size_bytes / 1e6, 1)
-    print(f"{made.name}: {made.session_count} sessions, {size} MB, read back and compared: all equal.")
+    print(f"{made.name}: {made.session_count} sessions, {size} MB, verified.")
     prune_backups(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
     return 0

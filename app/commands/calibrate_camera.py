@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--board", type=Path, metavar="BOARD.pdf", help="write the board to print, and do nothing else")
     parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the board to print")
     parser.add_argument(
-        "--pattern", choices=PATTERNS, help="chessboard (reaches farther) or charuco (may be partly hidden)"
+        "--pattern", choices=PATTERNS, help="chessboard (reaches farther) or charuco (may be partly covered)"
     )
     parser.add_argument(
         "--square-mm",
@@ -102,9 +102,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     for line in format_calibration(made):
         print(line)
     if made.depth is not None and not made.depth.is_registered:
-        print_message(
-            "warning: depth does not lie on colour; switch registration on, or depths are read beside the markers."
-        )
+        print_message("Warning: depth and colour are misaligned. Turn on depth registration in the camera.")
     when = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else datetime.now().astimezone()
     serial = arguments.serial or info.serial
     stored = to_stored_calibration(made, serial, when, info.settings)
@@ -116,9 +114,9 @@ def _calibrate(arguments: argparse.Namespace) -> int:
             serial = save_camera_name(folder, info.name, serial)
             stored = replace(stored, serial=serial)
         path = save_calibration(folder, made, stored)
-        print(f"Kept for camera {serial}: {path}")
+        print(f"Saved for camera {serial}: {path}")
     elif arguments.output is None:
-        print_message("the camera is unknown, so the calibration is not saved; name it with --serial, or use --output.")
+        print_message("The camera is unknown, so the calibration is not saved. Name it with --serial, or use --output.")
         return 1
     return 0
 
@@ -139,7 +137,7 @@ def _collect_views(source: FrameSource, gathering: ViewCollector, *, is_live: bo
 
     said = ""
     if is_live:
-        print("Hold the board in the picture, still for a moment in each place. Ctrl+C ends.", file=sys.stderr)
+        print("Hold the board in view, still for a moment in each place. Ctrl+C stops.", file=sys.stderr)
     with progress_bar("looking for the board") as show, suppress(KeyboardInterrupt):
         for count, frame in enumerate(source.frames(), start=1):
             kept = gathering.add(frame)

@@ -81,10 +81,10 @@ def _check_camera(arguments: argparse.Namespace) -> int:
             "out: do not measure with it."
         )
     if serial and any(one.checked_at == when for one in read_checks(path)):
-        print(f"Kept for camera {serial} already: {path}")
+        print(f"Already saved for camera {serial}: {path}")
     elif serial:
         add_check(path, CardCheck(when, serial, reading, info.settings.get("calibrated", "")))
-        print(f"Kept for camera {serial}: {path}")
+        print(f"Saved for camera {serial}: {path}")
     else:
         print_message("the camera is unknown, so the check is not saved; name it with --serial.")
     return 0 if reading.is_within_tolerance else 1

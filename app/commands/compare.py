@@ -30,7 +30,9 @@ def parse_marker_mapping(text: str) -> dict[str, str]:
     found = {name.upper(): value for name, value in parse_mapping(text).items()}
     unknown = [name for name in found if name not in SITES]
     if unknown:
-        raise argparse.ArgumentTypeError(f"no disc is called “{unknown[0]}”; {describe_known_names(unknown[0], SITES)}")
+        raise argparse.ArgumentTypeError(
+            f"no marker is called “{unknown[0]}”; {describe_known_names(unknown[0], SITES)}"
+        )
     return found
 
 
@@ -59,7 +61,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="which column is which angle (deviation, flexion, pronosupination, joints) or time; -COLUMN: other sign",
     )
     parser.add_argument(
-        "--markers", type=parse_marker_mapping, default={}, metavar="DISC=MARKER,...", help="which marker is which disc"
+        "--markers",
+        type=parse_marker_mapping,
+        default={},
+        metavar="MARKER=NAME,...",
+        help="names of the markers in the reference",
     )
     parser.add_argument("--unit", choices=("deg", "rad"), help="of the reference's angles, where it does not say")
     parser.add_argument("--smoothed", action="store_true", help="compare the smoother's results, not the filter's")
@@ -80,7 +86,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--limit", type=number_type(0.0, MAX_LIMIT_DEG, "degrees"), default=0.0, metavar="DEGREES",
-        help="what the two may differ by, set before comparing: each angle is judged by it, and the plots show it",
+        help="acceptable difference, set before comparing: each angle is assessed against it, and the plots show it",
     )  # fmt: skip
 
 

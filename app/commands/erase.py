@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
     is_file = path.is_file()
     with closing(open_library(folder)) as library:
         if fold_name(arguments.what) in library.erased_pseudonyms or (is_file and not path.exists()):
-            print(f"The erasing of {arguments.what} that was begun before is finished: nothing of it is left here.")
+            print(f"The deletion of {arguments.what} that was started before is finished.")
             return _print_erased()
         return _erase(library, arguments.what, path, arguments.for_good)
 
@@ -58,7 +58,7 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
     pseudonym = plan.pseudonym
     _print_plan(plan)
     if confirmed is None:
-        print(f"Nothing has been deleted. To delete for good, add --for-good “{pseudonym}”. Archiving can be undone.")
+        print(f"Nothing was deleted. To delete permanently, add --for-good “{pseudonym}”. Archiving can be undone.")
         return 0
     if confirmed.casefold() != pseudonym.casefold():
         print_message(f"“{confirmed}” is not this patient. Nothing has been deleted.")
@@ -76,7 +76,7 @@ def _print_plan(plan: ErasurePlan) -> None:
     size = format_rounded(plan.size_bytes / 1e6, 1)
     print(f"Will be deleted: {plan.recording_count} sessions, {len(plan.files)} files, {size} MB")
     for path in plan.output_files:
-        print(f"Delete yourself: {path}")
+        print(f"Delete this yourself: {path}")
     for path in plan.unassigned_files:
-        print(f"Check yourself, in no patient's folder: {path}")
+        print(f"Check this yourself (outside the patients' folders): {path}")
     print("Not deleted: backups and copies elsewhere.")

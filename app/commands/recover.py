@@ -34,9 +34,9 @@ def run(arguments: argparse.Namespace) -> int:
             if any(path.is_relative_to(one) for one in own):
                 print("It is moved into the data folder when Carpus is started.")
         for path in found.in_progress:
-            print(f"Still being recorded, left alone: {path}")
+            print(f"Still being recorded, not changed: {path}")
         for path in found.empty:
-            print(f"Ended before its first frame was stored, nothing to recover: {path}")
+            print(f"Ended before its first frame was saved, nothing to recover: {path}")
         for fault in found.faults:
             print_fault(fault)
     if not any(found.recovered or found.in_progress or found.faults or found.empty for found in results):

@@ -21,9 +21,9 @@ EXAMPLE = "carpus restore /media/backup --into carpus-data"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("place", type=Path, metavar="FOLDER", help="that holds the back-ups")
+    parser.add_argument("place", type=Path, metavar="FOLDER", help="folder with the backups")
     parser.add_argument(
-        "--name", metavar="BACKUP", help="which back-up, as “carpus backup --list” says (default: the newest)"
+        "--name", metavar="BACKUP", help="which backup, as listed by “carpus backup --list” (default: the newest)"
     )
     parser.add_argument("--into", type=Path, metavar="FOLDER", help="a data folder that is not there yet")
     parser.add_argument("--against", type=Path, metavar="FOLDER", help="only say what would differ from a data folder")
@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise BackupMissing(place)
     name = arguments.name or next(iter(there))
     if name not in there:
-        print_message(f"no back-up in {place} is called “{name}”; {describe_known_names(name, there)}.")
+        print_message(f"no backup in {place} is called “{name}”; {describe_known_names(name, there)}.")
         return 1
     backup = there[name]
     own = Path(backup.data_folder) if backup.data_folder else load_valid_settings()[0].data_folder
@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
             for path in paths:
                 print(f"{words}: {path}")
         added, changed, gone = len(plan.added), len(plan.replaced), len(plan.removed)
-        print(f"Sessions added: {added}, changed: {changed}, taken away: {gone}. Nothing was done.")
+        print(f"Sessions added: {added}, changed: {changed}, removed: {gone}. Nothing was changed.")
     if arguments.into is None:
         return 0
     with progress_bar("restoring", "byte") as progress:

@@ -38,13 +38,13 @@ _REASONS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "sessions", type=Path, nargs="+", metavar="SESSION.h5",
-        help="sessions, or folders of them: each person (pseudonym) twice or more, discs put on anew in between",
+        help="sessions, or folders of them: each person (pseudonym) twice or more, markers replaced in between",
     )  # fmt: skip
     parser.add_argument(
-        "--raters", type=Path, metavar="TABLE.csv", help="who put the discs on: columns session (file name) and rater"
+        "--raters", type=Path, metavar="TABLE.csv", help="who placed the markers: columns session (file name) and rater"
     )
     parser.add_argument(
-        "--output", type=output_type(".csv"), metavar="TABLE.csv", help="all figures as a table, never overwritten"
+        "--output", type=output_type(".csv"), metavar="TABLE.csv", help="all values as a table, never overwritten"
     )
     parser.add_argument(
         "--store",
@@ -88,7 +88,7 @@ def _print_analyses(found: Sequence[RetestAnalysis]) -> None:
         print(f"{one.exercise or 'free movement'}, {one.protocol}: {one.people} people, {one.sessions} sessions{who}")
         if one.excluded:
             reasons = Counter(_REASONS.get(left.reason, left.reason) for left in one.excluded)
-            print(f"  left out: {', '.join(f'{count} ({reason})' for reason, count in reasons.items())}")
+            print(f"  excluded: {', '.join(f'{count} ({reason})' for reason, count in reasons.items())}")
         if one.results:
             print(
                 f"  {'degrees':26} {'n':>3}    SEM   MDC95 (95 % interval)    {'ICC(2,1) (interval)':20}   "

@@ -46,7 +46,7 @@ whole_number = count_type(-(2**31), 2**31 - 1)
 EXAMPLE = "carpus simulate --output out/demo --protocol wrist6"
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
-    ("protocol", {"choices": protocol_names(), "help": "6 discs on the palm or 21 on the hand"}),
+    ("protocol", {"choices": protocol_names(), "help": "6 markers on the palm or 21 on the hand"}),
     ("motion", {"choices": tuple(sorted(MOTIONS)), "help": "the exercise"}),
     ("hand", {"choices": ("right", "left"), "help": "which hand"}),
     ("seed", {"type": whole_number, "help": "another seed is another patient, room and day"}),
@@ -70,7 +70,7 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
         "habit",
         {"type": names_type((NONE, *HABITS)), "metavar": "HABIT+...", "help": f"with + between: {', '.join(HABITS)}"},
     ),
-    ("anatomy", {"choices": ("usual", "wide"), "help": "wide: other disc heights, palms, discs stuck off"}),
+    ("anatomy", {"choices": ("usual", "wide"), "help": "wide: other marker heights and palms, markers placed off"}),
     (
         "worn",
         {
@@ -81,25 +81,25 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ),
     ("pen-marks", {"type": whole_number, "help": "blue dots of a pen on the skin"}),
     ("skin-tone", {"type": whole_number, "help": "0 light to 5 dark"}),
-    ("skin-movement-mm", {"type": number_type(), "help": "how far the WRIST disc slides on the bone"}),
+    ("skin-movement-mm", {"type": number_type(), "help": "how far the WRIST marker slides on the bone"}),
     ("light", {"choices": ("drawn", "bright", "normal", "dim"), "help": "of the room"}),
     ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue", "jeans"), "help": "of the clothes"}),
     ("distance-m", {"type": number_type(), "help": "camera to hand"}),
-    ("yaw-deg", {"type": number_type(), "help": "how far the hand is turned in the picture"}),
+    ("yaw-deg", {"type": number_type(), "help": "how far the hand is turned in the frame"}),
     ("tilt-deg", {"type": number_type(), "help": "how far the hand is tilted to the camera"}),
     ("tilt-heading-deg", {"type": number_type(), "help": "0: a side of the hand nearer, -90: its tips"}),
-    ("false-blobs", {"type": number_type(), "help": "false blue blobs in each picture, on average"}),
-    ("hidden-share", {"type": number_type(), "help": "share of the time each disc is covered"}),
+    ("false-blobs", {"type": number_type(), "help": "false blue blobs in each frame, on average"}),
+    ("hidden-share", {"type": number_type(), "help": "share of the time each marker is covered"}),
     ("dropped-share", {"type": number_type(), "help": "share of the frames that is missing"}),
-    ("click-error-px", {"type": number_type(), "help": "how far clicks are off their discs"}),
+    ("click-error-px", {"type": number_type(), "help": "how far clicks are off their markers"}),
     ("sensor", {"choices": tuple(SENSORS), "help": "whose depth it is"}),
     ("depth-scale-error", {"type": number_type(), "help": "largest scale error of the depth"}),
 )
 _SWITCHES = {
-    "pain-limited": "strokes stop short",
+    "pain-limited": "movements stop short",
     "object-passes": "something passes between hand and camera",
-    "leaves-picture": "the hand leaves the picture and returns",
-    "no-skin-offsets": "joint centres in the discs, as the papers assume",
+    "leaves-picture": "the hand leaves the view and returns",
+    "no-skin-offsets": "joint centres in the markers, as the papers assume",
 }
 
 

@@ -163,7 +163,7 @@ def _add_method_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--discs",
         choices=("on-skin", "in-joints"),
-        help="where the discs of the fingers are: on the skin over the joints (default), or in the joints, the papers' "
+        help="where the finger markers are: on the skin over the joints (default), or in the joints, the papers' "
         "chain; a session's own unless given",
     )
     parser.add_argument(
@@ -220,7 +220,7 @@ COLOR_ONLY_WARNING = (
     "check the signs of flexion and pro/supination, or track with depth."
 )
 HAND_COLOR_ONLY_WARNING = (
-    "Tracking 21 markers without depth is experimental: the picture hardly shows how far a finger that is almost "
+    "Tracking 21 markers without depth is experimental: the image hardly shows how far a finger that is almost "
     "straight is bent, or to which side; do not rely on these joint angles."
 )
 _OPTIONS_WITHOUT_PAPER_FILTER = {

@@ -28,9 +28,9 @@ def run(arguments: argparse.Namespace) -> int:
         if find_data_folder(path) is not None:
             log_session_action("opened", path, read_outline(path).header.session_id)
         if found.has_checksum:
-            print(f"Whole and unchanged since it was finished: {path} ({found.frames} frames).")
+            print(f"Complete and unchanged since it was finished: {path} ({found.frames} frames).")
         else:
-            print(f"Whole: {path} ({found.frames} frames). It has no seal, so whether it was changed is not known.")
+            print(f"Complete: {path} ({found.frames} frames). It has no checksum, so changes cannot be detected.")
         return 0
     return _verify_recording(path)
 
@@ -55,7 +55,7 @@ def _verify_recording(path: Path) -> int:
     if damage:
         return 1
     if source.info.settings.get("complete", "").startswith("no"):
-        print(f"Cut short, and whole up to there: {path} ({frames} frames).")
+        print(f"Cut short, complete up to there: {path} ({frames} frames).")
     else:
-        print(f"Whole: {path} ({frames} frames).")
+        print(f"Complete: {path} ({frames} frames).")
     return 0

@@ -214,7 +214,7 @@ class DiskFull(CarpusFault, code="C-404"):
 
     summary = phrase("The disk has no space left for {subject} ({detail}).")
     data_safety = phrase("Everything saved before is safe. What was being written may be missing.")
-    remedy = phrase("Free some space, or choose another disk.")
+    remedy = phrase("Remove files that do not belong to Carpus, or choose another disk.")
 
 
 class SessionUnreadable(CarpusFault, code="C-501"):
@@ -259,7 +259,7 @@ class ReferenceUnsuited(CarpusFault, code="C-602"):
 
 class StudyUnsuited(CarpusFault, code="C-603"):
     summary = phrase("These sessions are not a test-retest study: {subject} ({detail}).")
-    data_safety = phrase("The limits of change stay as they are.")
+    data_safety = phrase("The MDC values stay as they are.")
     remedy = phrase("Measure at least 10 people twice within 14 days, and replace the markers each time.")
 
 
@@ -289,7 +289,7 @@ class PseudonymNumbered(CarpusFault, code="C-702"):
 class ServerUnavailable(CarpusFault, code="C-703"):
     summary = phrase("The clinic’s records server does not answer: {subject} ({detail}).")
     data_safety = phrase("All sessions are safe. What was being entered may not be saved.")
-    remedy = phrase("Continue measuring. If the server stays away, ask your IT support.")
+    remedy = phrase("Continue measuring. If the server still does not answer, ask your IT support.")
 
 
 class NameUnsuited(CarpusFault, code="C-704"):
@@ -302,7 +302,7 @@ class DriverMissing(CarpusFault, code="C-202"):
     summary = phrase("The camera driver is not installed or cannot be loaded ({detail}).")
     data_safety = _UNCHANGED
     remedy = phrase("Ask your IT support to install the driver.")
-    support = phrase("“carpus doctor” says what is missing and how to install it.")
+    support = phrase("“carpus doctor” shows what is missing and how to install it.")
 
 
 class DriverFailed(CarpusFault, code="C-203"):
@@ -336,7 +336,7 @@ class CameraPermission(CarpusFault, code="C-207"):
     summary = phrase("You do not have permission to open the camera ({detail}).")
     data_safety = _NOTHING_YET
     remedy = phrase("Ask your IT support for access to the camera.")
-    support = phrase("“carpus doctor” says how to give it.")
+    support = phrase("“carpus doctor” shows how to grant it.")
 
 
 class CameraUnsuited(CarpusFault, code="C-208"):
@@ -350,7 +350,7 @@ class CameraLost(CarpusFault, code="C-209"):
 
     summary = phrase("The camera has stopped sending images: {subject} ({detail}).")
     data_safety = _STORED
-    remedy = phrase("Plug the camera in again. Tracking and recording then continue automatically.")
+    remedy = phrase("Plug the camera in again. Measurement and recording then continue automatically.")
 
 
 class CameraMismatch(CameraLost, code="C-210"):
@@ -358,7 +358,7 @@ class CameraMismatch(CameraLost, code="C-210"):
 
     summary = phrase("A different camera is connected ({detail}). Carpus expects {subject}.")
     data_safety = _STORED
-    remedy = phrase("Connect the expected camera. What was begun then continues automatically.")
+    remedy = phrase("Connect the expected camera. Measurement and recording then continue automatically.")
 
 
 class CameraReturned(Notice, code="C-211"):
@@ -407,13 +407,13 @@ class IntrinsicsAssumed(Notice, code="C-213"):
     summary = phrase("No camera calibration was found with {subject}: lengths may be several per cent off ({detail}).")
     data_safety = _GOES_ON
     remedy = phrase("Calibrate the camera in the settings.")
-    support = phrase("Or put the camera’s camera_info.yaml beside the recording.")
+    support = phrase("Or put the camera’s camera_info.yaml next to the recording.")
 
 
 class UnitAssumed(Notice, code="C-113"):
     """The values make sense in another unit than that of the format."""
 
-    summary = phrase("By its numbers the recording has {detail}, and Carpus reads it that way: {subject}.")
+    summary = phrase("The recording has unusual units and is read that way: {subject} ({detail}).")
     data_safety = _RECORDING_UNCHANGED
     remedy = phrase("If this is wrong, correct the list of frames or state the unit of depth.")
     support = phrase("camera_info.yaml states it as depth_unit_m.")
@@ -535,7 +535,7 @@ class LogProtectionRestored(Notice, code="C-712"):
 class SessionFilesIgnored(Notice, code="C-508"):
     """``subject`` names some of the files, ``detail`` counts them."""
 
-    summary = phrase("{detail} among the sessions cannot be read and were ignored: {subject}.")
+    summary = phrase("{detail} in the session folder cannot be read and were ignored: {subject}.")
     data_safety = phrase("They were not changed. All other sessions are safe.")
     remedy = phrase("Restore them from a backup.")
 
@@ -582,14 +582,14 @@ class DataFolderMissing(CarpusFault, code="C-410"):
     summary = phrase("The folder contains no Carpus data: {subject}.")
     data_safety = _UNCHANGED
     remedy = phrase("Choose the folder that contains the patients.")
-    support = phrase("“carpus doctor” says which one it is.")
+    support = phrase("“carpus doctor” shows which one it is.")
 
 
 class DataFolderChanged(CarpusFault, code="C-411"):
     """``subject`` is opened now, ``detail`` was before, or is in the settings."""
 
     summary = phrase("Carpus now uses another data folder: {subject}.")
-    data_safety = phrase("Before it was {detail}. Nothing was moved.")
+    data_safety = phrase("The previous folder was {detail}. Nothing was moved.")
     remedy = phrase("If patients are missing here, choose the data folder in the settings.")
 
 
@@ -691,7 +691,7 @@ class BoardUnfit(CarpusFault, code="C-216"):
 class CardNotVisible(CarpusFault, code="C-217"):
     summary = phrase("The check card is not visible: {subject} ({detail}).")
     data_safety = _UNCHANGED
-    remedy = phrase("Lay it flat under the camera, all of it in the image, about 60 cm away, in good light.")
+    remedy = phrase("Lay it flat under the camera, fully in view, about 60 cm away, in good light.")
 
 
 class PinUncheckable(CarpusFault, code="C-901"):

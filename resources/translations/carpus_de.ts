@@ -3204,10 +3204,6 @@
         <translation>Schriften</translation>
     </message>
     <message>
-        <source>Free some space, or choose another disk.</source>
-        <translation>Schaffen Sie Platz, oder wählen Sie eine andere Festplatte.</translation>
-    </message>
-    <message>
         <source>Free space on the disk of {folder}.</source>
         <translation>Schaffen Sie Platz auf dem Datenträger von {folder}.</translation>
     </message>
@@ -5376,14 +5372,6 @@
         <translation>Sicherungen können dort nicht liegen: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Before it was {detail}. Nothing was moved.</source>
-        <translation>Vorher war es {detail}. Es wurde nichts verschoben.</translation>
-    </message>
-    <message>
-        <source>By its numbers the recording has {detail}, and Carpus reads it that way: {subject}.</source>
-        <translation>Nach ihren Zahlen hat die Aufnahme {detail}, und Carpus liest sie so: {subject}.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera in the settings.</source>
         <translation>Kalibrieren Sie die Kamera in den Einstellungen.</translation>
     </message>
@@ -5470,14 +5458,6 @@
     <message>
         <source>Comparison</source>
         <translation>Vergleich</translation>
-    </message>
-    <message>
-        <source>Connect the expected camera. What was begun then continues automatically.</source>
-        <translation>Schließen Sie die erwartete Kamera an. Was begonnen wurde, läuft dann automatisch weiter.</translation>
-    </message>
-    <message>
-        <source>Continue measuring. If the server stays away, ask your IT support.</source>
-        <translation>Messen Sie weiter. Wenn der Server nicht wiederkommt, fragen Sie Ihre IT-Betreuung.</translation>
     </message>
     <message>
         <source>Continue. The gap is marked in the session.</source>
@@ -5600,10 +5580,6 @@
         <translation>Lassen Sie das Licht während der Messung unverändert.</translation>
     </message>
     <message>
-        <source>Lay it flat under the camera, all of it in the image, about 60 cm away, in good light.</source>
-        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
-    </message>
-    <message>
         <source>Measure at least 10 people twice within 14 days, and replace the markers each time.</source>
         <translation>Messen Sie mindestens 10 Personen zweimal innerhalb von 14 Tagen, jedes Mal mit neu gesetzten Markern.</translation>
     </message>
@@ -5664,10 +5640,6 @@
         <translation>Öffnen Sie ihn noch einmal, und geben Sie Ihre Änderung erneut ein.</translation>
     </message>
     <message>
-        <source>Or put the camera’s camera_info.yaml beside the recording.</source>
-        <translation>Oder legen Sie die camera_info.yaml der Kamera neben die Aufnahme.</translation>
-    </message>
-    <message>
         <source>Patients</source>
         <translation>Patienten</translation>
     </message>
@@ -5678,10 +5650,6 @@
     <message>
         <source>Plug the camera directly into the computer.</source>
         <translation>Stecken Sie die Kamera direkt am Computer ein.</translation>
-    </message>
-    <message>
-        <source>Plug the camera in again. Tracking and recording then continue automatically.</source>
-        <translation>Schließen Sie die Kamera wieder an. Messung und Aufnahme laufen dann automatisch weiter.</translation>
     </message>
     <message>
         <source>Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.</source>
@@ -5860,10 +5828,6 @@
         <translation>Die Bilder der Tafel sind zu wenige oder zu ähnlich: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The limits of change stay as they are.</source>
-        <translation>Die Grenzen für Veränderungen bleiben, wie sie sind.</translation>
-    </message>
-    <message>
         <source>The live measurement is saved.</source>
         <translation>Die Live-Messung ist gespeichert.</translation>
     </message>
@@ -6005,7 +5969,7 @@
     </message>
     <message>
         <source>Use the copy in a backup.</source>
-        <translation>Verwenden Sie die Kopie aus einer Sicherung.</translation>
+        <translation>Verwenden Sie die Datei aus einer Sicherung.</translation>
     </message>
     <message>
         <source>Use the same size for colour and depth next time.</source>
@@ -6048,24 +6012,8 @@
         <translation>In camera_info.yaml steht sie als depth_unit_m.</translation>
     </message>
     <message>
-        <source>{detail} among the sessions cannot be read and were ignored: {subject}.</source>
-        <translation>{detail} unter den Sitzungen können nicht gelesen werden und wurden ignoriert: {subject}.</translation>
-    </message>
-    <message>
         <source>“carpus calibrate-camera --board” prints it.</source>
         <translation>„carpus calibrate-camera --board“ druckt sie.</translation>
-    </message>
-    <message>
-        <source>“carpus doctor” says how to give it.</source>
-        <translation>„carpus doctor“ sagt, wie er erteilt wird.</translation>
-    </message>
-    <message>
-        <source>“carpus doctor” says what is missing and how to install it.</source>
-        <translation>„carpus doctor“ sagt, was fehlt und wie es installiert wird.</translation>
-    </message>
-    <message>
-        <source>“carpus doctor” says which one it is.</source>
-        <translation>„carpus doctor“ sagt, welcher es ist.</translation>
     </message>
     <message>
         <source>“carpus recover” completes it too.</source>
@@ -6538,6 +6486,78 @@
     <message>
         <source>diverse</source>
         <translation>divers</translation>
+    </message>
+    <message>
+        <source>Connect the expected camera. Measurement and recording then continue automatically.</source>
+        <translation>Schließen Sie die erwartete Kamera an. Messung und Aufnahme laufen dann automatisch weiter.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. If the server still does not answer, ask your IT support.</source>
+        <translation>Messen Sie weiter. Wenn der Server weiter nicht antwortet, fragen Sie Ihre IT-Betreuung.</translation>
+    </message>
+    <message>
+        <source>Lay it flat under the camera, fully in view, about 60 cm away, in good light.</source>
+        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in again. Measurement and recording then continue automatically.</source>
+        <translation>Schließen Sie die Kamera wieder an. Messung und Aufnahme laufen dann automatisch weiter.</translation>
+    </message>
+    <message>
+        <source>no colour images of {width} × {height} pixels</source>
+        <translation>keine Farbbilder mit {width} × {height} Pixeln</translation>
+    </message>
+    <message>
+        <source>no depth</source>
+        <translation>keine Tiefe</translation>
+    </message>
+    <message>
+        <source>no frames for {seconds} s</source>
+        <translation>keine Bilder seit {seconds} s</translation>
+    </message>
+    <message>
+        <source>unplugged</source>
+        <translation>abgezogen</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows how to grant it.</source>
+        <translation>„carpus doctor“ zeigt, wie er erteilt wird.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows what is missing and how to install it.</source>
+        <translation>„carpus doctor“ zeigt, was fehlt und wie es installiert wird.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows which one it is.</source>
+        <translation>„carpus doctor“ zeigt, welcher es ist.</translation>
+    </message>
+    <message>
+        <source>{detail} in the session folder cannot be read and were ignored: {subject}.</source>
+        <translation>{detail} im Sitzungsordner können nicht gelesen werden und wurden ignoriert: {subject}.</translation>
+    </message>
+    <message>
+        <source>{name} is plugged in, but the driver does not see it</source>
+        <translation>{name} ist angeschlossen, aber der Treiber sieht sie nicht</translation>
+    </message>
+    <message>
+        <source>Or put the camera’s camera_info.yaml next to the recording.</source>
+        <translation>Oder legen Sie die camera_info.yaml der Kamera neben die Aufnahme.</translation>
+    </message>
+    <message>
+        <source>Remove files that do not belong to Carpus, or choose another disk.</source>
+        <translation>Entfernen Sie Dateien, die nicht zu Carpus gehören, oder wählen Sie eine andere Festplatte.</translation>
+    </message>
+    <message>
+        <source>The MDC values stay as they are.</source>
+        <translation>Die MDC-Werte bleiben, wie sie sind.</translation>
+    </message>
+    <message>
+        <source>The previous folder was {detail}. Nothing was moved.</source>
+        <translation>Der bisherige Ordner war {detail}. Es wurde nichts verschoben.</translation>
+    </message>
+    <message>
+        <source>The recording has unusual units and is read that way: {subject} ({detail}).</source>
+        <translation>Die Aufnahme hat ungewöhnliche Einheiten und wird so gelesen: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>

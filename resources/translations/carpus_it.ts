@@ -3208,10 +3208,6 @@
         <translation>Caratteri</translation>
     </message>
     <message>
-        <source>Free some space, or choose another disk.</source>
-        <translation>Liberare spazio, o scegliere un altro disco.</translation>
-    </message>
-    <message>
         <source>Free space on the disk of {folder}.</source>
         <translation>Liberare spazio sul disco di {folder}.</translation>
     </message>
@@ -5376,14 +5372,6 @@
         <translation>Le copie di sicurezza non possono stare lì: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Before it was {detail}. Nothing was moved.</source>
-        <translation>Prima era {detail}. Non è stato spostato nulla.</translation>
-    </message>
-    <message>
-        <source>By its numbers the recording has {detail}, and Carpus reads it that way: {subject}.</source>
-        <translation>A giudicare dai numeri la registrazione ha {detail}, e Carpus la legge così: {subject}.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera in the settings.</source>
         <translation>Calibrare la telecamera nelle impostazioni.</translation>
     </message>
@@ -5470,14 +5458,6 @@
     <message>
         <source>Comparison</source>
         <translation>Confronto</translation>
-    </message>
-    <message>
-        <source>Connect the expected camera. What was begun then continues automatically.</source>
-        <translation>Collegare la telecamera attesa. Ciò che era iniziato riprende poi automaticamente.</translation>
-    </message>
-    <message>
-        <source>Continue measuring. If the server stays away, ask your IT support.</source>
-        <translation>Continuare a misurare. Se il server non torna, chiedere al supporto informatico.</translation>
     </message>
     <message>
         <source>Continue. The gap is marked in the session.</source>
@@ -5600,10 +5580,6 @@
         <translation>Mantenere costante la luce durante la misurazione.</translation>
     </message>
     <message>
-        <source>Lay it flat under the camera, all of it in the image, about 60 cm away, in good light.</source>
-        <translation>Appoggiarla piana sotto la telecamera, tutta nell’immagine, a circa 60 cm, con buona luce.</translation>
-    </message>
-    <message>
         <source>Measure at least 10 people twice within 14 days, and replace the markers each time.</source>
         <translation>Misurare almeno 10 persone due volte entro 14 giorni, riposizionando ogni volta i marcatori.</translation>
     </message>
@@ -5664,10 +5640,6 @@
         <translation>Riaprirla e inserire di nuovo la modifica.</translation>
     </message>
     <message>
-        <source>Or put the camera’s camera_info.yaml beside the recording.</source>
-        <translation>Oppure mettere il camera_info.yaml della telecamera accanto alla registrazione.</translation>
-    </message>
-    <message>
         <source>Patients</source>
         <translation>Pazienti</translation>
     </message>
@@ -5678,10 +5650,6 @@
     <message>
         <source>Plug the camera directly into the computer.</source>
         <translation>Collegare la telecamera direttamente al computer.</translation>
-    </message>
-    <message>
-        <source>Plug the camera in again. Tracking and recording then continue automatically.</source>
-        <translation>Ricollegare la telecamera. Misura e registrazione riprendono poi automaticamente.</translation>
     </message>
     <message>
         <source>Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.</source>
@@ -5860,10 +5828,6 @@
         <translation>Le immagini della tavola sono troppo poche o troppo simili: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The limits of change stay as they are.</source>
-        <translation>I limiti di cambiamento restano come sono.</translation>
-    </message>
-    <message>
         <source>The live measurement is saved.</source>
         <translation>La misurazione dal vivo è salvata.</translation>
     </message>
@@ -6005,7 +5969,7 @@
     </message>
     <message>
         <source>Use the copy in a backup.</source>
-        <translation>Usare la copia in una copia di sicurezza.</translation>
+        <translation>Usare il file di una copia di sicurezza.</translation>
     </message>
     <message>
         <source>Use the same size for colour and depth next time.</source>
@@ -6048,24 +6012,8 @@
         <translation>In camera_info.yaml è indicata come depth_unit_m.</translation>
     </message>
     <message>
-        <source>{detail} among the sessions cannot be read and were ignored: {subject}.</source>
-        <translation>{detail} tra le sedute non possono essere letti e sono stati ignorati: {subject}.</translation>
-    </message>
-    <message>
         <source>“carpus calibrate-camera --board” prints it.</source>
         <translation>“carpus calibrate-camera --board” la stampa.</translation>
-    </message>
-    <message>
-        <source>“carpus doctor” says how to give it.</source>
-        <translation>“carpus doctor” indica come darlo.</translation>
-    </message>
-    <message>
-        <source>“carpus doctor” says what is missing and how to install it.</source>
-        <translation>“carpus doctor” indica che cosa manca e come installarlo.</translation>
-    </message>
-    <message>
-        <source>“carpus doctor” says which one it is.</source>
-        <translation>“carpus doctor” indica qual è.</translation>
     </message>
     <message>
         <source>“carpus recover” completes it too.</source>
@@ -6538,6 +6486,78 @@
     <message>
         <source>diverse</source>
         <translation>altro</translation>
+    </message>
+    <message>
+        <source>Connect the expected camera. Measurement and recording then continue automatically.</source>
+        <translation>Collegare la telecamera attesa. Misura e registrazione riprendono poi automaticamente.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. If the server still does not answer, ask your IT support.</source>
+        <translation>Continuare a misurare. Se il server continua a non rispondere, chiedere al supporto informatico.</translation>
+    </message>
+    <message>
+        <source>Lay it flat under the camera, fully in view, about 60 cm away, in good light.</source>
+        <translation>Metterlo piatto sotto la telecamera, tutto inquadrato, a circa 60 cm, con buona luce.</translation>
+    </message>
+    <message>
+        <source>Plug the camera in again. Measurement and recording then continue automatically.</source>
+        <translation>Ricollegare la telecamera. Misura e registrazione riprendono poi automaticamente.</translation>
+    </message>
+    <message>
+        <source>no colour images of {width} × {height} pixels</source>
+        <translation>nessuna immagine a colori di {width} × {height} pixel</translation>
+    </message>
+    <message>
+        <source>no depth</source>
+        <translation>nessuna profondità</translation>
+    </message>
+    <message>
+        <source>no frames for {seconds} s</source>
+        <translation>nessun fotogramma da {seconds} s</translation>
+    </message>
+    <message>
+        <source>unplugged</source>
+        <translation>scollegata</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows how to grant it.</source>
+        <translation>“carpus doctor” mostra come concederlo.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows what is missing and how to install it.</source>
+        <translation>“carpus doctor” mostra che cosa manca e come installarlo.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows which one it is.</source>
+        <translation>“carpus doctor” mostra qual è.</translation>
+    </message>
+    <message>
+        <source>{detail} in the session folder cannot be read and were ignored: {subject}.</source>
+        <translation>{detail} nella cartella delle sedute non possono essere letti e sono stati ignorati: {subject}.</translation>
+    </message>
+    <message>
+        <source>{name} is plugged in, but the driver does not see it</source>
+        <translation>{name} è collegata, ma il driver non la vede</translation>
+    </message>
+    <message>
+        <source>Or put the camera’s camera_info.yaml next to the recording.</source>
+        <translation>Oppure mettere il camera_info.yaml della telecamera accanto alla registrazione.</translation>
+    </message>
+    <message>
+        <source>Remove files that do not belong to Carpus, or choose another disk.</source>
+        <translation>Rimuovere file che non appartengono a Carpus, o scegliere un altro disco.</translation>
+    </message>
+    <message>
+        <source>The MDC values stay as they are.</source>
+        <translation>I valori MDC restano come sono.</translation>
+    </message>
+    <message>
+        <source>The previous folder was {detail}. Nothing was moved.</source>
+        <translation>La cartella precedente era {detail}. Non è stato spostato nulla.</translation>
+    </message>
+    <message>
+        <source>The recording has unusual units and is read that way: {subject} ({detail}).</source>
+        <translation>La registrazione ha unità insolite e viene letta così: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>

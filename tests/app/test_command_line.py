@@ -156,7 +156,7 @@ def test_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path
         return done.code, done.out + done.err
 
     count = TumFolder(recording).info.frame_count
-    assert said(data) == (0, f"Whole: {path} ({count} frames).\n")
+    assert said(data) == (0, f"Complete: {path} ({count} frames).\n")
     code, cut = said(data[: third + 100])
     assert (code, cut) == (0, f"Cut short, and whole up to there: {path} (2 frames).\n")
     for letters in (b"fRAM", b""):  # a record that is not seen as one

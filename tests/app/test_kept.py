@@ -182,7 +182,7 @@ def test_backup_by_command_comes_back_elsewhere(library: Library, tmp_path: Path
     assert command("backup", place, "--compare").code == 0
     store(library, set_up(linden, "Linden 42"))
     told = command("restore", place, "--against", library.folder)
-    assert (told.code, "Sessions added: 0, changed: 0, taken away: 1." in told.out) == (0, True)
+    assert (told.code, "Sessions added: 0, changed: 0, removed: 1." in told.out) == (0, True)
     assert [command("restore", place, "--into", new).code for _ in range(2)] == [0, 1]
     with closing(Library(new)) as restored:
         assert [len(restored.sessions(one.patient_id)) for one in restored.patients.search()] == [1]

@@ -116,7 +116,7 @@ def test_checksum_flipped_bits_are_detected(tmp_path: Path) -> None:
 def test_verify_command_reports_changes(tmp_path: Path, command: Command) -> None:
     path = stored(tmp_path / "s.h5")
     good = command("verify", path)
-    assert (good.code, good.err, "Whole and unchanged" in good.out) == (0, "", True)
+    assert (good.code, good.err, "Complete and unchanged" in good.out) == (0, "", True)
     with h5py.File(path, "r+") as file:
         CHANGES["an angle"](file)
     bad = command("verify", path)

@@ -295,7 +295,7 @@ def format_calibration(calibration: CameraCalibration) -> list[str]:
         f"Middle of the picture: {middle} ± {format_rounded(found.principal_point_sd_px, 1)} px (was {was_middle})",
     ]
     if depth is None:
-        return [*out, "Depth: not checked, too few pictures with depth on the board"]
+        return [*out, "Depth: not checked, too few images with depth on the board"]
     shift = f"shift {depth.offset_m * 1e3:+.1f} ± {format_rounded(depth.offset_sd_m * 1e3, 1)} mm"
     shift = shift if math.isfinite(depth.offset_sd_m) else "no sure shift"
     scale = f"{100.0 * (depth.scale - 1.0):+.2f} ± {format_rounded(100.0 * depth.scale_sd, 2)} %"

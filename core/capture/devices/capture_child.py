@@ -33,6 +33,7 @@ from carpus.core.model.errors import (
     DriverFailed,
     DriverMissing,
 )
+from carpus.core.model.phrase import phrase
 from carpus.core.platform.child_process import end_with_owner
 
 SIZE_PX, FPS = (640, 480), 30
@@ -169,9 +170,9 @@ class StreamWatchdog:
 
     def check(self) -> None:
         """Raise :class:`CaptureFailed` if a sensor has been silent for too long."""
-        for sensor, last_s in self._last_s.items():
+        for last_s in self._last_s.values():
             if time.monotonic() - last_s > MAX_SILENCE_S:
-                raise CaptureFailed(CameraLost, f"no {sensor.name.lower()} pictures for {MAX_SILENCE_S:g} s")
+                raise CaptureFailed(CameraLost, phrase("no frames for {seconds} s", seconds=f"{MAX_SILENCE_S:g}"))
 
 
 class CaptureOutlet:
@@ -229,7 +230,7 @@ class CaptureOutlet:
         while not self.is_stopping:
             self.handle_commands(block=False)
             if unplugged.is_set():
-                raise CaptureFailed(CameraLost, "unplugged")
+                raise CaptureFailed(CameraLost, phrase("unplugged"))
             forward_images(watchdog)
             watchdog.check()
             self.send_heartbeat()
@@ -317,7 +318,9 @@ def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] 
         for camera in connected:
             if camera.is_claimed:
                 return CaptureFailed(CameraBusy, camera.name)
-        return CaptureFailed(DriverFailed, f"{connected[0].name} is plugged in, but the driver does not see it")
+        return CaptureFailed(
+            DriverFailed, phrase("{name} is plugged in, but the driver does not see it", name=connected[0].name)
+        )
     return CaptureFailed(CameraMismatch, ", ".join(listed)) if listed else CaptureFailed(CameraMissing, "")
 
 

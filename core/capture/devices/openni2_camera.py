@@ -60,7 +60,7 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
         mode = choose_mode(device.list_modes(sensor), wanted, SIZE_PX, FPS)
         if mode is None:
-            raise CaptureFailed(CameraUnsuited, f"no {wanted.name} pictures")
+            raise CaptureFailed(CameraUnsuited, f"no {wanted.name} images")
         stream = streams[sensor] = device.create_stream(sensor)
         if stream.read_mode() != mode and not stream.set_mode(mode):
             raise CaptureFailed(CameraUnsuited, f"{sensor.name.lower()} {mode}")

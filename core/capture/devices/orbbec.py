@@ -116,7 +116,7 @@ def choose_streams(ob: Any, pipeline: Any) -> OrbbecStreams:
     colors = _list_profiles(ob, pipeline, ob.OBSensorType.COLOR_SENSOR, (ob.OBFormat.RGB, ob.OBFormat.MJPG))
     depths = _list_profiles(ob, pipeline, ob.OBSensorType.DEPTH_SENSOR, (ob.OBFormat.Y16, ob.OBFormat.Z16))
     if not depths:
-        raise CaptureFailed(CameraUnsuited, "no depth")
+        raise CaptureFailed(CameraUnsuited, phrase("no depth"))
     for shrink in (1, 2):
         within = (width * shrink, height * shrink)
         fitting = [each for each in colors if each.get_width() <= within[0] and each.get_height() <= within[1]]
@@ -126,7 +126,8 @@ def choose_streams(ob: Any, pipeline: Any) -> OrbbecStreams:
             color = max(red_first or fitting, key=lambda each: _profile_score(each, within, FPS))
             rate = color.get_fps()
             return OrbbecStreams(color, max(depths, key=lambda each: _profile_score(each, DEPTH_SIZE_PX, rate)), shrink)
-    raise CaptureFailed(CameraUnsuited, f"no colour pictures of {width}x{height}")
+    size = {"width": width, "height": height}
+    raise CaptureFailed(CameraUnsuited, phrase("no colour images of {width} × {height} pixels", **size))
 
 
 def configure(ob: Any, device: Any) -> dict[str, str]:

@@ -249,7 +249,7 @@ class ProcessCamera:
         else:
             found = camera_from_field_of_view(layout.size_px, opened.field_of_view_rad)
         if found is None:
-            raise CameraFileUnreadable(name, "for pictures of another shape: {}x{}".format(*layout.size_px))
+            raise CameraFileUnreadable(name, "for images of another size: {}x{}".format(*layout.size_px))
         if opened.settings.get("registered") == "no":
             self._notice(DepthNotRegistered(name))
         if layout.format_enlargement:

@@ -118,9 +118,10 @@ def choose_streams(rs: Any, device: Any) -> RealsenseStreams:
         if pair[1].format() == rs.format.rgb8 and pair[1].width() <= width and pair[1].height() <= height
     ]
     if not fitting:
-        raise CaptureFailed(CameraUnsuited, f"no colour pictures of {width}x{height}")
+        size = {"width": width, "height": height}
+        raise CaptureFailed(CameraUnsuited, phrase("no colour images of {width} × {height} pixels", **size))
     if not depths:
-        raise CaptureFailed(CameraUnsuited, "no depth")
+        raise CaptureFailed(CameraUnsuited, phrase("no depth"))
     color = max(fitting, key=lambda pair: nearness(pair, SIZE_PX))
     return _group_by_sensor([color, max(depths, key=lambda pair: nearness(pair, DEPTH_SIZE_PX))])
 
@@ -326,10 +327,10 @@ def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
             last_s = time.monotonic()
         elif is_stopped:
             if not images.has_reported:
-                raise CaptureFailed(RecordingDamaged, "no picture in it")
+                raise CaptureFailed(RecordingDamaged, phrase("no frames"))
             return
         elif time.monotonic() - last_s > FILE_SILENCE_S:
-            raise CaptureFailed(RecordingDamaged, f"no picture for {FILE_SILENCE_S:g} s")
+            raise CaptureFailed(RecordingDamaged, phrase("no frames for {seconds} s", seconds=f"{FILE_SILENCE_S:g}"))
         outlet.send_heartbeat()
 
 

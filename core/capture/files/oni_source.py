@@ -289,7 +289,7 @@ class _ContentsReader:
         properties, pixel_format = node.properties, node.pixel_format
         width, height, fps = struct.unpack("<III", properties.get(oni.MAP_OUTPUT_MODE, bytes(12)))
         if not (1 <= width <= MAX_WIDTH_PX and 1 <= height <= MAX_HEIGHT_PX and 1 <= fps <= MAX_FPS):
-            raise self._damage_error(f"pictures of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
+            raise self._damage_error(f"frames of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
         if any(properties.get(oni.CROPPING, b"")[:4]):
             raise RecordingUnsupported(self._path, phrase("cropped frames"))
         if pixel_format not in _FORMATS[node.kind]:

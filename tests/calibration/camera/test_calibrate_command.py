@@ -78,7 +78,7 @@ def test_calibrate_command_writes_a_file_that_is_used(
     output = tmp_path / "camera_info.yaml"
     assert main(["calibrate-camera", str(recording), "--output", str(output)]) == 0
     said = capsys.readouterr().out
-    assert f"Kept for camera {SERIAL}" in said
+    assert f"Saved for camera {SERIAL}" in said
     info = read_camera_info(output)
     assert info.camera.fx_px == pytest.approx(LENS.fx_px, rel=0.003)
     assert info.registered is True
