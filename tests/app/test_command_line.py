@@ -158,7 +158,7 @@ def test_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path
     count = TumFolder(recording).info.frame_count
     assert said(data) == (0, f"Complete: {path} ({count} frames).\n")
     code, cut = said(data[: third + 100])
-    assert (code, cut) == (0, f"Cut short, and whole up to there: {path} (2 frames).\n")
+    assert (code, cut) == (0, f"Cut short, complete up to there: {path} (2 frames).\n")
     for letters in (b"fRAM", b""):  # a record that is not seen as one
         code, damaged = said(data[:third] + letters + data[third + 4 :])
         assert (code, f"1 of {count} frames" in damaged) == (1, True)

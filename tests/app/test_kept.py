@@ -98,7 +98,7 @@ def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_pat
     assert "6 lines." in command("log", "--data-folder", library.folder).out
     asked = command("erase", path)
     assert (asked.code, path.exists()) == (0, True)
-    assert f"Delete yourself: {out / 'r.pdf'}" in asked.out
+    assert f"Delete this yourself: {out / 'r.pdf'}" in asked.out
     assert (command("erase", path, "--for-good", "Heron 17").code, path.exists()) == (1, True)
     assert (command("erase", path, "--for-good", "linden 42").code, path.exists()) == (0, False)
     assert (out / "r.pdf").exists()
