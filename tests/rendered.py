@@ -18,7 +18,10 @@ Rendered = Callable[[RecordingSpec], Path]
 """Gives the folder with the recording of a spec; nobody writes into it."""
 
 FLEXION = RecordingSpec(seed=2, seconds=0.8)
-REPEATED_FLEXION = RecordingSpec(seed=4, motion="flexion", seconds=2.5, speed_hz=1.2, range_share=0.6)
+REPEATED_FLEXION = RecordingSpec(
+    seed=5, motion="flexion", seconds=4.9, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.6,
+    hand_length_mm=188.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
+)  # fmt: skip
 DEVIATION = RecordingSpec(seed=1, motion="deviation", seconds=1.0, speed_hz=1.2)
 LEFT_DEVIATION = RecordingSpec(seed=5, motion="deviation", seconds=1.3, speed_hz=0.9, hand="left", distance_m=0.68)
 

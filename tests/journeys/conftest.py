@@ -19,8 +19,8 @@ from carpus.core.pipeline import smoothing
 from carpus.ui.screens.live import recording as live_recording
 from carpus.ui.screens.live import screen as live_screen
 from carpus.ui.screens.markers import screen as markers_screen
-from tests.journeys.takes import SPEC, SPEED, take_of
-from tests.rendered import Rendered
+from tests.journeys.takes import SPEED, take_of
+from tests.rendered import REPEATED_FLEXION, Rendered
 
 DRAWN_EVERY_MS = 200
 Open = Callable[..., Desktop]
@@ -47,7 +47,7 @@ def patience(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(scope="session")
 def take(rendered: Rendered) -> Path:
     """Folder of the short take."""
-    return rendered(SPEC)
+    return rendered(REPEATED_FLEXION)
 
 
 @pytest.fixture

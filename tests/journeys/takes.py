@@ -13,14 +13,10 @@ from carpus.core.model.types import FloatArray, Frame
 from carpus.core.records.session_setup import SessionSetup
 from carpus.core.simulation.motions import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE
-from carpus.core.simulation.spec import RecordingSpec
+from tests.rendered import REPEATED_FLEXION
 
 Take = Callable[[SessionSetup, Callable[[int, int], None]], tuple[FrameSource, float]]
 
-SPEC = RecordingSpec(
-    seed=5, motion="flexion", seconds=4.9, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.6,
-    hand_length_mm=188.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
-)  # fmt: skip
 SPEED = 1.5
 """How much faster than recorded everything plays."""
 RANGE_DEG = 0.6 * 50.0
@@ -46,7 +42,7 @@ class Unpacked:
 unpacked = lru_cache(maxsize=1)(Unpacked)
 
 
-def take_of(folder: Path, fps: float = SPEC.fps) -> Take:
+def take_of(folder: Path, fps: float = REPEATED_FLEXION.fps) -> Take:
     """What :func:`app.compose.compose` takes instead of the practice patient's half minute."""
     return lambda _set_up, _progress: (unpacked(folder), STILL_S - 1.0 / fps)
 

@@ -304,7 +304,7 @@ def test_question_during_recording_loses_nothing_and_second_set_keeps_markers(
     feed.handle_notice(CameraLost("Xtion", "unplugged"))
     wait(qtbot, lambda: card().isVisible())
     assert "has stopped sending images" in card().happened.text()
-    assert "stored" in card().safe_detail.text()
+    assert "saved" in card().safe_detail.text()
     feed.handle_notice(CameraReturned("Xtion", "3 s"))
     wait(qtbot, lambda: not card().isVisible())
     recording.toggle()

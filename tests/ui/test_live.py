@@ -172,9 +172,10 @@ def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme) -> None:
 def test_live_start_stop_key_works_and_early_stop_asks(
     qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch, stored: bool
 ) -> None:
-    tried = live(FakeFeed())
+    tried = live(FakeFeed(), 0.5)
     feed, recording = tried.feed, tried.screen.recording
     tried.measuring.is_playback = stored
+    recording.start_mode = "countdown" if stored else "key"  # what is stored is played at once
     asked: list[bool] = []
     recording.early_stop_requested.connect(lambda: asked.append(True))
     clock_s = [100.0]
