@@ -16,7 +16,7 @@ from carpus.core.model.camera import Camera
 from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.model.types import Detections, FloatArray, Frame, Side
 from carpus.core.pipeline.track import TrackSettings
-from carpus.ui.shell.view_models import CalibrationAssessment, CalibrationLimits, FoundMarker, LabelProposal
+from carpus.ui.shell.view_models import CalibrationAssessment, FoundMarker, LabelProposal
 
 SAME_MARKER_PX = 3.0
 """Pixels closer than this are on the same marker."""
@@ -65,13 +65,6 @@ class HandCalibrator:
     @property
     def protocol(self) -> MarkerProtocol:
         return self._protocol
-
-    @property
-    def limits(self) -> CalibrationLimits:
-        limits = self._settings.calibration
-        return CalibrationLimits(
-            limits.least_distance_m, limits.most_tilt_deg, limits.most_residual_mm, limits.hand_length_mm
-        )
 
     @property
     def previous_straight_fingers(self) -> tuple[bool, ...]:

@@ -768,14 +768,6 @@
         <translation>Vorgeschlagenen Marker annehmen</translation>
     </message>
     <message>
-        <source>Zoom magnifier in</source>
-        <translation>Lupe vergrößern</translation>
-    </message>
-    <message>
-        <source>Zoom magnifier out</source>
-        <translation>Lupe verkleinern</translation>
-    </message>
-    <message>
         <source>New image</source>
         <translation>Neues Bild</translation>
     </message>
@@ -1232,14 +1224,6 @@
         <translation>Korrigieren</translation>
     </message>
     <message>
-        <source>{done} of {asked} found</source>
-        <translation>{done} von {asked}</translation>
-    </message>
-    <message>
-        <source>{done} of {asked}</source>
-        <translation>{done} von {asked}</translation>
-    </message>
-    <message>
         <source>Markers</source>
         <translation>Marker</translation>
     </message>
@@ -1250,10 +1234,6 @@
     <message>
         <source>Hand</source>
         <translation>Hand</translation>
-    </message>
-    <message>
-        <source>flat and still</source>
-        <translation>flach und ruhig</translation>
     </message>
     <message>
         <source>Hand length</source>
@@ -1288,28 +1268,12 @@
         <translation>ruhig, flach</translation>
     </message>
     <message>
-        <source>for {count} frames</source>
-        <translation>über {count} Bilder</translation>
-    </message>
-    <message>
         <source>Ready</source>
         <translation>Bereit</translation>
     </message>
     <message>
         <source>Cannot start yet</source>
         <translation>Start noch nicht möglich</translation>
-    </message>
-    <message>
-        <source>each within {size} mm</source>
-        <translation>je bis {size} mm</translation>
-    </message>
-    <message>
-        <source>{distance} or more</source>
-        <translation>{distance} oder mehr</translation>
-    </message>
-    <message>
-        <source>up to {angle}</source>
-        <translation>bis {angle}</translation>
     </message>
     <message>
         <source>ddd d MMM</source>
@@ -1610,18 +1574,6 @@
     <message>
         <source>number of the reading</source>
         <translation>Nummer der Ablesung</translation>
-    </message>
-    <message>
-        <source>old result</source>
-        <translation>altes Ergebnis</translation>
-    </message>
-    <message>
-        <source>new result</source>
-        <translation>neues Ergebnis</translation>
-    </message>
-    <message>
-        <source>was {angle}</source>
-        <translation>war {angle}</translation>
     </message>
     <message>
         <source>Reference, adults {span}</source>
@@ -6228,10 +6180,6 @@
         <translation>Diese Stelle verwenden</translation>
     </message>
     <message>
-        <source>typical {low}–{high} mm</source>
-        <translation>typisch {low}–{high} mm</translation>
-    </message>
-    <message>
         <source>mean of both · one point every 0.2 s, {count} points</source>
         <translation>Mittel beider · ein Punkt je 0,2 s, {count} Punkte</translation>
     </message>
@@ -7244,26 +7192,6 @@
         <translation>In diesem Bild: Abstand zur erwarteten Position</translation>
     </message>
     <message>
-        <source>Drag</source>
-        <translation>Ziehen</translation>
-    </message>
-    <message>
-        <source>move a label</source>
-        <translation>Bezeichnung verschieben</translation>
-    </message>
-    <message>
-        <source>not visible here</source>
-        <translation>hier nicht sichtbar</translation>
-    </message>
-    <message>
-        <source>frame</source>
-        <translation>Bild</translation>
-    </message>
-    <message>
-        <source>next uncertain</source>
-        <translation>nächstes unsicheres</translation>
-    </message>
-    <message>
         <source>Reading the frame…</source>
         <translation>Bild wird gelesen…</translation>
     </message>
@@ -7326,10 +7254,6 @@
     <message>
         <source>Show that frame</source>
         <translation>Dieses Bild zeigen</translation>
-    </message>
-    <message>
-        <source>undo</source>
-        <translation>rückgängig</translation>
     </message>
     <message>
         <source>Changed here: {markers}</source>
@@ -7838,14 +7762,6 @@
         <translation>Marker werden geprüft…</translation>
     </message>
     <message>
-        <source>Checking…</source>
-        <translation>Wird geprüft…</translation>
-    </message>
-    <message>
-        <source>Good so far</source>
-        <translation>So weit gut</translation>
-    </message>
-    <message>
         <source>1 marker to go</source>
         <translation>Noch 1 Marker</translation>
     </message>
@@ -7872,10 +7788,6 @@
     <message>
         <source>Looking for the markers…</source>
         <translation>Marker werden gesucht…</translation>
-    </message>
-    <message>
-        <source>Labels to confirm</source>
-        <translation>Bezeichnungen bestätigen</translation>
     </message>
     <message>
         <source>Ready to measure</source>
@@ -8679,26 +8591,6 @@ von oben</translation>
         <translation>Alle neu anklicken</translation>
     </message>
     <message>
-        <source>accept</source>
-        <translation>annehmen</translation>
-    </message>
-    <message>
-        <source>undo</source>
-        <translation>zurück</translation>
-    </message>
-    <message>
-        <source>move 1 px</source>
-        <translation>1 px verschieben</translation>
-    </message>
-    <message>
-        <source>zoom</source>
-        <translation>vergrößern</translation>
-    </message>
-    <message>
-        <source>next marker</source>
-        <translation>nächster Marker</translation>
-    </message>
-    <message>
         <source>Waiting for the camera image</source>
         <translation>Warten auf das Kamerabild</translation>
     </message>
@@ -8735,20 +8627,12 @@ von oben</translation>
         <translation>Die Bezeichnungen bleiben, bis Sie eine ändern.</translation>
     </message>
     <message>
-        <source>continue</source>
-        <translation>weiter</translation>
-    </message>
-    <message>
         <source>All labels are correct</source>
         <translation>Alle Bezeichnungen stimmen</translation>
     </message>
     <message>
         <source>New image</source>
         <translation>Neues Bild</translation>
-    </message>
-    <message>
-        <source>enlarge last image</source>
-        <translation>letztes Bild größer</translation>
     </message>
 </context>
 <context>
@@ -9448,10 +9332,6 @@ von oben</translation>
         <translation>Zeichnung speichern (SVG)…</translation>
     </message>
     <message>
-        <source>Save values (CSV)…</source>
-        <translation>Werte speichern (CSV)…</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>Speichern</translation>
     </message>
@@ -10125,10 +10005,6 @@ von oben</translation>
 </context>
 <context>
     <name>ResultsDialog</name>
-    <message>
-        <source>Wrist</source>
-        <translation>Handgelenk</translation>
-    </message>
     <message>
         <source>&amp;Stop</source>
         <translation>&amp;Stopp</translation>

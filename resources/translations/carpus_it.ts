@@ -768,14 +768,6 @@
         <translation>Accetta il marcatore proposto</translation>
     </message>
     <message>
-        <source>Zoom magnifier in</source>
-        <translation>Ingrandisci la lente</translation>
-    </message>
-    <message>
-        <source>Zoom magnifier out</source>
-        <translation>Riduci la lente</translation>
-    </message>
-    <message>
         <source>New image</source>
         <translation>Nuova immagine</translation>
     </message>
@@ -1232,14 +1224,6 @@
         <translation>Correggi le etichette</translation>
     </message>
     <message>
-        <source>{done} of {asked} found</source>
-        <translation>{done} su {asked}</translation>
-    </message>
-    <message>
-        <source>{done} of {asked}</source>
-        <translation>{done} su {asked}</translation>
-    </message>
-    <message>
         <source>Markers</source>
         <translation>Marcatori</translation>
     </message>
@@ -1250,10 +1234,6 @@
     <message>
         <source>Hand</source>
         <translation>Mano</translation>
-    </message>
-    <message>
-        <source>flat and still</source>
-        <translation>piatta e ferma</translation>
     </message>
     <message>
         <source>Hand length</source>
@@ -1288,28 +1268,12 @@
         <translation>ferma, piatta</translation>
     </message>
     <message>
-        <source>for {count} frames</source>
-        <translation>per {count} fotogrammi</translation>
-    </message>
-    <message>
         <source>Ready</source>
         <translation>Pronto</translation>
     </message>
     <message>
         <source>Cannot start yet</source>
         <translation>Non si può ancora iniziare</translation>
-    </message>
-    <message>
-        <source>each within {size} mm</source>
-        <translation>max {size} mm</translation>
-    </message>
-    <message>
-        <source>{distance} or more</source>
-        <translation>{distance} o più</translation>
-    </message>
-    <message>
-        <source>up to {angle}</source>
-        <translation>fino a {angle}</translation>
     </message>
     <message>
         <source>ddd d MMM</source>
@@ -1610,18 +1574,6 @@
     <message>
         <source>number of the reading</source>
         <translation>numero della lettura</translation>
-    </message>
-    <message>
-        <source>old result</source>
-        <translation>risultato vecchio</translation>
-    </message>
-    <message>
-        <source>new result</source>
-        <translation>risultato nuovo</translation>
-    </message>
-    <message>
-        <source>was {angle}</source>
-        <translation>era {angle}</translation>
     </message>
     <message>
         <source>Reference, adults {span}</source>
@@ -6228,10 +6180,6 @@
         <translation>Usa quel punto</translation>
     </message>
     <message>
-        <source>typical {low}–{high} mm</source>
-        <translation>{low}–{high} mm</translation>
-    </message>
-    <message>
         <source>mean of both · one point every 0.2 s, {count} points</source>
         <translation>media di entrambi · un punto ogni 0,2 s, {count} punti</translation>
     </message>
@@ -7244,26 +7192,6 @@
         <translation>In questo fotogramma: distanza dalla posizione attesa</translation>
     </message>
     <message>
-        <source>Drag</source>
-        <translation>Trascina</translation>
-    </message>
-    <message>
-        <source>move a label</source>
-        <translation>sposta un’etichetta</translation>
-    </message>
-    <message>
-        <source>not visible here</source>
-        <translation>qui non visibile</translation>
-    </message>
-    <message>
-        <source>frame</source>
-        <translation>fotogramma</translation>
-    </message>
-    <message>
-        <source>next uncertain</source>
-        <translation>incerto seguente</translation>
-    </message>
-    <message>
         <source>Reading the frame…</source>
         <translation>Lettura del fotogramma…</translation>
     </message>
@@ -7326,10 +7254,6 @@
     <message>
         <source>Show that frame</source>
         <translation>Mostra quel fotogramma</translation>
-    </message>
-    <message>
-        <source>undo</source>
-        <translation>annulla</translation>
     </message>
     <message>
         <source>Changed here: {markers}</source>
@@ -7838,14 +7762,6 @@
         <translation>Controllo dei marcatori…</translation>
     </message>
     <message>
-        <source>Checking…</source>
-        <translation>Controllo…</translation>
-    </message>
-    <message>
-        <source>Good so far</source>
-        <translation>Finora bene</translation>
-    </message>
-    <message>
         <source>1 marker to go</source>
         <translation>manca 1 marcatore</translation>
     </message>
@@ -7872,10 +7788,6 @@
     <message>
         <source>Looking for the markers…</source>
         <translation>Ricerca dei marcatori…</translation>
-    </message>
-    <message>
-        <source>Labels to confirm</source>
-        <translation>Etichette da confermare</translation>
     </message>
     <message>
         <source>Ready to measure</source>
@@ -8679,26 +8591,6 @@ dall’alto</translation>
         <translation>Rifai tutti i clic</translation>
     </message>
     <message>
-        <source>accept</source>
-        <translation>accetta</translation>
-    </message>
-    <message>
-        <source>undo</source>
-        <translation>annulla</translation>
-    </message>
-    <message>
-        <source>move 1 px</source>
-        <translation>sposta 1 px</translation>
-    </message>
-    <message>
-        <source>zoom</source>
-        <translation>zoom</translation>
-    </message>
-    <message>
-        <source>next marker</source>
-        <translation>marcatore seguente</translation>
-    </message>
-    <message>
         <source>Waiting for the camera image</source>
         <translation>In attesa dell’immagine</translation>
     </message>
@@ -8735,20 +8627,12 @@ dall’alto</translation>
         <translation>Le etichette restano finché non se ne cambia una.</translation>
     </message>
     <message>
-        <source>continue</source>
-        <translation>avanti</translation>
-    </message>
-    <message>
         <source>All labels are correct</source>
         <translation>Tutte le etichette sono corrette</translation>
     </message>
     <message>
         <source>New image</source>
         <translation>Nuova immagine</translation>
-    </message>
-    <message>
-        <source>enlarge last image</source>
-        <translation>ingrandisci ultima immagine</translation>
     </message>
 </context>
 <context>
@@ -9448,10 +9332,6 @@ dall’alto</translation>
         <translation>Salva il disegno (SVG)…</translation>
     </message>
     <message>
-        <source>Save values (CSV)…</source>
-        <translation>Salva i valori (CSV)…</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>Salva</translation>
     </message>
@@ -10125,10 +10005,6 @@ dall’alto</translation>
 </context>
 <context>
     <name>ResultsDialog</name>
-    <message>
-        <source>Wrist</source>
-        <translation>Polso</translation>
-    </message>
     <message>
         <source>&amp;Stop</source>
         <translation>&amp;Interrompi</translation>

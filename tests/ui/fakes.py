@@ -45,7 +45,6 @@ from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
 from carpus.ui.shell.view_models import (
     MAX_LISTED_PATIENTS,
     CalibrationAssessment,
-    CalibrationLimits,
     FoundMarker,
     LabelProposal,
     MeasureWithChange,
@@ -509,7 +508,6 @@ class FakeCalibrator:
         self.is_live = is_live
         self.side = self.pictures.spec.hand
         self.protocol = self.pictures.spec.marker_protocol
-        self.limits = CalibrationLimits(0.6, 15.0, 4.0, (110.0, 225.0))
         self.findings: tuple[CalibrationFinding, ...] = ()
         self.doubtful: tuple[str, ...] = ()
         self.not_found: tuple[str, ...] = self.protocol.markers if protocol == "wrist6" else ()

@@ -29,9 +29,6 @@ from carpus.core.records.session_setup import DEFAULT_SETS
 from carpus.core.records.values import Patient, SessionEntry
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.report_form import Letterhead, ReportForm
-from carpus.core.results.session_results import compute_session_results
-from carpus.core.results.valid_data import joint_curves, wrist_curves
-from carpus.core.session.values import Session
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.dialog import Dialog
@@ -47,7 +44,7 @@ from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen
 from carpus.ui.screens.check_card.screen import CheckCardScreen
 from carpus.ui.screens.comparison.screen import ComparisonScreen
 from carpus.ui.screens.correct.flow import difference_words
-from carpus.ui.screens.correct.results_dialog import ResultPair, ResultsDialog
+from carpus.ui.screens.correct.results_dialog import ResultsDialog
 from carpus.ui.screens.correct.screen import CorrectionScreen
 from carpus.ui.screens.help.screen import HelpScreen
 from carpus.ui.screens.live.screen import LiveScreen
@@ -542,25 +539,16 @@ class Gallery(GalleryWindow):
 
     correct_spots = partialmethod(_correct, pictures=False)
 
-    def _results(self, old: Session, new: Session) -> None:
+    def correct_results(self) -> None:
+        self.review()
         self.place(tab=1, camera=SAVED)
         self.shell.top_bar.reanalysis_button.show_text("New result: choose", "Choose")
         sheet = self.sheet(ResultsDialog)
-        both = ResultPair(
-            compute_session_results(new), wrist_curves(old), wrist_curves(new), joint_curves(old), joint_curves(new)
-        )
         words = difference_words(
             ResultDifference(1240, 212, 0.3, 39.2, 3, "flexion", ("MCP3",), is_live=True), ("MCP3",)
         )
-        sheet.show_results(CORRECTED, words, both)
+        sheet.show_results(CORRECTED, words)
         sheet.open()
-        sheet.curves.set_time(12.0)
-
-    def correct_results(self) -> None:
-        self.review()
-        new = self.sessions.session("session-7")
-        shift = np.where(new.timestamp_s - new.timestamp_s[0] > 20.0, 0.3, 0.0)[:, None]
-        self._results(replace(new, motion=replace(new.motion, angles_rad=new.motion.angles_rad - shift)), new)
 
     def _comparison(self, store: FakeSessions, one: str, other: str) -> ComparisonScreen:
         screen = self.show(ComparisonScreen(self.theme, self.background, store), tab=1, camera="")

@@ -55,15 +55,3 @@ def test_point_under_mouse_says_date_value_set_up_and_remarks(chart: ProgressCha
     assert "further away" in far
     move(chart.mouse_target, QPointF(5.0, 300.0))
     assert chart.current_session == -1
-
-
-def test_table_has_row_for_each_point_that_is_shown(chart: ProgressChart) -> None:
-    head, rows = chart.table()
-    rows = list(rows)
-    assert head[:3] == ["session", "when", "what"]
-    assert len(rows) == 7 * len(chart.panels())
-    assert [row[-1] for row in rows[:7]].count("no") == 1
-    chart.step(1)
-    for _ in range(6):
-        chart.zoom_in()
-    assert 0 < len(list(chart.table()[1])) < len(rows)

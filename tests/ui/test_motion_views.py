@@ -64,7 +64,6 @@ def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
     values = [value.value_deg for key in (0, 1, 2) for value in plot.read_values(key, time_s)]
     there = np.concatenate((motion.position_mm[row], motion.velocity_mm_s[row], motion.angular_velocity_deg_s[row]))
     assert np.allclose(values, there)
-    assert [plot.unit(key) for key in (0, 1, 2)] == ["mm", "mm_s", "deg_s"]
     zyz = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="zyz")
     beta = zyz.read_values(1, time_s)[0]
     assert (beta.value_deg, beta.sd_deg) == (motion.zyz_deg[row, 1], motion.zyz_sd_deg[row, 1])
@@ -83,11 +82,9 @@ def test_review_shows_path_speeds_and_zyz_in_turn(review: Reviewing) -> None:
     assert not screen.charts.curves.isVisible()
     screen.player.next_view()
     assert isinstance(screen.charts.curves._plot, MotionPlot)
-    head, rows = screen.charts.curves.table()
-    assert {"position_x_mm", "velocity_y_mm_s", "angular_velocity_z_deg_s"} <= set(head)
-    assert len(list(rows)) > 1000
+    assert screen.charts.curves._plot.kind == "place"
     screen.player.next_view()
-    assert {"zyz_beta_deg", "zyz_beta_sd_deg"} <= set(screen.charts.curves.table()[0])
+    assert screen.charts.curves._plot.kind == "zyz"
     screen.player.next_view()
     assert not isinstance(screen.charts.curves._plot, MotionPlot)
 

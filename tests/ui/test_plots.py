@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
@@ -21,14 +19,14 @@ from carpus.core.model.errors import OutputNotWritable
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import HAND21, WRIST6, joint_angle_names
 from carpus.core.model.types import ByteImage, FloatArray
-from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.repetition_rows import RepetitionChoices, RepetitionResult
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.results.valid_data import WristCurves, joint_curves, wrist_curves
 from carpus.ui.charts.axes import Panel, Scale
 from carpus.ui.charts.history import History
 from carpus.ui.charts.live_curves import LiveCurves
 from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate
-from carpus.ui.charts.session import SessionChart, SessionPlot
+from carpus.ui.charts.session import SessionChart, SessionPlot, move_edge
 from carpus.ui.charts.style import screen_style
 from carpus.ui.kit.theme import Theme
 from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
@@ -116,26 +114,8 @@ def test_frame_is_of_print_size_drawing_of_lines_and_folder_that_is_not_there_is
     view.menu.copy_picture()
     assert QGuiApplication.clipboard().image().size() == image.size()
     with qtbot.waitSignal(view.menu.fault_raised) as told:
-        view.menu.save(tmp_path / "none" / "curves.csv")
+        view.menu.save(tmp_path / "none" / "curves.png")
     assert isinstance(told.args[0], OutputNotWritable)
-
-
-def test_table_has_what_is_shown_with_gaps_empty(view: SessionChart, tmp_path: Path) -> None:
-    plot = view._plot
-    angles = plot.curves.angles_deg.copy()
-    angles[330:333] = math.nan
-    curves = WristCurves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
-    view.show_plot(SessionPlot(curves, plot.exercise, plot.repetitions))
-    view.show_window((10.0, 14.0))
-    view.menu.save(tmp_path / "curves.csv")
-    head, *rows = csv.reader(io.StringIO((tmp_path / "curves.csv").read_text("utf-8-sig")))
-    assert head[:4] == ["time_s", "flexion_deg", "flexion_sd_deg", "flexion_measured"]
-    assert len(rows) == pytest.approx(120, abs=2)
-    assert 10.0 <= float(rows[0][0]) <= float(rows[-1][0]) <= 14.0
-    empty = [row for row in rows if row[1] == ""]
-    assert len(empty) == 3
-    first = int(np.searchsorted(curves.time_s, float(rows[0][0]) - 1e-3))
-    assert float(rows[0][1]) == pytest.approx(angles[first, 1], abs=0.05)
 
 
 def pixels(image: QImage) -> ByteImage:
@@ -253,3 +233,11 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
         value = 40.0 * np.sin(time_s)
         (gap,) = decimate(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
         assert gap == pytest.approx((50.0, 62.6), abs=1.0)
+
+
+def test_edge_moved_beyond_a_neighbour_stops_there() -> None:
+    three = [RepetitionResult(1.0, 4.0, ""), RepetitionResult(4.0, 7.0, ""), RepetitionResult(8.0, 9.0, "")]
+    assert move_edge(three, 1, "start", 2.0).start_s == 4.0
+    assert move_edge(three, 1, "end", 8.5).end_s == 8.0
+    assert move_edge(three, 1, "end", 1.0).end_s == pytest.approx(4.2)
+    assert move_edge(three, 2, "end", 20.0).end_s == 20.0

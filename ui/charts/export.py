@@ -1,24 +1,21 @@
-"""Export of a chart: PNG and SVG at print size on white, or its values as a table."""
+"""Export of a chart: PNG and SVG at print size on white."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSize
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
 from carpus.ui.charts.style import paper_style
-from carpus.ui.kit.table_file import encode_table, save_private
+from carpus.ui.kit.table_file import save_private
 from carpus.ui.kit.theme import LIGHT
 
 if TYPE_CHECKING:
     from carpus.ui.charts.chart import Chart
 
-# Head and rows.
-Table: TypeAlias = tuple[Sequence[str], Iterable[Sequence[str]]]
 # Width of a page's text, at print resolution.
 WIDTH_MM, DPI = 170.0, 300.0
 SVG_UNITS_PER_POINT = 10.0
@@ -72,19 +69,16 @@ def render_svg(chart: Chart) -> bytes:
     return bytes(store.data())
 
 
-def save_chart(chart: Chart, table: Callable[[], Table], path: Path) -> None:
-    """Save the chart, or its values as a table, in the format of the file's suffix.
+def save_chart(chart: Chart, path: Path) -> None:
+    """Save the chart in the format of the file's suffix.
 
     Raises
     ------
     OutputNotWritable
             If the file cannot be written.
     """
-    kind = path.suffix.lower()
-    if kind == ".svg":
+    if path.suffix.lower() == ".svg":
         content = render_svg(chart)
-    elif kind == ".csv":
-        content = encode_table(*table())
     else:
         store = QByteArray()
         buffer = QBuffer(store)

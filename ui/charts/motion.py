@@ -27,7 +27,6 @@ AXIS_LIMITS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0)
 ZYZ_SUM = "α+γ"
 ZYZ_NAMES = ("α", "β", "γ")
 _UNITS = ("mm", "mm/s", "°/s")
-_FILE_UNITS = ("mm", "mm_s", "deg_s")
 
 
 def panel_words() -> tuple[str, str, str]:
@@ -107,16 +106,6 @@ class MotionPlot(SessionPlot):
 
     def visible_curves(self, key: int, points: int) -> list:  # type: ignore[type-arg]
         return [self._curve(series, token, points) for _, token, series in self.all_series(key)]
-
-    def curve_series(self, key: int) -> list[tuple[str, Series]]:
-        if self.kind == "zyz":
-            names = (("zyz_alpha",), ("zyz_beta",), ("zyz_gamma", "zyz_alpha_plus_gamma"))[key]
-            return [(name, series) for name, (_, _, series) in zip(names, self.all_series(key), strict=True)]
-        named = ("position", "velocity", "angular_velocity")[key]
-        return [(f"{named}_{letter.lower()}", series) for letter, _, series in self.all_series(key)]
-
-    def unit(self, key: int) -> str:
-        return "deg" if self.kind == "zyz" else _FILE_UNITS[key]
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
         out = []

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -500,26 +499,6 @@ class ProgressChart(ZoomChart):
         self._set_current_point(found)
         if found is not None:
             self.choose_current()
-
-    # --- for other programs -------------------------------------------------------------------------------
-    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
-        """Return one row for each visible session and panel."""
-        head = ["session", "when", "what", "mean_deg", "sd_deg", "repetitions", "compared"]
-        start, end = self.x_range()
-        rows = []
-        for key in panel_keys(self._progress):
-            for number, point in enumerate(self._progress.points):
-                row = find_session_measure(self._progress, number, key)
-                if row is None or not start <= point.results.when.timestamp() <= end:
-                    continue
-                sd = format_rounded(row.sd, 1) if math.isfinite(row.sd) else ""
-                what = row.subject if row.wrist_angle < 0 else row.quantity
-                when = point.results.when.isoformat(timespec="seconds")
-                compared = "yes" if point.is_comparable else "no"
-                rows.append(
-                    [point.results.session_id, when, what, format_rounded(row.mean, 1), sd, str(row.count), compared]
-                )
-        return head, rows
 
 
 def paint_progress_chart(painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress) -> None:

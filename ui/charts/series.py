@@ -88,8 +88,6 @@ class Curve:
     token: str
     # False leaves gaps open.
     is_hatched: bool = True
-    # Times the usual line width.
-    width_factor: float = 1.0
 
 
 def find_runs(flag: np.ndarray) -> list[tuple[int, int]]:
@@ -190,7 +188,7 @@ class CurveDrawing:
         on_pixels = _is_raster(painter)
         for curve, own in placed:
             pen.setColor(style.color(curve.token))
-            pen.setWidthF(curve.width_factor * style.line_width)
+            pen.setWidthF(style.line_width)
             painter.setPen(pen)
             dashes = self._dashes[slice(*np.searchsorted(self._dash_of, (own.start, own.stop)))]
             solid = self._solid[own]

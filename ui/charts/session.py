@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -15,7 +15,6 @@ from PySide6.QtGui import QFontMetricsF, QPainter
 from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.core.model.hand.forearm_rotation import axis_limits_deg, is_counted_from_thumb_up
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
-from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.results.repetition_rows import RepetitionResult
@@ -113,8 +112,6 @@ class Value:
     is_occluded: bool = False
     # Replaces angle and SD, if given.
     text: str = ""
-    # As of its curve.
-    width_factor: float = 1.0
 
     @property
     def display_text(self) -> str:
@@ -139,10 +136,6 @@ class SessionPlot:
     def has_readings(self) -> bool:
         """Whether several values stand beside a panel, one under the other."""
         return False
-
-    def unit(self, key: int) -> str:
-        """Return the unit of a panel's curves as used in column names."""
-        return "deg"
 
     @property
     def visible_s(self) -> tuple[float, float]:
@@ -201,13 +194,6 @@ class SessionPlot:
 
     def _curve(self, series: Series, token: str, points: int) -> Curve:
         return Curve(decimate(slice_time(series, *self.visible_s), max(MIN_POINTS, points)), token)
-
-    def curve_series(self, key: int) -> list[tuple[str, Series]]:
-        """Return name and whole series of every curve of a panel."""
-        name = WRIST_ANGLES[key]
-        if key == PRONOSUPINATION:  # as it is read: the files' name has the files' zero
-            name = "supination_from_thumb_up" if is_counted_from_thumb_up(self.exercise) else "rotation_from_start"
-        return [(name, self.series(key))]
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
         value, sd = read_wrist_angle(self.curves, key, time_s)
@@ -277,10 +263,6 @@ class HandPlot(SessionPlot):
             out.append(Curve(decimate(series, max(MIN_POINTS, points)), figure.token))
         return out
 
-    def curve_series(self, key: int) -> list[tuple[str, Series]]:
-        series_list = [(figure.joint, self.joint_series(figure)) for figure in self.panel_angles(key)]
-        return [(name, series) for name, series in series_list if series is not None]
-
     def read_values(self, key: int, time_s: float) -> list[Value]:
         """Return the joints that have a value beside the panel."""
         angles = [figure for figure in self.panel_angles(key) if self.joint_series(figure) is not None]
@@ -333,32 +315,14 @@ def find_nearest_row(time_s: FloatArray, at_s: float) -> int:
     return int(np.abs(time_s - at_s).argmin()) if len(time_s) else -1
 
 
-def with_edge(repetition: RepetitionResult, edge: str, time_s: float) -> RepetitionResult:
-    """Return the repetition with its ``start`` or ``end`` moved, as far as the other edge allows."""
+def move_edge(repetitions: Sequence[RepetitionResult], number: int, edge: str, time_s: float) -> RepetitionResult:
+    """Return a repetition with its ``start`` or ``end`` moved, as far as its other edge and its neighbours allow."""
+    one = repetitions[number]
     if edge == "start":
-        return replace(repetition, start_s=min(max(0.0, time_s), repetition.end_s - MIN_REPETITION_S))
-    return replace(repetition, end_s=max(time_s, repetition.start_s + MIN_REPETITION_S))
-
-
-def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
-    """Return a table of the visible frames: time, and value, SD and whether measured of every curve."""
-    placed = [(plot.unit(key), found) for key in keys for found in plot.curve_series(key)]
-    head = ["time_s"]
-    for unit, (name, _) in placed:
-        head += [f"{name}_{unit}", f"{name}_sd_{unit}", f"{name}_measured"]
-    times, (start_s, end_s) = plot.curves.time_s, plot.visible_s
-    rows = np.flatnonzero((times >= start_s) & (times <= end_s))
-
-    def cells(row: int) -> list[str]:
-        out = [f"{times[row]:.3f}"]
-        for _, (_, series) in placed:
-            value = float(series.value[row])
-            sd = math.nan if series.sd is None else float(series.sd[row])
-            out += [format_rounded(v, 1) if math.isfinite(v) else "" for v in (value, sd)]
-            out.append("" if not math.isfinite(value) else "no" if series.predicted[row] else "yes")
-        return out
-
-    return head, (cells(row) for row in rows.tolist())
+        least = repetitions[number - 1].end_s if number else 0.0
+        return replace(one, start_s=min(max(time_s, min(least, one.start_s)), one.end_s - MIN_REPETITION_S))
+    most = repetitions[number + 1].start_s if number + 1 < len(repetitions) else math.inf
+    return replace(one, end_s=max(min(time_s, max(most, one.end_s)), one.start_s + MIN_REPETITION_S))
 
 
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
@@ -546,7 +510,7 @@ class SessionChart(ZoomChart):
             (panel.point(time_s, value.value_deg), pg.mkBrush(self.plot_style.color(value.token)))
             for (panel, _), values in zip(placed, series_list, strict=True)
             for value in values
-            if not value.is_occluded and value.width_factor == 1.0 and math.isfinite(value.value_deg)
+            if not value.is_occluded and math.isfinite(value.value_deg)
         ]
         self._dots.setData(
             x=[at.x() for at, _ in dots], y=[at.y() for at, _ in dots], brush=[brush for _, brush in dots]
@@ -676,17 +640,12 @@ class SessionChart(ZoomChart):
     def _move_edge(self, edge: str, time_s: float, *, is_finished: bool) -> None:
         plot = self._plot
         assert plot is not None
-        moved = with_edge(plot.repetitions[plot.current], edge, time_s)
+        moved = move_edge(plot.repetitions, plot.current, edge, time_s)
         shown = list(plot.repetitions)
         shown[plot.current] = moved
         self.show_plot(replace(plot, repetitions=shown))
         if is_finished:
             self.edges_moved.emit(plot.current, moved.start_s, moved.end_s)
-
-    # --- for other programs -------------------------------------------------------------------------------
-    def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
-        assert self._plot is not None
-        return session_table(self._plot, [key for _, key in self.panels()])
 
 
 def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, box: QRectF) -> None:

@@ -63,10 +63,6 @@ class ZoomChart(Chart):
     def update_range(self) -> None:
         """Update what depends on the visible range."""
 
-    def table(self) -> export.Table:
-        """Return head and rows of the visible data."""
-        raise NotImplementedError
-
     # --- window -------------------------------------------------------------------------------------------
     @property
     def zoom_range(self) -> tuple[float, float] | None:
@@ -175,7 +171,6 @@ class PlotMenu(QObject):
             (self.tr("Copy image"), self.copy_picture),
             (self.tr("Save image (PNG)…"), self.save_picture),
             (self.tr("Save drawing (SVG)…"), lambda: self._save_with_dialog("svg", "SVG (*.svg)")),
-            (self.tr("Save values (CSV)…"), lambda: self._save_with_dialog("csv", "CSV (*.csv)")),
         ):
             if action is None:
                 menu.addSeparator()
@@ -202,9 +197,9 @@ class PlotMenu(QObject):
             self.save(Path(path))
 
     def save(self, path: Path) -> None:
-        """Save an image, drawing or table by the file's suffix."""
+        """Save an image or a drawing by the file's suffix."""
         try:
-            export.save_chart(self._card, self._card.table, path)
+            export.save_chart(self._card, path)
         except CarpusFault as fault:
             self.fault_raised.emit(fault)
         else:

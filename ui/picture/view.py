@@ -67,11 +67,6 @@ class FrameView(QWidget):
             self._shown_area = QRectF(center[0] - width / 2, center[1] - height * above, width, height)
         self._update_transform()
 
-    def set_area(self, area: QRectF | None) -> None:
-        """Show a part of the frame, or as much as covers the widget."""
-        self._shown_area = area
-        self._update_transform()
-
     def reserve_margins(self, top_px: int, bottom_px: int) -> None:
         """Keep the hand area between what covers the top and the bottom."""
         if (top_px, bottom_px) != (self._top_margin_px, self._bottom_margin_px):

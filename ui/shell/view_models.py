@@ -62,16 +62,6 @@ class LabelProposal:
 
 
 @dataclass(frozen=True, slots=True)
-class CalibrationLimits:
-    """Limits of the calibration's assessment, shown next to each value."""
-
-    min_distance_m: float
-    max_tilt_deg: float
-    max_residual_mm: float
-    hand_length_mm: tuple[float, float]
-
-
-@dataclass(frozen=True, slots=True)
 class CalibrationAssessment:
     """Verdict on a calibration, and the calibration unless it is blocked."""
 
@@ -90,9 +80,6 @@ class Calibrator(Protocol):
 
     @property
     def protocol(self) -> MarkerProtocol: ...
-
-    @property
-    def limits(self) -> CalibrationLimits: ...
 
     @property
     def previous_straight_fingers(self) -> tuple[bool, ...]:

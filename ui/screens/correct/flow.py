@@ -13,21 +13,19 @@ from PySide6.QtCore import Signal
 from carpus.core.pipeline.correction import correct_in_process, find_lost_corrections, load_task
 from carpus.core.records.corrections import Corrections, PendingResult, ResultDifference, compare_results
 from carpus.core.records.session_setup import PRACTICE_PATIENT
-from carpus.core.results.session_results import compute_session_results
-from carpus.core.results.valid_data import joint_curves, wrist_curves
 from carpus.core.session.label_checks import Correction, read_corrections
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import Session, SessionHeader
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.translate import to_mid_sentence, tr
-from carpus.ui.screens.correct.results_dialog import ResultPair, ResultsDialog
+from carpus.ui.screens.correct.results_dialog import ResultsDialog
 from carpus.ui.screens.correct.screen import CorrectionScreen
 from carpus.ui.shell.current_selection import practice_patient_name
 from carpus.ui.shell.flow import Flow, ScreenContext
 from carpus.ui.words import terms
 from carpus.ui.words.agreement import angle_name
-from carpus.ui.words.marker_words import finger_number, marker_title
+from carpus.ui.words.marker_words import marker_title
 
 
 class CorrectionFlow(Flow):
@@ -166,23 +164,15 @@ class CorrectionFlow(Flow):
         self._shown_result = one
         self.dialog.show_reading(self._session_label)
 
-        def read() -> tuple[str, str, ResultPair]:
+        def read() -> tuple[str, str]:
             old, new = self._corrections.read_both(one.session_id, one.path)
             corrections = [correction for correction, _ in read_corrections(new)]
             words = difference_words(
                 compare_results(old, new), find_lost_corrections(new, read_detections(one.path), corrections)
             )
-            both = ResultPair(
-                compute_session_results(new),
-                wrist_curves(old),
-                wrist_curves(new),
-                joint_curves(old),
-                joint_curves(new),
-                max((finger_number(marker) for one in corrections for marker in one.places), default=0),
-            )
-            return describe_session(old.header), words, both
+            return describe_session(old.header), words
 
-        def show_results(found: tuple[str, str, ResultPair]) -> None:
+        def show_results(found: tuple[str, str]) -> None:
             if self._shown_result == one and self.dialog.isVisible():
                 self.dialog.show_results(*found)
 

@@ -20,7 +20,7 @@ from carpus.ui.charts.session import HandPlot, SessionChart, SessionPlot
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import ENTER_KEY, Button
-from carpus.ui.kit.card import Card, KeyCaps
+from carpus.ui.kit.card import Card
 from carpus.ui.kit.keys import KEYS, bind_screen_keys
 from carpus.ui.kit.layouts import STRETCH, FittedWidget, clear_layout, column_layout, fill, row_layout, scroll_column
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Icon, StateText, Text
@@ -56,7 +56,6 @@ class CorrectionScreen(FittedWidget):
     def __init__(self, theme: Theme, background: Background, store: Corrections) -> None:
         super().__init__()
         self._theme = theme
-        self._key_caps = KeyCaps(theme, [])
         self._session_id = ""
         self._session: Session | None = None
         self._figures: SessionResults | None = None
@@ -94,7 +93,6 @@ class CorrectionScreen(FittedWidget):
 
     def _build_layout(self) -> None:
         left = column_layout((self.frame_view, 452), gap=8)
-        left.addLayout(row_layout(self._key_caps, STRETCH))
         player = Card(self._theme, 0)
         line = row_layout(
             self.transport, 32, STRETCH, self.time_text, 8, (self.scrubber, 6), 8, gap=4, margins=(12, 7, 16, 7)
@@ -116,19 +114,7 @@ class CorrectionScreen(FittedWidget):
         self._theme.changed.connect(self._fit)
         self._fit()
 
-    def _show_keys(self) -> None:
-        """Show the shortcuts that have an effect here."""
-        hints = [
-            (self.tr("Drag"), self.tr("move a label")), (KEYS["correct_hide"], self.tr("not visible here")),
-            (f"{KEYS['correct_back']} {KEYS['correct_on']}", self.tr("frame")),
-            (KEYS["correct_undo"], self.tr("undo")),
-        ]  # fmt: skip
-        if self._find_doubtful_rows().size:
-            hints.append((KEYS["correct_doubtful"], self.tr("next uncertain")))
-        self._key_caps.set_keys(hints)
-
     def _fit(self) -> None:
-        self._show_keys()
         tight = is_tight(self, self._theme)
         self._column.setFixedWidth(self._theme.px(376))
         self.curves.setVisible(not tight and self.height() >= 600 * self._theme.text_scale)

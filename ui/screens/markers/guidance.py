@@ -32,7 +32,6 @@ from carpus.ui.screens.markers.verdict import (
     LABEL_FINDINGS,
     VerdictPanel,
     headline,
-    pending_rows,
     verdict_rows,
 )
 from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
@@ -42,9 +41,6 @@ from carpus.ui.words.fault_words import finding_words
 from carpus.ui.words.marker_words import click_instruction, finger_name, marker_placement, marker_title
 
 COLUMN_PX = 376
-ALL_FITS_PX = 700
-CROWDED_BELOW_PX = 460
-GUIDED_MORE_PX = 60
 
 
 class GuidancePanel(QWidget):
@@ -71,35 +67,14 @@ class GuidancePanel(QWidget):
         fill(column, self.straight_fingers, self.verdict_panel, 8, self.bubble)
         column.addLayout(row_layout((self.primary_button, 1), self.second_button, gap=12))
 
-    def fit(self, height_px: int, *, clicks: bool, judged: bool) -> None:
-        """Give the space to what is read now.
-
-        ``clicks``: markers are being clicked; ``judged``: there is a verdict.
-        """
+    def fit(self, height_px: int, *, clicks: bool) -> None:
+        """Hide what has no room: the drawing, unless it says where to click (``clicks``), then the bubble."""
         self.setFixedWidth(self._theme.px(COLUMN_PX))
-        scale = self._theme.text_scale
-        # The question of the straight fingers and the checks are read; the drawing has done its work by then.
-        asks = not self.straight_fingers.isHidden()
-        self.bubble.set_room(height_px >= MIN_SCREEN_PX * scale)
-        # The bubble takes its height, and the air of a gap more than what gives way for it.
-        guided_px = 0 if self.bubble.isHidden() else self.bubble.sizeHint().height() + self._theme.px(GUIDED_MORE_PX)
-        room_px = height_px - guided_px
-        self.hand_drawing.setVisible(not (asks and room_px < ALL_FITS_PX * scale))
-        # With less room still, first the drawing that says where to click, then the question, else the checks.
-        crowded = height_px > 0 and room_px < CROWDED_BELOW_PX * scale
-        self.verdict_panel.setVisible(not (crowded and (clicks or asks)))
-        self.verdict_panel.set_dense(False)
-        if crowded:
+        self.bubble.set_room(height_px >= MIN_SCREEN_PX * self._theme.text_scale)
+        self.hand_drawing.show()
+        if 0 < height_px < self._min_height_px():
             self.hand_drawing.setVisible(clicks)
-            self.verdict_panel.set_dense(self._min_height_px() + guided_px > height_px)
-            if judged and self._min_height_px() > height_px:  # not even then: the checks go before the guide
-                self.bubble.set_room(False)
-        elif clicks and height_px > 0:
-            # A long name of a marker may take a line more than there is: the checks, not known yet, wait.
-            self.verdict_panel.setVisible(self._min_height_px() + guided_px <= height_px)
-        elif judged and not asks and self.bubble.isHidden() and height_px > 0:
-            # The checks are what is read now: where both have no room, the drawing waits.
-            self.hand_drawing.setVisible(self._min_height_px() <= height_px)
+            self.bubble.set_room(self._min_height_px() <= height_px)
 
     def _min_height_px(self) -> int:
         self._column.invalidate()
@@ -113,19 +88,17 @@ class GuidancePanel(QWidget):
         )
         order = calibrator.protocol.markers
         self.hand_drawing.show_markers(calibrator.side, dict.fromkeys(order, "later"))
-        self.verdict_panel.show_rows(self.tr("Checks"), "none", pending_rows(0, len(order), calibrator.limits))
+        self.verdict_panel.hide()
         self.primary_button.setEnabled(True)
         self.primary_button.set_label(self.tr("Take the image"), icon="", hint=ENTER_KEY)
         self.second_button.hide()
 
-    def show_labelling(
-        self, labels: LabelState, calibrator: Calibrator, *, sees_none: bool, is_proposing: bool
-    ) -> None:
+    def show_labelling(self, labels: LabelState, *, sees_none: bool, is_proposing: bool) -> None:
         """Show the next marker, or that the markers are being checked.
 
         ``sees_none``: there are no candidates; ``is_proposing``: labels are being proposed.
         """
-        done, asked, to_go = len(labels.confirmed_px), len(labels.order), len(labels.missing)
+        asked, to_go = len(labels.order), len(labels.missing)
         number = labels.order.index(labels.current) + 1
         self.step_label.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
         self.title_label.setText(click_instruction(labels.current))
@@ -135,9 +108,7 @@ class GuidancePanel(QWidget):
             self.title_label.setText(self.tr("Checking the markers…"))
             self.instruction_label.setText(self.tr("Hold the hand in this position until measuring begins."))
         self.hand_drawing.show_markers(labels.side, _hand_states(labels, ()))
-        words = self.tr("Checking…") if labels.is_complete else self.tr("Good so far") if done else self.tr("Checks")
-        state = "good" if done and not labels.is_complete else "none"
-        self.verdict_panel.show_rows(words, state, pending_rows(done, asked, calibrator.limits))  # type: ignore[arg-type]
+        self.verdict_panel.hide()
         left = self.tr("1 marker to go") if to_go == 1 else self.tr("{count} markers to go").format(count=to_go)
         words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers…")
         self.primary_button.setEnabled(False)
@@ -152,9 +123,9 @@ class GuidancePanel(QWidget):
         if is_proposing:
             self.step_label.show_state("none", self.tr("Looking for the markers…"))
         elif labels.proposals:
-            self._show_proposals(labels, calibrator)
+            self._show_proposals(labels)
 
-    def _show_proposals(self, labels: LabelState, calibrator: Calibrator) -> None:
+    def _show_proposals(self, labels: LabelState) -> None:
         words = proposal_words(labels)
         self.step_label.show_state(words.state, words.step, token="warn" if words.state == "warn" else "text2")
         self.title_label.setText(words.title)
@@ -163,19 +134,15 @@ class GuidancePanel(QWidget):
         self.primary_button.set_label(words.primary, icon="", hint=ENTER_KEY)
         self.second_button.set_label(self.tr("Click the markers"), hint="C")
         self.second_button.show()
-        asked, proposed = len(labels.order), len(labels.proposals) + len(labels.confirmed_px)
-        checks = self.tr("Labels to confirm")
-        self.verdict_panel.show_rows(checks, "none", pending_rows(proposed, asked, calibrator.limits, proposed=True))
 
-    def show_verdict(
-        self, labels: LabelState, calibrator: Calibrator, outcome: CalibrationAssessment, remedy: Remedy
-    ) -> None:
+    def show_verdict(self, labels: LabelState, outcome: CalibrationAssessment, remedy: Remedy) -> None:
         """Show the checks and the most likely remedy."""
         verdict = outcome.verdict
         words, state = headline(verdict)
         self.hand_drawing.show_markers(labels.side, _hand_states(labels, find_faulty_markers(verdict)))
         said = words if verdict.is_good else self.tr("Checks")
-        self.verdict_panel.show_rows(said, state, verdict_rows(verdict, calibrator.limits))
+        self.verdict_panel.show_rows(said, state, verdict_rows(verdict))
+        self.verdict_panel.show()
         self.primary_button.setEnabled(True)
         if verdict.is_good:
             self.step_label.show_state("good", self.tr("All markers found"))

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen, QWheelEvent
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
 
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
@@ -42,7 +42,6 @@ ARROWS = {
 }  # fmt: skip
 BIG_STEP_PX = 10.0
 ON_PICTURE_DOUBTFUL = DARK.warn
-MIN_ZOOM, MAX_ZOOM, ZOOM_STEP = 1.0, 6.0, 1.25
 
 
 MAX_FULL_LABELS = 6
@@ -83,7 +82,6 @@ class MarkerFrameView(FrameView):
         self.blobs_px: FloatArray = np.empty((0, 2))
         self.no_marker_words = ""
         self._is_dragging = False
-        self._zoom = MIN_ZOOM
         self._is_keyboard_cursor = False
         self.overlay = lambda painter, _: self._paint_marks(painter)
         self.setMouseTracking(True)
@@ -118,23 +116,6 @@ class MarkerFrameView(FrameView):
             self.cursor_moved.emit(self.cursor_px)
             self.update()
 
-    def zoom(self, by: int, around: QPointF | None = None) -> None:
-        """Zoom in (+1) or out (-1) around a place of the widget or the cursor."""
-        if self.image is None:
-            return
-        self._zoom = float(np.clip(self._zoom * ZOOM_STEP**by, MIN_ZOOM, MAX_ZOOM))
-        if self._zoom <= MIN_ZOOM + 1e-6:
-            self.set_area(None)
-            return
-        center = self.to_pixel(around) if around is not None else self.cursor_px
-        if center is None:
-            center = np.array([self.image.width() / 2, self.image.height() / 2])
-        width, height = self.image.width() / self._zoom, self.image.height() / self._zoom
-        share = np.array([0.5, 0.5])
-        if around is not None:
-            share = np.array([around.x() / max(self.width(), 1), around.y() / max(self.height(), 1)])
-        self.set_area(QRectF(center[0] - share[0] * width, center[1] - share[1] * height, width, height))
-
     # --- input --------------------------------------------------------------------------------------------
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         self._is_keyboard_cursor = False
@@ -157,9 +138,6 @@ class MarkerFrameView(FrameView):
         if self._is_dragging:
             self._is_dragging = False
             self.clicked.emit(self.to_pixel(event.position()))
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        self.zoom(1 if event.angleDelta().y() > 0 else -1, event.position())
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         step = ARROWS.get(Qt.Key(event.key()))

@@ -13,7 +13,6 @@ from carpus.core.model.fault_text import marker_name
 from carpus.core.model.types import ByteImage, FloatArray
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
-from carpus.ui.kit.card import KeyCaps
 from carpus.ui.kit.keys import bind_key
 from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, require_parent, row_layout
 from carpus.ui.kit.text import REGULAR, Text
@@ -59,7 +58,6 @@ class MarkersScreen(FittedWidget):
         self.new_frame_button = Button(theme, self.tr("New image"), "quiet", hint="N", height_px=32)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.angle_dialog = StartAngleDialog(self, theme)
-        self.key_caps = KeyCaps(theme, self._current_keys())
         self._build_layout()
         self._connect()
         self._preview_timer = QTimer(self, interval=PREVIEW_EVERY_MS)
@@ -67,7 +65,6 @@ class MarkersScreen(FittedWidget):
 
     def _build_layout(self) -> None:
         left = column_layout((self.picture, 1), gap=8)
-        left.addLayout(row_layout(self.key_caps, STRETCH))
         self._below = QWidget()
         below = self._below_row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self._below)
         below.setContentsMargins(0, 0, 0, 0)
@@ -93,20 +90,6 @@ class MarkersScreen(FittedWidget):
         self._theme.changed.connect(self._fit)
         self._fit()
 
-    def _current_keys(self) -> list[tuple[str, str]]:
-        """Return the keys that work now, with their meaning."""
-        clicking = self.labels
-        clicks = clicking is not None and bool(clicking.missing)
-        keys = [("Space", self.tr("accept"))] if clicks else []
-        if not clicks or (clicking is not None and clicking.proposals):
-            keys.insert(0, ("Enter", self.tr("continue")))
-        if clicking is None:
-            return keys  # nothing to undo, to move or to name
-        return [
-            *keys, ("Backspace", self.tr("undo")), ("← ↑ → ↓", self.tr("move 1 px")), ("+ −", self.tr("zoom")),
-            ("Tab", self.tr("next marker")), ("M", self.tr("enlarge last image")),
-        ]  # fmt: skip
-
     def _fit(self) -> None:
         """Keep space for two lines and the buttons, so that the frame keeps its height."""
         if self._is_fitting:  # what is shown meanwhile lays the screen out, which asks again
@@ -119,7 +102,7 @@ class MarkersScreen(FittedWidget):
         clicks = self.labels is not None and not self.labels.is_complete
         height_px = self.height()
         try:
-            self.guidance.fit(height_px, clicks=clicks, judged=self.labelling.outcome is not None)
+            self.guidance.fit(height_px, clicks=clicks)
         finally:
             self._is_fitting = False
         if self.height() != height_px:
@@ -147,8 +130,7 @@ class MarkersScreen(FittedWidget):
             bind_key(self, f"finger_{number}", partial(self._toggle_straight, number))
         picture.installEventFilter(self)
         actions: dict[str, Callable[[], object]] = {
-            "undo": naming.undo, "zoom_in": lambda: picture.zoom(1), "zoom_out": lambda: picture.zoom(-1),
-            "swap": naming.swap, "new_picture": self.preview, "pedal": self.primary_button.click,
+            "undo": naming.undo, "swap": naming.swap, "new_picture": self.preview, "pedal": self.primary_button.click,
             "last_picture": self.previous_photo.toggle, "click_again": naming.click_again,
         }  # fmt: skip
         for name, action in actions.items():
@@ -188,7 +170,7 @@ class MarkersScreen(FittedWidget):
             return
         self.labelling.reset()
         self.picture.labels = None
-        self.picture.set_area(None)
+        self.picture.set_hand_area(None)
         self.picture.clear(self.tr("Waiting for the camera image"))
         self._preview_timer.start()
         self._show_newest()
@@ -324,7 +306,6 @@ class MarkersScreen(FittedWidget):
         if calibrator is None:
             return
         self.new_frame_button.setEnabled(clicking is not None)
-        self.key_caps.set_keys(self._current_keys())
         named = clicking is not None and clicking.is_complete
         self.guidance.straight_fingers.setVisible(named and calibrator.protocol.has_fingers)
         self._fit()
@@ -343,7 +324,7 @@ class MarkersScreen(FittedWidget):
             self.hint.setText("")
         elif outcome is None:
             sees_none = not clicking.confirmed_px and calibrator.count_candidates() < MIN_MARKERS
-            self.guidance.show_labelling(clicking, calibrator, sees_none=sees_none, is_proposing=naming.is_proposing)
+            self.guidance.show_labelling(clicking, sees_none=sees_none, is_proposing=naming.is_proposing)
             self.hint.setText(self.tr("The hand lies flat and still, palm down. Fingers that stay bent are fine."))
             self._fit()  # by the words of this marker
         else:
@@ -351,7 +332,7 @@ class MarkersScreen(FittedWidget):
             self.picture.show_wrong(wrong)
             spots = [one for one in outcome.verdict.findings if one.spot_px]
             self.picture.show_questioned_blobs([(one.spot_px, one.markers[0] if one.markers else "") for one in spots])
-            self.guidance.show_verdict(clicking, calibrator, outcome, remedy)
+            self.guidance.show_verdict(clicking, outcome, remedy)
             if doubtful:
                 self.click_again_button.set_label(self.tr("Click these again") if wrong else self.tr("Click all again"))
                 self.click_again_button.setVisible(remedy != "click_these")  # the primary says it

@@ -1,4 +1,4 @@
-"""The verdict of the calibration as five rows: state, item, value, limit."""
+"""The verdict of the calibration as five rows: state, item, value."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ from carpus.ui.kit.card import Card, Separator
 from carpus.ui.kit.icons import State
 from carpus.ui.kit.layouts import grid_layout, row_layout
 from carpus.ui.kit.numbers import NARROW_GAP, UNKNOWN
-from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, StateText, Text
+from carpus.ui.kit.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
-from carpus.ui.shell.view_models import CalibrationLimits
 
 MARKER_FINDINGS = (
     "click_on_no_marker",
@@ -47,23 +46,9 @@ class VerdictRow:
     state: State
     thing: str
     value: str
-    limit: str
 
 
-def pending_rows(done: int, asked: int, limits: CalibrationLimits, *, proposed: bool = False) -> list[VerdictRow]:
-    """Return the rows while markers are being labelled, or their labels are only ``proposed``."""
-    pattern = tr("{done} of {asked} found") if proposed else tr("{done} of {asked}")
-    count = pattern.format(done=done, asked=asked)
-    return [
-        VerdictRow("good" if done and not proposed else "open", tr("Markers"), count, _residual_limit(limits)),
-        VerdictRow("open", tr("Distance"), "", _distance_limit(limits)),
-        VerdictRow("open", tr("Camera tilt"), "", _tilt_limit(limits)),
-        VerdictRow("open", tr("Hand"), "", tr("flat and still")),
-        VerdictRow("open", tr("Hand length"), "", _length_limit(limits)),
-    ]
-
-
-def verdict_rows(verdict: Verdict, limits: CalibrationLimits) -> list[VerdictRow]:
+def verdict_rows(verdict: Verdict) -> list[VerdictRow]:
     """Return the rows of an assessed calibration."""
     kinds = {finding.kind: finding for finding in verdict.findings}
     marker_faults = [kinds[kind] for kind in MARKER_FINDINGS if kind in kinds]
@@ -80,7 +65,6 @@ def verdict_rows(verdict: Verdict, limits: CalibrationLimits) -> list[VerdictRow
         markers = tr("within {size} mm").format(size=numbers.format_fixed(worst, 1))
     still = [kinds[kind] for kind in STILL_FINDINGS if kind in kinds]
     hand = tr("moved") if "moved" in kinds else tr("still, flat") if verdict.frames_used else UNKNOWN
-    pictures = tr("for {count} frames").format(count=verdict.frames_used) if verdict.frames_used else ""
     distance = _finding_state(kinds.get("distance"), verdict.distance_m)
     tilt = _finding_state(kinds.get("tilt"), verdict.tilt_deg)
     length = _finding_state(
@@ -88,11 +72,11 @@ def verdict_rows(verdict: Verdict, limits: CalibrationLimits) -> list[VerdictRow
         verdict.hand_length_mm,
     )
     return [
-        VerdictRow(_summary_state(marker_faults), tr("Markers"), markers, _residual_limit(limits)),
-        VerdictRow(distance, tr("Distance"), _cm(verdict.distance_m), _distance_limit(limits)),
-        VerdictRow(tilt, tr("Camera tilt"), _degrees(verdict.tilt_deg), _tilt_limit(limits)),
-        VerdictRow(_summary_state(still) if verdict.frames_used else "open", tr("Hand"), hand, pictures),
-        VerdictRow(length, tr("Hand length"), _mm(verdict.hand_length_mm), _length_limit(limits)),
+        VerdictRow(_summary_state(marker_faults), tr("Markers"), markers),
+        VerdictRow(distance, tr("Distance"), _cm(verdict.distance_m)),
+        VerdictRow(tilt, tr("Camera tilt"), _degrees(verdict.tilt_deg)),
+        VerdictRow(_summary_state(still) if verdict.frames_used else "open", tr("Hand"), hand),
+        VerdictRow(length, tr("Hand length"), _mm(verdict.hand_length_mm)),
     ]
 
 
@@ -108,44 +92,32 @@ class VerdictPanel(Card):
         self.body.setSpacing(0)
         self._grid = grid_layout(10, 0, stretches=(0, 0, 1), margins=(0, 8, 0, 0))
         self.body.addLayout(self._grid)
-        self._lines: list[tuple[StateText, Text, Text, Text]] = []
-        self._is_dense = False
+        self._lines: list[tuple[StateText, Text, Text]] = []
 
     def show_rows(self, headline: str, state: State, rows: Sequence[VerdictRow]) -> None:
         self.headline.setText(headline)
         self.sign.show_state(state, "")
         while len(self._lines) < len(rows):
             self._add_line()
-        for (icon, thing, value, limit), row in zip(self._lines, rows, strict=True):
+        for (icon, thing, value), row in zip(self._lines, rows, strict=True):
             icon.show_state(row.state, "")
             words = {"good": self.tr("good"), "warn": self.tr("uncertain"), "bad": self.tr("wrong")}
             icon.setAccessibleName(words.get(row.state, self.tr("open")))
             thing.setText(row.thing)
             value.setText(row.value)
-            limit.setText(row.limit)
 
     def _add_line(self) -> None:
         place = 2 * len(self._lines)
         line = Separator(self._theme)
-        self._grid.addWidget(line, place, 0, 1, 4)
+        self._grid.addWidget(line, place, 0, 1, 3)
         icon = StateText(self._theme, icon_px=16)
         cells = (
             icon, Text(self._theme, "", 14, REGULAR, "text2"), Text(self._theme, "", 14, SEMIBOLD),
-            ElidedText(self._theme, "", 12, MEDIUM, "text2"),
         )  # fmt: skip
         for column, cell in enumerate(cells):
             self._grid.addWidget(cell, place + 1, column)
         self._lines.append(cells)
-        self.set_dense(self._is_dense)
-
-    def set_dense(self, dense: bool) -> None:
-        """Move rows closer together, for large text."""
-        self._is_dense = dense
-        for number in range(len(self._lines)):
-            self._grid.setRowMinimumHeight(2 * number + 1, 0 if dense else self._theme.px(29))
-        self._grid.setContentsMargins(0, 2 if dense else 8, 0, 0)
-        self.body.invalidate()  # how high it is now is asked at once
-        self.updateGeometry()
+        self._grid.setRowMinimumHeight(place + 1, self._theme.px(29))
 
     def states(self) -> list[State]:
         return [line[0].state for line in self._lines]
@@ -169,23 +141,6 @@ def _finding_state(finding: CalibrationFinding | None, value: float) -> State:
     if not math.isfinite(value):
         return "open"
     return "good" if finding is None else "bad" if finding.blocks else "warn"
-
-
-def _residual_limit(limits: CalibrationLimits) -> str:
-    return tr("each within {size} mm").format(size=numbers.format_significant(limits.max_residual_mm, 6))
-
-
-def _distance_limit(limits: CalibrationLimits) -> str:
-    return tr("{distance} or more").format(distance=_cm(limits.min_distance_m))
-
-
-def _tilt_limit(limits: CalibrationLimits) -> str:
-    return tr("up to {angle}").format(angle=_degrees(limits.max_tilt_deg))
-
-
-def _length_limit(limits: CalibrationLimits) -> str:
-    low, high = limits.hand_length_mm
-    return tr("typical {low}–{high} mm").format(low=format_rounded(low), high=format_rounded(high))
 
 
 def _cm(value_m: float) -> str:

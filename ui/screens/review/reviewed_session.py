@@ -20,7 +20,7 @@ from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.session_results import SessionResults, compute_session_results
 from carpus.core.results.valid_data import JointCurves, WristCurves, joint_curves, wrist_curves
 from carpus.core.session.values import Session
-from carpus.ui.charts.session import read_wrist_angle, with_edge
+from carpus.ui.charts.session import move_edge, read_wrist_angle
 from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr
 from carpus.ui.picture.session_frames import project_markers
@@ -140,7 +140,7 @@ class ReviewedSession:
         one = self.results.repetitions[number]
         at_start = abs(time_s - one.start_s) <= abs(time_s - one.end_s)
         edge, at_s = ("start", one.start_s) if at_start else ("end", one.end_s)
-        moved = with_edge(one, edge, at_s + by_s)
+        moved = move_edge(self.results.repetitions, number, edge, at_s + by_s)
         return self.set_edges(number, moved.start_s, moved.end_s)
 
 
