@@ -22,12 +22,12 @@ FORBIDDEN = {
         r"Seitbewegung", r"Drehung", r"Zeitverschiebung", r"ungemessen", r"Spitzentempo", r"berichtigen",
         r"Deckung", r"Wiedersehen", r"versiegel\w*", r"über Fehler", r"Bilder/s",
         r"Bemerkung\w*", r"IT-Support", r"Verteiler", r"Hinlangen", r"Flüssigkeit", r"von Hand", r"Markerset",
-        r"Berichtigt", r"zählt nicht", r"zweifelhaft\w*", r"Platte wie",
+        r"Berichtigt", r"zählt nicht", r"Festplatten?", r"zweifelhaft\w*", r"Platte wie",
     ),
     "it": (
         r"session[ei]", r"mano persa", r"segni di troppo", r"lettere di troppo", r"nocc(a|he)", r"ferma e rivedi",
         r"dischett[oi]", r"intanto", r"registrazione profondità-colore", r"va oltre", r"sigilla\w*", r"\w'\w+",
-        r"assistenza informatica", r"lisciat\w+", r"fonte", r"cliccare", r"referto", r"a mano", r"scheda di controllo",
+        r"assistenza informatica", r"lisciat\w+", r"fonte", r"cliccare", r"refert[oi]", r"a mano", r"scheda di controllo",
         r"«", r"non conta", r"dubbi[oae]?", r"immagine (precedente|seguente|incerta)",
     ),
 }  # fmt: skip

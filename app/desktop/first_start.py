@@ -260,7 +260,7 @@ class WelcomeController(QObject):
         ]
         if not {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts()):
             remedy = self.tr("Install Carpus again: part of it is missing or damaged.")
-            checks.append(Check(self.tr("Fonts"), "bad", self.tr("the program’s own cannot be used"), remedy))
+            checks.append(Check(self.tr("Fonts"), "bad", self.tr("the fonts of Carpus cannot be used"), remedy))
         return checks
 
     def _to_check(self, finding: Finding) -> Check:

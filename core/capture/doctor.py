@@ -184,7 +184,7 @@ def check_fonts() -> Finding:
         return Finding(
             phrase("Fonts"),
             "bad",
-            phrase("none of the program’s own"),
+            phrase("no fonts of Carpus"),
             phrase("Install Carpus again: part of it is missing."),
         )
     return Finding(phrase("Fonts"), "good", phrase("{count} faces", count=len(faces)))
@@ -411,7 +411,7 @@ def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list
 def check_clock(camera_s: float, computer_s: float, clock: str) -> Finding:
     """Check the camera's clock against the computer's; the tolerance covers the transfer of images."""
     text = phrase(
-        "{own_s} s while {here_s} s passed here",
+        "camera clock {own_s} s, computer clock {here_s} s",
         own_s=format_rounded(camera_s, 2),
         here_s=format_rounded(computer_s, 2),
     )

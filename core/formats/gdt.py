@@ -80,24 +80,24 @@ def parse_fields(content: bytes, name: str = "") -> tuple[list[tuple[str, str]],
     for number, line in enumerate(lines, 1):
         length, identifier = line[:3], line[3:7]
         if not (length.isdigit() and identifier.isdigit() and len(identifier) == 4):
-            raise GdtUnreadable(name, phrase("line {number} is not a line of GDT").format(number=number))
+            raise GdtUnreadable(name, phrase("line {number} is not a GDT line").format(number=number))
         if int(length) != len(line) + 2:
-            raise GdtUnreadable(name, phrase("line {number} is longer or shorter than it states").format(number=number))
+            raise GdtUnreadable(name, phrase("line {number}: length differs from the stated one").format(number=number))
         if identifier == RECORD_TYPE.encode() and raw:
             break
         raw.append((identifier.decode(), line[7:]))
     if raw[0][0] != RECORD_TYPE:
-        raise GdtUnreadable(name, phrase("it does not begin with the type of its record"))
+        raise GdtUnreadable(name, phrase("no record type at the start"))
     stated = next((text for identifier, text in raw if identifier == RECORD_LENGTH), b"")
     size = sum(len(text) + _LINE_OVERHEAD for _, text in raw)
     if stated.strip().isdigit() and size < int(stated):
-        raise GdtUnreadable(name, phrase("its end is missing"))
+        raise GdtUnreadable(name, phrase("end missing"))
     character_set = next((text for identifier, text in raw if identifier == CHARACTER_SET), b"").decode(
         "ascii", "replace"
     )
     character_set = character_set.strip() or DEFAULT_CHARACTER_SET
     if character_set not in ENCODINGS:
-        raise GdtUnreadable(name, phrase("character set {number} is unknown").format(number=character_set))
+        raise GdtUnreadable(name, phrase("unknown character set {number}").format(number=character_set))
     return [(identifier, _decode(text, character_set)) for identifier, text in raw], character_set
 
 
@@ -124,10 +124,10 @@ def parse_request(content: bytes, name: str = "") -> GdtRequest:
     fields, character_set = parse_fields(content, name)
     first = {identifier: text.strip() for identifier, text in reversed(fields)}
     if first[RECORD_TYPE] not in REQUEST_TYPES:
-        detail = phrase("it is a record {number}, and 6302 or 6301 is expected").format(number=first[RECORD_TYPE])
+        detail = phrase("record type {number}, 6302 or 6301 expected").format(number=first[RECORD_TYPE])
         raise GdtUnreadable(name, detail)
     if not first.get(PATIENT_NUMBER):
-        raise GdtUnreadable(name, phrase("it names no patient number"))
+        raise GdtUnreadable(name, phrase("no patient number"))
     return GdtRequest(
         first[PATIENT_NUMBER],
         first.get(LAST_NAME, ""),
@@ -147,7 +147,7 @@ def _parse_date(text: str, name: str) -> date | None:
     try:
         return datetime.strptime(text, "%d%m%Y").date()
     except ValueError as cause:
-        raise GdtUnreadable(name, phrase("its birth date is none ({text})").format(text=text)) from cause
+        raise GdtUnreadable(name, phrase("invalid birth date ({text})").format(text=text)) from cause
 
 
 def build_tests(measures: Iterable[Measure], describe: Callable[[Measure], str]) -> list[GdtTest]:

@@ -96,7 +96,7 @@ def _answer(question: Callable[..., Any], path: Path, arguments: tuple[Any, ...]
     except CarpusFault as fault:
         return type(fault).__name__, (fault.subject, fault.detail)
     except MemoryError:
-        return "SessionUnreadable", (str(path), "damaged: more memory needed than a session can use")
+        return "SessionUnreadable", (str(path), "damaged: needs more memory than any session")
     except Exception as cause:  # reported to the owner, not printed
         log.info("reading %s: %s: %s", path, type(cause).__name__, cause)
         return "SessionUnreadable", (str(path), phrase("damaged"))

@@ -176,7 +176,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     except CarpusFault:
         raise
     except MemoryError as cause:
-        raise SessionUnreadable(path, phrase("damaged: more memory needed than a session can use")) from cause
+        raise SessionUnreadable(path, phrase("damaged: needs more memory than any session")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
         # The library's own message helps developers only.
         log.info("reading %s: %s", path, cause)

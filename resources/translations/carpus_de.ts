@@ -1861,7 +1861,7 @@
     </message>
     <message>
         <source>Pose within 15° while occluded</source>
-        <translation>Haltung auf 15° bekannt, während verdeckt</translation>
+        <translation>Haltung auf 15° genau, während verdeckt</translation>
     </message>
     <message>
         <source>Jump on reappearance</source>
@@ -3077,7 +3077,7 @@
     </message>
     <message>
         <source>Choose a folder on another disk.</source>
-        <translation>Wählen Sie einen Ordner auf einer anderen Festplatte.</translation>
+        <translation>Wählen Sie einen Ordner auf einem anderen Datenträger.</translation>
     </message>
     <message>
         <source>Choose another name.</source>
@@ -3174,10 +3174,6 @@
     <message>
         <source>Install Python 3.11 or newer and install Carpus with it.</source>
         <translation>Installieren Sie Python 3.11 oder neuer und damit Carpus.</translation>
-    </message>
-    <message>
-        <source>Install it again.</source>
-        <translation>Installieren Sie es neu.</translation>
     </message>
     <message>
         <source>Install the package {package}, which is next to the Carpus package.</source>
@@ -3501,7 +3497,7 @@
     </message>
     <message>
         <source>Unplug the camera, plug it in again and start once more.</source>
-        <translation>Ziehen Sie die Kamera ab, stecken Sie sie wieder ein und starten Sie neu.</translation>
+        <translation>Ziehen Sie die Kamera ab, schließen Sie sie wieder an und starten Sie neu.</translation>
     </message>
     <message>
         <source>Use C3D, TRC, MOT, a CSV table with its column map, or a session.</source>
@@ -3646,10 +3642,6 @@
     <message>
         <source>damaged: depth sensor, {cause}</source>
         <translation>beschädigt: Tiefensensor, {cause}</translation>
-    </message>
-    <message>
-        <source>damaged: more memory needed than a session can use</source>
-        <translation>beschädigt: mehr Speicher verlangt, als eine Sitzung braucht</translation>
     </message>
     <message>
         <source>damaged: not readable to the end</source>
@@ -4032,10 +4024,6 @@
         <translation>keine udev-Regeln für die Kamera</translation>
     </message>
     <message>
-        <source>none of the program’s own</source>
-        <translation>keine eigenen des Programms</translation>
-    </message>
-    <message>
         <source>none plugged in</source>
         <translation>keine angeschlossen</translation>
     </message>
@@ -4234,10 +4222,6 @@
     <message>
         <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
         <translation>{name} ({vendor}:{product}) an {node}, {speed_mbit} Mbit/s</translation>
-    </message>
-    <message>
-        <source>{own_s} s while {here_s} s passed here</source>
-        <translation>{own_s} s, während hier {here_s} s vergingen</translation>
     </message>
     <message>
         <source>{remedy} In a dark room the camera slows down: add light.</source>
@@ -4837,7 +4821,7 @@
     </message>
     <message>
         <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
-        <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, das nächste Mal weniger machen und uns anrufen.</translation>
+        <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, machen Sie das nächste Mal weniger und rufen Sie uns an.</translation>
     </message>
     <message>
         <source>The computer is too busy</source>
@@ -5313,7 +5297,7 @@
     </message>
     <message>
         <source>Back up to another disk now, and replace this one.</source>
-        <translation>Sichern Sie jetzt auf eine andere Festplatte, und ersetzen Sie diese.</translation>
+        <translation>Sichern Sie jetzt auf einen anderen Datenträger, und ersetzen Sie diesen.</translation>
     </message>
     <message>
         <source>Backup</source>
@@ -5417,7 +5401,7 @@
     </message>
     <message>
         <source>Continue. When the disk or network is back, Carpus moves the session automatically.</source>
-        <translation>Fahren Sie fort. Wenn Festplatte oder Netz wieder da sind, verschiebt Carpus die Sitzung automatisch.</translation>
+        <translation>Fahren Sie fort. Wenn Datenträger oder Netz wieder da sind, verschiebt Carpus die Sitzung automatisch.</translation>
     </message>
     <message>
         <source>Copy the recording again from its source.</source>
@@ -5601,7 +5585,7 @@
     </message>
     <message>
         <source>Plug the camera directly into the computer.</source>
-        <translation>Stecken Sie die Kamera direkt am Computer ein.</translation>
+        <translation>Schließen Sie die Kamera direkt am Computer an.</translation>
     </message>
     <message>
         <source>Recent changes to the patient list cannot be read, because the folder is read-only: {subject}.</source>
@@ -5609,7 +5593,7 @@
     </message>
     <message>
         <source>Reconnect the session folder or its disk, then back up again.</source>
-        <translation>Verbinden Sie den Sitzungsordner oder seine Festplatte wieder, und sichern Sie dann noch einmal.</translation>
+        <translation>Verbinden Sie den Sitzungsordner oder seinen Datenträger wieder, und sichern Sie dann noch einmal.</translation>
     </message>
     <message>
         <source>Record again with colour and depth of the same size.</source>
@@ -5621,7 +5605,7 @@
     </message>
     <message>
         <source>Record to a disk in this computer, and close other programs.</source>
-        <translation>Nehmen Sie auf eine Festplatte in diesem Computer auf, und schließen Sie andere Programme.</translation>
+        <translation>Nehmen Sie auf einen Datenträger in diesem Computer auf, und schließen Sie andere Programme.</translation>
     </message>
     <message>
         <source>Recording</source>
@@ -5745,11 +5729,11 @@
     </message>
     <message>
         <source>The disk has no space left for {subject} ({detail}).</source>
-        <translation>Die Festplatte hat keinen Platz mehr für {subject} ({detail}).</translation>
+        <translation>Der Datenträger hat keinen Platz mehr für {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The disk is too slow, so the recording has ended: {subject} ({detail}).</source>
-        <translation>Die Festplatte ist zu langsam, deshalb wurde die Aufnahme beendet: {subject} ({detail}).</translation>
+        <translation>Der Datenträger ist zu langsam, deshalb wurde die Aufnahme beendet: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The file was not changed. All other sessions are safe.</source>
@@ -6062,38 +6046,6 @@
     <message>
         <source>The practice system’s file cannot be read: {subject} ({detail}).</source>
         <translation>Die Datei der Praxissoftware kann nicht gelesen werden: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>character set {number} is unknown</source>
-        <translation>Zeichensatz {number} ist unbekannt</translation>
-    </message>
-    <message>
-        <source>it does not begin with the type of its record</source>
-        <translation>sie beginnt nicht mit der Satzart</translation>
-    </message>
-    <message>
-        <source>it is a record {number}, and 6302 or 6301 is expected</source>
-        <translation>sie enthält die Satzart {number}, erwartet wird 6302 oder 6301</translation>
-    </message>
-    <message>
-        <source>it names no patient number</source>
-        <translation>die Patientennummer fehlt</translation>
-    </message>
-    <message>
-        <source>its birth date is none ({text})</source>
-        <translation>das Geburtsdatum ist ungültig ({text})</translation>
-    </message>
-    <message>
-        <source>its end is missing</source>
-        <translation>das Ende fehlt</translation>
-    </message>
-    <message>
-        <source>line {number} is longer or shorter than it states</source>
-        <translation>Zeile {number} ist länger oder kürzer als angegeben</translation>
-    </message>
-    <message>
-        <source>line {number} is not a line of GDT</source>
-        <translation>Zeile {number} ist keine GDT-Zeile</translation>
     </message>
     <message>
         <source>Rotation</source>
@@ -6432,10 +6384,6 @@
         <translation>männlich</translation>
     </message>
     <message>
-        <source>diverse</source>
-        <translation>divers</translation>
-    </message>
-    <message>
         <source>Connect the expected camera. Measurement and recording then continue automatically.</source>
         <translation>Schließen Sie die erwartete Kamera an. Messung und Aufnahme laufen dann automatisch weiter.</translation>
     </message>
@@ -6493,7 +6441,7 @@
     </message>
     <message>
         <source>Remove files that do not belong to Carpus, or choose another disk.</source>
-        <translation>Entfernen Sie Dateien, die nicht zu Carpus gehören, oder wählen Sie eine andere Festplatte.</translation>
+        <translation>Entfernen Sie Dateien, die nicht zu Carpus gehören, oder wählen Sie einen anderen Datenträger.</translation>
     </message>
     <message>
         <source>The MDC values stay as they are.</source>
@@ -6506,6 +6454,58 @@
     <message>
         <source>The recording has unusual units and is read that way: {subject} ({detail}).</source>
         <translation>Die Aufnahme hat ungewöhnliche Einheiten und wird so gelesen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Reinstall it.</source>
+        <translation>Installieren Sie es neu.</translation>
+    </message>
+    <message>
+        <source>damaged: needs more memory than any session</source>
+        <translation>beschädigt: braucht mehr Speicher als jede Sitzung</translation>
+    </message>
+    <message>
+        <source>no fonts of Carpus</source>
+        <translation>keine Schriften von Carpus</translation>
+    </message>
+    <message>
+        <source>camera clock {own_s} s, computer clock {here_s} s</source>
+        <translation>Uhr der Kamera {own_s} s, Uhr des Computers {here_s} s</translation>
+    </message>
+    <message>
+        <source>unknown character set {number}</source>
+        <translation>unbekannter Zeichensatz {number}</translation>
+    </message>
+    <message>
+        <source>no record type at the start</source>
+        <translation>keine Satzart am Anfang</translation>
+    </message>
+    <message>
+        <source>record type {number}, 6302 or 6301 expected</source>
+        <translation>Satzart {number}, erwartet ist 6302 oder 6301</translation>
+    </message>
+    <message>
+        <source>no patient number</source>
+        <translation>Patientennummer fehlt</translation>
+    </message>
+    <message>
+        <source>invalid birth date ({text})</source>
+        <translation>ungültiges Geburtsdatum ({text})</translation>
+    </message>
+    <message>
+        <source>end missing</source>
+        <translation>Ende fehlt</translation>
+    </message>
+    <message>
+        <source>line {number}: length differs from the stated one</source>
+        <translation>Zeile {number}: Länge weicht von der angegebenen ab</translation>
+    </message>
+    <message>
+        <source>line {number} is not a GDT line</source>
+        <translation>Zeile {number} ist keine GDT-Zeile</translation>
+    </message>
+    <message>
+        <source>other</source>
+        <translation>divers</translation>
     </message>
 </context>
 <context>
@@ -6901,12 +6901,12 @@
         <translation>Wie heißt diese Kamera?</translation>
     </message>
     <message>
-        <source>This camera has no readable serial number. Name it and label it: calibrations and checks are saved under that name. Carpus takes every camera of this type without a number for this one.</source>
-        <translation>Diese Kamera meldet keine Seriennummer. Benennen und beschriften Sie sie: Kalibrierungen und Prüfungen werden unter diesem Namen gespeichert. Carpus hält jede Kamera dieses Typs ohne Nummer für diese.</translation>
-    </message>
-    <message>
         <source>This camera has no readable serial number. If it is a different one, enter its name: calibrations and checks are saved under that name.</source>
         <translation>Diese Kamera meldet keine Seriennummer. Ist es eine andere, geben Sie deren Namen ein: Kalibrierungen und Prüfungen werden unter diesem Namen gespeichert.</translation>
+    </message>
+    <message>
+        <source>This camera has no readable serial number. Name it and label it: calibrations and checks are saved under that name. Carpus treats every camera of this type without a number as this one.</source>
+        <translation>Diese Kamera meldet keine Seriennummer. Benennen und beschriften Sie sie: Kalibrierungen und Prüfungen werden unter diesem Namen gespeichert. Carpus behandelt jede Kamera dieses Typs ohne Nummer als diese.</translation>
     </message>
 </context>
 <context>
@@ -8269,8 +8269,8 @@ von oben</translation>
         <translation>Um {time} gesperrt.</translation>
     </message>
     <message>
-        <source>Who works now?</source>
-        <translation>Wer arbeitet jetzt?</translation>
+        <source>Who is the therapist?</source>
+        <translation>Wer behandelt?</translation>
     </message>
 </context>
 <context>
@@ -9084,24 +9084,24 @@ von oben</translation>
         <translation>Männlich</translation>
     </message>
     <message>
-        <source>Diverse</source>
-        <translation>Divers</translation>
-    </message>
-    <message>
         <source>&amp;Diagnosis or operation</source>
         <translation>&amp;Diagnose oder Operation</translation>
     </message>
     <message>
-        <source>Born when? {problem}</source>
-        <translation>Wann geboren? {problem}</translation>
-    </message>
-    <message>
-        <source>Since when? {problem}</source>
-        <translation>Seit wann? {problem}</translation>
-    </message>
-    <message>
         <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a session file or an export.</source>
         <translation>Der Name in Carpus ist erfunden und kann laut gesagt werden: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
+    </message>
+    <message>
+        <source>Other</source>
+        <translation>Divers</translation>
+    </message>
+    <message>
+        <source>Birth date: {problem}</source>
+        <translation>Geburtsdatum: {problem}</translation>
+    </message>
+    <message>
+        <source>Since: {problem}</source>
+        <translation>Seit: {problem}</translation>
     </message>
 </context>
 <context>
@@ -10620,16 +10620,16 @@ von oben</translation>
         <translation>Das Handgelenk erreicht die Neutralstellung nicht</translation>
     </message>
     <message>
-        <source>It is in neutral</source>
-        <translation>Es ist in Neutralstellung</translation>
-    </message>
-    <message>
         <source>Use these angles</source>
         <translation>Diese Winkel verwenden</translation>
     </message>
     <message>
         <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
         <translation>Messen Sie jetzt die Winkel von Handgelenk und Unterarm mit dem Goniometer und tragen Sie sie ein. Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet sie in alle Handgelenkwinkel ein und vermerkt es im Bericht. Gebeugte Finger brauchen keinen Eintrag.</translation>
+    </message>
+    <message>
+        <source>Wrist is in neutral</source>
+        <translation>Handgelenk ist in Neutralstellung</translation>
     </message>
 </context>
 <context>
@@ -10884,10 +10884,6 @@ von oben</translation>
         <translation>Schriften</translation>
     </message>
     <message>
-        <source>the program’s own cannot be used</source>
-        <translation>die eigene des Programms ist nicht nutzbar</translation>
-    </message>
-    <message>
         <source>Camera</source>
         <translation>Kamera</translation>
     </message>
@@ -10906,6 +10902,10 @@ von oben</translation>
     <message>
         <source>Camera permissions</source>
         <translation>Kamerarechte</translation>
+    </message>
+    <message>
+        <source>the fonts of Carpus cannot be used</source>
+        <translation>die Schriften von Carpus sind nicht nutzbar</translation>
     </message>
 </context>
 <context>
@@ -11038,10 +11038,6 @@ von oben</translation>
 <context>
     <name>TherapistCard</name>
     <message>
-        <source>The initials of who works stand in sessions, reports, letters and the log. Choose who works in the top bar. Clear the initials to remove a therapist.</source>
-        <translation>Die Kürzel stehen in Sitzungen, Berichten, Briefen und im Protokoll. Wer gerade arbeitet, wird in der Leiste oben gewählt. Wer gelöscht werden soll: das Kürzel leeren.</translation>
-    </message>
-    <message>
         <source>Initials</source>
         <translation>Kürzel</translation>
     </message>
@@ -11052,6 +11048,10 @@ von oben</translation>
     <message>
         <source>Therapists</source>
         <translation>Therapeutinnen und Therapeuten</translation>
+    </message>
+    <message>
+        <source>Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist in the top bar. Clear the initials to remove a therapist.</source>
+        <translation>Sitzungen, Berichte, Briefe und Protokoll tragen das Kürzel der Therapeutin oder des Therapeuten. Die Auswahl steht in der Leiste oben. Zum Entfernen einer Person das Kürzel leeren.</translation>
     </message>
 </context>
 <context>

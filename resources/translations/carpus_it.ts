@@ -2501,11 +2501,11 @@
     </message>
     <message>
         <source>Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.</source>
-        <translation>Dita: 0° = dritto; negativo = iperestensione. Polso: {zero}.</translation>
+        <translation>Dita: 0° = esteso; negativo = iperestensione. Polso: {zero}.</translation>
     </message>
     <message>
         <source>Fingers: 0° = straight; negative = hyperextension. TAM = total flexion minus extension deficit. Wrist: {zero}.</source>
-        <translation>Dita: 0° = dritto; negativo = iperestensione. TAM = flessione totale meno deficit di estensione. Polso: {zero}.</translation>
+        <translation>Dita: 0° = esteso; negativo = iperestensione. TAM = flessione totale meno deficit di estensione. Polso: {zero}.</translation>
     </message>
     <message>
         <source>0° set by goniometer, start position {angles}</source>
@@ -2797,11 +2797,11 @@
     </message>
     <message>
         <source>Forearm on the wedge, back of the hand towards the camera, fingers straight.</source>
-        <translation>Avambraccio sul cuneo, dorso della mano verso la telecamera, dita dritte.</translation>
+        <translation>Avambraccio sul cuneo, dorso della mano verso la telecamera, dita estese.</translation>
     </message>
     <message>
         <source>Palm flat on the table, fingers straight and closed.</source>
-        <translation>Palmo piatto sul tavolo, dita dritte e chiuse.</translation>
+        <translation>Palmo piatto sul tavolo, dita estese e chiuse.</translation>
     </message>
     <message>
         <source>Forearm on the wedge, thumb side turned up a little, fingers relaxed.</source>
@@ -2813,7 +2813,7 @@
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
-        <translation>Mano davanti alla telecamera, dorso in su, dita dritte.</translation>
+        <translation>Mano davanti alla telecamera, dorso in su, dita estese.</translation>
     </message>
     <message>
         <source>At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these ranges are minimum values (≥). To see more, turn the thumb side up.</source>
@@ -3178,10 +3178,6 @@
     <message>
         <source>Install Python 3.11 or newer and install Carpus with it.</source>
         <translation>Installare Python 3.11 o più recente e con esso Carpus.</translation>
-    </message>
-    <message>
-        <source>Install it again.</source>
-        <translation>Installarlo di nuovo.</translation>
     </message>
     <message>
         <source>Install the packages that contain these libraries.</source>
@@ -3648,10 +3644,6 @@
         <translation>danneggiato: sensore di profondità, {cause}</translation>
     </message>
     <message>
-        <source>damaged: more memory needed than a session can use</source>
-        <translation>danneggiato: chiede più memoria di quanta ne serva a una seduta</translation>
-    </message>
-    <message>
         <source>damaged: not readable to the end</source>
         <translation>danneggiato: non leggibile fino alla fine</translation>
     </message>
@@ -4032,10 +4024,6 @@
         <translation>nessuna regola udev per la telecamera</translation>
     </message>
     <message>
-        <source>none of the program’s own</source>
-        <translation>nessuno di quelli del programma</translation>
-    </message>
-    <message>
         <source>none plugged in</source>
         <translation>nessuna collegata</translation>
     </message>
@@ -4234,10 +4222,6 @@
     <message>
         <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
         <translation>{name} ({vendor}:{product}) in {node}, {speed_mbit} Mbit/s</translation>
-    </message>
-    <message>
-        <source>{own_s} s while {here_s} s passed here</source>
-        <translation>{own_s} s mentre qui passano {here_s} s</translation>
     </message>
     <message>
         <source>{remedy} In a dark room the camera slows down: add light.</source>
@@ -6064,38 +6048,6 @@
         <translation>Il file del gestionale non può essere letto: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>character set {number} is unknown</source>
-        <translation>il set di caratteri {number} è sconosciuto</translation>
-    </message>
-    <message>
-        <source>it does not begin with the type of its record</source>
-        <translation>non inizia con il tipo di record</translation>
-    </message>
-    <message>
-        <source>it is a record {number}, and 6302 or 6301 is expected</source>
-        <translation>contiene un record {number}, ma è richiesto 6302 o 6301</translation>
-    </message>
-    <message>
-        <source>it names no patient number</source>
-        <translation>manca il numero del paziente</translation>
-    </message>
-    <message>
-        <source>its birth date is none ({text})</source>
-        <translation>la data di nascita non è valida ({text})</translation>
-    </message>
-    <message>
-        <source>its end is missing</source>
-        <translation>manca la fine</translation>
-    </message>
-    <message>
-        <source>line {number} is longer or shorter than it states</source>
-        <translation>la riga {number} è più lunga o più corta di quanto dichiara</translation>
-    </message>
-    <message>
-        <source>line {number} is not a line of GDT</source>
-        <translation>la riga {number} non è una riga GDT</translation>
-    </message>
-    <message>
         <source>Rotation</source>
         <translation>Rotazione</translation>
     </message>
@@ -6432,10 +6384,6 @@
         <translation>maschio</translation>
     </message>
     <message>
-        <source>diverse</source>
-        <translation>altro</translation>
-    </message>
-    <message>
         <source>Connect the expected camera. Measurement and recording then continue automatically.</source>
         <translation>Collegare la telecamera attesa. Misura e registrazione riprendono poi automaticamente.</translation>
     </message>
@@ -6506,6 +6454,58 @@
     <message>
         <source>The recording has unusual units and is read that way: {subject} ({detail}).</source>
         <translation>La registrazione ha unità insolite e viene letta così: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Reinstall it.</source>
+        <translation>Reinstallarlo.</translation>
+    </message>
+    <message>
+        <source>damaged: needs more memory than any session</source>
+        <translation>danneggiato: richiede più memoria di qualsiasi seduta</translation>
+    </message>
+    <message>
+        <source>no fonts of Carpus</source>
+        <translation>nessun carattere di Carpus</translation>
+    </message>
+    <message>
+        <source>camera clock {own_s} s, computer clock {here_s} s</source>
+        <translation>orologio della telecamera {own_s} s, del computer {here_s} s</translation>
+    </message>
+    <message>
+        <source>unknown character set {number}</source>
+        <translation>set di caratteri sconosciuto {number}</translation>
+    </message>
+    <message>
+        <source>no record type at the start</source>
+        <translation>manca il tipo di record all’inizio</translation>
+    </message>
+    <message>
+        <source>record type {number}, 6302 or 6301 expected</source>
+        <translation>tipo di record {number}, atteso 6302 o 6301</translation>
+    </message>
+    <message>
+        <source>no patient number</source>
+        <translation>manca il numero del paziente</translation>
+    </message>
+    <message>
+        <source>invalid birth date ({text})</source>
+        <translation>data di nascita non valida ({text})</translation>
+    </message>
+    <message>
+        <source>end missing</source>
+        <translation>manca la fine</translation>
+    </message>
+    <message>
+        <source>line {number}: length differs from the stated one</source>
+        <translation>riga {number}: lunghezza diversa da quella dichiarata</translation>
+    </message>
+    <message>
+        <source>line {number} is not a GDT line</source>
+        <translation>la riga {number} non è una riga GDT</translation>
+    </message>
+    <message>
+        <source>other</source>
+        <translation>altro</translation>
     </message>
 </context>
 <context>
@@ -6901,12 +6901,12 @@
         <translation>Come si chiama questa telecamera?</translation>
     </message>
     <message>
-        <source>This camera has no readable serial number. Name it and label it: calibrations and checks are saved under that name. Carpus takes every camera of this type without a number for this one.</source>
-        <translation>Questa telecamera non comunica il numero di serie. Darle un nome e scriverlo su di essa: calibrazioni e controlli si salvano con quel nome. Carpus prende ogni telecamera di questo tipo senza numero per questa.</translation>
-    </message>
-    <message>
         <source>This camera has no readable serial number. If it is a different one, enter its name: calibrations and checks are saved under that name.</source>
         <translation>Questa telecamera non comunica il numero di serie. Se è un’altra, inserire il suo nome: calibrazioni e controlli si salvano con quel nome.</translation>
+    </message>
+    <message>
+        <source>This camera has no readable serial number. Name it and label it: calibrations and checks are saved under that name. Carpus treats every camera of this type without a number as this one.</source>
+        <translation>Questa telecamera non comunica il numero di serie. Darle un nome e scriverlo su di essa: calibrazioni e controlli si salvano con quel nome. Carpus considera ogni telecamera di questo tipo senza numero come questa.</translation>
     </message>
 </context>
 <context>
@@ -8269,8 +8269,8 @@ dall’alto</translation>
         <translation>Bloccato alle {time}.</translation>
     </message>
     <message>
-        <source>Who works now?</source>
-        <translation>Chi lavora adesso?</translation>
+        <source>Who is the therapist?</source>
+        <translation>Chi è il terapista?</translation>
     </message>
 </context>
 <context>
@@ -9084,24 +9084,24 @@ dall’alto</translation>
         <translation>Maschio</translation>
     </message>
     <message>
-        <source>Diverse</source>
-        <translation>Altro</translation>
-    </message>
-    <message>
         <source>&amp;Diagnosis or operation</source>
         <translation>&amp;Diagnosi o intervento</translation>
     </message>
     <message>
-        <source>Born when? {problem}</source>
-        <translation>Data di nascita? {problem}</translation>
-    </message>
-    <message>
-        <source>Since when? {problem}</source>
-        <translation>Da quando? {problem}</translation>
-    </message>
-    <message>
         <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a session file or an export.</source>
         <translation>Il nome in Carpus è inventato e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
+    </message>
+    <message>
+        <source>Other</source>
+        <translation>Altro</translation>
+    </message>
+    <message>
+        <source>Birth date: {problem}</source>
+        <translation>Data di nascita: {problem}</translation>
+    </message>
+    <message>
+        <source>Since: {problem}</source>
+        <translation>Da: {problem}</translation>
     </message>
 </context>
 <context>
@@ -10620,10 +10620,6 @@ dall’alto</translation>
         <translation>Il polso non raggiunge la posizione neutra</translation>
     </message>
     <message>
-        <source>It is in neutral</source>
-        <translation>È in posizione neutra</translation>
-    </message>
-    <message>
         <source>Use these angles</source>
         <translation>Usa questi angoli</translation>
     </message>
@@ -10631,12 +10627,16 @@ dall’alto</translation>
         <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
         <translation>Inserire gli angoli attuali di polso e avambraccio, misurati con il goniometro. Palmo piatto sul tavolo è 90° di pronazione. Carpus li aggiunge a tutti gli angoli del polso e lo annota nella relazione. Per le dita flesse non serve inserire nulla.</translation>
     </message>
+    <message>
+        <source>Wrist is in neutral</source>
+        <translation>Il polso è in posizione neutra</translation>
+    </message>
 </context>
 <context>
     <name>StraightFingers</name>
     <message>
         <source>Are the fingers straight?</source>
-        <translation>Le dita sono dritte?</translation>
+        <translation>Le dita sono estese?</translation>
     </message>
     <message>
         <source>{finger} bent</source>
@@ -10884,10 +10884,6 @@ dall’alto</translation>
         <translation>Caratteri</translation>
     </message>
     <message>
-        <source>the program’s own cannot be used</source>
-        <translation>quelli del programma non si possono usare</translation>
-    </message>
-    <message>
         <source>Camera</source>
         <translation>Telecamera</translation>
     </message>
@@ -10906,6 +10902,10 @@ dall’alto</translation>
     <message>
         <source>Camera permissions</source>
         <translation>Permessi della telecamera</translation>
+    </message>
+    <message>
+        <source>the fonts of Carpus cannot be used</source>
+        <translation>i caratteri di Carpus non si possono usare</translation>
     </message>
 </context>
 <context>
@@ -10976,7 +10976,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>What should reports and letters print?</source>
-        <translation>Che cosa stampare su referti e lettere?</translation>
+        <translation>Che cosa stampare su relazioni e lettere?</translation>
     </message>
 </context>
 <context>
@@ -11038,10 +11038,6 @@ dall’alto</translation>
 <context>
     <name>TherapistCard</name>
     <message>
-        <source>The initials of who works stand in sessions, reports, letters and the log. Choose who works in the top bar. Clear the initials to remove a therapist.</source>
-        <translation>Le iniziali compaiono in sedute, referti, lettere e registro. Chi lavora si sceglie nella barra in alto. Per togliere un terapista, cancellare le iniziali.</translation>
-    </message>
-    <message>
         <source>Initials</source>
         <translation>Iniziali</translation>
     </message>
@@ -11052,6 +11048,10 @@ dall’alto</translation>
     <message>
         <source>Therapists</source>
         <translation>Terapisti</translation>
+    </message>
+    <message>
+        <source>Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist in the top bar. Clear the initials to remove a therapist.</source>
+        <translation>Sedute, relazioni, lettere e registro riportano le iniziali del terapista. Il terapista si sceglie nella barra in alto. Per togliere un terapista, cancellare le iniziali.</translation>
     </message>
 </context>
 <context>

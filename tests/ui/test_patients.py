@@ -213,7 +213,7 @@ def test_patient_form_diagnosis_with_date_is_saved_and_listed(
     assert (form.listed_tick.isChecked(), "Mallet finger" in store.listed) == (False, False)
     for typed, asked in (
         ("21.8.", "Since"),
-        ("20.12.2026", "Since when? The date"),
+        ("20.12.2026", "Since: The date"),
         ("21.8.2026", "Operation or injury?"),
     ):
         form.fields["onset_day"].setText(typed)
@@ -256,7 +256,7 @@ def test_patient_form_identity_is_saved_and_failed_save_keeps_entries(
     form.edit_patient(given[0], frozenset())
     assert form.fields["birth_day"].text() == "12 Mar 1981"
     form.fields["birth_day"].setText("13.13.1981")
-    assert (form.save_button.text(), form.save_button.isEnabled()) == ("Born when? This date does not exist", False)
+    assert (form.save_button.text(), form.save_button.isEnabled()) == ("Birth date: This date does not exist", False)
 
 
 def test_patient_form_invisible_character_is_reported_and_entries_stay(

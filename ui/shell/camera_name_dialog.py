@@ -43,8 +43,8 @@ class CameraNameDialog(Dialog):
             else self.tr("What is this camera called?")
         )
         words = self.tr(
-            "This camera has no readable serial number. Name it and label it: calibrations and checks are saved "
-            "under that name. Carpus takes every camera of this type without a number for this one."
+            "This camera has no readable serial number. Name it and label it: calibrations and checks are "
+            "saved under that name. Carpus treats every camera of this type without a number as this one."
         )
         if previous_name:
             words = self.tr(

@@ -19,7 +19,7 @@ def record_number_words(patient: Patient) -> str:
 
 def identity_words(patient: Patient) -> str:
     """Return ``born 12 Mar 1981, female, No. 4711``."""
-    sex = {"female": tr("female"), "male": tr("male"), "diverse": tr("diverse")}.get(patient.sex, "")
+    sex = {"female": tr("female"), "male": tr("male"), "diverse": tr("other")}.get(patient.sex, "")
     return ", ".join(part for part in (birth_words(patient), sex, record_number_words(patient)) if part)
 
 

@@ -260,7 +260,7 @@ def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding
             phrase("Driver"),
             "bad",
             phrase("OpenNI2 stops when its version is queried"),
-            phrase("Install it again."),
+            phrase("Reinstall it."),
         )
     return Finding(phrase("Driver"), "good", phrase("OpenNI2 {value}", value=version))
 

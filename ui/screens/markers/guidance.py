@@ -322,7 +322,7 @@ class StartAngleDialog(Dialog):
             value.setAccessibleName(terms.movement_name(DIRECTIONS[column][0]))
             body.addLayout(row_layout((direction, 1), value))
             self.fields[column] = (direction, value)
-        straight = Button(theme, self.tr("It is in neutral"), "plain", height_px=52)
+        straight = Button(theme, self.tr("Wrist is in neutral"), "plain", height_px=52)
         straight.clicked.connect(lambda: self._enter(np.zeros(3)))
         keep = Button(theme, self.tr("Use these angles"), "primary")
         keep.clicked.connect(lambda: self._enter(self.angles_rad()))

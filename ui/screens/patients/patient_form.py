@@ -102,7 +102,7 @@ class PatientForm(Dialog):
                 "sex",
                 self.tr("Sex"),
                 ChoiceRow(
-                    theme, [("female", self.tr("Female")), ("male", self.tr("Male")), ("diverse", self.tr("Diverse"))]
+                    theme, [("female", self.tr("Female")), ("male", self.tr("Male")), ("diverse", self.tr("Other"))]
                 ),
                 continues_row=True,
             ),
@@ -234,7 +234,7 @@ class PatientForm(Dialog):
         self.save_button.setEnabled(not asked)
 
     def _date_error(self, name: str) -> str:
-        labels = {"birth_day": self.tr("Born when? {problem}"), "onset_day": self.tr("Since when? {problem}")}
+        labels = {"birth_day": self.tr("Birth date: {problem}"), "onset_day": self.tr("Since: {problem}")}
         problem = self.fields[name].error
         return labels[name].format(problem=problem) if problem else ""
 

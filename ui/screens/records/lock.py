@@ -321,7 +321,7 @@ class LockScreen(Dialog):
         self.pin_field.setAccessibleName(self.tr("PIN"))
         self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.therapist = Combo()
-        self._therapist_row = LabelledField(theme, self.tr("Who works now?"), self.therapist)
+        self._therapist_row = LabelledField(theme, self.tr("Who is the therapist?"), self.therapist)
         self.unlock_button = Button(theme, self.tr("Unlock"), "primary")
         self.unlock_button.clicked.connect(self._submit)
         self.set_default(self.unlock_button)

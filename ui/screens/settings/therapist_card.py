@@ -27,8 +27,8 @@ class TherapistCard(Card):
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
         words = self.tr(
-            "The initials of who works stand in sessions, reports, letters and the log. Choose who works in the top "
-            "bar. Clear the initials to remove a therapist."
+            "Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist "
+            "in the top bar. Clear the initials to remove a therapist."
         )
         self.table = QTableWidget(0, 2)
         self.table.setHorizontalHeaderLabels((self.tr("Initials"), self.tr("Name")))
