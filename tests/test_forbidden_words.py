@@ -27,8 +27,8 @@ FORBIDDEN = {
     "it": (
         r"session[ei]", r"mano persa", r"segni di troppo", r"lettere di troppo", r"nocc(a|he)", r"ferma e rivedi",
         r"dischett[oi]", r"intanto", r"registrazione profondità-colore", r"va oltre", r"sigilla\w*", r"\w'\w+",
-        r"assistenza informatica", r"lisciat\w+", r"fonte", r"cliccare", r"refert[oi]", r"a mano", r"scheda di controllo",
-        r"«", r"non conta", r"dubbi[oae]?", r"immagine (precedente|seguente|incerta)",
+        r"assistenza informatica", r"lisciat\w+", r"fonte", r"cliccare", r"refert[oi]", r"a mano",
+        r"scheda di controllo", r"«", r"non conta", r"dubbi[oae]?", r"immagine (precedente|seguente|incerta)",
     ),
 }  # fmt: skip
 """Regular expressions of whole words, by language."""
