@@ -68,6 +68,13 @@ def test_hand_crop_lost_hand_keeps_whole_image() -> None:
     assert mask_outside(frame, None) is frame
 
 
+def test_hand_crop_stale_region_keeps_whole_image() -> None:
+    hand = HandRegions(CAMERA, WRIST6)
+    hand.update(tracked())
+    assert hand.find_region(0.1) is not None
+    assert hand.find_region(1.0) is None
+
+
 def test_hand_crop_waiting_frame_uses_region_of_its_time() -> None:
     hand, now = HandRegions(CAMERA, WRIST6), tracked()
     hand.update(now)

@@ -16,6 +16,7 @@ from carpus.core.pipeline import backlog
 from carpus.core.pipeline.backlog import MAX_PREVIEW_WAITING
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
+from carpus.core.pipeline.queues import BoundedQueue, QueueFullError
 from tests.pipeline.live_fakes import ControlledSource, FakeSession, Gate, frame, gated_tracker, tracked, wait_until
 
 OUT = Path("session.h5")
@@ -75,6 +76,15 @@ def test_live_session_tracks_from_next_frame() -> None:
         assert live.current_view() is None
         deliver_tracked(live, source, 1)
         assert [row.index for row in live.frames_since(-1)] == [14]
+
+
+def test_bounded_queue_full_raises_and_keeps_its_items() -> None:
+    queue = BoundedQueue[int](2)
+    queue.push(1)
+    queue.push(2)
+    with pytest.raises(QueueFullError):
+        queue.push(3)
+    assert (queue.drain(), queue.drain()) == ([1, 2], [])
 
 
 def test_backlog_full_drops_and_counts_frames() -> None:
@@ -300,6 +310,7 @@ def test_recorder_slow_disk_blocks_nothing() -> None:
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 300)
         assert live.current_view().tracked.index == 299
+        assert len(live.frames_since(-1)) == 300, "what the curves show: the last twelve seconds"
         assert live.counters().dropped == 0
         assert live._recording is not None
         assert live._recording.row_recorder.queue_length == 299
@@ -561,6 +572,7 @@ def test_live_session_file_loses_no_frame() -> None:
     live.stop_recording()
     assert stored == list(range(120))
     assert live.counters().dropped == 0
+    assert live.counters().latency_p95_ms >= live.counters().latency_p50_ms >= 2.0
     live.stop()
 
 

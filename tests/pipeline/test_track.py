@@ -22,6 +22,7 @@ from carpus.core.model.errors import (
     DiskFull,
     FrameDamaged,
     OutputExists,
+    RecordingEmpty,
     SessionUnreadable,
 )
 from carpus.core.model.types import FloatArray
@@ -168,6 +169,13 @@ def test_track_recording_existing_output_raises(made: Made, tmp_path: Path) -> N
     with pytest.raises(OutputExists):
         track(made.folder, made.clicks, output)
     assert output.read_bytes() == b"someone's own"
+
+
+def test_track_recording_without_frames_raises(made: Made, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(TumFolder, "frames", lambda _: iter(()))
+    with pytest.raises(RecordingEmpty):
+        track(made.folder, made.clicks, tmp_path / "s.h5")
+    assert list(tmp_path.iterdir()) == []
 
 
 def copy_of(made: Made, to: Path) -> Path:

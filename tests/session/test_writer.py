@@ -49,6 +49,8 @@ def test_session_writer_publishes_only_complete_file(
             end()
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
     assert target.read_text() == "mine"
+    held = [os.path.realpath(descriptor) for descriptor in Path("/proc/self/fd").iterdir()]
+    assert not [path for path in held if path.startswith(str(tmp_path))], "no file is left open"
 
 
 def test_session_writer_removes_leftovers_of_killed_one(tmp_path: Path) -> None:
