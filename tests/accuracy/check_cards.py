@@ -72,7 +72,7 @@ def report(only: str, seeds: int) -> str:
 
 def _row(name: str, runs: Sequence[CardRun]) -> tuple[str, ...]:
     right = [run.right for run in runs]
-    limits = [np.mean([getattr(one, field) for one in right]) for field in ("max_angle_error_deg", "max_length_error_mm")]
+    limits = np.mean([(one.max_angle_error_deg, one.max_length_error_mm) for one in right], axis=0)
     out = sum(not (one.has_valid_angles and one.has_valid_lengths) for one in right)
     return (
         name, str(len(runs)), f"{limits[0]:.1f} / {limits[1]:.1f}",
