@@ -20,14 +20,15 @@ from PySide6.QtWidgets import QAbstractItemView, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
-from carpus.app.settings import Settings
+from carpus.app.settings import RecordingSettings, ReportSettings, Settings, load_valid_settings
 from carpus.core.records.changes import fingerprint
+from carpus.core.records.clinic_records import read_therapists, save_therapists
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.restoring import activate_restored
-from carpus.core.records.values import BackupSettings, Patient
+from carpus.core.records.values import BackupSettings, Patient, Therapist
 from carpus.ui.kit.garbage_collection import GarbageCollector
 from carpus.ui.shell.messages import NoticeStrip
 from tests.app.test_library import set_up, store
@@ -311,3 +312,28 @@ def test_pin_is_set_changed_and_removed_in_settings(qtbot: QtBot, opened: Open, 
     locking.pin_dialog.current_pin.setText("4821")
     locking.pin_dialog.remove_button.click()
     assert not Pin(data).is_set
+
+
+def test_lock_hides_names_and_asks_who_works(opened: Open, data: Path, tmp_path: Path, qtbot: QtBot) -> None:
+    with closing(Library(data)) as library:
+        save_therapists(library.store, [Therapist("KB", "Katrin Berger")])
+    Pin(data).set("1234")
+    desktop = opened(Settings(recording=RecordingSettings(folder=str(data)), report=ReportSettings(therapist="AB")))
+    assert [one.initials for one in read_therapists(desktop.library.store)] == ["AB", "KB"], "the old setting is listed"
+    lock, bar = desktop.data_protection.locking.lock_screen, desktop.shell.top_bar
+    assert (lock.isVisible(), lock.therapist.currentData()) == (True, "AB")
+    lock.therapist.choose("KB")
+    lock.pin_field.setText("1234")
+    lock.unlock_button.click()
+    assert not lock.isVisible()
+    assert [(one.action, one.initials) for one in read_log(desktop.library.store)][-1] == ("unlocked", "KB")
+    assert bar.therapist_button.text() == "KB"
+    assert load_valid_settings(tmp_path / "settings")[0].report.therapist == "KB", "it is kept"
+    desktop.controller.patients.screen.refresh(linden(desktop))
+    for hides in (True, False):
+        words = " ".join(visible_words(desktop.shell))
+        assert ("Linden 42" in words, "Erika Mustermann" in words) == (True, not hides)
+        desktop.controller.navigator.open_screen("progress", linden(desktop))
+        assert ("Erika" in bar.patient_name.text()) is not hides
+        desktop.controller.navigator.open_screen("patients", linden(desktop))
+        bar.names_button.click()

@@ -19,7 +19,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text,
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 
 BAR_PX = 56
-MAX_NAME_PX = 190
+MIN_NAME_PX = 120
 RECORDING_LINE_PX = 3
 
 
@@ -39,6 +39,7 @@ class TopBar(Surface):
         self._separator = Separator(theme, vertical=True)
         self._separator.setFixedHeight(24)
         self.back_button = icon_button(theme, "chevron-left", self.tr("Back (Esc)"))
+        self._name = ""
         self.patient_name = Text(theme, "", 14, SEMIBOLD)
         self.session_label = Text(theme, "", 14, REGULAR, "text2")
         self.camera = StateText(theme)
@@ -87,7 +88,7 @@ class TopBar(Surface):
 
     def _fit(self) -> None:
         """Hide what does not fit, in this order: ample disk, exercise, short button, program name, working camera."""
-        named = bool(self.patient_name.text())
+        named = bool(self._name)
         shown = {
             "disk": bool(self.disk.text()),
             "where": named and bool(self.session_label.text()),
@@ -108,10 +109,17 @@ class TopBar(Surface):
         self.brand.show_name(shown["name"])
         self.camera.setVisible(shown["camera"])
         self.reanalysis_button.set_short(not shown["again"])
+        room_px = self.width() - self._min_width_px(shown) + self._min_name_px()
+        metrics = QFontMetricsF(font(14 * self._theme.text_scale, SEMIBOLD))
+        self.patient_name.setText(metrics.elidedText(self._name, Qt.TextElideMode.ElideRight, room_px))
+
+    def _min_name_px(self) -> float:
+        metrics = QFontMetricsF(font(14 * self._theme.text_scale, SEMIBOLD))
+        return min(metrics.horizontalAdvance(self._name) + 1, self._theme.px(MIN_NAME_PX))
 
     def _min_width_px(self, is_shown: dict[str, bool]) -> float:
-        named = [self._separator, self.back_button, self.patient_name] if self.patient_name.text() else []
-        left = [self.brand.width_px(is_shown["name"]), *(one.sizeHint().width() for one in named)]
+        named = [self._separator.sizeHint().width(), self.back_button.sizeHint().width(), self._min_name_px()]
+        left = [self.brand.width_px(is_shown["name"]), *(named if self._name else [])]
         left += [self.session_label.sizeHint().width()] if is_shown["where"] else []
         buttons = (self.therapist_button, self.names_button, self.help_button, self.settings_button)
         right = [sum(one.sizeHint().width() + 4 for one in buttons)]
@@ -126,14 +134,12 @@ class TopBar(Surface):
         gaps = 8 * (len(left) - 1) + 4 * max(len(middle) - 1, 0) + 16 * (len(right) - 1) - 16
         return sum(left) + sum(middle) + sum(right) + gaps + 2 * MARGIN_PX - 14 + 3 * 8
 
-    def show_session(self, pseudonym: str, label: str) -> None:
+    def show_session(self, name: str, label: str) -> None:
         """Show patient, hand and exercise; empty on the first screen."""
-        face = font(14 * self._theme.text_scale, SEMIBOLD)
-        room_px = self._theme.px(MAX_NAME_PX)  # a long name must leave room for the navigation
-        self.patient_name.setText(QFontMetricsF(face).elidedText(pseudonym, Qt.TextElideMode.ElideRight, room_px))
-        self.patient_name.setToolTip(plain_tooltip(pseudonym))
+        self._name = name
+        self.patient_name.setToolTip(plain_tooltip(name))
         for widget in (self._separator, self.back_button, self.patient_name):
-            widget.setVisible(bool(pseudonym))
+            widget.setVisible(bool(name))
         self.session_label.setText(label)
         self._fit()
 

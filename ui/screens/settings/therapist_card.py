@@ -68,4 +68,4 @@ class TherapistCard(Card):
         self.table.setFont(font(14 * theme.text_scale, REGULAR))
         self.table.verticalHeader().setDefaultSectionSize(theme.px(ROW_PX))
         self.table.setColumnWidth(0, theme.px(INITIALS_PX))
-        self.table.setFixedHeight(theme.px(ROW_PX) * (rows + 1) + 8)
+        self.table.setFixedHeight(self.table.horizontalHeader().sizeHint().height() + theme.px(ROW_PX) * rows + 4)
