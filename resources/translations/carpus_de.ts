@@ -9180,10 +9180,6 @@ von oben</translation>
         <translation>Erfundener Name</translation>
     </message>
     <message>
-        <source>Name, number, birth date or diagnosis</source>
-        <translation>Name, Nummer, Geburtsdatum oder Diagnose</translation>
-    </message>
-    <message>
         <source>found by name</source>
         <translation>gefunden über den Namen</translation>
     </message>
@@ -9194,6 +9190,10 @@ von oben</translation>
     <message>
         <source>found by record number</source>
         <translation>gefunden über die Aktennummer</translation>
+    </message>
+    <message>
+        <source>Name, number, birth date</source>
+        <translation>Name, Nummer, Geburtsdatum</translation>
     </message>
 </context>
 <context>

@@ -9180,10 +9180,6 @@ dall’alto</translation>
         <translation>Nome inventato</translation>
     </message>
     <message>
-        <source>Name, number, birth date or diagnosis</source>
-        <translation>Nome, numero, data di nascita o diagnosi</translation>
-    </message>
-    <message>
         <source>found by name</source>
         <translation>trovato per nome</translation>
     </message>
@@ -9194,6 +9190,10 @@ dall’alto</translation>
     <message>
         <source>found by record number</source>
         <translation>trovato per numero di cartella</translation>
+    </message>
+    <message>
+        <source>Name, number, birth date</source>
+        <translation>Nome, numero, data di nascita</translation>
     </message>
 </context>
 <context>

@@ -61,7 +61,7 @@ class PatientsScreen(QWidget):
         self._theme, self._store, self._today, self._names = theme, store, today, names
         self._rows: tuple[Patient, ...] = ()
         self._camera_ready = False
-        self._search_words = self.tr("Name, number, birth date or diagnosis")
+        self._search_words = self.tr("Name, number, birth date")
         self.search = SearchField(theme, self._search_words, self.tr("Ctrl+F"))
         self.new_button = Button(theme, self.tr("New patient"), icon="plus", hint=self.tr("Ctrl+N"))
         self.list = PatientList(theme, today, names)
