@@ -12,7 +12,7 @@ import cython
 import numpy as np
 from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
-from cython.cimports.libc.math import NAN, isfinite, sqrt
+from cython.cimports.libc.math import M_PI, NAN, isfinite, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.digits import BENT, OTHER, POSE
@@ -28,7 +28,6 @@ INHERITED = 0.25
 """Share of a joint's information that resists errors of its discs that stay."""
 
 Array = NDArray[np.float64]
-_PI = cython.declare(double, np.pi)
 
 
 def linearise_images(points: Any, view: Any, weights: Any) -> tuple[Array, Array, Array, Array, Array, Array]:
@@ -168,16 +167,8 @@ def compute_inherited(covariance: Array, base: Any, linearised: Any, normal: Arr
     with a share of what is known of the joints against it: by M^-1 H' with M = H' H + share P^-1, H in units of the
     noise. What a depth moves a disc along its normal is taken for height; what it moves it across, the joints take.
 
-    Parameters
-    ----------
-    covariance : numpy.ndarray
-        Of the states (5, 21, 21).
-    base : DigitBase
-        The palm, with the covariance of its turn.
-    linearised : DigitsLinearisation
-        How it shows the digits.
-    normal : numpy.ndarray
-        Normals (5, 3, 3) of the discs in W.
+    The states have the ``covariance`` (5, 21, 21), the discs normals (5, 3, 3) in W; the palm is a ``DigitBase``, and
+    the digits are seen as in a ``DigitLinearisation``.
 
     Returns
     -------
@@ -356,7 +347,7 @@ def measure_assigned_discs(
             if not with_depth[r, d]:
                 measured[r, 3 * d + 2] = NAN
             missing = max(whole_from - area[b] / whole[r, d], 0.0)
-            stray2 = own2 + wanders * wanders * whole[r, d] / _PI * missing * missing
+            stray2 = own2 + wanders * wanders * whole[r, d] / M_PI * missing * missing
             if (d > 0 and _is_near(expected[r], d - 1, d, reach)) or (d < 2 and _is_near(expected[r], d, d + 1, reach)):
                 stray2 += crowd2
             if isfinite(stray2):
@@ -370,7 +361,7 @@ def measure_assigned_discs(
             other = d + 1 if d < 2 and alone[min(d + 1, 2)] else d - 1 if d > 0 and alone[max(d - 1, 0)] else -1
             if other >= 0 and area[b] > merged_from * face:
                 alone[other] = False
-                half = sqrt(face / _PI) * min((area[b] - whole[r, d]) / face, 2.0)
+                half = sqrt(face / M_PI) * min((area[b] - whole[r, d]) / face, 2.0)
                 _split_blob(d, other, half, merged_share, across, expected[r], spread[r], measured[r], variance[r])
         for k in range(9):
             variance[r, k] *= factor[r, k]

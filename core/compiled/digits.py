@@ -16,7 +16,7 @@ import cython
 import numpy as np
 from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
-from cython.cimports.libc.math import cos, erfc, exp, sin, sqrt
+from cython.cimports.libc.math import M_PI_2, cos, erfc, exp, sin, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.palm import as_array
@@ -37,7 +37,6 @@ _ROLL = cython.declare(cython.int, 9)
 _ROOT = cython.declare(cython.int, 10)
 _HEIGHT = cython.declare(cython.int, 13)
 _TO_DIP = cython.declare(double, DIP_PER_PIP)
-_QUARTER = cython.declare(double, 0.5 * np.pi)
 _ROOT_HALF = cython.declare(double, np.sqrt(0.5))
 _ROOT_PI = cython.declare(double, np.sqrt(np.pi))
 
@@ -107,9 +106,9 @@ def _place_chain(
         _place_bone(proximal, azimuth, bone[0])
         _place_bone(middle, azimuth, bone[1])
         _place_bone(distal, azimuth, bone[2])
-        _place_bone(0.5 * (proximal + middle) - _QUARTER, azimuth, normal[0])
-        _place_bone(0.5 * (middle + distal) - _QUARTER, azimuth, normal[1])
-        _place_bone(distal - _QUARTER, azimuth, normal[2])
+        _place_bone(0.5 * (proximal + middle) - M_PI_2, azimuth, normal[0])
+        _place_bone(0.5 * (middle + distal) - M_PI_2, azimuth, normal[1])
+        _place_bone(distal - M_PI_2, azimuth, normal[2])
     for k in range(3):
         joint[0, k] = root[k] + (s[_ROOT + k] if k < 2 else -s[_ROOT + k])
         for d in range(3):

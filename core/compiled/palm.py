@@ -100,9 +100,9 @@ def compute_palm_transition(
             forward[TURN + i, RATE + j] = dt * jacobian[i, j]
 
     # Turning is pushed about the axes on the way, not about those at the end: Jr, as in F.
-    multiply_transposed(jacobian, jacobian, square)
+    turns[2] = turns[1] @ turns[1].T
     multiply(jacobian, hidden, along)
-    multiply_transposed(along, along, along_square)
+    turns[4] = turns[3] @ turns[3].T
     driven = np.zeros((modes, MOVING, MOVING))
     pushed: double[:, :, ::1] = driven
     for k in range(modes):
@@ -179,16 +179,8 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
     The pose bends the pictures, so its slope is that of the sigma points, eq. (10) and (11) of the wrist paper, and
     what nothing linear can follow of them is noise; in the discs' places the slope is the derivative.
 
-    Parameters
-    ----------
-    estimate : PalmEstimate
-        Where the palm is, with the covariance of the whole mixture.
-    mixture : ModeMixture
-        Errors from there, of one chain with K modes.
-    view : View
-        The camera and the calibrated places of the discs.
-    weights : Weights
-        Weights of the 13 sigma points.
+    The errors of the ``ModeMixture``, one chain of K modes, are from the ``PalmEstimate``, which has the covariance of
+    all modes together. The discs lie as in the ``PalmView``; the 13 sigma points have the ``SigmaWeights``.
 
     Returns
     -------
@@ -336,14 +328,8 @@ def reset_errors(nominal: Any, mixture: Any) -> tuple[NDArray[np.float64], ...]:
     """
     Move the nominal estimate to the mixture's mean, and tell the modes' errors from there.
 
-    Turns are then measured from another rotation: log(Exp(-m) Exp(e)), to second order.
-
-    Parameters
-    ----------
-    nominal : PalmEstimate
-        From where the mixture's errors are told.
-    mixture : ModeMixture
-        One chain with K modes.
+    Errors of a ``ModeMixture`` of one chain are from the ``nominal`` ``PalmEstimate``. Turns are then measured from
+    another rotation: log(Exp(-m) Exp(e)), to second order.
 
     Returns
     -------
@@ -426,18 +412,6 @@ def multiply(a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], o
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def multiply_transposed(
-    a: cython.const[double][:, ::1], b: cython.const[double][:, ::1], out: double[:, ::1]
-) -> cython.void:
-    """``out`` = A B' of matrices (3, 3)."""
-    for i in range(3):
-        for j in range(3):
-            out[i, j] = a[i, 0] * b[j, 0] + a[i, 1] * b[j, 1] + a[i, 2] * b[j, 2]
 
 
 def as_array(array: NDArray[np.float64], name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:

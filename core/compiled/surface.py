@@ -29,18 +29,8 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
     that of s for readings that share their errors as far as their patches overlap, and what no number of readings takes
     away.
 
-    Parameters
-    ----------
-    estimate : PalmEstimate
-        The palm in W0 from which the fit starts.
-    samples : SurfaceSamples
-        Pixels (S, 2) and depths (S,) in metres.
-    surface : BackSurface
-        Planes of the nodes, in the axes of the body.
-    view : View
-        Where the camera is in W0, and what its depth is worth.
-    settings : SurfaceSettings
-        Steps, limits and noise.
+    The fit starts from the ``PalmEstimate``; it takes ``SurfaceSamples``, a ``DorsalSurface`` in the axes of the body,
+    the ``PalmView`` and the ``SurfaceSettings``.
 
     Returns
     -------

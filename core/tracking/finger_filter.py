@@ -14,13 +14,13 @@ from carpus.core.tracking.digits.digit_search import is_in_reach
 from carpus.core.tracking.digits.digit_update import MAX_MISSING_FRAMES, DigitHistory, DigitPosterior, DigitUpdater
 from carpus.core.tracking.digits.finger_model import DIFFUSION_S, FingerModel
 from carpus.core.tracking.digits.knuckle_flexion import FLEXION_SLOT
-from carpus.core.tracking.filter.digit_filter import DIGIT_SIZE, OBSERVED, RATES
+from carpus.core.tracking.filter.digit_filter import DIGIT_SIZE, OBSERVED, RATES, draw_sigma_points
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_DISCS, N_SLOTS, JointState
 from carpus.core.tracking.filter.mixture_filter import ModeMixture
 from carpus.core.tracking.filter.predicted_measurement import PredictedDigits
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import DigitSpeeds
-from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep
+from carpus.core.tracking.smoother.finger_smoother import FingerStep
 
 _RATE, _THUMB_BASE = np.arange(DIGIT_SIZE)[RATES], slice(0, 2)
 
@@ -90,14 +90,10 @@ class FingerFilter:
 
     def predict(self, dt_s: float) -> PredictedDigits:
         """Predict the digits ``dt_s`` ahead, and their discs on the palm as it was known last."""
-        estimates, points = self.model.predict_sigma_points(
-            self.estimates, self.history.unseen_s, dt_s, self.history.palm.disc_m[1:]
-        )
-        return PredictedDigits(estimates, points, self.history.palm)
-
-    def smoother_start(self, timestamp_s: float, is_lost: bool) -> FingerStart:
-        """Return the estimate now, for smoothing over the frames to come."""
-        return FingerStart(self.estimates, self.history.unseen_s, timestamp_s, is_lost)
+        history = self.history
+        estimates = self.model.predict(self.estimates, history.unseen_s, dt_s)
+        points = draw_sigma_points(*estimates.merge(), history.palm.disc_m[1:], self._settings.scaling)
+        return PredictedDigits(estimates, points, history.palm)
 
     def accept(self, posterior: DigitPosterior, timestamp_s: float, dt_s: float) -> FingerStep:
         """Accept an update; return what the smoother needs of it."""

@@ -6,7 +6,6 @@ on the palm as updated, by the blobs that are left. An update is a trial: nothin
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -143,8 +142,6 @@ def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArr
     return out
 
 
-# their places in the covariance, counted row by row
-_TURN_VARIANCES = tuple((SIZE + 1) * row for row in range(TURN.start, TURN.stop))
 # predicted less surely, the hand is turned by its markers before the surface is fitted
 JOINT_SD_RAD = 0.05
 PLACED_DISC_SD_M = 0.02  # of a disc that a person placed, about where the one frame shows it: more than any depth errs
@@ -178,10 +175,6 @@ def undistort_detections(detections: Detections, camera: Camera) -> Detections:
     return replace(detections, pixel=camera.undistort(detections.pixel), surface=surface, fingers=fingers)
 
 
-def _turn_sd_rad(predicted: PredictedMeasurement) -> float:
-    return math.sqrt(sum(map(predicted.nominal.covariance.item, _TURN_VARIANCES)))
-
-
 @dataclass(frozen=True, slots=True)
 class Posterior:
     """The hand updated by one scan from the ``predicted`` state.
@@ -198,11 +191,6 @@ class Posterior:
     fingers: DigitPosterior | None
     unassigned: NDArray[np.bool_]
     is_finger: NDArray[np.bool_]
-
-    @property
-    def turn_sd_rad(self) -> float:
-        """Standard deviation of the predicted turn, all axes and modes together."""
-        return _turn_sd_rad(self.predicted)
 
 
 class HandFilter:
@@ -297,9 +285,9 @@ class HandFilter:
 
     def update(self, predicted: PredictedMeasurement, scan: Scan) -> Posterior:
         """Associate the blobs with the predicted discs and update by them, and by the surface."""
-        blobs, is_sure = scan.blobs, _turn_sd_rad(predicted) < JOINT_SD_RAD
+        blobs, is_sure = scan.blobs, predicted.turn_sd_rad < JOINT_SD_RAD
         if is_sure:
-            blobs = replace(blobs, surface=self._fit_surface(predicted.nominal, scan))
+            blobs = Measurements(blobs.value, blobs.variance, self._fit_surface(predicted.nominal, scan))
         palm = associate_and_update(
             predicted, blobs, MIN_PALM_MARKERS + 1, self._resolution_px2, self._noise_factor, self._settings
         )
@@ -387,7 +375,10 @@ class HandFilter:
 
     def finger_start(self, timestamp_s: float) -> FingerStart | None:
         """Return the estimate of the fingers now, for smoothing over the frames to come."""
-        return None if self.fingers is None else self.fingers.smoother_start(timestamp_s, self._palm is None)
+        fingers = self.fingers
+        if fingers is None:
+            return None
+        return FingerStart(fingers.estimates, fingers.history.unseen_s, timestamp_s, self._palm is None)
 
     def find_palm(self, ideal: Detections, turn_limits: TurnLimits) -> FoundPalm | None:
         """Find the palm among the blobs without a prediction."""

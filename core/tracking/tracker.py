@@ -61,7 +61,8 @@ class TrackedFrameBuilder:
         readout: Readout,
         settings: TrackerSettings,
     ) -> None:
-        self._order, self._model, self._readout, self._settings = order, model, readout, settings
+        self._order, self._model, self._readout = order, model, readout
+        self._pixel_noise_px2 = settings.noise.pixel_sd_px**2 * np.eye(2)
         self._markers = len(protocol.markers)
         joint_count = 0 if model is None else model.readout.angle_map.chain.size
         self.lost_state: KinematicState = nan_kinematics(joint_count, self._markers)
@@ -129,7 +130,7 @@ class TrackedFrameBuilder:
             kinematics=kinematics,
             marker_position_cam_m=disc_cam_m,
             marker_predicted_px=camera.distort(pixel),
-            marker_predicted_cov_px2=covariance + self._settings.noise.pixel_sd_px**2 * np.eye(2),
+            marker_predicted_cov_px2=covariance + self._pixel_noise_px2,
             marker_measured_px=measured_px,
             marker_measured_depth_m=measured_depth_m,
             detections=detections,
@@ -266,14 +267,14 @@ class Tracker:
             placed = self._filter.place_marker(label, predicted, scan)
             if placed is not None:
                 predicted, is_linked = placed, False
-        posterior = self._filter.update(predicted, scan)
+        posterior, turn_sd_rad = self._filter.update(predicted, scan), predicted.turn_sd_rad
         reacquired = self._reacquire(posterior, scan)
         if reacquired is not None:
             # A vague prediction has nothing against the place found: the smoother may go on through it.
-            is_linked = is_linked and self._manager.is_vague(posterior.turn_sd_rad)
+            is_linked = is_linked and self._manager.is_vague(turn_sd_rad)
             posterior = reacquired
-        elif self._manager.is_ambiguous(posterior.seen_count, posterior.turn_sd_rad) or (
-            self._manager.is_uncertain(posterior.seen_count, posterior.turn_sd_rad)
+        elif self._manager.is_ambiguous(posterior.seen_count, turn_sd_rad) or (
+            self._manager.is_uncertain(posterior.seen_count, turn_sd_rad)
             and self._filter.is_other_hand(posterior, scan)
         ):
             posterior = self._filter.update(predicted, scan.without_blobs())
@@ -296,7 +297,7 @@ class Tracker:
 
         Tried where too few discs are where they were predicted or the prediction was vague.
         """
-        manager, turn_sd_rad, seen = self._manager, posterior.turn_sd_rad, posterior.seen_count
+        manager, turn_sd_rad, seen = self._manager, posterior.predicted.turn_sd_rad, posterior.seen_count
         unassigned = int(np.count_nonzero(posterior.unassigned))
         is_flipped = manager.can_be_flipped(seen, unassigned) and not self._filter.is_rotation_measured(posterior)
         if not (is_flipped or manager.is_reacquisition_due(seen, unassigned, turn_sd_rad)):

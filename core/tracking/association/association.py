@@ -95,16 +95,15 @@ def assign_blobs(odds: FloatArray) -> NDArray[np.int64]:
 
     Leaving a blob to clutter costs nothing, so only positive odds are used.
     """
-    assigned = np.full(len(odds), -1)
-    if not odds.size:
-        return assigned
     gain = np.fmax(odds, 0.0)
-    rows, columns = np.arange(len(odds)), gain.argmax(axis=1)
-    taken = columns[gain[rows, columns] > 0.0].tolist()
-    if len(set(taken)) < len(taken):  # two markers would take the same blob
-        from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
+    likeliest = [row.index(most) if (most := max(row, default=0.0)) > 0.0 else -1 for row in gain.tolist()]
+    taken = [blob for blob in likeliest if blob >= 0]
+    if len(set(taken)) == len(taken):  # no two markers would take the same blob
+        return np.array(likeliest)
+    from scipy.optimize import linear_sum_assignment  # a third of a second to load, and seldom needed
 
-        rows, columns = linear_sum_assignment(gain, maximize=True)
+    rows, columns = linear_sum_assignment(gain, maximize=True)
+    assigned = np.full(len(odds), -1)
     assigned[rows] = np.where(gain[rows, columns] > 0.0, columns, -1)
     return assigned
 

@@ -22,9 +22,7 @@ from carpus.core.tracking.filter.digit_filter import (
     OBSERVED,
     RATES,
     DigitMotion,
-    DigitSigmaPoints,
     Forgetting,
-    draw_sigma_points,
 )
 from carpus.core.tracking.filter.hand_geometry import (
     CROWDED_PX,
@@ -271,13 +269,6 @@ class FingerModel:
         if dt_s < MIN_GAP_S:
             return ahead
         return apply_soft_limits(ahead, ahead.merge()[0][:, :N_SLOTS])
-
-    def predict_sigma_points(
-        self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float, root_disc_m: FloatArray
-    ) -> tuple[ModeMixture, DigitSigmaPoints]:
-        """Predict the digits ``dt_s`` ahead, and draw sigma points of them under ``root_disc_m`` (5, 3)."""
-        ahead = self.predict(estimates, unseen_s, dt_s)
-        return ahead, draw_sigma_points(*ahead.merge(), root_disc_m, self.settings.scaling)
 
     def compute_forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """Return the prediction of slots that nothing shows, of digits at ``mean`` (5, n); None for none.

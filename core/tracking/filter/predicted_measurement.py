@@ -20,7 +20,15 @@ from carpus.core.tracking.filter.digit_filter import DigitSigmaPoints, DigitView
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_DISCS, PalmGeometry
 from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, partial_update_shares
 from carpus.core.tracking.filter.motion import PalmMotion, predict_palm
-from carpus.core.tracking.filter.palm_state import CALIBRATION_ERROR, POSE, SIZE, ZERO_ERROR, PalmEstimate, PalmView
+from carpus.core.tracking.filter.palm_state import (
+    CALIBRATION_ERROR,
+    POSE,
+    SIZE,
+    TURN,
+    ZERO_ERROR,
+    PalmEstimate,
+    PalmView,
+)
 from carpus.core.tracking.filter.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import DigitSpeeds
 from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights
@@ -178,6 +186,11 @@ class PredictedMeasurement:
         return self.linearised.value + self.mixture.mean[0] @ slope.T, slope @ self.mixture.covariance[
             0
         ] @ slope.T + self.linearised.error
+
+    @cached_property
+    def turn_sd_rad(self) -> float:
+        """Standard deviation of the palm's turn, all axes and modes together."""
+        return math.sqrt(sum(self.nominal.covariance.diagonal()[TURN].tolist()))
 
     @cached_property
     def _digit_image(self) -> tuple[FloatArray, FloatArray, FloatArray] | None:
