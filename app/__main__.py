@@ -54,6 +54,9 @@ def build_parser(asked: Sequence[str]) -> CommandParser:
         epilog="For research and education. Not a medical device.",
     )
     out.add_argument("--version", action="version", version=f"carpus {__version__}")
+    out.add_argument(
+        "--gdt", metavar="FILE", type=Path, help="open the desktop with the patient of a practice system's GDT file"
+    )
     subparsers = out.add_subparsers(dest="command", metavar="COMMAND")
     for name, words in COMMANDS.items():
         sub = subparsers.add_parser(name, help=words, description=textwrap.fill(words, 100))

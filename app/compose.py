@@ -19,6 +19,7 @@ from carpus.app.desktop.first_start import TourController, WelcomeController
 from carpus.app.desktop.log import LOG_FORMATTER
 from carpus.app.desktop.main_controller import AppServices, MainController
 from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
+from carpus.app.desktop.practice_system import PracticeSystemController
 from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.desktop.window import DataProtection, Desktop
 from carpus.app.settings import LockSettings, Settings, sessions_folder
@@ -114,9 +115,12 @@ def compose(
     tour = TourController(controller)
     welcome = WelcomeController(controller, theme, tour, preferences, library)
     ends = qt.commitDataRequest.connect(lambda _: shell.close_without_prompt())
+    practice_system = PracticeSystemController(controller, preferences, is_demo=is_demo)
+    practice_system.can_open = lambda: not data_protection.locking.is_locked and not shell.isHidden()
     desktop = Desktop(
-        qt, shell, theme, controller, library, data_protection, welcome, tour, preferences, (follows, ends)
-    )
+        qt, shell, theme, controller, library, data_protection, welcome, tour, preferences, practice_system,
+        (follows, ends),
+    )  # fmt: skip
     shell.closing.connect(desktop.close)
     preferences.language_chosen.connect(lambda: QTimer.singleShot(0, desktop.reopen))
     preferences.find_language_obstacle = desktop.find_language_obstacle

@@ -166,6 +166,14 @@ class LockSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class PracticeSystemSettings:
+    """Folders of GDT files: ``requests`` with patients to measure, ``results`` that go back; empty for none."""
+
+    requests: str = ""
+    results: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class StreamSettings:
     """``on`` sends live angles, positions and events over Lab Streaming Layer, readable in the network."""
 
@@ -204,6 +212,7 @@ class Settings:
     backup: BackupSettings = field(default_factory=BackupSettings)
     records: RecordsSettings = field(default_factory=RecordsSettings)
     lock: LockSettings = field(default_factory=LockSettings)
+    practice_system: PracticeSystemSettings = field(default_factory=PracticeSystemSettings)
     stream: StreamSettings = field(default_factory=StreamSettings)
     patient: PatientSettings = field(default_factory=PatientSettings)
     updates: UpdatesSettings = field(default_factory=UpdatesSettings)
@@ -313,6 +322,7 @@ _PREFERENCE_FIELDS = {
     "backup": ("folder", "hour"),
     "records": ("retention_years",),
     "lock": ("after_min",),
+    "practice_system": ("requests", "results"),
     "stream": ("on",),
     "patient": ("sound",),
     "first_start": ("answered",),

@@ -40,13 +40,17 @@ def has_display() -> bool:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    return open_window(getattr(arguments, "data_folder", None), is_demo=False)
+    return open_window(
+        getattr(arguments, "data_folder", None),
+        is_demo=False,
+        file=None if arguments.gdt is None else arguments.gdt.absolute(),
+    )
 
 
-def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None = None) -> int:
+def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = None) -> int:
     """Show the desktop until it is closed, again after a change of language, and return the exit code.
 
-    ``session`` is opened in it, or in the desktop that is open already.
+    ``file``, a session or a GDT request, is opened in it, or in the desktop that is open already.
     """
     if not has_display():
         print_message("there is no display here; “carpus demo” shows the whole way without one.")
@@ -61,14 +65,12 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     usual = loaded.data_folder if loaded.data_folder.is_dir() else None
     is_reopened = False
     while True:
-        opened = _open_desktop(
-            qt, settings, is_demo=is_demo, default_folder=usual, session=session, startup_faults=told
-        )
+        opened = _open_desktop(qt, settings, is_demo=is_demo, default_folder=usual, file=file, startup_faults=told)
         if isinstance(opened, int):
             return opened
         desktop, alone = opened
         try:
-            code = _run_desktop(desktop, session, is_demo=is_demo, is_reopened=is_reopened)
+            code = _run_desktop(desktop, file, is_demo=is_demo, is_reopened=is_reopened)
         finally:
             desktop.close()
             alone.release()
@@ -76,7 +78,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
                 _finish_restore(desktop.library.folder)
         if not desktop.must_reopen:
             return code
-        settings, told, usual, session, is_reopened = desktop.preferences.settings, [], None, None, True
+        settings, told, usual, file, is_reopened = desktop.preferences.settings, [], None, None, True
         del desktop, opened
         _delete_windows(qt)
 
@@ -87,7 +89,7 @@ def _open_desktop(
     *,
     is_demo: bool,
     default_folder: Path | None,
-    session: Path | None,
+    file: Path | None,
     startup_faults: Sequence[CarpusFault],
 ) -> tuple[Desktop, SingleInstance] | int:
     """Build the desktop, on another data folder if a person chose one; return the exit code if there is none.
@@ -106,7 +108,7 @@ def _open_desktop(
         try:
             make_private_folder(settings.data_folder)
             if not alone.acquire():
-                if alone.notify_running_instance(session):
+                if alone.notify_running_instance(file):
                     print_message("it is open already, and has come to the front.")
                     return 0
                 raise FolderInUse(settings.data_folder)
@@ -135,13 +137,13 @@ def _open_desktop(
         return desktop, alone
 
 
-def _run_desktop(desktop: Desktop, session: Path | None, *, is_demo: bool, is_reopened: bool) -> int:
+def _run_desktop(desktop: Desktop, file: Path | None, *, is_demo: bool, is_reopened: bool) -> int:
     try:
         desktop.show(is_reopened=is_reopened)
         if is_demo and not desktop.is_closed:
             desktop.controller.patients.screen.refresh(PRACTICE_PATIENT)
-        if session is not None and not desktop.is_closed:
-            desktop.open_session(session)
+        if file is not None and not desktop.is_closed:
+            desktop.open_file(file)
         return 0 if desktop.is_closed else desktop.application.exec()
     except CarpusFault:
         # A signal may close the window while it is still coming up: what then finds the list closed is no fault.

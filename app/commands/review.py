@@ -20,4 +20,4 @@ def run(arguments: argparse.Namespace) -> int:
     path = arguments.session.absolute()
     if not path.is_file():  # whatever else is wrong with it, the window tells
         raise SessionMissing(arguments.session)
-    return desktop.open_window(arguments.data_folder, is_demo=False, session=path)
+    return desktop.open_window(arguments.data_folder, is_demo=False, file=path)

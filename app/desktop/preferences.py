@@ -13,6 +13,7 @@ from carpus.app.desktop.main_controller import MainController
 from carpus.app.session_commands import read_figures
 from carpus.app.settings import (
     LockSettings,
+    PracticeSystemSettings,
     RecordsSettings,
     Settings,
     WelcomeSettings,
@@ -135,7 +136,13 @@ class PreferencesController(QObject):
             self._controller.messages.show_fault(fault)
 
     def save(
-        self, **changed: BackupSettings | RecordsSettings | LockSettings | ReportSettings | WelcomeSettings
+        self,
+        **changed: BackupSettings
+        | RecordsSettings
+        | LockSettings
+        | ReportSettings
+        | WelcomeSettings
+        | PracticeSystemSettings,
     ) -> None:
         """Save sections of the settings that a card of its own has changed."""
         before, self._settings = self._settings, replace(self._settings, **changed)  # type: ignore[arg-type]

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication
 from carpus.app.command_line import handle_stop_signals
 from carpus.app.desktop.first_start import TourController, WelcomeController
 from carpus.app.desktop.main_controller import MainController
+from carpus.app.desktop.practice_system import PracticeSystemController
 from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.desktop.screens import load_core, load_screens
 from carpus.core.records.library import Library
@@ -62,6 +63,7 @@ class Desktop:
     welcome: WelcomeController
     tour: TourController
     preferences: PreferencesController
+    practice_system: PracticeSystemController
     system_connections: tuple[QMetaObject.Connection, ...] = ()
     """Signals of the system, disconnected at the end."""
     must_reopen: bool = False
@@ -123,20 +125,23 @@ class Desktop:
         self.shell.raise_()
         self.shell.activateWindow()
 
-    def on_second_instance(self, session: Path | None) -> None:
-        """Come to the front and open the session of a second instance."""
+    def on_second_instance(self, file: Path | None) -> None:
+        """Come to the front and open the file of a second instance."""
         self.come_to_front()
-        if session is not None:
-            self.open_session(session)
+        if file is not None:
+            self.open_file(file)
 
-    def open_session(self, session: Path) -> None:
-        """Show a session file, after unlocking if the window is locked."""
+    def open_file(self, path: Path) -> None:
+        """Show a session file, or the patient of a GDT file, after unlocking if the window is locked."""
+        show = (
+            self.controller.review_file if path.suffix.lower() in (".h5", ".hdf5") else self.practice_system.open_file
+        )
         locking = self.data_protection.locking
         if locking.is_locked:
             once = Qt.ConnectionType.SingleShotConnection
-            locking.lock_screen.closed.connect(lambda: self.controller.review_file(session), once)
+            locking.lock_screen.closed.connect(lambda: show(path), once)
         else:
-            self.controller.review_file(session)
+            show(path)
 
     @property
     def is_closed(self) -> bool:
@@ -151,6 +156,7 @@ class Desktop:
             self._preloading.join()
             self.tour.stop()
             self.welcome.stop()
+            self.practice_system.stop()
             self.data_protection.locking.shut_down()
             self.data_protection.backing_up.shut_down()
             RecentLocations(self.library.folder).save_window_geometry(encode_geometry(self.shell))

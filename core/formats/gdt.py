@@ -8,6 +8,7 @@ Source: QMS, *Gerätedatentransfer, Satzbeschreibung 2.1*.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
@@ -30,6 +31,7 @@ DEFAULT_CHARACTER_SET = "2"
 ENCODINGS = {"1": "iso646-de", "2": "cp437", "3": "iso8859-1"}
 """Python's encoding of each character set; without a field 9206 it is that of the IBM PC."""
 _ISO646_DE = str.maketrans("[\\]{|}~@", "ÄÖÜäöüß§")
+_FILE_NAME = re.compile(r"[^.].*\.(gdt|\d{3})", re.IGNORECASE)
 _LINE_OVERHEAD = 9
 _MAX_TEXT = 60
 """Characters of a field of text; longer ones are continued in another field of the same identifier."""
@@ -151,14 +153,14 @@ def _parse_date(text: str, name: str) -> date | None:
 
 
 def build_tests(measures: Iterable[Measure], describe: Callable[[Measure], str]) -> list[GdtTest]:
-    """Return ranges of motion and task measures as results; ``describe`` names a measure in the clinic's language.
+    """Return ranges of motion as results; ``describe`` names a measure in the clinic's language.
 
     The value is the best of the repetitions where a best is known, else their mean.
     """
     tests = []
     for row in measures:
         value = row.best if math.isfinite(row.best) else row.mean
-        if row.group in ("range", "task") and math.isfinite(value):
+        if row.group == "range" and math.isfinite(value):
             unit = row.unit.replace("deg", "°")
             tests.append(GdtTest(_identify(row), describe(row), value, unit, is_lower_bound=row.is_lower_bound))
     return tests
@@ -225,8 +227,21 @@ def format_result(
     )
 
 
-def write_result(path: Path, record: bytes) -> Path:
-    """Write a record beside its name and rename it, so that nobody reads half of it."""
+def find_requests(folder: Path) -> list[Path]:
+    """Return the GDT files in a folder, oldest first: ``NAME.gdt``, or numbered ``NAME.001``."""
+    found = [path for path in folder.iterdir() if _FILE_NAME.fullmatch(path.name)]
+    return sorted(found, key=lambda path: path.stat().st_mtime)
+
+
+def write_result(folder: Path, request: GdtRequest, record: bytes) -> Path:
+    """Write a record under the next free number, complete or not at all; return its path.
+
+    The name has four letters of the receiver and four of the sender, as the specification asks. Raises
+    :class:`OutputExists` if all numbers are taken, :class:`OutputNotWritable` or :class:`DiskFull`.
+    """
+    stem = f"{(request.sender or 'PVS')[:4]:_<4}{(request.receiver or 'CARPUS')[:4]:_<4}".upper()
+    numbered = (folder / f"{stem}.{number:03d}" for number in range(1, 1000))
+    path = next((path for path in numbered if not path.exists()), folder / f"{stem}.999")
     with open_new_file(path) as file:
         file.write(record)
     return path

@@ -102,6 +102,12 @@ class Patients:
         row = self._store.row(select(PATIENT.c.id).where(PATIENT.c.pseudonym_key == fold_name(pseudonym)))
         return str(row[0]) if row else ""
 
+    def id_of_record_number(self, number: str) -> str:
+        """Return the id of the patient with a record number, empty if there is none."""
+        query = select(PATIENT.c.id).where(PATIENT.c.record_number == number, PATIENT.c.erasing == 0)
+        row = self._store.row(query.order_by(PATIENT.c.last_s.desc()))
+        return str(row[0]) if row else ""
+
     def suggest_pseudonym(self, chance: random.Random | None = None) -> str:
         """Return a random free pseudonym."""
         return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))], chance)

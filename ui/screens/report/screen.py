@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -36,13 +36,15 @@ MAX_PAGE_PX = 980
 class ReportScreen(QWidget):
     """Preview of a report.
 
-    Emits ``saved`` (path), ``letter_requested`` and ``home_sheet_requested`` (report), ``fault_raised``.
+    Emits ``saved`` (path), ``letter_requested`` and ``home_sheet_requested`` (report), ``send_requested``
+    (session report, for the practice system), ``fault_raised``.
     """
 
     saved = Signal(str)
     letter_requested = Signal(object)
     home_sheet_requested = Signal(object)
     fault_raised = Signal(object)
+    send_requested = Signal(object)
 
     def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
@@ -58,6 +60,9 @@ class ReportScreen(QWidget):
         self.print_button = Button(theme, self.tr("Print…"), "plain")
         self.letter_button = Button(theme, self.tr("Letter to the doctor…"), "plain")
         self.home_button = Button(theme, self.tr("Home exercise sheet…"), "plain", hint="Ctrl+H")
+        self.send_button = Button(theme, self.tr("Send to practice system"), "plain")
+        self.can_send: Callable[[], bool] = lambda: False
+        """Returns whether a practice system waits for the result of this patient."""
         self.back_button = Button(theme, self.tr("Back to the report"), "quiet")
         self.panel = ReportPanel(theme)
         self.save_state = StateText(theme, 16, SEMIBOLD, 20)
@@ -69,6 +74,7 @@ class ReportScreen(QWidget):
         self.panel.changed.connect(self._show_changed)
         self.letter_button.clicked.connect(self._request_letter)
         self.home_button.clicked.connect(self._request_home_sheet)
+        self.send_button.clicked.connect(self._request_sending)
         self.back_button.clicked.connect(self.show_parent_report)
         bind_screen_keys(self, {"report": self.save_button.click, "home_sheet": self.home_button.click})
 
@@ -88,6 +94,7 @@ class ReportScreen(QWidget):
             self.print_button,
             self.letter_button,
             self.home_button,
+            self.send_button,
             self.back_button,
             self.open_button,
             self.path_text,  # what comes with the saved file pushes no button away
@@ -113,6 +120,7 @@ class ReportScreen(QWidget):
         self.panel.setVisible(isinstance(report, SessionReport))
         self.letter_button.setVisible(isinstance(report, SessionReport))
         self.home_button.setVisible(isinstance(report, SessionReport))
+        self.send_button.setVisible(isinstance(report, SessionReport) and self.can_send())
         self.back_button.setVisible(isinstance(report, LetterReport | HomeReport))
         if isinstance(report, SessionReport):
             self.panel.show_report(report)
@@ -165,6 +173,18 @@ class ReportScreen(QWidget):
     def _request_home_sheet(self) -> None:
         if isinstance(self._report, SessionReport):
             self.home_sheet_requested.emit(self._report)
+
+    def _request_sending(self) -> None:
+        self.panel.save_comment()
+        if isinstance(self._report, SessionReport):
+            self.send_button.setEnabled(False)
+            self.send_requested.emit(self._report)
+
+    def show_sent(self, report: Report, path: str) -> None:
+        """Show that the practice system has the report; an empty path that it could not be sent."""
+        self.send_button.setEnabled(True)
+        if path:
+            self._finish_saving(report, path)
 
     def show_parent_report(self) -> bool:
         """Return from a letter or home sheet to its report; False if there is none."""

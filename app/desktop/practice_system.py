@@ -1,0 +1,180 @@
+"""Exchange with a practice system: its patients are opened, and reports go back, as GDT files in two folders."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+from tempfile import TemporaryFile
+
+from PySide6.QtCore import QObject, QTimer
+
+from carpus.app.desktop.main_controller import MainController
+from carpus.app.desktop.preferences import PreferencesController
+from carpus.app.settings import PracticeSystemSettings
+from carpus.core.formats import gdt
+from carpus.core.model.errors import CarpusFault, GdtUnreadable
+from carpus.core.records.practice_system import save_requested_patient, set_aside
+from carpus.ui.kit.background import Background
+from carpus.ui.kit.translate import tr
+from carpus.ui.report.pdf import report_pdf, save_pdf
+from carpus.ui.report.session_page import SessionReport
+from carpus.ui.screens.report.screen import default_file_name
+from carpus.ui.screens.settings.practice_system_card import PracticeSystemCard
+from carpus.ui.words.progress import range_name
+
+POLL_MS = 2000
+"""A folder in the network gives no notice of new files, so it is looked at."""
+SETTLED_S = 10.0
+"""An unreadable file younger than this may still be written."""
+
+
+class PracticeSystemController(QObject):
+    """Opens the patients of GDT requests, and sends reports back with the values."""
+
+    def __init__(self, controller: MainController, preferences: PreferencesController, *, is_demo: bool) -> None:
+        super().__init__(controller)
+        self._controller, self._preferences = controller, preferences
+        self._requests: dict[str, gdt.GdtRequest] = {}
+        """The last request of each record number: its addresses stand in the result."""
+        self._background = Background()
+        self.can_open: Callable[[], bool] = lambda: True
+        """Returns whether a patient may be opened now; set where the lock is known."""
+        self._timer = QTimer(self)
+        self._timer.timeout.connect(self._look)
+        if not is_demo:
+            self._timer.start(POLL_MS)
+        controller.navigator.run_when_created("settings", self._connect_settings)
+        controller.navigator.run_when_created("report", self._connect_report)
+
+    @property
+    def _folders(self) -> PracticeSystemSettings:
+        return self._preferences.settings.practice_system
+
+    def stop(self) -> None:
+        """End the watch, and wait for what is being read."""
+        self._timer.stop()
+        self._background.join()
+
+    # --- requests ---------------------------------------------------------------------------------------------
+    def _look(self) -> None:
+        """Read the folder in the background unless a patient cannot be opened now."""
+        folder = self._folders.requests
+        if folder and self._is_free() and not self._background.is_busy:
+            self._background.run(lambda: _read_oldest(Path(folder)), self._open_found, lambda _: None, self)
+
+    def _is_free(self) -> bool:
+        controller = self._controller
+        return (
+            self.can_open()
+            and not controller.messages.is_busy
+            and not controller.navigator.is_recording()
+            and controller.current.source is None
+        )
+
+    def _open_found(self, found: tuple[Path, gdt.GdtRequest | GdtUnreadable] | None) -> None:
+        if found is None or not self._is_free():
+            return
+        path, request = found
+        try:
+            if isinstance(request, GdtUnreadable):
+                set_aside(path)
+                raise request
+            self._open_patient(path, request)
+        except CarpusFault as fault:
+            self._controller.messages.show_fault(fault)
+
+    def open_file(self, path: Path) -> None:
+        """Open the patient of a GDT file that a practice system names when it starts Carpus."""
+        if not self._is_free():
+            return
+        try:
+            self._open_patient(path, gdt.read_request(path))
+        except CarpusFault as fault:
+            self._controller.messages.show_fault(fault)
+
+    def _open_patient(self, path: Path, request: gdt.GdtRequest) -> None:
+        """Show the patient; the request is deleted once the patient is stored, as the specification asks."""
+        controller = self._controller
+        patient = save_requested_patient(controller.context.library.patients, request)
+        self._requests[request.number] = request
+        path.unlink(missing_ok=True)
+        controller.patients.open(patient.patient_id)
+
+    # --- results ----------------------------------------------------------------------------------------------
+    def _connect_report(self) -> None:
+        screen = self._controller.report.screen
+        screen.can_send = lambda: bool(self._folders.results) and bool(self._record_number())
+        screen.send_requested.connect(self._send)
+
+    def _record_number(self) -> str:
+        patient = self._controller.current.patient
+        return patient.record_number if patient is not None else ""
+
+    def _send(self, report: SessionReport) -> None:
+        """Write the report and its values into the folder of results."""
+        screen, patient = self._controller.report.screen, self._controller.current.patient
+        assert patient is not None
+        folder, number = Path(self._folders.results), patient.record_number
+        request = self._requests.get(number, gdt.GdtRequest(number, birth_date=patient.birth_day))
+        request = replace(request, sex=patient.sex if patient.sex in ("male", "female") else "")
+        content, name = report_pdf(screen.preview.pages), default_file_name(report)
+        tests = gdt.build_tests(report.results.measures, lambda row: range_name(row, names_arc=True))
+
+        def work() -> str:
+            target = folder / name
+            if target.exists():  # sent before, and this report may say something else
+                target = target.with_stem(f"{target.stem}_{datetime.now():%H%M%S}")
+            save_pdf(target, content)
+            gdt.write_result(folder, request, gdt.format_result(request, report.results.when, tests, report=target))
+            return str(target)
+
+        def show_failure(fault: Exception) -> None:
+            screen.show_sent(report, "")
+            self._controller.messages.show_fault(fault)
+
+        self._background.run(work, lambda path: screen.show_sent(report, path), show_failure, screen)
+
+    # --- settings ---------------------------------------------------------------------------------------------
+    def _connect_settings(self) -> None:
+        chosen = self._folders
+        card = PracticeSystemCard(self._controller.context.theme, chosen.requests, chosen.results)
+        card.changed.connect(
+            lambda requests, results: self._preferences.save(practice_system=PracticeSystemSettings(requests, results))
+        )
+        card.test_requested.connect(lambda: self._test(card))
+        self._preferences.screen.add_cards("report", card)
+
+    def _test(self, card: PracticeSystemCard) -> None:
+        """Show whether the folders can be used, and who waits in the first."""
+        chosen = self._folders
+
+        def work() -> str:
+            found = []
+            if chosen.requests:
+                waiting = gdt.find_requests(Path(chosen.requests))
+                found.append(tr("Waiting patients: {count}.").format(count=len(waiting)))
+            if chosen.results:
+                with TemporaryFile(dir=chosen.results):
+                    found.append(tr("Results can be written."))
+            return " ".join(found)
+
+        def show_failure(fault: Exception) -> None:
+            card.show_test(
+                tr("A folder cannot be used: {reason}").format(reason=getattr(fault, "strerror", "") or fault)
+            )
+
+        self._background.run(work, card.show_test, show_failure, card)
+
+
+def _read_oldest(folder: Path) -> tuple[Path, gdt.GdtRequest | GdtUnreadable] | None:
+    """Return the oldest request of a folder, or why it cannot be read; None if there is none or it is being written."""
+    for path in gdt.find_requests(folder):
+        try:
+            return path, gdt.read_request(path)
+        except GdtUnreadable as fault:
+            if time.time() - path.stat().st_mtime > SETTLED_S:
+                return path, fault
+    return None

@@ -1,0 +1,100 @@
+"""A practice system sends a patient by GDT, and gets values and PDF back."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from datetime import date
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from carpus.app.desktop.window import Desktop
+from carpus.app.settings import PracticeSystemSettings, ScreenSettings, Settings
+from carpus.core.formats.gdt import parse_fields
+from carpus.core.records.values import Patient
+from tests.app.test_library import set_up, store
+from tests.formats.test_gdt import MUSTERMANN, encode
+
+Open = Callable[..., Desktop]
+
+
+@pytest.fixture
+def folders(tmp_path: Path) -> PracticeSystemSettings:
+    """Both folders of the exchange."""
+    chosen = PracticeSystemSettings(str(tmp_path / "in"), str(tmp_path / "out"))
+    for folder in (chosen.requests, chosen.results):
+        Path(folder).mkdir()
+    return chosen
+
+
+@pytest.fixture
+def opened(open_desktop: Open, folders: PracticeSystemSettings) -> Open:
+    """Return the window with both folders chosen."""
+    return lambda: open_desktop(Settings(screen=ScreenSettings("light"), practice_system=folders))
+
+
+def selected(desktop: Desktop) -> str:
+    """Return the id of the patient on the first screen."""
+    screen = desktop.controller.patients.screen
+    return str(screen.list.patient_model.row(screen.list.currentIndex().row()).patient_id)
+
+
+def lay(folders: PracticeSystemSettings, content: bytes, name: str = "CARPPRAX.001") -> Path:
+    path = Path(folders.requests) / name
+    path.write_bytes(content)
+    return path
+
+
+def test_request_in_the_folder_opens_a_new_patient(qtbot: QtBot, opened: Open, folders: PracticeSystemSettings) -> None:
+    desktop = opened()
+    path = lay(folders, encode(MUSTERMANN, "iso8859-1"))
+
+    qtbot.waitUntil(lambda: not path.exists(), timeout=20_000)
+    shown = desktop.library.patients.get(selected(desktop))
+    assert (shown.name, shown.record_number, shown.sex) == ("Jürg Mustermann", "12345", "male")
+    assert shown.birth_day == date(1945, 10, 30)
+
+
+def test_request_of_a_known_number_opens_that_patient(
+    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
+) -> None:
+    desktop = opened()
+    known = desktop.library.patients.add(Patient("Heron 17", "left", name="J. Mustermann", record_number="12345"))
+    desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1"), "from the menu.txt"))
+
+    patient = desktop.library.patients.get(known)
+    assert (patient.pseudonym, patient.side, patient.name) == ("Heron 17", "left", "Jürg Mustermann")
+    assert selected(desktop) == known
+    assert len(desktop.library.patients.search()) == 1
+
+
+def test_request_unreadable_is_set_aside_and_said(qtbot: QtBot, opened: Open, folders: PracticeSystemSettings) -> None:
+    desktop = opened()
+    path = lay(folders, b"not a request")
+    os.utime(path, (0, 0))
+
+    qtbot.waitUntil(lambda: desktop.controller.messages.is_busy, timeout=20_000)
+    assert not path.exists()
+    assert path.with_name(path.name + ".unreadable").read_bytes() == b"not a request"
+
+
+def test_report_sent_writes_pdf_and_values(qtbot: QtBot, opened: Open, folders: PracticeSystemSettings) -> None:
+    desktop = opened()
+    controller, library = desktop.controller, desktop.library
+    desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1")))
+    patient = library.patients.search("12345")[0]
+    stored = store(library, set_up(patient.patient_id, patient.pseudonym))
+    controller.current.patient = patient
+    controller.report.open(stored)
+    screen = controller.report.screen
+    qtbot.waitUntil(lambda: screen.report is not None, timeout=30_000)
+    screen.send_button.click()
+
+    out = Path(folders.results)
+    qtbot.waitUntil(lambda: (out / "PRAXCARP.001").exists(), timeout=30_000)
+    fields = dict(reversed(parse_fields((out / "PRAXCARP.001").read_bytes())[0]))
+    assert (fields["8000"], fields["3000"], fields["8315"]) == ("6310", "12345", "PRAX_AIS")
+    assert Path(fields["6305"]).read_bytes().startswith(b"%PDF")
+    assert Path(fields["6305"]).parent == out

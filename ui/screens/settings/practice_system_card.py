@@ -1,0 +1,70 @@
+"""Card of the settings with the folders that are shared with a practice system."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QFileDialog
+
+from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import Card
+from carpus.ui.kit.layouts import fill, row_layout
+from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.kit.theme import Theme
+
+
+class PracticeSystemCard(Card):
+    """Folders for GDT files of patients and of results.
+
+    Signals: ``changed`` with both folders; ``test_requested``.
+    """
+
+    changed = Signal(str, str)
+    test_requested = Signal()
+
+    def __init__(self, theme: Theme, requests: str, results: str) -> None:
+        super().__init__(theme, 24)
+        words = self.tr(
+            "The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. "
+            "“Send to practice system” on a report places its values and the PDF in the second. Real names are in "
+            "these files."
+        )
+        self._folders = [requests, results]
+        self._texts = [Text(theme, "", 14, wrap=True) for _ in self._folders]
+        self.folder_buttons = [Button(theme, self.tr("Change…"), height_px=40) for _ in self._folders]
+        self.clear_buttons = [Button(theme, self.tr("Do not use"), "quiet", height_px=40) for _ in self._folders]
+        self.test_button = Button(theme, self.tr("Test the folders"), height_px=40)
+        self.test_text = Text(theme, "", 14, SEMIBOLD, wrap=True)
+        self.body.addWidget(Text(theme, self.tr("Practice system (GDT)"), 20, SEMIBOLD))
+        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        titles = (self.tr("Patients from the practice system"), self.tr("Results for the practice system"))
+        for number, title in enumerate(titles):
+            row = row_layout((self._texts[number], 1), self.folder_buttons[number], self.clear_buttons[number], gap=8)
+            fill(self.body, 8, Text(theme, title, 14, SEMIBOLD), row)
+            self.folder_buttons[number].setAccessibleName(f"{title}: {self.tr('Change…')}")
+            self.clear_buttons[number].setAccessibleName(f"{title}: {self.tr('Do not use')}")
+            self.folder_buttons[number].clicked.connect(lambda _=False, number=number: self._choose(number))
+            self.clear_buttons[number].clicked.connect(lambda _=False, number=number: self._set(number, ""))
+        fill(self.body, 8, row_layout(self.test_button, (self.test_text, 1), gap=16))
+        self.test_button.clicked.connect(self.test_requested)
+        self._show()
+
+    def show_test(self, words: str) -> None:
+        """Show what a test of the folders found."""
+        self.test_text.setText(words)
+
+    def _choose(self, number: int) -> None:
+        path = QFileDialog.getExistingDirectory(self, self.tr("Choose a folder"), self._folders[number])
+        if path:
+            self._set(number, path)
+
+    def _set(self, number: int, folder: str) -> None:
+        self._folders[number] = folder
+        self._show()
+        self.changed.emit(*self._folders)
+
+    def _show(self) -> None:
+        for folder, text, clear in zip(self._folders, self._texts, self.clear_buttons, strict=True):
+            text.setText(folder or self.tr("No folder chosen"))
+            clear.setVisible(bool(folder))
+        self.test_button.setEnabled(any(self._folders))
+        self.test_text.setText("")
