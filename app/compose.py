@@ -109,13 +109,13 @@ def compose(
         controller.context, lambda: preferences.settings.report.therapist, preferences.choose_therapist
     )
     data_protection = _build_data_protection(controller, preferences, therapists, settings, settings_folder)
+    practice_system = PracticeSystemController(controller, preferences, is_demo=is_demo)
     controller.navigator.run_when_created(
         "settings", lambda: _connect_settings(preferences.screen, controller, therapists, theme)
     )
     tour = TourController(controller)
     welcome = WelcomeController(controller, theme, tour, preferences, library)
     ends = qt.commitDataRequest.connect(lambda _: shell.close_without_prompt())
-    practice_system = PracticeSystemController(controller, preferences, is_demo=is_demo)
     practice_system.can_open = lambda: not data_protection.locking.is_locked and not shell.isHidden()
     desktop = Desktop(
         qt, shell, theme, controller, library, data_protection, welcome, tour, preferences, practice_system,

@@ -43,7 +43,7 @@ class PracticeSystemController(QObject):
         self.can_open: Callable[[], bool] = lambda: True
         """Returns whether a patient may be opened now; set where the lock is known."""
         self._timer = QTimer(self)
-        self._timer.timeout.connect(self._look)
+        self._timer.timeout.connect(self._check_folder)
         if not is_demo:
             self._timer.start(POLL_MS)
         controller.navigator.run_when_created("settings", self._connect_settings)
@@ -59,7 +59,7 @@ class PracticeSystemController(QObject):
         self._background.join()
 
     # --- requests ---------------------------------------------------------------------------------------------
-    def _look(self) -> None:
+    def _check_folder(self) -> None:
         """Read the folder in the background unless a patient cannot be opened now."""
         folder = self._folders.requests
         if folder and self._is_free() and not self._background.is_busy:

@@ -6507,6 +6507,18 @@
         <source>other</source>
         <translation>divers</translation>
     </message>
+    <message>
+        <source>Waiting patients: {count}.</source>
+        <translation>Wartende Patienten: {count}.</translation>
+    </message>
+    <message>
+        <source>Results can be written.</source>
+        <translation>Ergebnisse können geschrieben werden.</translation>
+    </message>
+    <message>
+        <source>A folder cannot be used: {reason}</source>
+        <translation>Ein Ordner kann nicht verwendet werden: {reason}</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -9991,6 +10003,10 @@ von oben</translation>
         <source>{pages}, readable in grey. Contains the pseudonym, not the real name.</source>
         <translation>{pages}, auch in Grau lesbar. Enthält das Pseudonym, nicht den echten Namen.</translation>
     </message>
+    <message>
+        <source>Send to practice system</source>
+        <translation>An Praxissoftware senden</translation>
+    </message>
 </context>
 <context>
     <name>ResultTables</name>
@@ -11059,6 +11075,45 @@ von oben</translation>
     <message>
         <source>Edit the list…</source>
         <translation>Liste bearbeiten…</translation>
+    </message>
+</context>
+<context>
+    <name>PracticeSystemCard</name>
+    <message>
+        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
+        <translation>Die Praxissoftware legt eine Person als GDT-2.1-Datei in den ersten Ordner, und Carpus öffnet sie. „An Praxissoftware senden“ auf einem Bericht legt Werte und PDF in den zweiten. Diese Dateien enthalten echte Namen.</translation>
+    </message>
+    <message>
+        <source>Change…</source>
+        <translation>Ändern…</translation>
+    </message>
+    <message>
+        <source>Do not use</source>
+        <translation>Nicht verwenden</translation>
+    </message>
+    <message>
+        <source>Test the folders</source>
+        <translation>Ordner prüfen</translation>
+    </message>
+    <message>
+        <source>Practice system (GDT)</source>
+        <translation>Praxissoftware (GDT)</translation>
+    </message>
+    <message>
+        <source>Patients from the practice system</source>
+        <translation>Patienten aus der Praxissoftware</translation>
+    </message>
+    <message>
+        <source>Results for the practice system</source>
+        <translation>Ergebnisse für die Praxissoftware</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Ordner wählen</translation>
+    </message>
+    <message>
+        <source>No folder chosen</source>
+        <translation>Kein Ordner gewählt</translation>
     </message>
 </context>
 </TS>

@@ -6507,6 +6507,18 @@
         <source>other</source>
         <translation>altro</translation>
     </message>
+    <message>
+        <source>Waiting patients: {count}.</source>
+        <translation>Pazienti in attesa: {count}.</translation>
+    </message>
+    <message>
+        <source>Results can be written.</source>
+        <translation>I risultati possono essere scritti.</translation>
+    </message>
+    <message>
+        <source>A folder cannot be used: {reason}</source>
+        <translation>Una cartella non può essere usata: {reason}</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -9991,6 +10003,10 @@ dall’alto</translation>
         <source>{pages}, readable in grey. Contains the pseudonym, not the real name.</source>
         <translation>{pages}, leggibile anche in grigio. Contiene lo pseudonimo, non il nome vero.</translation>
     </message>
+    <message>
+        <source>Send to practice system</source>
+        <translation>Invia al gestionale</translation>
+    </message>
 </context>
 <context>
     <name>ResultTables</name>
@@ -11059,6 +11075,45 @@ dall’alto</translation>
     <message>
         <source>Edit the list…</source>
         <translation>Modifica l’elenco…</translation>
+    </message>
+</context>
+<context>
+    <name>PracticeSystemCard</name>
+    <message>
+        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
+        <translation>Il gestionale mette un paziente come file GDT 2.1 nella prima cartella e Carpus lo apre. “Invia al gestionale” accanto a una relazione mette i valori e il PDF nella seconda. Questi file contengono i nomi reali.</translation>
+    </message>
+    <message>
+        <source>Change…</source>
+        <translation>Cambia…</translation>
+    </message>
+    <message>
+        <source>Do not use</source>
+        <translation>Non usare</translation>
+    </message>
+    <message>
+        <source>Test the folders</source>
+        <translation>Verifica le cartelle</translation>
+    </message>
+    <message>
+        <source>Practice system (GDT)</source>
+        <translation>Gestionale (GDT)</translation>
+    </message>
+    <message>
+        <source>Patients from the practice system</source>
+        <translation>Pazienti dal gestionale</translation>
+    </message>
+    <message>
+        <source>Results for the practice system</source>
+        <translation>Risultati per il gestionale</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Scegli una cartella</translation>
+    </message>
+    <message>
+        <source>No folder chosen</source>
+        <translation>Nessuna cartella scelta</translation>
     </message>
 </context>
 </TS>

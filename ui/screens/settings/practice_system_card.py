@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFileDialog
 
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
-from carpus.ui.kit.layouts import fill, row_layout
+from carpus.ui.kit.layouts import STRETCH, fill, row_layout
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
 
@@ -38,8 +38,8 @@ class PracticeSystemCard(Card):
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         titles = (self.tr("Patients from the practice system"), self.tr("Results for the practice system"))
         for number, title in enumerate(titles):
-            row = row_layout((self._texts[number], 1), self.folder_buttons[number], self.clear_buttons[number], gap=8)
-            fill(self.body, 8, Text(theme, title, 14, SEMIBOLD), row)
+            row = row_layout(self.folder_buttons[number], self.clear_buttons[number], STRETCH, gap=8)
+            fill(self.body, 8, Text(theme, title, 14, SEMIBOLD, wrap=True), self._texts[number], row)
             self.folder_buttons[number].setAccessibleName(f"{title}: {self.tr('Change…')}")
             self.clear_buttons[number].setAccessibleName(f"{title}: {self.tr('Do not use')}")
             self.folder_buttons[number].clicked.connect(lambda _=False, number=number: self._choose(number))
