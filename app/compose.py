@@ -26,7 +26,7 @@ from carpus.app.settings import LockSettings, Settings, sessions_folder
 from carpus.app.settings import settings_folder as default_settings_folder
 from carpus.core.capture.source import FrameSource
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import RecoveredSession, recover_sessions
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import SessionSetup
@@ -74,7 +74,7 @@ def compose(
     # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
     sys.setswitchinterval(THREAD_SWITCH_S)
     theme = apply_appearance(qt, settings)
-    library = Library(settings.data_folder, url=settings.records.url, sessions_folder=sessions_folder(settings))
+    library = DataFolder(settings.data_folder, url=settings.records.url, sessions_folder=sessions_folder(settings))
     library.get_initials = lambda: settings.report.therapist
     library.get_angle_order = lambda: settings.report.angle_order
     LOG_FORMATTER.find_names = library.identifying_texts

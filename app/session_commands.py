@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import sqlite3
 
     from carpus.core.formats.export import ExportResult
-    from carpus.core.records.library import Library
+    from carpus.core.records.data_folder import DataFolder
     from carpus.core.records.log import AuditAction, SubjectKind
     from carpus.core.records.session_records import OutputKind
     from carpus.core.records.store import Store
@@ -200,12 +200,12 @@ def read_figures(
     return figures, raters
 
 
-def open_library(folder: Path, *, read_only: bool = False) -> Library:
+def open_library(folder: Path, *, read_only: bool = False) -> DataFolder:
     """Open the library of a data folder, with the clinic's server and share if it is this computer's own."""
-    from carpus.core.records.library import Library
+    from carpus.core.records.data_folder import DataFolder
 
     url, share = _find_server_url(folder), _find_shared_folder(folder)
-    library = Library(folder, source="command", url=url, sessions_folder=share, read_only=read_only)
+    library = DataFolder(folder, source="command", url=url, sessions_folder=share, read_only=read_only)
     library.get_initials = user_initials
     library.on_fault = print_fault
     return library

@@ -12,8 +12,8 @@ from carpus.app.settings import load_valid_settings
 from carpus.core.model.errors import PatientUnknown, RecordingMissing
 from carpus.core.model.names import describe_known_names, fold_name
 from carpus.core.model.rounding import format_rounded
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.library import Library
 from carpus.core.records.retention import RecordRetention
 from carpus.core.session.reader import read_outline
 
@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _erase(library, arguments.what, path, arguments.for_good)
 
 
-def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> int:
+def _erase(library: DataFolder, what: str, path: Path, confirmed: str | None) -> int:
     records = RecordRetention(library)
     if path.is_file():
         plan = records.plan_session(read_outline(path).header.session_id)

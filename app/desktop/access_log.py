@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from PySide6.QtCore import QObject, Signal
 
 from carpus.app.desktop.main_controller import MainController
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 
 
 class AccessLogger(QObject):
@@ -16,7 +16,7 @@ class AccessLogger(QObject):
     log_failed = Signal(object)
     """Emitted from any thread when the log cannot be written."""
 
-    def __init__(self, controller: MainController, library: Library) -> None:
+    def __init__(self, controller: MainController, library: DataFolder) -> None:
         super().__init__(controller)
         self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(controller.comparison.screen.session_ids)
         self._current, self._library = controller.current, library

@@ -16,7 +16,7 @@ from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.settings import WelcomeSettings
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.model.installation import Finding
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.dialog import has_open_dialog
 from carpus.ui.kit.fonts import DISPLAY_FAMILY, TEXT_FAMILY, load_fonts
@@ -181,7 +181,7 @@ class WelcomeController(QObject):
         theme: Theme,
         tour: TourController,
         preferences: PreferencesController,
-        library: Library,
+        library: DataFolder,
     ) -> None:
         super().__init__(controller)
         self._controller, self._theme, self._tour, self._preferences, self._library = (

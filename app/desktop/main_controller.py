@@ -19,7 +19,7 @@ from carpus.app.settings import Settings
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.model.errors import CarpusFault
 from carpus.core.records.corrections import Corrections
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.values import Patient
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
@@ -39,7 +39,7 @@ ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
 class AppServices:
     """What the controller needs besides the window."""
 
-    library: Library
+    library: DataFolder
     open_source: OpenSourceFunction
     cameras: MaintenanceCameras
     settings: Settings

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import RecoveredSession, recover_sessions
 from carpus.ui.kit.background import Background
 
@@ -25,7 +25,7 @@ class ServerMonitor(QObject):
     server_lost = Signal()
     server_restored = Signal(object)
 
-    def __init__(self, library: Library, parent: QObject) -> None:
+    def __init__(self, library: DataFolder, parent: QObject) -> None:
         super().__init__(parent)
         self._library, self._background = library, Background()
         self._was_away = library.store.is_server_away
@@ -55,7 +55,7 @@ class ServerMonitor(QObject):
             self.server_lost.emit()
 
 
-def _check_server(library: Library, was_away: bool) -> CatchUp | None:
+def _check_server(library: DataFolder, was_away: bool) -> CatchUp | None:
     """Return what was recovered after an outage, None otherwise. Raises :class:`ServerUnavailable`."""
     assert library.store.server is not None
     library.store.server.ping()

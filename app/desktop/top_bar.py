@@ -98,8 +98,8 @@ class TopBarController(QObject):
         if figures is not None and figures.is_excluded:
             lines.append(self.tr("This session is excluded from analysis."))
         if findings:
-            said = " ".join(finding_words(finding).summary for finding in findings)
-            lines.append(self.tr("Measured although uncertain: {findings}").format(findings=said))
+            summaries = " ".join(finding_words(finding).summary for finding in findings)
+            lines.append(self.tr("Measured although uncertain: {findings}").format(findings=summaries))
         return [*lines, *self._navigator.current_flow.banner_lines()]
 
     def show_camera(self) -> None:

@@ -16,7 +16,7 @@ from carpus.app.desktop.main_controller import MainController
 from carpus.app.desktop.practice_system import PracticeSystemController
 from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.desktop.screens import load_core, load_screens
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.garbage_collection import GarbageCollector
 from carpus.ui.kit.theme import Theme
@@ -58,7 +58,7 @@ class Desktop:
     shell: MainWindow
     theme: Theme
     controller: MainController
-    library: Library
+    library: DataFolder
     data_protection: DataProtection
     welcome: WelcomeController
     tour: TourController

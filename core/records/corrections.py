@@ -18,7 +18,7 @@ from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.platform.durable import link_or_copy, make_private_folder, replace_file, write_fault
 from carpus.core.records.changes import update_row
-from carpus.core.records.library import Library, with_listed_exercise
+from carpus.core.records.data_folder import DataFolder, with_listed_exercise
 from carpus.core.records.log import AuditAction
 from carpus.core.records.recordings import has_session
 from carpus.core.records.schema import SESSION
@@ -71,7 +71,7 @@ MIN_SEEN_SHARE = 0.2
 class Corrections:
     """Pending results of a data folder."""
 
-    def __init__(self, library: Library) -> None:
+    def __init__(self, library: DataFolder) -> None:
         self._library = library
         self._detections: tuple[Path, DetectionTable] | None = None
 

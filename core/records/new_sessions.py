@@ -27,9 +27,9 @@ from carpus.core.model.errors import (
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import make_private_folder, write_fault
 from carpus.core.records.changes import is_patient_id
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.erasure import delete_orphan_folders
 from carpus.core.records.exercise_sets import save_setup
-from carpus.core.records.library import Library
 from carpus.core.records.log import is_patient_erased
 from carpus.core.records.recordings import (
     copy_session,
@@ -61,7 +61,7 @@ class RecoveredSession:
     duration_s: float
 
 
-def recover_sessions(library: Library) -> tuple[Sequence[RecoveredSession], Sequence[CarpusFault]]:
+def recover_sessions(library: DataFolder) -> tuple[Sequence[RecoveredSession], Sequence[CarpusFault]]:
     """Complete interrupted sessions, and list them and files that were copied in."""
     faults = [*library.startup_faults, *library.store.startup_faults]
     library.startup_faults, library.store.startup_faults = [], []
@@ -102,7 +102,7 @@ def recover_sessions(library: Library) -> tuple[Sequence[RecoveredSession], Sequ
     return found, [*faults, *file_faults]
 
 
-def _session_folder(library: Library, patient_id: str, subject_id: str) -> Path | None:
+def _session_folder(library: DataFolder, patient_id: str, subject_id: str) -> Path | None:
     """Return the session folder of a patient or pseudonym, None for an erased patient."""
     owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else library.patients.id_of_pseudonym(subject_id)
     if is_patient_id(patient_id):
@@ -148,7 +148,7 @@ def _publish(path: Path, get_folder: Callable[[], Path]) -> Path:
 class SessionIntake:
     """Paths and registration of new sessions."""
 
-    def __init__(self, library: Library) -> None:
+    def __init__(self, library: DataFolder) -> None:
         self._library = library
 
     def new_path(self, set_up: SessionSetup) -> Path:

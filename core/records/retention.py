@@ -14,8 +14,8 @@ from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.phrase import phrase
 from carpus.core.records import erasure
 from carpus.core.records.changes import fingerprint
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.library import Library
 from carpus.core.records.log import AuditEntry, read_log
 from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.session_setup import PRACTICE_PATIENT
@@ -91,7 +91,7 @@ class ArchivedItem:
 class RecordRetention:
     """Erasure, archive and log of a data folder."""
 
-    def __init__(self, library: Library) -> None:
+    def __init__(self, library: DataFolder) -> None:
         self._library, self._store = library, library.store
 
     def plan_session(self, session_id: str) -> ErasurePlan:

@@ -2684,10 +2684,6 @@
         <translation>Supination, Pronation</translation>
     </message>
     <message>
-        <source>{movement} {goal} (mean {mean}; detectable change from {told})</source>
-        <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {told} erkennbar)</translation>
-    </message>
-    <message>
         <source>Proposed from the last session:</source>
         <translation>Vorschlag aus der letzten Sitzung:</translation>
     </message>
@@ -6518,6 +6514,10 @@
     <message>
         <source>A folder cannot be used: {reason}</source>
         <translation>Ein Ordner kann nicht verwendet werden: {reason}</translation>
+    </message>
+    <message>
+        <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
+        <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {limit} erkennbar)</translation>
     </message>
 </context>
 <context>

@@ -2684,10 +2684,6 @@
         <translation>Supinazione, pronazione</translation>
     </message>
     <message>
-        <source>{movement} {goal} (mean {mean}; detectable change from {told})</source>
-        <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {told})</translation>
-    </message>
-    <message>
         <source>Proposed from the last session:</source>
         <translation>Proposta dall’ultima seduta:</translation>
     </message>
@@ -6518,6 +6514,10 @@
     <message>
         <source>A folder cannot be used: {reason}</source>
         <translation>Una cartella non può essere usata: {reason}</translation>
+    </message>
+    <message>
+        <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
+        <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {limit})</translation>
     </message>
 </context>
 <context>

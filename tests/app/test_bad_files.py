@@ -23,8 +23,8 @@ from carpus.core.model.errors import (
     SessionUnreadable,
 )
 from carpus.core.records import new_sessions, session_list
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.session_list import read_file_states
 from carpus.core.records.values import Patient
@@ -50,7 +50,7 @@ def stored(path: Path, subject: str = "Linden 42", *, finished: bool = True) -> 
 
 def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
     """The program's start on a folder: patients, and what it tells of its files."""
-    with closing(Library(folder)) as library:
+    with closing(DataFolder(folder)) as library:
         faults = [one for one in recover_sessions(library)[1] if not isinstance(one, PatientListMissing)]
         return [record.pseudonym for record in library.patients.search()], faults
 

@@ -29,7 +29,7 @@ from carpus.core.model.errors import (
 from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
 from carpus.core.records.backup import collect_sources
 from carpus.core.records.corrections import Corrections, PendingResult, compare_results, match_exclusions
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import MARKERS_SUFFIX
@@ -68,7 +68,7 @@ def corrected(stored: Stored) -> Path:
 class Kept:
     """A patient's session in a data folder."""
 
-    library: Library
+    library: DataFolder
     patient: str
     session_id: str
     corrected: Path
@@ -96,7 +96,7 @@ class Kept:
         return trial
 
 
-def entered(library: Library, stored: Stored, corrected: Path) -> Kept:
+def entered(library: DataFolder, stored: Stored, corrected: Path) -> Kept:
     patient = library.patients.add(Patient("Linden 42", "right"))
     when = datetime(2026, 11, 20, 11, 36).astimezone()
     path = library.session_list.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
@@ -106,7 +106,7 @@ def entered(library: Library, stored: Stored, corrected: Path) -> Kept:
 
 @pytest.fixture
 def kept(tmp_path: Path, stored: Stored, corrected: Path) -> Iterator[Kept]:
-    with closing(Library(tmp_path / "data")) as library:
+    with closing(DataFolder(tmp_path / "data")) as library:
         yield entered(library, stored, corrected)
 
 

@@ -20,8 +20,8 @@ from carpus.core.model.errors import (
     SpooledSessionMoved,
 )
 from carpus.core.records import new_sessions
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.erasure import erase, plan_patient
-from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.recordings import spool_folder
 from carpus.core.records.values import Patient
@@ -30,18 +30,18 @@ from tests.records.samples import record
 from tests.session.samples import CREATED, stored_journal
 
 
-def recorded(library: Library, patient_id: str, pseudonym: str = "Linden 42") -> Path:
+def recorded(library: DataFolder, patient_id: str, pseudonym: str = "Linden 42") -> Path:
     """A session that has just been recorded, and has not been entered."""
     return record(SessionIntake(library).new_path(set_up(patient_id, pseudonym)), pseudonym, CREATED, "left")
 
 
 @pytest.fixture
-def library(tmp_path: Path) -> Iterator[Library]:
-    with closing(Library(tmp_path / "data")) as opened:
+def library(tmp_path: Path) -> Iterator[DataFolder]:
+    with closing(DataFolder(tmp_path / "data")) as opened:
         yield opened
 
 
-def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, library: Library) -> None:
+def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, library: DataFolder) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.on_fault = told.append
@@ -55,7 +55,7 @@ def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, libra
     assert len(library.session(session_id)) > 0  # it can be reviewed although the register is gone
     library.close()
     (tmp_path / "unplugged").rename(tmp_path / "data")
-    with closing(Library(tmp_path / "data")) as again:
+    with closing(DataFolder(tmp_path / "data")) as again:
         assert [type(fault) for fault in recover_sessions(again)[1]] == [SpooledSessionMoved]
         (entry,) = again.sessions(key)
         assert again.session(entry.session_id).header.session_id == session_id
@@ -63,7 +63,7 @@ def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, libra
 
 
 def test_session_that_is_being_published_is_not_brought_home_as_well(
-    library: Library, monkeypatch: pytest.MonkeyPatch
+    library: DataFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     found: list[object] = []
@@ -79,7 +79,7 @@ def test_session_that_is_being_published_is_not_brought_home_as_well(
     assert len(library.sessions(key)) == 1
 
 
-def test_share_that_hangs_is_not_waited_for(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_share_that_hangs_is_not_waited_for(library: DataFolder, monkeypatch: pytest.MonkeyPatch) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.on_fault = told.append
@@ -105,7 +105,7 @@ def test_share_that_hangs_is_not_waited_for(library: Library, monkeypatch: pytes
 
 
 def test_full_data_folder_keeps_the_session_here_until_there_is_room(
-    library: Library, monkeypatch: pytest.MonkeyPatch
+    library: DataFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(_: Path, folder: Path) -> Path:
         raise DiskFull(folder)
@@ -121,7 +121,7 @@ def test_full_data_folder_keeps_the_session_here_until_there_is_room(
     assert len(library.sessions(key)) == 1
 
 
-def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(library: Library) -> None:
+def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(library: DataFolder) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     path = SessionIntake(library).new_path(set_up(key, "Linden 42"))
     stored_journal(path.with_suffix(".journal"), 40)
@@ -136,7 +136,7 @@ def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(
 def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: Path) -> None:
     """Nothing is made where the share belongs, which would hide under it once it is mounted."""
     data, share = tmp_path / "data", tmp_path / "share"
-    with closing(Library(data, sessions_folder=share)) as library:
+    with closing(DataFolder(data, sessions_folder=share)) as library:
         assert [type(fault) for fault in recover_sessions(library)[1]] == [FolderMissing]
         told: list[CarpusFault] = []
         library.on_fault = told.append
@@ -148,7 +148,7 @@ def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: P
         assert path.exists()
         assert not share.exists()
     share.mkdir()
-    with closing(Library(data, sessions_folder=share)) as library:
+    with closing(DataFolder(data, sessions_folder=share)) as library:
         assert [type(fault) for fault in recover_sessions(library)[1]] == [SpooledSessionMoved]
         assert [one.path.parent for one in library.sessions(linden)] == [share / linden]
 
@@ -158,7 +158,7 @@ def test_share_keeps_its_rights(tmp_path: Path) -> None:
     share = tmp_path / "share"
     share.mkdir(0o770)
     share.chmod(0o770)
-    with closing(Library(tmp_path / "data", sessions_folder=share)) as library:
+    with closing(DataFolder(tmp_path / "data", sessions_folder=share)) as library:
         assert share.stat().st_mode & 0o777 == 0o770
         linden = library.patients.add(Patient("Linden 42", "left"))
         SessionIntake(library).register(set_up(linden, "Linden 42"), recorded(library, linden))
@@ -168,7 +168,7 @@ def test_share_keeps_its_rights(tmp_path: Path) -> None:
 
 def test_pending_data_of_deleted_patient_is_deleted(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
-    with closing(Library(data, sessions_folder=share)) as library:
+    with closing(DataFolder(data, sessions_folder=share)) as library:
         linden = library.patients.add(Patient("Linden 42", "left"))
         path = recorded(library, linden)
         path.with_name("damaged.h5").write_bytes(b"of a kill")
@@ -189,7 +189,7 @@ def test_pending_data_of_deleted_patient_is_deleted(tmp_path: Path) -> None:
 def test_empty_place_of_share_is_not_taken_for_share(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     share.mkdir()
-    with closing(Library(data, sessions_folder=share)) as library:
+    with closing(DataFolder(data, sessions_folder=share)) as library:
         assert recover_sessions(library) == ([], []), "a new one is empty"
         linden = library.patients.add(Patient("Linden 42", "left"))
         choice, places = set_up(linden, "Linden 42"), SessionIntake(library)

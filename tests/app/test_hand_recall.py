@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.records.values import Patient
 from carpus.core.results.session_results import compute_session_results
@@ -29,7 +29,7 @@ def test_card_of_hand_has_every_fingers_total_with_its_change_and_at_least() -> 
 
 
 def test_markers_shown_are_those_of_same_hand_with_same_markers(tmp_path: Path) -> None:
-    library = Library(tmp_path / "data")
+    library = DataFolder(tmp_path / "data")
     try:
         linden = library.patients.add(Patient("Linden 42", "right", "right"))
         wanted = set_up(linden, "Linden 42")

@@ -18,8 +18,8 @@ import carpus
 from carpus.app.session_commands import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.model.errors import OutputNotWritable
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.exercise_sets import read_last_setup
-from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import PRACTICE_PATIENT
@@ -34,8 +34,8 @@ from tests.records.samples import traces
 
 
 @pytest.fixture
-def library(tmp_path: Path) -> Iterator[Library]:
-    opened = Library(tmp_path / "data")
+def library(tmp_path: Path) -> Iterator[DataFolder]:
+    opened = DataFolder(tmp_path / "data")
     opened.get_initials = lambda: "AB"
     yield opened
     opened.close()
@@ -46,7 +46,7 @@ def deeds(folder: Path) -> list[tuple[str, str, str]]:
         return [(entry.action, entry.source, entry.initials) for entry in read_log(opened)]
 
 
-def test_window_actions_are_logged_without_names(library: Library, tmp_path: Path) -> None:
+def test_window_actions_are_logged_without_names(library: DataFolder, tmp_path: Path) -> None:
     stored = SessionStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
     library.patients.change(Patient("Linden 43", "right", "right", patient_id=linden))
@@ -82,7 +82,7 @@ def test_window_actions_are_logged_without_names(library: Library, tmp_path: Pat
     assert traces(library.folder, "Linden", "Erika", linden, session) == []
 
 
-def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_path: Path, command: Command) -> None:
+def test_commands_are_logged_where_the_session_is_kept(library: DataFolder, tmp_path: Path, command: Command) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     practice = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
@@ -107,7 +107,7 @@ def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_pat
 
 
 def test_progress_is_of_whom_the_list_says_without_the_archive(
-    library: Library, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    library: DataFolder, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     linden, heron = (library.patients.add(Patient(name, "right", "right")) for name in ("Linden 42", "Heron 17"))
     sessions, whole = [str(uuid.uuid4()) for _ in range(2)], stored(tmp_path, frames=120, moving=True)
@@ -139,7 +139,7 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
     assert library.sessions(heron) == []
 
 
-def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -> None:
+def test_programs_are_logged_as_commands_are(library: DataFolder, tmp_path: Path) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     path = library.entry(session).path
@@ -158,7 +158,7 @@ def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -
 
 
 def test_log_that_cannot_be_written_is_reported_and_stops_nothing_else(
-    library: Library, monkeypatch: pytest.MonkeyPatch
+    library: DataFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[Exception] = []
     library.on_fault = told.append
@@ -172,7 +172,7 @@ def test_log_that_cannot_be_written_is_reported_and_stops_nothing_else(
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
 
 
-def test_backup_by_command_comes_back_elsewhere(library: Library, tmp_path: Path, command: Command) -> None:
+def test_backup_by_command_comes_back_elsewhere(library: DataFolder, tmp_path: Path, command: Command) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     store(library, set_up(linden, "Linden 42"))
     place, new = tmp_path / "disk", tmp_path / "new"
@@ -184,13 +184,13 @@ def test_backup_by_command_comes_back_elsewhere(library: Library, tmp_path: Path
     told = command("restore", place, "--against", library.folder)
     assert (told.code, "Sessions added: 0, changed: 0, removed: 1." in told.out) == (0, True)
     assert [command("restore", place, "--into", new).code for _ in range(2)] == [0, 1]
-    with closing(Library(new)) as restored:
+    with closing(DataFolder(new)) as restored:
         assert [len(restored.sessions(one.patient_id)) for one in restored.patients.search()] == [1]
     assert [did for did, _, _ in deeds(new)] == ["added", "recorded", "backed_up", "recorded", "restored"]
     assert command("erase", "Linden 42", "--data-folder", library.folder, "--for-good", "linden 42").code == 0
     later = command("restore", place, "--into", tmp_path / "later")
     assert "deleted again: 1 patients" in later.out
-    with closing(Library(tmp_path / "later")) as restored:
+    with closing(DataFolder(tmp_path / "later")) as restored:
         assert restored.patients.search() == []
 
 
@@ -203,7 +203,7 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
     settings = settings_folder() / "settings.toml"
     settings.parent.mkdir(parents=True, exist_ok=True)
     settings.write_text(f'[records]\nsessions = "{share}"\n')
-    with closing(Library(data, sessions_folder=share)) as library:
+    with closing(DataFolder(data, sessions_folder=share)) as library:
         linden = library.patients.add(Patient("Linden 42", "right", "right"))
         session = store(library, set_up(linden, "Linden 42"))
         library.save_comment(session, "Less swelling.")

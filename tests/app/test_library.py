@@ -17,7 +17,7 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.records import session_records
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
@@ -33,8 +33,8 @@ from tests.session.samples import CAMERA, make_calibration, make_frame
 
 
 @pytest.fixture
-def library(tmp_path: Path) -> Iterator[Library]:
-    opened = Library(tmp_path / "data")
+def library(tmp_path: Path) -> Iterator[DataFolder]:
+    opened = DataFolder(tmp_path / "data")
     yield opened
     opened.close()
 
@@ -44,7 +44,7 @@ def set_up(patient_id: str, pseudonym: str) -> SessionSetup:
 
 
 def store(
-    library: Library,
+    library: DataFolder,
     wanted: SessionSetup,
     frames: int = 40,
     hand_length_mm: float = 180.0,
@@ -69,7 +69,7 @@ def store(
     return SessionIntake(library).register(wanted, path)
 
 
-def test_practice_is_never_among_the_patients(library: Library) -> None:
+def test_practice_is_never_among_the_patients(library: DataFolder) -> None:
     patients = PatientStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     practice, measured = (
@@ -82,7 +82,7 @@ def test_practice_is_never_among_the_patients(library: Library) -> None:
     assert len(library.session(practice)) == 40
 
 
-def test_length_of_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
+def test_length_of_hand_is_that_of_its_last_session_with_right_names(library: DataFolder) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
     places = SessionIntake(library)
@@ -102,7 +102,7 @@ def test_length_of_hand_is_that_of_its_last_session_with_right_names(library: Li
     assert places.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
 
 
-def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
+def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(library: DataFolder) -> None:
     patients = PatientStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted, simulated = set_up(linden, "Linden 42"), json.dumps({"source": {"simulated": "yes"}})
@@ -120,7 +120,7 @@ def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(li
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
 
 
-def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
+def test_choices_and_comments_are_kept_in_the_store(library: DataFolder) -> None:
     session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
     choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, is_session_excluded=True)
     library.save_choices(session_id, choices)
@@ -136,7 +136,7 @@ def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
     assert not list(library.folder.rglob("*.json")), "nothing that is typed lies beside a session"
 
 
-def test_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
+def test_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: DataFolder) -> None:
     stored = SessionStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     heron = library.patients.add(Patient("Heron 17", "right", "right"))
@@ -184,7 +184,7 @@ def test_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(libra
         records.plan_session(one)
 
 
-def test_angle_order_changes_display_but_not_files(library: Library, tmp_path: Path) -> None:
+def test_angle_order_changes_display_but_not_files(library: DataFolder, tmp_path: Path) -> None:
     patient_id = library.patients.add(Patient("Linden 42", "right", "right"))
     session_id = store(library, set_up(patient_id, "Linden 42"))
     plain = library.session(session_id)

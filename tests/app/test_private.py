@@ -21,7 +21,7 @@ from carpus.core.formats.export import FORMATS
 from carpus.core.formats.output_files import TableDialect, escape_formula, write_new_table
 from carpus.core.model.camera import Camera
 from carpus.core.model.errors import RecordingUnreadable, SettingsInvalid
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
 from carpus.ui.report.builders import build_session_report
@@ -58,7 +58,7 @@ def test_command_output_is_private_to_owner(tmp_path: Path, command: Command) ->
 
 
 def test_log_names_no_one(tmp_path: Path, own_folders: Path) -> None:
-    library = Library(tmp_path)
+    library = DataFolder(tmp_path)
     born = date(1931, 2, 17)
     library.patients.add(Patient("Linden Birke", "right", "right", "", "Ada Miller", born, "QX-1"))
     lines = RedactingFormatter()
@@ -93,7 +93,7 @@ def test_identity_is_in_no_byte_outside_the_store(tmp_path: Path, own_folders: P
     )  # fmt: skip
     data, out = tmp_path / "data", tmp_path / "out"
     patient_id = kept(data, secret, (stored(tmp_path, frames=40), T0, "AB"))
-    with closing(Library(data)) as library:
+    with closing(DataFolder(data)) as library:
         (entry,) = library.sessions(patient_id)
         library.save_comment(entry.session_id, "Less swelling.")
         for deidentified in (False, True):

@@ -23,8 +23,8 @@ from carpus.app.desktop.window import Desktop
 from carpus.app.settings import RecordingSettings, ReportSettings, Settings, load_valid_settings
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.clinic_records import read_therapists, save_therapists
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.restoring import activate_restored
@@ -40,7 +40,7 @@ Open = Callable[..., Desktop]
 @pytest.fixture(scope="module")
 def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two patients, the first with two sessions."""
-    with closing(Library(tmp_path_factory.mktemp("prepared") / "data")) as library:
+    with closing(DataFolder(tmp_path_factory.mktemp("prepared") / "data")) as library:
         linden = library.patients.add(Patient("Linden 42", "right", name="Erika Mustermann"))
         library.patients.add(Patient("Heron 17", "left"))
         for _ in range(2):
@@ -249,7 +249,7 @@ def test_back_up_now_reminder_and_restore(
     old = activate_restored(data, datetime(2026, 11, 20, 18, 0))
     assert old is not None, "what was there is kept"
     assert old.is_dir()
-    with closing(Library(data)) as restored:
+    with closing(DataFolder(data)) as restored:
         assert {one.pseudonym for one in restored.patients.search()} == {"Heron 17"}
 
 
@@ -315,7 +315,7 @@ def test_pin_is_set_changed_and_removed_in_settings(qtbot: QtBot, opened: Open, 
 
 
 def test_lock_hides_names_and_asks_who_works(opened: Open, data: Path, tmp_path: Path, qtbot: QtBot) -> None:
-    with closing(Library(data)) as library:
+    with closing(DataFolder(data)) as library:
         save_therapists(library.store, [Therapist("KB", "Katrin Berger")])
     Pin(data).set("1234")
     desktop = opened(Settings(recording=RecordingSettings(folder=str(data)), report=ReportSettings(therapist="AB")))

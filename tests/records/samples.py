@@ -20,8 +20,8 @@ from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import SIMULATED
 from carpus.core.records import clinic_records, patients, session_records
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.exercise_sets import save_setup
-from carpus.core.records.library import Library
 from carpus.core.records.log import AuditLogWriter
 from carpus.core.records.patients import Patients
 from carpus.core.records.session_list import SessionFileScanner, SessionList
@@ -160,7 +160,7 @@ def traces(folder: Path, *words: str) -> list[str]:
 def kept(folder: Path, patient: Patient, *sessions: tuple[Path, datetime, str]) -> str:
     """Copies of session files, each with its moment and who recorded it, in a data folder as those of a new patient,
     whose identity is given."""
-    with closing(Library(folder)) as library:
+    with closing(DataFolder(folder)) as library:
         patient_id = library.patients.add(patient)
         for stored, when, by in sessions:
             path = library.session_list.new_path(patient_id, patient.pseudonym, "WRIST_FE", "right", when)

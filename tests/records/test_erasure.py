@@ -36,7 +36,7 @@ from carpus.core.records import (
 from carpus.core.records import store as store_module
 from carpus.core.records.backup import create_backup
 from carpus.core.records.changes import insert_row
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.log import read_log
 from carpus.core.records.retention import find_due_patients, retention_end
 from carpus.core.records.schema import PATIENT, SESSION
@@ -281,7 +281,7 @@ def test_erase_interrupted_is_finished_at_next_start(folder: Path, monkeypatch: 
         assert any(path.exists() for path in plan.files) == (after == "mark")
         assert house.names() == []
         assert house.files.scan().session_count == 0, "what is to go does not come back"
-    Library(folder).close()
+    DataFolder(folder).close()
     assert not any(path.exists() for path in plan.files)
     assert traces(folder, *NAMES, linden, *sessions) == []
 

@@ -38,8 +38,8 @@ from carpus.core.records import (
 )
 from carpus.core.records.backup import create_backup, list_backups
 from carpus.core.records.changes import fingerprint
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.restoring import LogHistory, activate_restored, restore
@@ -100,7 +100,7 @@ def test_server_shows_entries_on_other_computer_at_once(tmp_path: Path, cluster:
 
 
 def test_server_away_is_reported_and_sessions_listed_when_back(tmp_path: Path, cluster: Cluster, there: str) -> None:
-    with closing(Library(tmp_path, url=there)) as library:
+    with closing(DataFolder(tmp_path, url=there)) as library:
         recover_sessions(library)
         linden = library.patients.add(LINDEN)
         cluster.stop()
@@ -115,7 +115,7 @@ def test_server_away_is_reported_and_sessions_listed_when_back(tmp_path: Path, c
             assert library.store.is_server_away
             record(tmp_path / "sessions" / linden / "s.h5", "Linden 42", T0)
             record(tmp_path / "sessions" / uuid.uuid4().hex / "t.h5", "Typed 7", T0)
-            with closing(Library(tmp_path, url=there)) as started_now:
+            with closing(DataFolder(tmp_path, url=there)) as started_now:
                 assert [type(one) for one in recover_sessions(started_now)[1]] == [ServerUnavailable]
         finally:
             cluster.start()
@@ -129,7 +129,7 @@ def test_server_away_is_reported_and_sessions_listed_when_back(tmp_path: Path, c
 
 
 def test_server_away_typed_pseudonym_becomes_listed_patient(tmp_path: Path, there: str) -> None:
-    with closing(Library(tmp_path, url=there)) as library:
+    with closing(DataFolder(tmp_path, url=there)) as library:
         linden = library.patients.add(LINDEN)
         typed = set_up(uuid.uuid4().hex, "linden 42")
         path = record(SessionIntake(library).new_path(typed), "linden 42", T0)
@@ -180,7 +180,7 @@ def test_server_newer_version_and_wrong_url_are_reported(tmp_path: Path, there: 
 
 
 def test_server_erasure_elsewhere_deletes_files_here(tmp_path: Path, there: str) -> None:
-    with closing(Library(tmp_path / "b", url=there)) as b:
+    with closing(DataFolder(tmp_path / "b", url=there)) as b:
         with opened(tmp_path / "a", there) as a:
             linden = b.patients.add(LINDEN)
             path = b.session_list.new_path(linden, "Linden 42", "WRIST_FE", "right", T0)

@@ -162,13 +162,13 @@ def _read(kind: str, path: Path) -> None:
         if faults:
             raise faults[0]
     else:
-        from carpus.core.records.library import Library
+        from carpus.core.records.data_folder import DataFolder
         from carpus.core.records.new_sessions import recover_sessions
 
         data = path.parent / f"{path.stem} data"
         data.mkdir(exist_ok=True)
         (data / "records.sqlite3").write_bytes(path.read_bytes())
-        library = Library(data)
+        library = DataFolder(data)
         try:
             if library.store.startup_faults:
                 raise library.store.startup_faults[0]

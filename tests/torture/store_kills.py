@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.records import erasure, session_records
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from tests.records.postgres import Cluster
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
 from tests.torture.kills import ROOT
@@ -91,7 +91,7 @@ def _check_written(house: House, kind: str, session_id: str, said: list[int]) ->
 
 
 def _check_erased(folder: Path, patient_id: str, session_id: str, done: bool) -> None:
-    Library(folder).close()  # the next start
+    DataFolder(folder).close()  # the next start
     with opened(folder) as house:
         begun = "Linden 42" not in house.names()
         assert begun or not done

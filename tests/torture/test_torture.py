@@ -19,11 +19,11 @@ MOST_BYTES = 1_000_000_000
 START = """
 import sys
 from pathlib import Path
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.session_list import read_file_states
 for start in range(2):
-    library = Library(Path(sys.argv[1]))
+    library = DataFolder(Path(sys.argv[1]))
     faults = recover_sessions(library)[1]
     if start:
         print(len(faults), sum(bool(one.reason) for one in read_file_states(library.store).values()))

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.measures.manual_measurements import ManualValue, current_values
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.log import read_log
 from carpus.core.records.values import Patient
 from carpus.core.results.progress import compute_progress
@@ -129,14 +129,14 @@ def test_manual_form_invalid_value_is_refused_and_unusual_one_confirmed(
 
 
 @pytest.fixture
-def library(tmp_path: Path) -> Iterator[Library]:
-    opened = Library(tmp_path / "data")
+def library(tmp_path: Path) -> Iterator[DataFolder]:
+    opened = DataFolder(tmp_path / "data")
     yield opened
     opened.close()
 
 
 def test_manual_form_saved_values_are_stored_and_logged(
-    theme: Theme, host: QWidget, library: Library, background: Background, qtbot: QtBot
+    theme: Theme, host: QWidget, library: DataFolder, background: Background, qtbot: QtBot
 ) -> None:
     patient = library.patients.add(Patient("Linden 42", "left"))
     told = Told("progress", answer=0)

@@ -15,8 +15,8 @@ from carpus.core.model.errors import ConcurrentChange
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.records import patients
 from carpus.core.records.changes import delete_row
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets, save_setup
-from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, GOAL, PATIENT
 from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart, start_set
 from carpus.core.records.store import Store
@@ -52,7 +52,7 @@ def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tm
 
 
 def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Path) -> None:
-    library = Library(tmp_path)
+    library = DataFolder(tmp_path)
     patient = library.patients.add(Patient("Heron 3", "left"))
     one = replace(set_up(target_deg=50.0), patient_id=patient, pseudonym="Heron 3")
     save_setup(library.store, one)
@@ -69,7 +69,7 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
 
 
 def test_goal_of_supination_is_read_from_thumb_up_and_one_of_older_version_is_converted(tmp_path: Path) -> None:
-    library = Library(tmp_path)
+    library = DataFolder(tmp_path)
     patient = library.patients.add(Patient("Heron 3", "left"))
     one = replace(set_up("FOREARM_PS", -30.0), patient_id=patient, pseudonym="Heron 3")
     save_setup(library.store, one)

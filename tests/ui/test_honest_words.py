@@ -21,7 +21,7 @@ from carpus.core.model.errors import SessionUnreadable, SettingsInvalid
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import TrackedFrame
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.limits_file import LIMITS_FILE, save_limits
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.results.progress import compute_progress
@@ -219,7 +219,7 @@ def test_window_reads_them_from_data_folder_and_tells_damaged_file(tmp_path: Pat
         save_limits(tmp_path, [STUDY])
     else:
         (tmp_path / LIMITS_FILE).write_text(text, encoding="utf-8")
-    library = Library(tmp_path)
+    library = DataFolder(tmp_path)
     if text is None:
         assert library.error_limits.study("wrist6", "WRIST_FE", "zyx") == STUDY
     else:

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.values import Patient
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.kit.background import Background
@@ -41,7 +41,7 @@ class ScreenContext:
 
     window: MainWindow
     theme: Theme
-    library: Library
+    library: DataFolder
     background: Background
     messages: Messages
     navigator: Navigator

@@ -39,7 +39,7 @@ from carpus.ui.screens.comparison.words import (
 )
 
 if TYPE_CHECKING:
-    from carpus.core.records.library import Library
+    from carpus.core.records.data_folder import DataFolder
 
 # This soon after a repetition's start, Back goes to the repetition before.
 RESTART_WINDOW_S = 0.3
@@ -111,7 +111,7 @@ class ComparisonScreen(FittedWidget):
     fault_raised = Signal(object)
     sessions_shown = Signal()
 
-    def __init__(self, theme: Theme, background: Background, store: Library) -> None:
+    def __init__(self, theme: Theme, background: Background, store: DataFolder) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self.session_ids: tuple[str, str] = ("", "")

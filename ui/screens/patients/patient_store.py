@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from carpus.core.model.errors import SessionUnreadable
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
@@ -21,7 +21,7 @@ from carpus.ui.words.task_measures import task_summary
 class PatientStore:
     """Patients of the library; names other than pseudonyms stay behind it."""
 
-    def __init__(self, library: Library) -> None:
+    def __init__(self, library: DataFolder) -> None:
         self._library, self.register = library, library.patients
 
     def list_patients(self, search: str = "") -> Sequence[Patient]:

@@ -49,7 +49,7 @@ from carpus.ui.words.ranges import mean_speed_words
 from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, verdict_token, verdict_word
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.core.records.library import Library
+    from carpus.core.records.data_folder import DataFolder
 
 MIN_LETTERS = 14
 MIN_CHART_PX, SIDE_PX = 360, 380
@@ -66,7 +66,7 @@ class ProgressScreen(FittedWidget):
     session_chosen = Signal(str)
     manual_values_requested = Signal()
 
-    def __init__(self, theme: Theme, background: Background, store: Library) -> None:
+    def __init__(self, theme: Theme, background: Background, store: DataFolder) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._patient_id = ""

@@ -28,7 +28,7 @@ from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.core.records.library import Library
+    from carpus.core.records.data_folder import DataFolder
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class ReviewedSession:
     results: SessionResults
 
     @classmethod
-    def load(cls, store: Library, patient_id: str, session_id: str) -> ReviewedSession:
+    def load(cls, store: DataFolder, patient_id: str, session_id: str) -> ReviewedSession:
         """Read and analyse a session; call it in the background."""
         session, choices = store.session(session_id), store.choices(session_id)
         history = read_or_default(lambda: store.history(patient_id), ())

@@ -30,7 +30,7 @@ from carpus.ui.screens.review.reviewed_session import ReviewedSession
 from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
 
 if TYPE_CHECKING:
-    from carpus.core.records.library import Library
+    from carpus.core.records.data_folder import DataFolder
 
 EDGE_STEP_S = 0.1
 
@@ -54,7 +54,7 @@ class ReviewScreen(FittedWidget):
     fault_raised = Signal(object)
     session_shown = Signal()
 
-    def __init__(self, theme: Theme, background: Background, store: Library) -> None:
+    def __init__(self, theme: Theme, background: Background, store: DataFolder) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._session_id = ""

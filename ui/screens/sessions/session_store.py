@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.records.changes import fingerprint
-from carpus.core.records.library import Library
+from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
@@ -25,7 +25,7 @@ class SessionStore:
     """
 
     def __init__(
-        self, library: Library, name_patient: Callable[[Patient], str] = lambda patient: patient.pseudonym
+        self, library: DataFolder, name_patient: Callable[[Patient], str] = lambda patient: patient.pseudonym
     ) -> None:
         self._library, self._name_patient = library, name_patient
 

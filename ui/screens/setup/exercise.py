@@ -334,12 +334,12 @@ def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
     if not proposed:
         return ""
     parts = [
-        tr("{movement} {goal} (mean {mean}; detectable change from {told})")
+        tr("{movement} {goal} (mean {mean}; detectable change from {limit})")
         .format(
             movement=_movement_words(exercise, one),
             goal=numbers.format_signed_degrees(one.goal_deg),
             mean=numbers.format_signed_degrees(one.basis_deg),
-            told=numbers.format_signed_degrees(one.detectable_from_deg),
+            limit=numbers.format_signed_degrees(one.detectable_from_deg),
         )
         .strip()
         for one in proposed

@@ -203,9 +203,9 @@ class SetDialog(Dialog):
         shown = self._read_set()
         words = {"name": self.tr("The set needs a name."), "parts": self.tr("The set needs an exercise."), "": ""}
         taken = any(one.name == shown.name and one.set_id != shown.set_id for one in self._sets_of_protocol())
-        said = words[shown.problem] or (self.tr("Another set has this name.") if taken else "")
-        self.problem_label.setText(said)
-        self.save_button.setEnabled(not said)
+        problem = words[shown.problem] or (self.tr("Another set has this name.") if taken else "")
+        self.problem_label.setText(problem)
+        self.save_button.setEnabled(not problem)
 
     def _save(self) -> None:
         shown = self._read_set()

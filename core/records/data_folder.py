@@ -94,7 +94,7 @@ class OpenedSession:
     side: Side
 
 
-class Library:
+class DataFolder:
     """All stored data of a folder; thread-safe.
 
     What is done with patients' sessions is logged with the initials from ``get_initials``; faults of the log go to
