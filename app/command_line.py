@@ -15,7 +15,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 
-from carpus.core.capture.devices.cameras import CAMERAS, validate_address
 from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect, nan_to_none
 from carpus.core.model.errors import CameraUnknown
 from carpus.core.model.names import describe_known_names, find_similar_name
@@ -245,6 +244,8 @@ def output_type(*suffixes: str) -> Callable[[str], Path]:
 
 def parse_camera_address(text: str) -> str:
     """Check ``KIND`` or ``KIND:WHICH`` of a live camera; an unknown kind is wrong usage."""
+    from carpus.core.capture.devices.cameras import validate_address
+
     try:
         validate_address(text)
     except CameraUnknown as fault:
@@ -252,4 +253,8 @@ def parse_camera_address(text: str) -> str:
     return text
 
 
-CAMERA_HELP = f"KIND is {', '.join(CAMERAS)}; WHICH its serial number, or OpenNI2's address"
+def describe_camera_kinds() -> str:
+    """Return what the address of a live camera is made of."""
+    from carpus.core.capture.devices.cameras import CAMERAS
+
+    return f"KIND is {', '.join(CAMERAS)}; WHICH its serial number, or OpenNI2's address"

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
 
-from carpus.app.command_line import CAMERA_HELP, parse_camera_address
+from carpus.app.command_line import describe_camera_kinds, parse_camera_address
 from carpus.app.settings import Settings, load_settings
 from carpus.core.calibration.card.checks import examine_cameras
 from carpus.core.capture.doctor import examine
@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--camera",
         type=parse_camera_address,
         metavar="KIND[:WHICH]",
-        help=f"the one to open: {CAMERA_HELP}; else the first that is plugged in",
+        help=f"the one to open: {describe_camera_kinds()}; else the first that is plugged in",
     )
     parser.add_argument(
         "--for-support", action="store_true", help="to send away: folders are left out; no patient is in it either way"

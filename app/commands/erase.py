@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from contextlib import closing
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from carpus.app.command_line import print_message
 from carpus.app.session_commands import find_data_folder, open_library, require_store
@@ -12,10 +13,11 @@ from carpus.app.settings import load_valid_settings
 from carpus.core.model.errors import PatientUnknown, RecordingMissing
 from carpus.core.model.names import describe_known_names, fold_name
 from carpus.core.model.rounding import format_rounded
-from carpus.core.records.data_folder import DataFolder
-from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.retention import RecordRetention
 from carpus.core.session.reader import read_outline
+
+if TYPE_CHECKING:
+    from carpus.core.records.data_folder import DataFolder
+    from carpus.core.records.erasure import ErasurePlan
 
 EXAMPLE = """carpus erase "Fern 12"
 carpus erase "Fern 12" --for-good "Fern 12\""""
@@ -44,6 +46,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _erase(library: DataFolder, what: str, path: Path, confirmed: str | None) -> int:
+    from carpus.core.records.retention import RecordRetention
+
     records = RecordRetention(library)
     if path.is_file():
         plan = records.plan_session(read_outline(path).header.session_id)

@@ -6,7 +6,6 @@ import argparse
 from pathlib import Path
 
 from carpus.app.command_line import add_region_option, print_fault, progress_bar
-from carpus.app.session_commands import find_session_files, log_export, read_choices
 from carpus.core.formats.export import FORMATS
 from carpus.core.model.names import describe_known_names
 
@@ -43,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from carpus.app.session_commands import find_session_files, log_export, read_choices
     from carpus.core.formats.export import ExportRequest, export_sessions
 
     paths = find_session_files(arguments.sessions)

@@ -11,7 +11,7 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.app.command_line import (
-    CAMERA_HELP,
+    describe_camera_kinds,
     describe_wrong_suffix,
     number_type,
     parse_camera_address,
@@ -55,7 +55,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--camera",
         type=parse_camera_address,
         metavar="KIND[:WHICH]",
-        help=f"one of several cameras: {CAMERA_HELP}; else that of the settings, or the first that is plugged in",
+        help=f"one of several cameras: {describe_camera_kinds()}; else that of the settings, or the first that is "
+        "plugged in",
     )
 
 

@@ -280,3 +280,17 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     assert max(pair.figures_deg.rmse for pair in found.pairs) < 0.1
     given = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot", lag_s=0.1, drift_percent=1.0).shift
     assert (given.lag_s, given.is_given, given.drift) == (0.1, True, pytest.approx(0.01))
+
+
+@pytest.mark.parametrize("words", [["--help"], ["track", "--help"], ["results", "--help"]])
+def test_help_loads_neither_numpy_nor_tracker(words: list[str]) -> None:
+    script = f"""
+import sys
+from carpus.app.__main__ import main
+try:
+    main({words!r})
+except SystemExit:
+    print({{'numpy', 'cv2', 'carpus.core.tracking.tracker'}} & set(sys.modules))
+"""
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "set()"
