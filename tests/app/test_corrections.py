@@ -19,13 +19,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.model.errors import (
-    ConcurrentChange,
-    DiskFull,
-    OutputNotWritable,
-    PatientListBusy,
-    SessionUnreadable,
-)
+from carpus.core.model.errors import ConcurrentChange, DiskFull, OutputNotWritable, PatientListBusy, SessionUnreadable
 from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
 from carpus.core.records.backup import collect_sources
 from carpus.core.records.corrections import Corrections, PendingResult, compare_results, match_exclusions

@@ -26,13 +26,7 @@ from carpus.core.model.errors import (
     OutputNotWritable,
     SessionChanged,
 )
-from carpus.core.records import (
-    clinic_records,
-    database,
-    erasure,
-    reserve,
-    session_records,
-)
+from carpus.core.records import clinic_records, database, erasure, reserve, session_records
 from carpus.core.records import store as store_module
 from carpus.core.records.backup import create_backup
 from carpus.core.records.changes import insert_row

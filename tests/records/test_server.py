@@ -29,13 +29,7 @@ from carpus.core.model.errors import (
     SettingsInvalid,
     SpooledSessionErased,
 )
-from carpus.core.records import (
-    erasure,
-    local_store_import,
-    schema,
-    server,
-    session_records,
-)
+from carpus.core.records import erasure, local_store_import, schema, server, session_records
 from carpus.core.records.backup import create_backup, list_backups
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.data_folder import DataFolder

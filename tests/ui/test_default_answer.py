@@ -15,15 +15,7 @@ from typing import TypeVar
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QAbstractSpinBox,
-    QComboBox,
-    QLineEdit,
-    QPlainTextEdit,
-    QPushButton,
-    QSpinBox,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLineEdit, QPlainTextEdit, QPushButton, QSpinBox, QWidget
 from pytestqt.qtbot import QtBot
 
 import carpus.app
@@ -122,13 +114,7 @@ DIALOGS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     ExclusionDialog: _opened(ExclusionDialog, ExclusionDialog.open_form, "Keep included", 3),
     ExcludeDialog: _opened(ExcludeDialog, ExcludeDialog.request_reason, "Cancel"),
     ChoiceDialog: _opened(
-        ChoiceDialog,
-        ChoiceDialog.request_choice,
-        "Cancel",
-        "To whom?",
-        "",
-        "Move",
-        [("a", "Heron 17")],
+        ChoiceDialog, ChoiceDialog.request_choice, "Cancel", "To whom?", "", "Move", [("a", "Heron 17")]
     ),
     SetDialog: _opened(SetDialog, SetDialog.open_sets, "Save the set", DEFAULT_SETS, "wrist6"),
 }

@@ -41,11 +41,7 @@ from carpus.ui.words.fingers import main_angles, main_result_words
 from carpus.ui.words.progress import value_pair
 from carpus.ui.words.ranges import repetition_words
 from carpus.ui.words.session import method_words
-from carpus.ui.words.verdicts import (
-    change_since_first,
-    difference_words,
-    verdict_word,
-)
+from carpus.ui.words.verdicts import change_since_first, difference_words, verdict_word
 from tests.moments import with_moment
 from tests.results.days import with_ranges
 from tests.sources import SOURCES, modules, nodes

@@ -133,11 +133,7 @@ def test_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, tmp
         ("Short, and kept.", LONG) if language == "de" else ("Short, and kept.",)
     ):  # it has the longest words
         letter = LetterReport(
-            replace(made, comment=comment),
-            "\n".join(["D" * 80] * 6),
-            date(2026, 11, 22),
-            named,
-            language,
+            replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), named, language
         )
         path = write_report(letter, tmp_path / f"{len(comment)}.pdf")
         assert pages_of(path) == 1

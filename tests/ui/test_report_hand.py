@@ -16,16 +16,9 @@ from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import axis_top_deg, panel_keys
 from carpus.ui.kit import numbers
 from carpus.ui.kit.cells import cell_text
-from carpus.ui.report.builders import (
-    build_session_report,
-    write_session_report,
-)
+from carpus.ui.report.builders import build_session_report, write_session_report
 from carpus.ui.screens.progress.flow import write_table
-from carpus.ui.words.fingers import (
-    finger_table,
-    progress_choices,
-    progress_keys,
-)
+from carpus.ui.words.fingers import finger_table, progress_choices, progress_keys
 from carpus.ui.words.progress import headline
 from carpus.ui.words.session import hand_summary
 from carpus.ui.words.terms import LEGAL_SENTENCE
@@ -52,15 +45,7 @@ def test_report_hand_page_has_fingers_totals_and_visibility(store: FakeHandSessi
         for cell in row:
             assert plain(cell_text(cell)) in words
             assert isinstance(cell, str) or plain(cell.subtext) in words
-    for head in (
-        "MCP",
-        "PIP",
-        "DIP",
-        "TAM",
-        "Flexion–extension",
-        "Partly occluded",
-        "DIP not measured",
-    ):
+    for head in ("MCP", "PIP", "DIP", "TAM", "Flexion–extension", "Partly occluded", "DIP not measured"):
         assert head in words
     assert LEGAL_SENTENCE in words
 

@@ -8,14 +8,7 @@ from typing import get_args
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.ui.screens.tour.bubbles import (
-    PARTS,
-    PLACES,
-    Bubble,
-    LabelStage,
-    TourState,
-    find_bubble,
-)
+from carpus.ui.screens.tour.bubbles import PARTS, PLACES, Bubble, LabelStage, TourState, find_bubble
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
 PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")

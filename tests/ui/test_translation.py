@@ -65,9 +65,7 @@ def extracted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_page_in_another_language_is_painted_in_thread_own_while_window_continues_in_its_own(
-    qtbot: QtBot,
-) -> None:
+def test_page_in_another_language_is_painted_in_thread_own_while_window_continues_in_its_own(qtbot: QtBot) -> None:
     language.register_language("xx", lambda context, text: f"¡{text}" if text == "Cancel" else None, QLocale("de_CH"))
     background, said = Background(), []
     go_on = threading.Event()
