@@ -17,7 +17,7 @@ from subprocess import PIPE
 import pytest
 
 from carpus.core.capture.camera_info import CAMERA_FILE
-from carpus.core.capture.files.tum import TumFolder
+from carpus.core.capture.files.tum import COLOR_LIST, TumFolder
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
@@ -54,6 +54,12 @@ def hear_all() -> None:
     """In a child: stop on what a terminal would send, also where these tests were started by nohup or aside."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
+
+
+def ignore_all() -> None:
+    """In a child: as nohup and a job in the background start it."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
 
 
 def signalled(
@@ -129,6 +135,17 @@ def test_stopped_while_rendering_leaves_nothing(tmp_path: Path) -> None:
     ended = signalled(words, lambda: any(folder.glob("rgb/*.png")), signal.SIGHUP)
     assert ended == (1, "carpus: stopped.\n")
     assert not folder.exists()
+
+
+def test_signal_ignored_by_parent_stays_ignored(tmp_path: Path) -> None:
+    """A rendering in the background outlives the Ctrl+C meant for another job, and the end of its terminal."""
+    folder = tmp_path / "rendered"
+    words = (*COMMAND, "simulate", "--output", folder, "--seconds", "0.4")
+    code, said = signalled(
+        words, lambda: any(folder.glob("rgb/*.png")), signal.SIGINT, signal.SIGHUP, prepare=ignore_all
+    )
+    assert (code, "stopped" in said) == (0, False)
+    assert (folder / COLOR_LIST).exists()
 
 
 def test_stopped_while_tracking_leaves_no_part(recording: Path, tmp_path: Path) -> None:

@@ -19,7 +19,14 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.model.errors import ConcurrentChange, DiskFull, OutputNotWritable, PatientListBusy, SessionUnreadable
+from carpus.core.model.errors import (
+    ConcurrentChange,
+    DiskFull,
+    FolderMissing,
+    OutputNotWritable,
+    PatientListBusy,
+    SessionUnreadable,
+)
 from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
 from carpus.core.records.backup import collect_sources
 from carpus.core.records.corrections import Corrections, PendingResult, compare_results, match_exclusions
@@ -30,6 +37,7 @@ from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.session.atomic_files import publish
 from carpus.core.session.reader import read_session
 from carpus.core.session.rewriting import rewrite_session
 from carpus.core.session.values import RepetitionRow
@@ -470,3 +478,55 @@ def test_match_exclusions_finds_repetitions_of_the_same_moments(
         return [RepetitionRow(**{**unknown, "start_s": a, "end_s": b}) for a, b in times_s]  # type: ignore[arg-type]
 
     assert set(match_exclusions(dict.fromkeys(range(len(before)), "pain"), rows(before), rows(after))) == left_out
+
+
+def test_file_that_took_name_in_the_meantime_is_kept_and_result_has_another_one(
+    kept: Kept, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library, trial = kept.library, kept.trial()
+    real, taken = library.session_list.add, list[Path]()
+
+    def enter(path: Path, *told: object) -> object:
+        path.write_bytes(b"another one's")
+        taken.append(path)
+        return real(path, *told)  # type: ignore[arg-type]
+
+    with monkeypatch.context() as patched:
+        patched.setattr(library.session_list, "add", enter)
+        new = kept.corrections.accept(kept.session_id, trial)
+    assert taken[0].read_bytes() == b"another one's"
+    assert library.entry(new).path != taken[0]
+    assert len(library.session(new)) == len(library.session(kept.session_id))
+    assert not trial.exists()
+    assert len(list(taken[0].parent.iterdir())) == 3
+
+
+def test_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A look for what waits meets one that is just being taken."""
+    library, trial = kept.library, kept.trial()
+
+    def with_a_look(part: Path, target: Path) -> None:
+        monkeypatch.undo()
+        kept.corrections.list_pending()
+        publish(part, target)
+
+    monkeypatch.setattr("carpus.core.records.corrections.publish", with_a_look)
+    new = kept.corrections.accept(kept.session_id, trial)
+    assert set(kept.path.parent.iterdir()) == {kept.path, library.entry(new).path}
+    assert len(library.session(new)) == len(library.session(kept.session_id))
+    assert not trial.exists()
+
+
+def test_share_that_is_away_is_reported_before_anything_is_done(
+    tmp_path: Path, stored: Stored, corrected: Path
+) -> None:
+    share = tmp_path / "share"
+    share.mkdir()
+    with closing(Library(tmp_path / "data", sessions_folder=share)) as library:
+        kept = entered(library, stored, corrected)
+        trial = kept.trial()
+        share.rename(tmp_path / "away")
+        with pytest.raises(FolderMissing):
+            kept.corrections.accept(kept.session_id, trial)
+        assert kept.corrections.list_pending() == [PendingResult(kept.session_id, trial)]
+        assert kept.listed == [kept.session_id]

@@ -107,7 +107,12 @@ def test_language_change_reopens_window_at_settings(
         if len(shown) == 1:
             desktop.controller.navigator.open_screen("settings")
             qtbot.waitUntil(lambda: not desktop.find_language_obstacle())
-            desktop.preferences.screen.form["language"].buttons()[list(language.LANGUAGES).index("de")].click()
+            german = desktop.preferences.screen.form["language"].buttons()[list(language.LANGUAGES).index("de")]
+            with monkeypatch.context() as measuring:
+                measuring.setattr(type(desktop.controller), "is_at_work", True)
+                german.click()
+                assert desktop.preferences.screen.form["language"].value() == "system", "it would close the window"
+            german.click()
             qtbot.waitUntil(lambda: desktop.is_closed)
         return 0
 

@@ -320,6 +320,22 @@ def test_is_backup_due_after_days() -> None:
     assert is_backup_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
 
 
+def test_create_backup_follows_links(data: Path, place: Path, tmp_path: Path) -> None:
+    elsewhere = tmp_path / "large disk" / "sessions"
+    elsewhere.parent.mkdir()
+    (data / "sessions").rename(elsewhere)
+    (data / "sessions").symlink_to(elsewhere)
+    (data / "sessions" / "around").symlink_to(data)  # in a circle
+    (data / "limits.json").symlink_to(data / "set_ups.json")
+    made = backed_up(data, place)
+    assert made.session_count == 2
+    restored(place, made, tmp_path / "new")
+    assert len([path for path in (tmp_path / "new" / "sessions").rglob("*.h5") if not path.is_symlink()]) == 2
+    assert (tmp_path / "new" / "limits.json").read_text() == "{}"
+    with pytest.raises(BackupFolderUnsuited):
+        backed_up(data, elsewhere / "backup")
+
+
 def test_create_backup_contains_sessions_of_share(data: Path, place: Path, tmp_path: Path) -> None:
     share = tmp_path / "share"
     (data / "sessions").rename(share)
@@ -523,3 +539,48 @@ def test_prune_backups_future_date_costs_no_backup(data: Path, place: Path) -> N
     assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0, 1]
     assert prune_backups(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
     assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0]
+
+
+def test_restore_failing_leaves_no_settings(data: Path, place: Path, tmp_path: Path) -> None:
+    settings = tmp_path / "settings"
+    settings.mkdir()
+    for name in ("a", "b"):
+        (settings / f"{name}.toml").write_text(f"{name} = 1")
+    made = backed_up(data, place, settings_folder=settings)
+    last = next(one for one in made.files if one.path.endswith("b.toml")).sha256
+    (place / OBJECTS / last[:2] / last).write_text("b = 2")
+    with pytest.raises(BackupMismatch):
+        restored(place, made, tmp_path / "new", tmp_path / "new settings")
+    assert list((tmp_path / "new settings").iterdir()) == []
+
+
+def test_prune_backups_without_list_deletes_nothing(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = backed_up(data, place)
+    (place / BACKUPS).rename(place / "away")
+    (place / BACKUPS).mkdir()
+    assert prune_backups(place, 9, 24, NOW) == 0
+    verify_backup(place, made)
+
+    def refused(_: object) -> list[Path]:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "iterdir", refused)
+    with pytest.raises(BackupUnreadable):
+        prune_backups(place, 9, 24, NOW)
+    verify_backup(place, made)
+
+
+def test_create_backup_unreadable_file_is_reported_rest_included(
+    data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = Path.open
+
+    def refused(path: Path, *told: Any, **named: Any) -> Any:
+        if path.name == "set_ups.json":
+            raise PermissionError(13, "no", str(path))
+        return real(path, *told, **named)
+
+    monkeypatch.setattr(Path, "open", refused)
+    with pytest.raises(BackupIncomplete, match=r"set_ups\.json"):
+        backed_up(data, place)
+    assert list_backups(place)[0].session_count == 2

@@ -19,6 +19,7 @@ import pytest
 from sqlalchemy import select, update
 
 from carpus.core.model.errors import (
+    ConcurrentChange,
     DiskFull,
     ErasureBlockedByLink,
     ErasureUnfinished,
@@ -56,6 +57,21 @@ def deeds(house: House) -> list[str]:
 
 def erase_patient(house: House, patient_id: str) -> int:
     return erasure.erase(house.store, erasure.plan_patient(house.store, patient_id), house.log)
+
+
+def test_erase_already_erased_elsewhere_succeeds(house: House) -> None:
+    linden = house.patients.add(LINDEN)
+    session = measure(house, linden, T0)
+    plans = [erasure.plan_patient(house.store, linden), erasure.plan_session(house.store, session)]
+    erase_patient(house, linden)
+    for plan in plans:
+        erasure.erase(house.store, plan, house.log)
+    linden = house.patients.add(LINDEN)
+    session = measure(house, linden, T0)
+    plan = erasure.plan_patient(house.store, linden)
+    erasure.erase(house.store, erasure.plan_session(house.store, session), house.log)
+    with pytest.raises(ConcurrentChange):  # the patient is still there
+        erasure.erase(house.store, plan, house.log)
 
 
 def test_erase_session_deletes_files_and_rows_of_it_alone(folder: Path, house: House) -> None:
@@ -463,7 +479,7 @@ def test_erase_patient_with_foreign_id_deletes_nothing_elsewhere(tmp_path: Path,
     stays = measure(house, house.patients.add(LINDEN), T0)
     house.store.apply(
         [
-            insert_row(PATIENT, one, folded=one, pseudonym=f"Oak {number}", erasing=1)
+            insert_row(PATIENT, one, pseudonym_key=one, pseudonym=f"Oak {number}", erasing=1)
             for number, one in enumerate(people)
         ]
     )
