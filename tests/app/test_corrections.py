@@ -522,7 +522,7 @@ def test_share_that_is_away_is_reported_before_anything_is_done(
 ) -> None:
     share = tmp_path / "share"
     share.mkdir()
-    with closing(Library(tmp_path / "data", sessions_folder=share)) as library:
+    with closing(DataFolder(tmp_path / "data", sessions_folder=share)) as library:
         kept = entered(library, stored, corrected)
         trial = kept.trial()
         share.rename(tmp_path / "away")
