@@ -634,7 +634,7 @@ class ErasureBlockedByLink(CarpusFault, code="C-717"):
 
 
 class BackupFolderUnsuited(CarpusFault, code="C-801"):
-    summary = phrase("Backups cannot be stored there: {subject} ({detail}).")
+    summary = phrase("Backups cannot be saved there: {subject} ({detail}).")
     data_safety = _UNCHANGED
     remedy = phrase("Choose a folder on another disk.")
 

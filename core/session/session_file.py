@@ -331,7 +331,7 @@ class _SessionFile:
         if protocol.has_fingers and joints not in (protocol.joint_names(False), protocol.joint_names(True)):
             raise SessionUnreadable(
                 self._path,
-                phrase("{count} joint angles with other names than {name} has", count=len(joints), name=protocol.name),
+                phrase("{count} joint angles whose names differ from {name}", count=len(joints), name=protocol.name),
             )
         if (
             _format_version(self._file) == 1

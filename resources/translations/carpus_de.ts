@@ -1784,10 +1784,6 @@
         <translation>{day}: {reasons}. Ausgeschlossen.</translation>
     </message>
     <message>
-        <source>{count} pairs of one session, against {kind}</source>
-        <translation>{count} Paare einer Sitzung, gegen {kind}</translation>
-    </message>
-    <message>
         <source>Camera</source>
         <translation>Kamera</translation>
     </message>
@@ -3540,14 +3536,6 @@
         <translation>ein Text mit einem ungültigen Zeichen, in {file}</translation>
     </message>
     <message>
-        <source>all lengths are {share} % too long, the worst by {length} mm</source>
-        <translation>alle Längen sind {share} % zu groß, die schlechteste um {length} mm</translation>
-    </message>
-    <message>
-        <source>all lengths are {share} % too short, the worst by {length} mm</source>
-        <translation>alle Längen sind {share} % zu klein, die schlechteste um {length} mm</translation>
-    </message>
-    <message>
         <source>all six markers in {count} of {looked} frames</source>
         <translation>alle sechs Marker in {count} von {looked} Bildern</translation>
     </message>
@@ -4296,10 +4284,6 @@
         <translation>{count} Dateien</translation>
     </message>
     <message>
-        <source>{count} joint angles with other names than {name} has</source>
-        <translation>{count} Gelenkwinkel mit anderen Namen als {name}</translation>
-    </message>
-    <message>
         <source>{detail}; {count} rows read</source>
         <translation>{detail}; {count} Zeilen gelesen</translation>
     </message>
@@ -4422,10 +4406,6 @@
     <message>
         <source>{what}, at byte {position}</source>
         <translation>{what}, bei Byte {position}</translation>
-    </message>
-    <message>
-        <source>{wrong}, not possible for a folder of frames</source>
-        <translation>{wrong}, bei einem Bilderordner nicht möglich</translation>
     </message>
     <message>
         <source>Re&amp;view it</source>
@@ -5072,10 +5052,6 @@
         <translation>Unterarmrotation</translation>
     </message>
     <message>
-        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A goal short of thumb up is negative: supination −25°.</source>
-        <translation>0° ist Daumen oben, die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Ziel vor Daumen oben ist negativ: Supination −25°.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera again, or correct the file.</source>
         <translation>Kalibrieren Sie die Kamera neu, oder korrigieren Sie die Datei.</translation>
     </message>
@@ -5093,7 +5069,7 @@
     </message>
     <message>
         <source>Distance: near and far missing</source>
-        <translation>Abstand: nah und fern fehlt</translation>
+        <translation>Abstand: nah und fern fehlen</translation>
     </message>
     <message>
         <source>Places: {count} of {all} fields, {least} or more</source>
@@ -5298,10 +5274,6 @@
     <message>
         <source>Backup</source>
         <translation>Datensicherung</translation>
-    </message>
-    <message>
-        <source>Backups cannot be stored there: {subject} ({detail}).</source>
-        <translation>Sicherungen können dort nicht liegen: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Calibrate the camera in the settings.</source>
@@ -6518,6 +6490,34 @@
     <message>
         <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
         <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {limit} erkennbar)</translation>
+    </message>
+    <message>
+        <source>{count} pairs of one session, compared with {kind}</source>
+        <translation>{count} Paare einer Sitzung, verglichen mit: {kind}</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too long, at most by {length} mm</source>
+        <translation>alle Längen sind {share} % zu groß, höchstens um {length} mm</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too short, at most by {length} mm</source>
+        <translation>alle Längen sind {share} % zu klein, höchstens um {length} mm</translation>
+    </message>
+    <message>
+        <source>{count} joint angles whose names differ from {name}</source>
+        <translation>{count} Gelenkwinkel mit anderen Namen als {name}</translation>
+    </message>
+    <message>
+        <source>{wrong}, not supported for an image folder</source>
+        <translation>{wrong}, bei einem Bilderordner nicht unterstützt</translation>
+    </message>
+    <message>
+        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A supination goal before thumb up is negative, such as −25°.</source>
+        <translation>0° ist Daumen oben, die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Supinationsziel vor Daumen oben ist negativ, zum Beispiel −25°.</translation>
+    </message>
+    <message>
+        <source>Backups cannot be saved there: {subject} ({detail}).</source>
+        <translation>Sicherungen können dort nicht gespeichert werden: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>

@@ -813,7 +813,7 @@
     </message>
     <message>
         <source>Cycle: angles, path, speeds, Euler ZYZ</source>
-        <translation>A turno: angoli, percorso, velocità, Eulero ZYZ</translation>
+        <translation>A turno: angoli, percorso, velocità, angoli di Eulero ZYZ</translation>
     </message>
     <message>
         <source>Move the repetition boundary earlier</source>
@@ -1782,10 +1782,6 @@
     <message>
         <source>{day}: {reasons}. Excluded.</source>
         <translation>{day}: {reasons}. Esclusa.</translation>
-    </message>
-    <message>
-        <source>{count} pairs of one session, against {kind}</source>
-        <translation>{count} coppie di una seduta, rispetto a: {kind}</translation>
     </message>
     <message>
         <source>Camera</source>
@@ -3540,14 +3536,6 @@
         <translation>un testo con un carattere non valido, in {file}</translation>
     </message>
     <message>
-        <source>all lengths are {share} % too long, the worst by {length} mm</source>
-        <translation>tutte le lunghezze sono maggiori del {share} %, la peggiore di {length} mm</translation>
-    </message>
-    <message>
-        <source>all lengths are {share} % too short, the worst by {length} mm</source>
-        <translation>tutte le lunghezze sono minori del {share} %, la peggiore di {length} mm</translation>
-    </message>
-    <message>
         <source>all six markers in {count} of {looked} frames</source>
         <translation>tutti i sei marcatori in {count} fotogrammi su {looked}</translation>
     </message>
@@ -4296,10 +4284,6 @@
         <translation>{count} file</translation>
     </message>
     <message>
-        <source>{count} joint angles with other names than {name} has</source>
-        <translation>{count} angoli articolari con nomi diversi da quelli di {name}</translation>
-    </message>
-    <message>
         <source>{detail}; {count} rows read</source>
         <translation>{detail}; {count} righe lette</translation>
     </message>
@@ -4422,10 +4406,6 @@
     <message>
         <source>{what}, at byte {position}</source>
         <translation>{what}, al byte {position}</translation>
-    </message>
-    <message>
-        <source>{wrong}, not possible for a folder of frames</source>
-        <translation>{wrong}, non possibile per una cartella di fotogrammi</translation>
     </message>
     <message>
         <source>Re&amp;view it</source>
@@ -5072,10 +5052,6 @@
         <translation>Rotazione dell’avambraccio</translation>
     </message>
     <message>
-        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A goal short of thumb up is negative: supination −25°.</source>
-        <translation>0° è il pollice in alto, il palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori sono nascosti sotto circa 25° di pronazione. Un obiettivo prima del pollice in alto è negativo: supinazione −25°.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera again, or correct the file.</source>
         <translation>Calibrare di nuovo la telecamera, o correggere il file.</translation>
     </message>
@@ -5298,10 +5274,6 @@
     <message>
         <source>Backup</source>
         <translation>Copia di sicurezza</translation>
-    </message>
-    <message>
-        <source>Backups cannot be stored there: {subject} ({detail}).</source>
-        <translation>Le copie di sicurezza non possono stare lì: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Calibrate the camera in the settings.</source>
@@ -6518,6 +6490,34 @@
     <message>
         <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
         <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {limit})</translation>
+    </message>
+    <message>
+        <source>{count} pairs of one session, compared with {kind}</source>
+        <translation>{count} coppie di una seduta, rispetto a: {kind}</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too long, at most by {length} mm</source>
+        <translation>tutte le lunghezze sono maggiori del {share} %, al massimo di {length} mm</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too short, at most by {length} mm</source>
+        <translation>tutte le lunghezze sono minori del {share} %, al massimo di {length} mm</translation>
+    </message>
+    <message>
+        <source>{count} joint angles whose names differ from {name}</source>
+        <translation>{count} angoli articolari con nomi diversi da quelli di {name}</translation>
+    </message>
+    <message>
+        <source>{wrong}, not supported for an image folder</source>
+        <translation>{wrong}, non supportato per una cartella di immagini</translation>
+    </message>
+    <message>
+        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A supination goal before thumb up is negative, such as −25°.</source>
+        <translation>0° è il pollice in alto, il palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori sono nascosti sotto circa 25° di pronazione. Un obiettivo di supinazione prima del pollice in alto è negativo, per esempio −25°.</translation>
+    </message>
+    <message>
+        <source>Backups cannot be saved there: {subject} ({detail}).</source>
+        <translation>Le copie di sicurezza non possono essere salvate lì: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>
@@ -9660,7 +9660,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>backed up</source>
-        <translation>copia fatta</translation>
+        <translation>copia eseguita</translation>
     </message>
     <message>
         <source>locked</source>

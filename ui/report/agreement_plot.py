@@ -90,7 +90,9 @@ def _page_painter(pairs: AnglePairs, compared: Comparison, limit_deg: float) -> 
     if math.isfinite(f.cmc):
         values.append(f"CMC {format_coefficient(f.cmc)}")
     words = (
-        tr("{count} pairs, {kind}") if compared.frame_count == 0 else tr("{count} pairs of one session, against {kind}")
+        tr("{count} pairs, {kind}")
+        if compared.frame_count == 0
+        else tr("{count} pairs of one session, compared with {kind}")
     )
     values.append(words.format(count=f.count, kind=translate_phrase(compared.kind)))
     plot = AgreementPlot(pairs, limit_deg, compared.shift is not None, "curves")

@@ -229,9 +229,9 @@ def verdict_sentence(reading: CardReading) -> Phrase:
     angles = phrase("angles deviate by {angle}°", angle=angle)
     share = 100.0 * (reading.scale - 1.0)
     off = {"share": format_rounded(abs(share), 1), "length": length}
-    lengths = phrase("all lengths are {share} % too short, the worst by {length} mm", **off)
+    lengths = phrase("all lengths are {share} % too short, at most by {length} mm", **off)
     if share > 0:
-        lengths = phrase("all lengths are {share} % too long, the worst by {length} mm", **off)
+        lengths = phrase("all lengths are {share} % too long, at most by {length} mm", **off)
     what = angles if reading.has_valid_lengths else lengths
     if not reading.has_valid_lengths and not reading.has_valid_angles:
         what = phrase("{one}; {other}", one=lengths, other=angles)

@@ -399,7 +399,7 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
         )
     if info.mirrored or info.registered is False:
         wrong = "mirrored: true" if info.mirrored else "registered: false"
-        raise CameraFileUnreadable(path, phrase("{wrong}, not possible for a folder of frames", wrong=wrong))
+        raise CameraFileUnreadable(path, phrase("{wrong}, not supported for an image folder", wrong=wrong))
     return info
 
 

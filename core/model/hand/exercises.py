@@ -133,8 +133,9 @@ EXERCISES = (
         instruction=phrase("Turn the palm up as far as the markers stay visible, then back."),
         position=phrase("Elbow at the side, forearm free, palm down under the camera."),
         visibility_note=phrase(
-            "0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded "
-            "below about 25° of pronation. A goal short of thumb up is negative: supination −25°."
+            "0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are "
+            "occluded below about 25° of pronation. A supination goal before thumb up is negative, such as "
+            "−25°."
         ),
         adult_cues=(phrase("Turn your palm up"), phrase("Turn your palm down")),
         child_cues=(phrase("Turn up"), phrase("Turn down")),
