@@ -34,10 +34,9 @@ from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg
 from carpus.core.model.phrase import phrase
 from carpus.core.model.rounding import format_rounded
-from carpus.core.model.types import OPERATOR_LABEL, ByteImage, FloatArray, Frame, MarkerLabel, TrackedFrame
+from carpus.core.model.types import ByteImage, FloatArray, Frame, TrackedFrame
 from carpus.core.pipeline.hand_crop import HandCropWriter, HandRegions
 from carpus.core.pipeline.live import Listener, LiveSession
-from carpus.core.pipeline.queues import BoundedQueue, QueueFullError
 from carpus.core.pipeline.smoothing import SmoothingProcess, TrackedHand
 from carpus.core.pipeline.track import (
     SMOOTHING_FAILED,
@@ -66,7 +65,6 @@ _MARGIN_SHARE = 0.6
 """Margin of the marker image as a share of the markers' box."""
 MIN_FREE_BYTES = 100_000_000
 """Free space needed to start: five minutes of a whole hand's rows, or ten seconds of images."""
-_MAX_LABELS_WAITING = 16
 
 
 class LivePipeline:
@@ -80,21 +78,6 @@ class LivePipeline:
         """Called in the tracking thread with the filter steps of every frame; must not wait."""
         self.on_frame: Callable[[TrackedFrame], None] | None = None
         """Called in the tracking thread with every tracked frame; must not wait."""
-        self.on_label: Callable[[MarkerLabel, float], object] | None = None
-        """Called in the tracking thread with every label that a frame has applied, and that frame's time."""
-        self._labels: BoundedQueue[MarkerLabel] = BoundedQueue(_MAX_LABELS_WAITING)
-        self._labelled: set[str] = set()
-        self._to_repeat: set[str] = set()
-        self._is_repeating = False
-
-    def repeat_labels(self) -> None:
-        """Report the labels given so far once more, at the first frame of a recording."""
-        self._is_repeating = True
-
-    def add_label(self, label: MarkerLabel) -> None:
-        """Add an operator's label for the next frame, from any thread; dropped if a dozen wait already."""
-        with suppress(QueueFullError):
-            self._labels.push(label)
 
     def __call__(self, frame: Frame) -> TrackedFrame:
         tracker = self._pipeline.tracker
@@ -102,31 +85,13 @@ class LivePipeline:
             # The still frames made the calibration; counted twice they would make it too sure of itself.
             tracker.begin_at_neutral()
             self._has_started = True
-        for answer in self._labels.drain():
-            tracker.add_operator_label(answer)
         tracked = self._pipeline(frame)
-        self._report_labels(tracker.pop_applied_labels(), tracked)
         if self.on_frame is not None:
             self.on_frame(tracked)
         steps, on_steps = tracker.pop_steps(), self.on_steps
         if on_steps is not None:
             on_steps(steps)
         return tracked
-
-    def _report_labels(self, labels: list[MarkerLabel], tracked: TrackedFrame) -> None:
-        if self._is_repeating:
-            self._is_repeating, self._to_repeat = False, set(self._labelled)
-        markers = self._pipeline.tracker.markers
-        for name in sorted(self._to_repeat):
-            u, v = tracked.marker_measured_px[markers.index(name)]
-            if np.isfinite(u):
-                self._to_repeat.remove(name)
-                labels.append(MarkerLabel(tracked.index, name, (float(u), float(v))))
-        for answer in labels:
-            if answer.pixel is not None:
-                self._labelled.add(answer.marker)
-            if self.on_label is not None:
-                self.on_label(answer, tracked.timestamp_s)
 
 
 class RecordedSession:
@@ -301,9 +266,6 @@ class MeasurementController:
         self._noise = noise_from_neutral(outcome.noise, neutral_ends_s, self._settings.tracker)
         pipeline = build_pipeline(outcome, self.camera, self._settings, self._noise, keep_history=self._settings.smooth)
         self._pipeline = LivePipeline(pipeline, neutral_ends_s)
-        self._pipeline.on_label = lambda answer, time_s: self._session.add_event(
-            OPERATOR_LABEL, answer.to_json(), time_s
-        )
         self._calibration = outcome.calibration
         self._marker_image_rgb = _crop_markers(frames[0].color_rgb, outcome.pixel)
         try:
@@ -319,11 +281,6 @@ class MeasurementController:
         assert set_up.protocol == self._set_up.protocol
         self._set_up = set_up
         self._on_exercise_changed(set_up)
-
-    def add_label(self, label: MarkerLabel) -> None:
-        """Add an operator's label of blobs; the tracker applies it with the next frame, and the recording notes it."""
-        if self._pipeline is not None:
-            self._pipeline.add_label(label)
 
     def start_recording(self) -> None:
         """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
@@ -378,7 +335,6 @@ class MeasurementController:
             raise
         # Asked for the outline when the recording ends, for which a person waits.
         threading.Thread(target=READING_PROCESS.start, name="reading", daemon=True).start()
-        pipeline.repeat_labels()
         if self._is_playback and not self._played:
             self._played = True
             self._session.start()

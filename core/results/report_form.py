@@ -12,7 +12,7 @@ PAPERS: tuple[Paper, ...] = get_args(Paper)
 PAPER_PT: dict[Paper, tuple[float, float]] = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
 """Width and height in points."""
 LETTER_COUNTRIES = ("US", "CA")
-SECTIONS = ("diagnosis", "table", "curves", "bars", "quality", "speed", "by_hand", "motion")
+SECTIONS = ("diagnosis", "table", "curves", "quality", "speed", "by_hand", "motion")
 """Sections of a session report that may be excluded. Identity, sentences, warnings, method, legal sentence and origin
 always stay, and ``quality`` if something is not as it should be."""
 DEFAULT_EXCLUDED = frozenset({"diagnosis"})

@@ -236,10 +236,6 @@
         <translation>Nicht vergleichbar: {why}. Die Werte werden ohne Beurteilung gezeigt.</translation>
     </message>
     <message>
-        <source>{name}, mean ± SD</source>
-        <translation>{name}, Mittel ± SD</translation>
-    </message>
-    <message>
         <source>partly occluded</source>
         <translation>teilweise verdeckt</translation>
     </message>
@@ -752,18 +748,6 @@
         <translation>Nächster Finger als große Zahl</translation>
     </message>
     <message>
-        <source>Blue spot: first answer, or yes</source>
-        <translation>Blaue Stelle: erste Antwort, oder ja</translation>
-    </message>
-    <message>
-        <source>Blue spot: second answer</source>
-        <translation>Blaue Stelle: zweite Antwort</translation>
-    </message>
-    <message>
-        <source>Blue spot: neither, or no</source>
-        <translation>Blaue Stelle: keine von beiden, oder nein</translation>
-    </message>
-    <message>
         <source>Accept the proposed marker</source>
         <translation>Vorgeschlagenen Marker annehmen</translation>
     </message>
@@ -1058,10 +1042,6 @@
     <message>
         <source>Lay the forearm back where it was</source>
         <translation>Unterarm wieder zurücklegen</translation>
-    </message>
-    <message>
-        <source>Another blue spot</source>
-        <translation>Andere blaue Stelle</translation>
     </message>
     <message>
         <source>Wrist</source>
@@ -2268,10 +2248,6 @@
         <translation>Winkel über die Zeit</translation>
     </message>
     <message>
-        <source>Deviation</source>
-        <translation>Duktion</translation>
-    </message>
-    <message>
         <source>Pronation–supination</source>
         <translation>Pro-/Supination</translation>
     </message>
@@ -2280,24 +2256,8 @@
         <translation>Heute</translation>
     </message>
     <message>
-        <source>Range of motion: today, last time and other hand</source>
-        <translation>Bewegungsausmaß: heute, letztes Mal und andere Hand</translation>
-    </message>
-    <message>
-        <source>Range of motion today</source>
-        <translation>Bewegungsausmaß heute</translation>
-    </message>
-    <message>
-        <source>grey: reference values of adults (AMA, AAOS)</source>
-        <translation>grau: Referenzwerte Erwachsener (AMA, AAOS)</translation>
-    </message>
-    <message>
         <source>How reliable are these values?</source>
         <translation>Wie zuverlässig sind diese Werte?</translation>
-    </message>
-    <message>
-        <source>Speed, pain, note</source>
-        <translation>Geschwindigkeit, Schmerz, Notiz</translation>
     </message>
     <message>
         <source>The therapist’s comment is on the last page.</source>
@@ -2322,10 +2282,6 @@
     <message>
         <source>Signature</source>
         <translation>Unterschrift</translation>
-    </message>
-    <message>
-        <source>Mean ± sd</source>
-        <translation>Mittel ± SD</translation>
     </message>
     <message>
         <source>Session {id}</source>
@@ -2358,10 +2314,6 @@
     <message>
         <source>Movement</source>
         <translation>Bewegung</translation>
-    </message>
-    <message>
-        <source>Today, mean ± sd</source>
-        <translation>Heute ± SD</translation>
     </message>
     <message>
         <source>Best</source>
@@ -2454,10 +2406,6 @@
     <message>
         <source>more than intended: check the exercise technique</source>
         <translation>mehr als vorgesehen: Ausführung prüfen</translation>
-    </message>
-    <message>
-        <source>not assessed: no MDC is known</source>
-        <translation>nicht beurteilt: keine MDC bekannt</translation>
     </message>
     <message>
         <source>No range could be measured.</source>
@@ -6292,10 +6240,6 @@
         <translation>unsichtbares Zeichen</translation>
     </message>
     <message>
-        <source>{count} per movement, {seconds} s in total</source>
-        <translation>{count} je Bewegung, zusammen {seconds} s</translation>
-    </message>
-    <message>
         <source>{sign}: manual measurement of that day, active / passive; not combined with the other values.</source>
         <translation>{sign}: manuelle Messung an diesem Tag, aktiv / passiv; nicht mit den anderen Werten verrechnet.</translation>
     </message>
@@ -6518,6 +6462,22 @@
     <message>
         <source>Backups cannot be saved there: {subject} ({detail}).</source>
         <translation>Sicherungen können dort nicht gespeichert werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Pain, note</source>
+        <translation>Schmerz, Notiz</translation>
+    </message>
+    <message>
+        <source>{name}, mean ± sd</source>
+        <translation>{name}, Mittel ± SD</translation>
+    </message>
+    <message>
+        <source>{count} per stroke, {seconds} s in all</source>
+        <translation>{count} je Bewegung, insgesamt {seconds} s</translation>
+    </message>
+    <message>
+        <source>revision {digest}</source>
+        <translation>Revision {digest}</translation>
     </message>
 </context>
 <context>
@@ -8500,37 +8460,6 @@ von oben</translation>
     </message>
 </context>
 <context>
-    <name>MarkerQuestion</name>
-    <message>
-        <source>Is this blue spot the {marker}?</source>
-        <translation>Ist diese blaue Stelle: {marker}?</translation>
-    </message>
-    <message>
-        <source>Yes</source>
-        <translation>Ja</translation>
-    </message>
-    <message>
-        <source>No</source>
-        <translation>Nein</translation>
-    </message>
-    <message>
-        <source>Which one is the {marker}?</source>
-        <translation>Welche ist: {marker}?</translation>
-    </message>
-    <message>
-        <source>Marker 1</source>
-        <translation>Marker 1</translation>
-    </message>
-    <message>
-        <source>Spot 2</source>
-        <translation>Stelle 2</translation>
-    </message>
-    <message>
-        <source>Neither</source>
-        <translation>Keine</translation>
-    </message>
-</context>
-<context>
     <name>MarkerRow</name>
     <message>
         <source>{size} mm</source>
@@ -9444,14 +9373,6 @@ von oben</translation>
         <translation>{before} und {after} Wiederholungen</translation>
     </message>
     <message>
-        <source>Peak speed</source>
-        <translation>Maximalgeschwindigkeit</translation>
-    </message>
-    <message>
-        <source>MDC not yet known</source>
-        <translation>MDC noch unbekannt</translation>
-    </message>
-    <message>
         <source>Comparability</source>
         <translation>Vergleichbarkeit</translation>
     </message>
@@ -9905,16 +9826,8 @@ von oben</translation>
         <translation>Kurven und Wiederholungen</translation>
     </message>
     <message>
-        <source>Range of motion as bars</source>
-        <translation>Bewegungsausmaß als Balken</translation>
-    </message>
-    <message>
         <source>Reliability of the values</source>
         <translation>Zuverlässigkeit der Werte</translation>
-    </message>
-    <message>
-        <source>Speed, pain, note</source>
-        <translation>Geschwindigkeit, Schmerz, Notiz</translation>
     </message>
     <message>
         <source>Motion page</source>
@@ -9931,6 +9844,10 @@ von oben</translation>
     <message>
         <source>Manual measurements</source>
         <translation>Manuelle Messungen</translation>
+    </message>
+    <message>
+        <source>Pain, note</source>
+        <translation>Schmerz, Notiz</translation>
     </message>
 </context>
 <context>

@@ -236,10 +236,6 @@
         <translation>Non confrontabili: {why}. I valori sono mostrati senza valutazione.</translation>
     </message>
     <message>
-        <source>{name}, mean ± SD</source>
-        <translation>{name}, media ± DS</translation>
-    </message>
-    <message>
         <source>partly occluded</source>
         <translation>in parte nascosto</translation>
     </message>
@@ -752,18 +748,6 @@
         <translation>Dito seguente come numero grande</translation>
     </message>
     <message>
-        <source>Blue spot: first answer, or yes</source>
-        <translation>Punto blu: prima risposta, o sì</translation>
-    </message>
-    <message>
-        <source>Blue spot: second answer</source>
-        <translation>Punto blu: seconda risposta</translation>
-    </message>
-    <message>
-        <source>Blue spot: neither, or no</source>
-        <translation>Punto blu: nessuna delle due, o no</translation>
-    </message>
-    <message>
         <source>Accept the proposed marker</source>
         <translation>Accetta il marcatore proposto</translation>
     </message>
@@ -1058,10 +1042,6 @@
     <message>
         <source>Lay the forearm back where it was</source>
         <translation>Rimettere l’avambraccio dov’era</translation>
-    </message>
-    <message>
-        <source>Another blue spot</source>
-        <translation>Un altro punto blu</translation>
     </message>
     <message>
         <source>Wrist</source>
@@ -2268,10 +2248,6 @@
         <translation>Angoli nel tempo</translation>
     </message>
     <message>
-        <source>Deviation</source>
-        <translation>Deviazione</translation>
-    </message>
-    <message>
         <source>Pronation–supination</source>
         <translation>Prono-supinazione</translation>
     </message>
@@ -2280,24 +2256,8 @@
         <translation>Oggi</translation>
     </message>
     <message>
-        <source>Range of motion: today, last time and other hand</source>
-        <translation>Escursione: oggi, ultima volta e altra mano</translation>
-    </message>
-    <message>
-        <source>Range of motion today</source>
-        <translation>Escursione di oggi</translation>
-    </message>
-    <message>
-        <source>grey: reference values of adults (AMA, AAOS)</source>
-        <translation>grigio: valori di riferimento degli adulti (AMA, AAOS)</translation>
-    </message>
-    <message>
         <source>How reliable are these values?</source>
         <translation>Quanto sono affidabili questi valori?</translation>
-    </message>
-    <message>
-        <source>Speed, pain, note</source>
-        <translation>Velocità, dolore, nota</translation>
     </message>
     <message>
         <source>The therapist’s comment is on the last page.</source>
@@ -2322,10 +2282,6 @@
     <message>
         <source>Signature</source>
         <translation>Firma</translation>
-    </message>
-    <message>
-        <source>Mean ± sd</source>
-        <translation>Media ± DS</translation>
     </message>
     <message>
         <source>Session {id}</source>
@@ -2358,10 +2314,6 @@
     <message>
         <source>Movement</source>
         <translation>Movimento</translation>
-    </message>
-    <message>
-        <source>Today, mean ± sd</source>
-        <translation>Oggi, media ± DS</translation>
     </message>
     <message>
         <source>Best</source>
@@ -2454,10 +2406,6 @@
     <message>
         <source>more than intended: check the exercise technique</source>
         <translation>più del previsto: controllare l’esecuzione</translation>
-    </message>
-    <message>
-        <source>not assessed: no MDC is known</source>
-        <translation>non valutato: MDC non nota</translation>
     </message>
     <message>
         <source>No range could be measured.</source>
@@ -6292,10 +6240,6 @@
         <translation>carattere invisibile</translation>
     </message>
     <message>
-        <source>{count} per movement, {seconds} s in total</source>
-        <translation>{count} per movimento, {seconds} s in totale</translation>
-    </message>
-    <message>
         <source>{sign}: manual measurement of that day, active / passive; not combined with the other values.</source>
         <translation>{sign}: misura manuale di quel giorno, attiva / passiva; non combinata con gli altri valori.</translation>
     </message>
@@ -6518,6 +6462,22 @@
     <message>
         <source>Backups cannot be saved there: {subject} ({detail}).</source>
         <translation>Le copie di sicurezza non possono essere salvate lì: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Pain, note</source>
+        <translation>Dolore, nota</translation>
+    </message>
+    <message>
+        <source>{name}, mean ± sd</source>
+        <translation>{name}, media ± DS</translation>
+    </message>
+    <message>
+        <source>{count} per stroke, {seconds} s in all</source>
+        <translation>{count} per movimento, {seconds} s in tutto</translation>
+    </message>
+    <message>
+        <source>revision {digest}</source>
+        <translation>revisione {digest}</translation>
     </message>
 </context>
 <context>
@@ -8500,37 +8460,6 @@ dall’alto</translation>
     </message>
 </context>
 <context>
-    <name>MarkerQuestion</name>
-    <message>
-        <source>Is this blue spot the {marker}?</source>
-        <translation>Questo punto blu è: {marker}?</translation>
-    </message>
-    <message>
-        <source>Yes</source>
-        <translation>Sì</translation>
-    </message>
-    <message>
-        <source>No</source>
-        <translation>No</translation>
-    </message>
-    <message>
-        <source>Which one is the {marker}?</source>
-        <translation>Qual è: {marker}?</translation>
-    </message>
-    <message>
-        <source>Marker 1</source>
-        <translation>Marcatore 1</translation>
-    </message>
-    <message>
-        <source>Spot 2</source>
-        <translation>Punto 2</translation>
-    </message>
-    <message>
-        <source>Neither</source>
-        <translation>Nessuno dei due</translation>
-    </message>
-</context>
-<context>
     <name>MarkerRow</name>
     <message>
         <source>{size} mm</source>
@@ -9444,14 +9373,6 @@ dall’alto</translation>
         <translation>{before} e {after} ripetizioni</translation>
     </message>
     <message>
-        <source>Peak speed</source>
-        <translation>Velocità massima</translation>
-    </message>
-    <message>
-        <source>MDC not yet known</source>
-        <translation>MDC non ancora nota</translation>
-    </message>
-    <message>
         <source>Comparability</source>
         <translation>Confrontabilità</translation>
     </message>
@@ -9905,16 +9826,8 @@ dall’alto</translation>
         <translation>Curve e ripetizioni</translation>
     </message>
     <message>
-        <source>Range of motion as bars</source>
-        <translation>Escursione a barre</translation>
-    </message>
-    <message>
         <source>Reliability of the values</source>
         <translation>Affidabilità dei valori</translation>
-    </message>
-    <message>
-        <source>Speed, pain, note</source>
-        <translation>Velocità, dolore, nota</translation>
     </message>
     <message>
         <source>Motion page</source>
@@ -9931,6 +9844,10 @@ dall’alto</translation>
     <message>
         <source>Manual measurements</source>
         <translation>Misure manuali</translation>
+    </message>
+    <message>
+        <source>Pain, note</source>
+        <translation>Dolore, nota</translation>
     </message>
 </context>
 <context>

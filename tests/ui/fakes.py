@@ -22,7 +22,6 @@ from carpus.core.model.types import (
     FloatArray,
     Frame,
     KinematicState,
-    MarkerLabel,
     Side,
     TrackedFrame,
     TrackStatus,
@@ -304,10 +303,6 @@ class FakeMeasuring:
         self.calibration: Calibration | None = calibration(feed.pictures)
         self.fault: Exception | None = None
         self.closed = False
-        self.answers: list[MarkerLabel] = []
-
-    def add_label(self, answer: MarkerLabel) -> None:
-        self.answers.append(answer)
 
     is_playback = False
 

@@ -610,7 +610,7 @@ class Gallery(GalleryWindow):
     def report_own(self) -> None:
         """The clinic's letterhead on US Letter, a comment, a part left out."""
         head = Letterhead("Hand clinic at the river", ("12 Riverside Road", "Springfield"))
-        form = ReportForm(head, "letter", frozenset({"bars"}))
+        form = ReportForm(head, "letter", frozenset({"curves"}))
         self._report(self._session_report(form=form, comment="Splint at night.\nCome back."))
 
     def report_letter(self) -> None:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.progress import compute_progress
+from carpus.core.results.progress import Progress, ProgressPoint, compute_progress
 from carpus.ui.charts import progress
-from carpus.ui.charts.progress import ProgressChart
+from carpus.ui.charts.progress import ProgressChart, panel_keys
 from carpus.ui.kit.theme import Theme
-from tests.ui.fakes import FakeSessions
+from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.test_plots import move
 
 
@@ -55,3 +56,10 @@ def test_point_under_mouse_says_date_value_set_up_and_remarks(chart: ProgressCha
     assert "further away" in far
     move(chart.mouse_target, QPointF(5.0, 300.0))
     assert chart.current_session == -1
+
+
+def test_panels_include_a_range_that_the_newest_session_lacks() -> None:
+    older, newest = figures_once(session(session_id="older")), figures_once(session(session_id="newest"))
+    fewer = replace(newest, measures=tuple(row for row in newest.measures if row.quantity != "extension"))
+    progress = Progress((ProgressPoint(older, ()), ProgressPoint(fewer, ())), (), None)
+    assert [key[1] for key in panel_keys(progress)] == ["arc", "flexion", "extension"]

@@ -23,14 +23,14 @@ from carpus.core.pipeline.live_values import StartMode
 from carpus.ui.charts.history import BUFFER_S, History
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.live import recording as live_recording
-from carpus.ui.screens.live.marker_doubt import MarkerDoubt, SteadyDoubt, find_doubt, question_light
+from carpus.ui.screens.live.marker_doubt import find_doubt, make_doubt_light
 from carpus.ui.screens.live.number_card import NumberCard, Reading
 from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
 from carpus.ui.screens.live.repetition_counter import RepetitionCounter
 from carpus.ui.screens.live.status_light import StatusLight, SteadyLight
 from tests.moments import with_moment
 from tests.ui.conftest import Live
-from tests.ui.fakes import FakeFeed, LateFeed, with_other_spot
+from tests.ui.fakes import FakeFeed, LateFeed
 from tests.ui.live_tried import TriedLive
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
@@ -204,68 +204,13 @@ def test_blob_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden()
     spots = Detections(pixel, *(np.ones((4, len(pixel)))))
     doubt = find_doubt(replace(hidden, detections=spots), MARKERS, camera)
     assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", True, True)
-    np.testing.assert_allclose(doubt.other_px, beside)
-    assert question_light(doubt).state == "Another blue spot is here"
-    assert "middle finger MCP" in question_light(doubt).remedy
+    assert make_doubt_light(doubt).state == "Another blue spot is here"
+    assert "middle finger MCP" in make_doubt_light(doubt).remedy
     far = replace(spots, pixel=np.vstack((spots.pixel[:-1], beside + 80.0)))
     assert find_doubt(replace(hidden, detections=far), MARKERS, camera) is None
     questioned = replace(frame, doubted=np.arange(6) == 3, status=TrackStatus.DOUBTFUL)
     doubt = find_doubt(replace(questioned, detections=Detections.none()), MARKERS, camera)
     assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", False, False)
-
-
-def test_question_about_blob_is_answered_while_measuring_continues(qtbot: QtBot, live: Live) -> None:
-    feed = FakeFeed()
-    with_other_spot(feed, 3, 1.5, taken=False, off_px=(20.0, 0.0))
-    tried = live(feed)
-    screen, measuring = tried.screen, tried.measuring
-    tried.record()
-    tried.run(1.5)
-    parts = (screen.picture, screen.number_card, screen.curves, screen.controls.light_view)
-    places = [widget.geometry() for widget in parts]
-    assert screen.question.isHidden()
-    angle = screen.number_card.reading.angle
-    for _ in range(12):  # whatever the rhythm in which values are shown
-        tried.run(0.1)
-        if screen.question.isVisible():
-            break
-    assert screen.question.words.text() == "Is this blue spot the middle finger MCP?"
-    assert [button.text() for button in screen.question.buttons.values() if button.isVisible()] == ["Yes", "No"]
-    assert screen.controls.light_view.status_light == StatusLight(
-        "warn", "Another blue spot is here", "Is it the middle finger MCP?"
-    )
-    tried.press(Qt.Key.Key_F2)
-    assert not measuring.answers, "a key that was meant for something else a moment ago"
-    tried.run(0.6)
-    tried.press(Qt.Key.Key_F2)
-    shown = feed.current_view()
-    (answer,) = measuring.answers
-    assert (answer.marker, answer.rejected_px) == ("MCP3", ())
-    told = feed.frames[answer.frame_index]
-    np.testing.assert_allclose(answer.pixel or (), told.detections.pixel[-1])
-    assert shown.tracked.index - answer.frame_index <= 6, "of a picture shown a moment ago"
-    assert screen.question.isHidden()
-    assert feed.is_recording
-    assert screen.number_card.reading.angle == angle
-    assert [widget.geometry() for widget in parts] == places, "nothing jumps"
-    tried.run(1.2)
-    qtbot.mouseClick(screen.question.buttons["none"], Qt.MouseButton.LeftButton)
-    assert measuring.answers[-1].pixel is None
-    assert len(measuring.answers[-1].rejected_px) == 1
-    feed.frames[feed.place + 1 :] = feed.frames[:10]
-    tried.press(Qt.Key.Key_F2)
-    assert screen.number_card.reading.angle != angle, "without a question the key does what it did"
-
-
-def test_question_stands_only_after_it_has_lasted() -> None:
-    steady, unknown = SteadyDoubt(), np.full(2, np.nan)
-    doubt = MarkerDoubt("MCP3", unknown, np.array([1.0, 2.0]))
-    shown = [steady.update(doubt if 0.1 <= t < 0.3 or t >= 1.0 else None, t) is not None for t in np.arange(0, 2, 0.05)]
-    assert not any(shown[:25])
-    assert all(shown[27:])
-    gone = [steady.update(None, t) is not None for t in np.arange(2, 2.6, 0.05)]
-    assert gone[:5] == [True] * 5
-    assert not gone[-1]
 
 
 def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Live) -> None:

@@ -69,9 +69,11 @@ def test_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) -> N
     said = {"provenance": {"revision": "0123456789" * 4}, "source": {"sha256": "ab12" + "0" * 56 + "cd34"}}
     header = replace(made.header, parameters=json.dumps(said), software_version="10.11.12")
     path = write_session_report(replace(made, header=header), tmp_path / "foot.pdf")
-    foot = words_of(path)
-    assert "Carpus 10.11.12 (0123456)" in foot
-    assert "recording ab12…cd34" in foot
+    foot, research = words_of(path, 1), words_of(path, 2)
+    assert "Carpus 10.11.12" in foot
+    assert "ab12" not in foot, "digests are on the page for research"
+    assert "revision 0123456" in research
+    assert "recording ab12…cd34" in research
     assert "as measured live" in foot, "the end of the line is on the page"
     (*_, end) = re.findall(r'xMax="([\d.]+)"[^>]*>live</word>', tool("pdftotext", "-bbox", "-l", "1", str(path), "-"))
     assert float(end) <= 595.0 - 42.0, "nothing leaves the margin on the right"

@@ -53,9 +53,10 @@ def panel_keys(progress: Progress) -> list[MeasureKey]:
     if progress.keys:
         seen = {row.key for point in progress.points for row in point.results.joint_ranges if row.count}
         return [key for key in progress.keys if key in seen]
-    rows = progress.points[-1].results.wrist_ranges
-    arcs = [row.key for row in rows if row.quantity == "arc"]
-    ends = [row.key for row in rows if row.quantity != "arc"]
+    # Of the newest session first, then what only older ones have.
+    found = dict.fromkeys(row.key for point in reversed(progress.points) for row in point.results.wrist_ranges)
+    arcs = [key for key in found if key[1] == "arc"]
+    ends = [key for key in found if key[1] != "arc"]
     return (arcs + ends if len(arcs) == 1 else arcs)[:MAX_PANELS]
 
 

@@ -38,7 +38,7 @@ from carpus.ui.words.fingers import LOWER_BOUND, is_thumb_exercise, main_angles,
 from carpus.ui.words.identity import printed_name
 from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import correction_words
-from carpus.ui.words.ranges import range_table
+from carpus.ui.words.ranges import mean_head, range_table
 from carpus.ui.words.session import change_sentences, method_words, warning_lines
 
 MIN_SCALE = 0.8
@@ -122,7 +122,7 @@ def _result_table(report: SessionReport, *, has_comparison: bool) -> Item:
     rows = letter_rows(report)
     if not rows:
         return paragraph(tr("No range could be measured."), SIZE_PT)
-    heads = ["", tr("Mean ± sd"), "", ""]
+    heads = ["", mean_head(tr("Today"), report.results.measures_in_group("range")), "", ""]
     if has_comparison and report.other_hand is not None:
         heads[2] = terms.hand_name(report.other_hand.side)
     if has_comparison and report.previous is not None:

@@ -22,15 +22,20 @@ from carpus.ui.report.page import (
     session_chart_part,
     table,
 )
+from carpus.ui.words.session import research_lines
 from carpus.ui.words.task_measures import task_table, task_title
 
 
 def motion_page(
-    head: QLayout, results: SessionResults, previous: SessionResults | None, curves: WristCurves, motion: MotionCurves
-) -> QLayout:
-    """Return the page under its head."""
+    head: QLayout, results: SessionResults, previous: SessionResults | None, curves: WristCurves, motion: MotionCurves,
+    origin: str,
+) -> QLayout:  # fmt: skip
+    """Return the page under its head; ``origin`` are the digests of what it was made from."""
     is_hand = bool(motion.joint_names)
     parts: list[Part] = [head, *_task_measure_section(results, previous)]
+    if lines := research_lines(results):
+        words = ";  ".join(f"{name}: {value}" for name, value in lines)
+        parts.append(paragraph(words, 8.5))
     height = 118.0 if is_hand else 165.0
     parts += _path_section(tr("Path of the wrist"), wrist_path(motion), height, tr("with the hand’s axes along it"))
     if is_hand:
@@ -47,7 +52,8 @@ def motion_page(
 
     parts += curves_part("place", tr("Position, speed, rotation"), axes, 1.0)
     parts += curves_part("zyz", tr("ZYZ angles"), tr("band: ± 1 sd; black: α + γ, with γ"), 0.75)
-    foot = column(paragraph(zyz_words([motion]), 8.0, token="text2"), legal_line(), gap=3.0)
+    below = [paragraph(words, 8.0, token="text2") for words in (zyz_words([motion]), origin) if words]
+    foot = column(*below, legal_line(), gap=3.0)
     return column(*parts, STRETCH, foot, gap=6.0)
 
 

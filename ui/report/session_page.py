@@ -18,7 +18,6 @@ from carpus.core.results.progress import compare_ranges
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.valid_data import JointCurves, WristCurves
-from carpus.ui.charts.range_bars import BAR_PX, FOOT_PX, paint_range_bars, range_bars
 from carpus.ui.charts.session import SessionPlot
 from carpus.ui.kit import numbers
 from carpus.ui.kit.layouts import STRETCH, Part
@@ -28,11 +27,8 @@ from carpus.ui.report.hand_section import finger_curve_section, finger_section, 
 from carpus.ui.report.motion_page import motion_page
 from carpus.ui.report.page import (
     BODY_WIDTH_PT,
-    CHART,
     PAPER,
-    UNIT,
     Body,
-    PaintedPart,
     RoundedBox,
     break_lines,
     column,
@@ -57,8 +53,8 @@ from carpus.ui.words.ranges import range_table, reference_words, repetition_word
 from carpus.ui.words.session import (
     hand_summary,
     method_words,
+    pain_lines,
     quality_lines,
-    speed_pain_lines,
     warning_lines,
     wrist_summary,
 )
@@ -171,8 +167,6 @@ def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> Q
         parts += (
             _curves(report) if report.joints is None else finger_curve_section(report.curves, report.joints, results)
         )
-    if form.includes("bars") and report.joints is None:
-        parts += _bars(report)
     parts += [STRETCH, *_boxes(report)]
     if report.manual_values and form.includes("by_hand"):
         words = tr("Manual measurements, not made by Carpus: {values}.").format(values=day_words(report.manual_values))
@@ -185,8 +179,21 @@ def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> Q
 
 
 def _motion_page(report: SessionReport, motion: MotionCurves, number: str) -> QLayout:
+    origin = [
+        pattern.format(digest=digest)
+        for pattern, digest in (
+            (tr("revision {digest}"), report.revision[:7]),
+            (tr("settings {digest}"), report.settings_digest[:4]),
+            (tr("data {digest}"), f"{report.digest[:4]}…{report.digest[-4:]}" if report.digest else ""),
+            (
+                tr("recording {digest}"),
+                f"{report.recording_digest[:4]}…{report.recording_digest[-4:]}" if report.recording_digest else "",
+            ),
+        )
+        if digest
+    ]
     results, head = report.results, _head(report, number)
-    return motion_page(head, results, report.previous, report.curves, motion)
+    return motion_page(head, results, report.previous, report.curves, motion, " · ".join(origin))
 
 
 def _comment_page(report: SessionReport, lines: Sequence[str], number: str) -> QLayout:
@@ -271,21 +278,7 @@ def _curves(report: SessionReport) -> list[Part]:
     if any(math.isfinite(target) for target in results.targets_deg):
         aside += "; " + tr("dashed: goal")
     plot = SessionPlot(report.curves, results.exercise, results.repetitions, -1, *results.targets_deg)
-    return [section_title(tr("Angles over time"), aside), session_chart_part(plot, 190.0, 250.0)]
-
-
-def _bars(report: SessionReport) -> list[Part]:
-    results = report.results
-    bars = range_bars(results, report.previous, report.other_hand)
-    if not bars:
-        return []
-    compared = any(bar.results is not results for bar in bars)
-    words = tr("Range of motion: today, last time and other hand") if compared else tr("Range of motion today")
-    height = CHART.unit * (BAR_PX * len(bars) + 8.0 + FOOT_PX) / UNIT
-    return [
-        section_title(words),
-        PaintedPart(lambda painter, box: paint_range_bars(painter, CHART, box, results.exercise, bars), height),
-    ]
+    return [section_title(tr("Angles over time"), aside), session_chart_part(plot, 190.0, 400.0)]
 
 
 def _boxes(report: SessionReport) -> list[Part]:
@@ -300,8 +293,8 @@ def _boxes(report: SessionReport) -> list[Part]:
     if report.form.includes("speed"):
         words = "  ".join(f"“{text}”" for _, text in results.notes[:3])
         notes: list[Part | float] = [3.0, paragraph(words, 8.5)] if words else []
-        values = value_rows([(name, value, "text") for name, value in speed_pain_lines(results)])
-        boxes.append(RoundedBox(paragraph(tr("Speed, pain, note"), 10.0, SEMIBOLD), 3.0, values, *notes, STRETCH))
+        values = value_rows([(name, value, "text") for name, value in pain_lines(results)])
+        boxes.append(RoundedBox(paragraph(tr("Pain, note"), 10.0, SEMIBOLD), 3.0, values, *notes, STRETCH))
     return [line(*((box, 1) for box in boxes), gap=12.0)] if boxes else []
 
 
@@ -317,15 +310,7 @@ def _foot(report: SessionReport) -> list[Part]:
     by_hand = report.manual_values if report.form.includes("by_hand") else ()
     how = method_words(results, report.markers, compared=_has_verdict(report), manual_values=by_hand)
     residual = results.quality.residual_mm
-    made_by = f" ({report.revision[:7]})" if report.revision else ""
-    parts = [tr("Session {id}").format(id=results.session_id[:8]), f"Carpus {results.software_version}{made_by}"]
-    if report.settings_digest:
-        parts.append(tr("settings {digest}").format(digest=report.settings_digest[:4]))
-    if report.digest:
-        parts.append(tr("data {digest}").format(digest=f"{report.digest[:4]}…{report.digest[-4:]}"))
-    if report.recording_digest:
-        digest = f"{report.recording_digest[:4]}…{report.recording_digest[-4:]}"
-        parts.append(tr("recording {digest}").format(digest=digest))
+    parts = [tr("Session {id}").format(id=results.session_id[:8]), f"Carpus {results.software_version}"]
     if math.isfinite(residual):
         parts.append(tr("calibrated to {size} mm").format(size=numbers.format_fixed(residual, 1)))
     parts.append(tr("smoothed") if results.is_smoothed else tr("as measured live"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from carpus.core.measures.repetitions import NoRepetitionReason
 from carpus.core.model.hand.exercises import STILL_NAMES
@@ -53,13 +53,14 @@ def range_table(
     *,
     on_paper: bool = False,
 ) -> TableContent:
-    """Return arc, both ends, angles that should stay still, and speed.
+    """Return arc, both ends, and angles that should stay still.
 
     ``on_paper`` omits still angles and unknown values, which another part of the page has, and uses shorter texts.
     """
     day = numbers.format_time_or_day(previous.when, results.when) if previous else ""
     heads = (
-        tr("Movement"), tr("Today, mean ± sd"), tr("Best"), terms.hand_name(other_hand.side) if other_hand else "",
+        tr("Movement"), mean_head(tr("Today"), results.wrist_ranges), tr("Best"),
+        terms.hand_name(other_hand.side) if other_hand else "",
         tr("Reference (adults)"), day, tr("Change since {day}").format(day=day) if day else "",
     )  # fmt: skip
     changes = {item.key: item for item in compare_ranges(previous, results)} if previous else {}
@@ -69,9 +70,6 @@ def range_table(
     ]
     if not on_paper:
         rows += [_line_of_still_angle(row, results, previous) for row in results.measures_in_group("still")]
-    speed = results.speed_measure("peak speed")
-    if speed is not None and (speed.count or (speed.unknown_reason and not on_paper)):
-        rows.append(_line_of_speed(speed, previous, other_hand, on_paper))
     return TableContent(RANGE_COLUMNS, heads, tuple(rows))
 
 
@@ -120,6 +118,11 @@ def mean_words(row: Measure) -> str:
     words = numbers.format_with_sd(row.mean, row.sd if has_sd(row) else row.measurement_sd)
     is_short = is_forearm and numbers.format_signed_degrees(row.mean) != numbers.format_degrees(row.mean)
     return f"\N{MINUS SIGN}{words}" if is_short else words
+
+
+def mean_head(name: str, rows: Iterable[Measure]) -> str:
+    """Return ``Today, mean ± sd`` over a column of means, the name alone over single values."""
+    return tr("{name}, mean ± sd").format(name=name) if any(has_sd(row) for row in rows) else name
 
 
 def has_sd(row: Measure) -> bool:
@@ -179,31 +182,4 @@ def _line_of_still_angle(row: Measure, results: SessionResults, previous: Sessio
         tr("under {angle}").format(angle=numbers.format_degrees(limit)),
         "" if before is None else numbers.format_degrees(before.mean),
         change,
-    )
-
-
-def speed_words(speed: Measure) -> str:
-    """Return ``190 ± 7°/s``."""
-    spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{format_rounded(speed.sd)}" if math.isfinite(speed.sd) else ""
-    return f"{format_rounded(speed.mean)}{spread}°/s" if speed.count else tr("too slow to assess")
-
-
-def mean_speed_words(results: SessionResults) -> str:
-    """Return the mean peak speed of a session, a dash if unknown."""
-    speed = results.speed_measure("peak speed")
-    return numbers.format_speed(math.nan if speed is None else speed.mean)
-
-
-def _line_of_speed(
-    speed: Measure, previous: SessionResults | None, other_hand: SessionResults | None, is_short: bool
-) -> TableRow:
-    change = tr("not assessed") if is_short else tr("not assessed: no MDC is known")
-    return (
-        tr("Peak speed"),
-        speed_words(speed),
-        numbers.format_speed(speed.best) if speed.count else "",
-        mean_speed_words(other_hand) if other_hand else "",
-        numbers.UNKNOWN,
-        mean_speed_words(previous) if previous else "",
-        change if previous else "",
     )

@@ -27,7 +27,7 @@ from carpus.ui.words.fingers import (
     range_words,
 )
 from carpus.ui.words.marker_words import finger_name
-from carpus.ui.words.ranges import has_sd, is_deficit, speed_words
+from carpus.ui.words.ranges import has_sd, is_deficit
 from carpus.ui.words.task_measures import task_summary
 from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, reason_words
 
@@ -255,12 +255,6 @@ def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
             limit=numbers.format_millimetres(STILL_RADIUS_MM),
         )
         lines.append((tr("Forearm moved"), words, not quality.has_forearm_moved))
-        if math.isfinite(quality.centre_residual_mm):
-            words = tr("{depth} below its marker (scatter {residual})").format(
-                depth=numbers.format_millimetres(-quality.centre_mm[2]),
-                residual=f"{numbers.format_fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
-            )
-            lines.append((tr("Wrist rotation centre"), words, True))
     limit = results.exercise.trick_limit_deg
     for row in results.measures_in_group("still"):
         words = tr("{angle} at most (limit {limit})")
@@ -271,27 +265,34 @@ def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
     return lines
 
 
-def speed_pain_lines(results: SessionResults) -> list[tuple[str, str]]:
-    """Return name and value of speed, smoothness, targets and pain."""
+def research_lines(results: SessionResults) -> list[tuple[str, str]]:
+    """Return name and value of speed, smoothness, pauses and the wrist's rotation centre."""
     speed, smooth = results.speed_measure("peak speed"), results.speed_measure("smoothness")
     pauses, pause_time = results.speed_measure("pauses"), results.speed_measure("pause time")
-    lines = []
-    if speed is not None and (speed.count or speed.unknown_reason):
-        lines.append((tr("Peak speed, mean ± sd"), speed_words(speed)))
-    if smooth is not None and smooth.unknown_reason:
-        lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to assess")))
+    gap, quality, lines = numbers.NARROW_GAP, results.quality, []
+    if speed is not None and speed.count:
+        spread = f"{gap}±{gap}{format_rounded(speed.sd)}" if math.isfinite(speed.sd) else ""
+        lines.append((tr("Peak speed, mean ± sd"), f"{format_rounded(speed.mean)}{spread}°/s"))
     if smooth is not None and smooth.count:
-        spread = (
-            f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{numbers.format_fixed(smooth.sd, 1)}"
-            if math.isfinite(smooth.sd)
-            else ""
-        )
+        spread = f"{gap}±{gap}{numbers.format_fixed(smooth.sd, 1)}" if math.isfinite(smooth.sd) else ""
         value = numbers.format_fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
     if pauses is not None and pause_time is not None and pauses.count:
-        words = tr("{count} per movement, {seconds} s in total") if pauses.mean else tr("none")
+        words = tr("{count} per stroke, {seconds} s in all") if pauses.mean else tr("none")
         count, seconds = numbers.format_fixed(pauses.mean, 1), numbers.format_fixed(pause_time.mean, 1)
         lines.append((tr("Pauses during the movement, mean"), words.format(count=count, seconds=seconds)))
+    if results.exercise.is_forearm_fixed and math.isfinite(quality.centre_residual_mm):
+        words = tr("{depth} below its marker (scatter {residual})").format(
+            depth=numbers.format_millimetres(-quality.centre_mm[2]),
+            residual=f"{numbers.format_fixed(quality.centre_residual_mm, 1)}{gap}mm",
+        )
+        lines.append((tr("Wrist rotation centre"), words))
+    return lines
+
+
+def pain_lines(results: SessionResults) -> list[tuple[str, str]]:
+    """Return name and value of targets and pain."""
+    lines = []
     if targets := target_words(results):
         lines.append((tr("Goal"), targets))
     if len(results.pain_scores) > 1:

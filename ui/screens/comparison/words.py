@@ -24,7 +24,7 @@ from carpus.ui.words.finger_angles import FINGERS, FingerAngle, find_finger_angl
 from carpus.ui.words.fingers import LOWER_BOUND, is_thumb_exercise, main_kind, progress_choices, progress_keys
 from carpus.ui.words.progress import comparison_name, uncertainty_words
 from carpus.ui.words.progress import headline as progress_headline
-from carpus.ui.words.ranges import is_deficit, mean_words, repetition_words
+from carpus.ui.words.ranges import is_deficit, mean_head, mean_words, repetition_words
 from carpus.ui.words.verdicts import difference_words, error_limit_words, reason_words, short_change_words
 
 _VALUE = TableColumn(SEMIBOLD, scale=1.14)
@@ -125,10 +125,10 @@ def facts_words(pair: SessionPair) -> str:
 
 def difference_table(pair: SessionPair) -> TableContent:
     """Return the measures that both sessions share."""
-    pattern = tr("{name}, mean ± SD")
-    first, second = session_name(pair.first, pair.second), session_name(pair.second, pair.first)
+    first = mean_head(session_name(pair.first, pair.second), [one.after for one in pair.ranges])
+    second = mean_head(session_name(pair.second, pair.first), [one.before for one in pair.ranges])
     difference = Cell(tr("Difference"), MEDIUM, "text2", state="none")  # as far in as the words below it
-    heads = (tr("Movement"), pattern.format(name=first), pattern.format(name=second), difference)
+    heads = (tr("Movement"), first, second, difference)
     return TableContent(COLUMNS, heads, tuple(_make_row(one, pair) for one in pair.ranges))
 
 

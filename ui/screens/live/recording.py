@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from carpus.core.model.types import FloatArray, MarkerLabel, TrackStatus
+from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.pipeline.live_values import StartMode
 from carpus.core.records.session_setup import SessionSetup
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE
@@ -191,10 +191,6 @@ class RecordingController(QObject):
     def add_event(self, kind: str, text: str) -> bool:
         """Add an event at this moment; return False if nothing is recorded."""
         return self.measuring is not None and self.measuring.feed.add_event(kind, text)
-
-    def answer_spot(self, answer: MarkerLabel) -> None:
-        if self.measuring is not None:
-            self.measuring.add_label(answer)
 
     def set_passive(self, *, passive: bool) -> None:
         if self.add_event(PASSIVE if passive else ACTIVE, ""):

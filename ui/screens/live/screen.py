@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QWidget
 
 from carpus.core.model.hand.protocols import PROTOCOLS
@@ -30,10 +30,9 @@ from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR, FrameView
 from carpus.ui.screens.live.controls import RecordingControls
 from carpus.ui.screens.live.frame_overlay import FrameOverlay
 from carpus.ui.screens.live.live_readings import LiveReadings
-from carpus.ui.screens.live.marker_doubt import find_doubt, question_light
+from carpus.ui.screens.live.marker_doubt import find_doubt, make_doubt_light
 from carpus.ui.screens.live.note_dialogs import NoteDialog, PainDialog
 from carpus.ui.screens.live.number_card import NumberCard, Reading
-from carpus.ui.screens.live.question import MarkerQuestion
 from carpus.ui.screens.live.recording import RecordingController
 from carpus.ui.screens.live.status_light import (
     StatusLight,
@@ -89,7 +88,7 @@ class LiveScreen(FittedWidget):
         self.history = History(PROTOCOLS[0])
         self.recording = RecordingController(background, self.history)
         self.readings = LiveReadings(self.history, self.recording)
-        self._steady_light, self._lag = SteadyLight(), TrackingLag()
+        self._steady_light, self._steady_doubt, self._lag = SteadyLight(), SteadyLight(), TrackingLag()
         self._tracked_view: TrackedView | None = None
         self._draw_count = 0
         self._drawn_at_s, self._drawn_cpu_s = -math.inf, 0.0
@@ -99,8 +98,7 @@ class LiveScreen(FittedWidget):
         self.stage = QWidget()
         """Everything but the bar below: messages cover this part, and the light stays visible."""
         self.picture = FrameView(theme)
-        self.question = MarkerQuestion(self.picture, theme, self, lambda: self.recording.time_s)
-        self.frame_overlay = FrameOverlay(theme, self.picture, self.question, self.recording)
+        self.frame_overlay = FrameOverlay(self.picture, self.recording)
         self.number_card = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
         self.finger_curves = FingerCurves(theme, self.history)
@@ -115,7 +113,6 @@ class LiveScreen(FittedWidget):
         self.pain_dialog = PainDialog(self.stage, theme)
         self._build_layout()
         self._connect()
-        self.picture.installEventFilter(self)
         theme.changed.connect(self._fit)
         self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer, interval=CHECK_EVERY_MS)
         self._timer.timeout.connect(self.draw_if_due)
@@ -161,22 +158,7 @@ class LiveScreen(FittedWidget):
             "patient_view": self.patient_view_requested.emit,
         }  # fmt: skip
         self.finger_curves.angle_chosen.connect(lambda figure: self.show_angle(Reading(figure=figure)))
-        self.question.host_shortcuts = list(bind_screen_keys(self, actions).values())
-        self.question.changed.connect(self._place_question)
-        self.question.answered.connect(recording.answer_spot)
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Reposition the question when the frame view is resized."""
-        if watched is self.picture and event.type() == QEvent.Type.Resize:
-            QTimer.singleShot(0, self._place_question)  # when the picture has its new place
-        return super().eventFilter(watched, event)
-
-    def _place_question(self) -> None:
-        """Reposition the question; hide the button that it would cover, whose key still works."""
-        self.question.reposition()
-        self.patient_view_button.setVisible(
-            self.question.isHidden() or self.question.y() > self.patient_view_button.geometry().bottom()
-        )
+        bind_screen_keys(self, actions)
 
     def _fit(self) -> None:
         """Show the curves of the wrist or of the fingers."""
@@ -187,7 +169,6 @@ class LiveScreen(FittedWidget):
             self._columns.setStretch(place, share)
         self.bubble.set_room(self.height() >= MIN_SCREEN_PX * self._theme.text_scale and not (tight and hand))
         self.curves.show_single(tight)
-        self._place_question()
         self.controls.fit(tight=tight)
 
     # --- life ---------------------------------------------------------------------------------------------
@@ -202,9 +183,9 @@ class LiveScreen(FittedWidget):
         self.history.clear(set_up.protocol, exercise, None if calibration is None else calibration.start_angles_rad)
         self.number_card.exercise = exercise
         self._is_whole_hand = set_up.protocol.has_fingers
-        self._steady_light, self._lag, self._tracked_view = SteadyLight(), TrackingLag(), None
+        self._steady_light, self._steady_doubt, self._lag = SteadyLight(), SteadyLight(), TrackingLag()
+        self._tracked_view = None
         self.frame_overlay.tracked_view = None
-        self.question.withdraw()
         self.recording.set_source(measuring, set_up)
         self.recording.is_hand_resting = is_hand_resting
         self.curves.set_exercise(exercise, set_up.target_positive_deg, set_up.target_negative_deg)
@@ -237,7 +218,6 @@ class LiveScreen(FittedWidget):
         self.recording.set_camera_lost(lost=lost)
         self.finger_curves.set_waiting(lost)
         if lost:
-            self.question.withdraw()
             self.picture.clear(self.tr("No image"))
             self._tracked_view = self.frame_overlay.tracked_view = None
 
@@ -342,7 +322,7 @@ class LiveScreen(FittedWidget):
         self.recording_changed.emit(self.recording.state, self.recording.duration_s)
 
     def _current_light(self, measuring: MeasurementController) -> StatusLight:
-        """Return the light: of the camera, else of the computer, a question, or the start."""
+        """Return the light: of the camera, else of the computer, a doubtful marker, or the start."""
         recording, calibration, view = self.recording, measuring.calibration, self._tracked_view
         if recording.camera_lost:
             return StatusLight("bad", self.tr("No image"), self.tr("Plug the camera in again"))
@@ -354,12 +334,13 @@ class LiveScreen(FittedWidget):
             pure = recording.set_up is not None and recording.set_up.exercise.is_forearm_fixed
             now = wrist_light(frame, markers, pure and self.history.has_forearm_moved())
             lamp = self._steady_light.update(now, recording.time_s)
-        if self._lag.lag_s:  # what is asked would be about a picture of a while ago
-            self.question.withdraw()
+        if self._lag.lag_s:
             return lag_light(self._lag, recording=recording.state != "off")
-        doubt = self.question.update_doubt(find_doubt(frame, markers, measuring.camera))
-        if doubt is not None and lamp.rank in ("good", "warn"):
-            return question_light(doubt)
+        doubt = self._steady_doubt.update(
+            make_doubt_light(find_doubt(frame, markers, measuring.camera)), recording.time_s
+        )
+        if doubt.state and lamp.rank in ("good", "warn"):
+            return doubt
         if lamp.rank == "good" and recording.is_hand_resting():
             return StatusLight("idle", self.tr("Movement is being drawn"), self.tr("Recording can start in a moment"))
         if lamp.rank == "good" and recording.countdown_s:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from carpus.core.measures.manual_measurements import ManualValue, current_values
 from carpus.core.results.progress import Comparison, Progress, compute_progress, find_other_hand
@@ -45,7 +45,6 @@ from carpus.ui.words.progress import (
     uncertainty_words,
     value_pair,
 )
-from carpus.ui.words.ranges import mean_speed_words
 from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, verdict_token, verdict_word
 
 if TYPE_CHECKING:  # it reads and writes files
@@ -261,15 +260,6 @@ class ProgressScreen(FittedWidget):
         for item in self.progress.comparisons:
             body.addWidget(Separator(theme))
             body.addWidget(_ComparisonRow(theme, item, self.progress.comparisons))
-        body.addWidget(Separator(theme))
-        if not self.progress.keys:
-            body.addWidget(self._speed_row(first, last))
-
-    def _speed_row(self, first: SessionResults, last: SessionResults) -> QWidget:
-        before, after = mean_speed_words(first), mean_speed_words(last)
-        return _ChangeRow(
-            self._theme, self.tr("Peak speed"), f"{before} → {after}", "not_judged", self.tr("MDC not yet known")
-        )
 
     def _fill_manual_values(self) -> None:
         clear_layout(self._manual_card.body)
@@ -306,26 +296,14 @@ class ProgressScreen(FittedWidget):
         body.addWidget(Text(theme, error_limit_words(self.progress.study), 14, REGULAR, "text2", wrap=True))
 
 
-class _ChangeRow(QWidget):
-    def __init__(self, theme: Theme, name: str, results: str, verdict: str, small: str) -> None:
-        super().__init__()
-        column = column_layout(gap=0, margins=(0, 3, 0, 3), parent=self)
-        top, below = QHBoxLayout(), QHBoxLayout()
-        top.addWidget(Text(theme, name, 14, REGULAR, "text2"))
-        top.addSpacing(8)
-        top.addStretch(1)
-        word = StateText(theme, 14, SEMIBOLD, 16)
-        state = {"improved": "good", "worse": "bad"}.get(verdict, "none")
-        word.show_state(state, verdict_word(verdict), token=verdict_token(verdict))  # type: ignore[arg-type]
-        top.addWidget(word)
-        below.addWidget(Text(theme, results, 16, SEMIBOLD))
-        below.addSpacing(8)
-        words = Text(theme, small, 12, MEDIUM, "text2", wrap=True)  # two lines where the text is large
-        words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        below.addWidget(words, 1)
-        fill(column, top, below)
-
-
-class _ComparisonRow(_ChangeRow):
+class _ComparisonRow(QWidget):
     def __init__(self, theme: Theme, item: Comparison, comparisons: Sequence[Comparison]) -> None:
-        super().__init__(theme, comparison_name(item, comparisons), value_pair(item), item.verdict, change_line(item))
+        super().__init__()
+        word = StateText(theme, 14, SEMIBOLD, 16)
+        state = {"improved": "good", "worse": "bad"}.get(item.verdict, "none")
+        word.show_state(state, verdict_word(item.verdict), token=verdict_token(item.verdict))  # type: ignore[arg-type]
+        words = Text(theme, change_line(item), 12, MEDIUM, "text2", wrap=True)  # two lines where the text is large
+        words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        top = row_layout(Text(theme, comparison_name(item, comparisons), 14, REGULAR, "text2"), STRETCH, word, gap=8)
+        below = row_layout(Text(theme, value_pair(item), 16, SEMIBOLD), (words, 1), gap=8)
+        column_layout(top, below, gap=0, margins=(0, 3, 0, 3), parent=self)

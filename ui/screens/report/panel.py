@@ -64,8 +64,7 @@ class ReportPanel(QWidget):
         names = {
             "diagnosis": self.tr("Diagnosis or operation"),
             "table": self.tr("Table"), "curves": self.tr("Curves and repetitions"),
-            "bars": self.tr("Range of motion as bars"),
-            "quality": self.tr("Reliability of the values"), "speed": self.tr("Speed, pain, note"),
+            "quality": self.tr("Reliability of the values"), "speed": self.tr("Pain, note"),
             "by_hand": self.tr("Manual measurements"), "motion": self.tr("Motion page"),
         }  # fmt: skip
         self.section_checks: dict[str, CheckButton] = {}
@@ -113,7 +112,6 @@ class ReportPanel(QWidget):
         for name, tick in self.section_checks.items():
             tick.setChecked(report.form.includes(name))
         self.section_checks["diagnosis"].setVisible(bool(report.diagnosis or report.onset_day))
-        self.section_checks["bars"].setVisible(report.joints is None)
         self.section_checks["by_hand"].setVisible(bool(report.manual_values))
         self.section_checks["motion"].setVisible(report.motion is not None)
         self._report = report
