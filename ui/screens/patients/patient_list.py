@@ -158,7 +158,7 @@ class PatientRowPainter(QStyledItemDelegate):
             room = QRectF(edges[number], box.top(), edges[last] - edges[number] - 8, box.height())
             name, apart = self._model.name_parts(row)
             if number == 0 and name:
-                below, small = room.adjusted(0, 0.48 * room.height(), 0, -0.1 * room.height()), font(14 * scale)
+                below, small = room.adjusted(0, 0.48 * room.height(), 0, -0.1 * room.height()), font(12 * scale)
                 if apart:  # never cut: it tells two patients apart
                     width = QFontMetricsF(small).horizontalAdvance
                     behind = below.adjusted(

@@ -8,7 +8,7 @@ from datetime import date
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.model.errors import ServerUnavailable
@@ -112,6 +112,14 @@ class PatientsScreen(QWidget):
         legal = Text(theme, terms.legal_notice(), 12, REGULAR, "text2", wrap=True)
         foot = row_layout((legal, 1), KeyCaps(theme, keys), gap=32, margins=(MARGIN_PX, 6, MARGIN_PX, 6))
         column_layout((scroll_page(whole), 1), Separator(theme), foot, gap=0, margins=(0, 0, 0, 0), parent=self)
+
+    def _fit_card(self) -> None:
+        """Let the card shorten its buttons where a small window has no room for both columns."""
+        room = self.width() - self._left.minimumSize().width() - 3 * MARGIN_PX
+        self.card.setMinimumWidth(max(1, min(self.card.minimumSizeHint().width(), room)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit_card()
 
     def _connect(self) -> None:
         self.search.installEventFilter(self)
@@ -274,7 +282,10 @@ class PatientsScreen(QWidget):
         return self.list.patient_model.row(index.row()).patient_id if index.isValid() else ""
 
     def _show_selected(self, *_: object) -> None:
-        chosen = self._current_patient_id()
+        self._show_card(self._current_patient_id())
+        self._fit_card()
+
+    def _show_card(self, chosen: str) -> None:
         if not chosen:
             self.card.show_card(None, self._camera_ready)
         elif chosen == PRACTICE_PATIENT:
