@@ -300,16 +300,16 @@ def test_pin_is_set_changed_and_removed_in_settings(qtbot: QtBot, opened: Open, 
     sheet = locking.pin_dialog
     for new, again, is_set in (("4821", "4822", False), ("99", "99", False), ("4821", "4821", True)):
         locking.card.pin_button.click()
-        sheet.new_pin.setText(new)
-        sheet.repeated_pin.setText(again)
+        sheet.form["new"].setText(new)
+        sheet.form["repeated"].setText(again)
         sheet.save_button.click()
         assert Pin(data).is_set == is_set
         sheet.close_dialog()
     locking.card.pin_button.click()
-    locking.pin_dialog.current_pin.setText("0000")
+    locking.pin_dialog.form["current"].setText("0000")
     locking.pin_dialog.remove_button.click()
     assert Pin(data).is_set
-    locking.pin_dialog.current_pin.setText("4821")
+    locking.pin_dialog.form["current"].setText("4821")
     locking.pin_dialog.remove_button.click()
     assert not Pin(data).is_set
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from datetime import datetime
+from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut, QWindow
@@ -20,6 +21,7 @@ from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Separator, Surface
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import Combo, LabelledField
+from carpus.ui.kit.forms import Field, Form
 from carpus.ui.kit.keys import KEYS
 from carpus.ui.kit.layouts import fill, row_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text
@@ -165,7 +167,7 @@ class LockController(QObject):
                     wait = self.tr("Too many attempts. Try again in {seconds} s.").format(
                         seconds=round_half_away(tried.pause_s)
                     )
-                    self.pin_dialog.error_text.show_text(wait if tried.pause_s else words)
+                    self.pin_dialog.form.show_error("current", wait if tried.pause_s else words)
                     return
             if new:
                 self.pin.set(new)
@@ -253,39 +255,36 @@ class PinDialog(Dialog):
             "At least four characters, digits or letters. A PIN only hides the screen. It does not encrypt files."
         )
         self.add_heading(words=words)
-        self.current_pin, self.new_pin, self.repeated_pin = QLineEdit(), QLineEdit(), QLineEdit()
-        for line in (self.current_pin, self.new_pin, self.repeated_pin):
-            line.setEchoMode(QLineEdit.EchoMode.Password)
-            line.setMaxLength(MAX_PIN_LENGTH)
-        self._current_row = LabelledField(theme, self.tr("&Current PIN"), self.current_pin)
-        self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        labels = {
+            "current": self.tr("&Current PIN"), "new": self.tr("&New PIN"), "repeated": self.tr("Repeat new &PIN"),
+        }  # fmt: skip
+        hidden: dict[str, Any] = {"echoMode": QLineEdit.EchoMode.Password, "maxLength": MAX_PIN_LENGTH}
+        self.form = Form(theme, [Field(name, label, QLineEdit(**hidden)) for name, label in labels.items()])
         self.save_button = Button(theme, self.tr("Set PIN"), "primary")
         self.remove_button = Button(theme, self.tr("&Remove PIN"), "plain", height_px=52)
         self.save_button.clicked.connect(self._accept)
-        self.remove_button.clicked.connect(lambda: self.pin_chosen.emit(self.current_pin.text(), ""))
-        new, again = (self.tr("&New PIN"), self.new_pin), (self.tr("Repeat new &PIN"), self.repeated_pin)
-        fill(
-            self.card.body, self._current_row, LabelledField(theme, *new), LabelledField(theme, *again), self.error_text
-        )
+        self.remove_button.clicked.connect(lambda: self.pin_chosen.emit(self.form["current"].text(), ""))
+        fill(self.card.body, *self.form.layout_rows())
         self.add_buttons(self.save_button, self.remove_button, gap=None)
 
     def request_pin(self, *, is_set: bool) -> None:
         """Open; the old PIN is asked for if one is set."""
         self.title.setText(self.tr("Change the PIN") if is_set else self.tr("Set a PIN"))
-        self._current_row.setVisible(is_set)
+        self.form.labelled_widgets["current"].setVisible(is_set)
         self.remove_button.setVisible(is_set)
-        for line in (self.current_pin, self.new_pin, self.repeated_pin):
-            line.clear()
-        self.error_text.hide()
-        self.open(self.current_pin if is_set else self.new_pin)
+        for name in self.form.labelled_widgets:
+            self.form[name].clear()
+        self.form.show_error()
+        self.open(self.form["current" if is_set else "new"])
 
     def _accept(self) -> None:
-        if len(self.new_pin.text()) < MIN_PIN_LENGTH:
-            self.error_text.show_text(self.tr("A PIN needs at least four characters."))
-        elif self.new_pin.text() != self.repeated_pin.text():
-            self.error_text.show_text(self.tr("The two PINs differ."))
+        current, new, repeated = (self.form[name].text() for name in self.form.labelled_widgets)
+        if len(new) < MIN_PIN_LENGTH:
+            self.form.show_error("new", self.tr("A PIN needs at least four characters."))
+        elif new != repeated:
+            self.form.show_error("repeated", self.tr("The two PINs differ."))
         else:
-            self.pin_chosen.emit(self.current_pin.text(), self.new_pin.text())
+            self.pin_chosen.emit(current, new)
 
 
 MAX_PIN_LENGTH = 64

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QPlainTextEdit
 from carpus.core.results.report_form import MAX_ADDRESS_CHARACTERS, MAX_ADDRESS_LINES, MAX_NAME_CHARACTERS, ReportForm
 from carpus.ui.kit.button import Button, CheckButton
 from carpus.ui.kit.card import Card
-from carpus.ui.kit.field import ChoiceRow, LabelledField
+from carpus.ui.kit.field import ChoiceRow
+from carpus.ui.kit.forms import Field, Form
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
@@ -22,7 +23,7 @@ ADDRESS_PX, LOGO_PX = 112, 56
 
 
 class ReportCard(Card):
-    """Letterhead and paper.
+    """Letterhead, names and paper.
 
     Signals: ``changed`` with the :class:`ReportForm`.
     """
@@ -31,44 +32,61 @@ class ReportCard(Card):
 
     def __init__(self, theme: Theme, form: ReportForm) -> None:
         super().__init__(theme, 24)
-        self._theme, self._form = theme, form
-        self.body.addWidget(Text(theme, self.tr("Report"), 20, SEMIBOLD))
+        self._form = ReportForm()
         words = self.tr(
             "Name, address and logo of the clinic appear at the top of every page. Empty fields are not printed."
         )
-        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self.name = QLineEdit(form.letterhead.name, maxLength=MAX_NAME_CHARACTERS)
-        self.address = QPlainTextEdit("\n".join(form.letterhead.address))
-        self.address.setTabChangesFocus(True)
-        theme.on_change(self.address, lambda: self.address.setFixedHeight(theme.px(ADDRESS_PX)))
-        self.body.addWidget(LabelledField(theme, self.tr("Clinic name"), self.name))
-        self.body.addWidget(LabelledField(theme, self.tr("Address, up to four lines"), self.address))
-        row = row_layout(gap=12)
+        self.fields = Form(theme, self._make_fields(theme))
         self.logo_label = QLabel()
         self.logo_label.setAccessibleName(self.tr("Logo"))
         self.choose_button = Button(theme, self.tr("Choose a logo…"), height_px=40)
         self.remove_button = Button(theme, self.tr("Remove logo"), "quiet", height_px=40)
-        fill(row, self.logo_label, self.choose_button, self.remove_button, STRETCH)
-        self.body.addLayout(row)
         self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.error_text.hide()
-        self.names = CheckButton(theme, self.tr("Print real name, birth date and record number"))
-        self.names.setChecked(form.prints_names)
-        self.body.addWidget(self.names, 0, Qt.AlignmentFlag.AlignLeft)
-        fill(self.body, self.error_text, Text(theme, self.tr("Paper"), 14, REGULAR, "text2"))
-        self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", self.tr("US Letter"))], form.paper)
-        self.body.addWidget(self.paper)
-        self.name.editingFinished.connect(self._apply_letterhead)
-        self.address.textChanged.connect(self._apply_letterhead)
+        parts = self.fields.labelled_widgets
+        fill(
+            self.body,
+            Text(theme, self.tr("Report"), 20, SEMIBOLD),
+            Text(theme, words, 14, REGULAR, "text2", wrap=True),
+            parts["name"],
+            parts["address"],
+            row_layout(self.logo_label, self.choose_button, self.remove_button, STRETCH, gap=12),
+            self.error_text,
+            (parts["prints_names"], 0, Qt.AlignmentFlag.AlignLeft),
+            parts["paper"],
+        )
+        self.show_form(form)
+        self.fields.changed.connect(self._apply_fields)
         self.choose_button.clicked.connect(self.choose_logo)
         self.remove_button.clicked.connect(lambda: self._set_logo(b""))
-        self.names.toggled.connect(lambda on: self._change(replace(self._form, prints_names=on)))
-        self.paper.chosen.connect(lambda paper: self._change(replace(self._form, paper=paper)))
-        self._show_logo()
+
+    def _make_fields(self, theme: Theme) -> list[Field]:
+        address = QPlainTextEdit()
+        address.setTabChangesFocus(True)
+        theme.on_change(address, lambda: address.setFixedHeight(theme.px(ADDRESS_PX)))
+        lines = self.tr("Address, up to four lines")
+        papers = [("a4", "A4"), ("letter", self.tr("US Letter"))]
+        name = QLineEdit(maxLength=MAX_NAME_CHARACTERS)
+        names = CheckButton(theme, self.tr("Print real name, birth date and record number"))
+        return [
+            Field("name", self.tr("Clinic name"), name, change_signal="editingFinished"),
+            Field(
+                "address", lines, address, lambda text: lines if len(_address_lines(text)) > MAX_ADDRESS_LINES else ""
+            ),
+            Field("prints_names", "", names),
+            Field("paper", self.tr("Paper"), ChoiceRow(theme, papers)),
+        ]
 
     def show_form(self, form: ReportForm) -> None:
-        self._form = form
-        self.names.setChecked(form.prints_names)
+        """Show a form; what is being typed stays."""
+        before, self._form = self._form, form
+        self.fields.blockSignals(True)
+        if form.letterhead != before.letterhead:
+            self.fields["name"].setText(form.letterhead.name)
+            self.fields["address"].setPlainText("\n".join(form.letterhead.address))
+        self.fields["prints_names"].setChecked(form.prints_names)
+        self.fields["paper"].choose(form.paper)
+        self.fields.blockSignals(False)
+        self._show_logo()
 
     def choose_logo(self) -> None:
         kinds = self.tr("Images (*.png *.jpg *.jpeg)")
@@ -78,12 +96,9 @@ class ReportCard(Card):
 
     def load_logo(self, path: Path) -> None:
         try:
-            found = logo_png(path)
+            self._set_logo(logo_png(path))
         except LogoError as refused:
-            self.error_text.setText(str(refused))
-            self.error_text.show()
-            return
-        self._set_logo(found)
+            self.error_text.show_text(str(refused))
 
     def _set_logo(self, png: bytes) -> None:
         self.error_text.hide()
@@ -99,20 +114,21 @@ class ReportCard(Card):
             mode = Qt.TransformationMode.SmoothTransformation
             self.logo_label.setPixmap(logo.scaled(3 * LOGO_PX, LOGO_PX, Qt.AspectRatioMode.KeepAspectRatio, mode))
 
-    def _apply_letterhead(self) -> None:
-        lines = [
-            line.strip()[:MAX_ADDRESS_CHARACTERS] for line in self.address.toPlainText().splitlines() if line.strip()
-        ]
-        if len(lines) > MAX_ADDRESS_LINES:
-            self.error_text.setText(self.tr("Address, up to four lines"))
-        self.error_text.setVisible(len(lines) > MAX_ADDRESS_LINES)
-        head = replace(self._form.letterhead, name=self.name.text().strip(), address=tuple(lines[:MAX_ADDRESS_LINES]))
-        self._change(replace(self._form, letterhead=head))
+    def _apply_fields(self) -> None:
+        now = self.fields.values()
+        self.fields.show_error("address", self.fields.find_error()[1])
+        lines = tuple(_address_lines(now.pop("address"))[:MAX_ADDRESS_LINES])
+        head = replace(self._form.letterhead, name=now.pop("name"), address=lines)
+        self._change(replace(self._form, letterhead=head, **now))
 
     def _change(self, form: ReportForm) -> None:
         if form != self._form:
             self._form = form
             self.changed.emit(form)
+
+
+def _address_lines(text: str) -> list[str]:
+    return [line.strip()[:MAX_ADDRESS_CHARACTERS] for line in text.splitlines() if line.strip()]
 
 
 MAX_LOGO_BYTES = 8_000_000
