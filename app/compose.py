@@ -17,7 +17,7 @@ from carpus.app.desktop.access_log import AccessLogger
 from carpus.app.desktop.appearance import apply_appearance, theme_name
 from carpus.app.desktop.first_start import TourController, WelcomeController
 from carpus.app.desktop.log import LOG_FORMATTER
-from carpus.app.desktop.main_controller import AppServices, MainController
+from carpus.app.desktop.main_controller import MainController
 from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.practice_system import PracticeSystemController
 from carpus.app.desktop.preferences import PreferencesController
@@ -93,11 +93,11 @@ def compose(
         return factory
 
     day = date.today if today is None else lambda: today
-    parts = AppServices(
-        library, lambda *given: sources().open(*given), MaintenanceCameras(settings), settings, is_demo, day
-    )
     shell = MainWindow(theme)
-    controller = MainController(shell, theme, parts)
+    cameras = MaintenanceCameras(settings)
+    controller = MainController(
+        shell, theme, library, lambda *given: sources().open(*given), cameras, settings, day, is_demo=is_demo
+    )
     preferences = PreferencesController(
         controller, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), is_demo=is_demo
     )

@@ -24,7 +24,7 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.screens.tour.bubble import BubbleView
 from carpus.ui.screens.tour.bubbles import ONLY_READ, Bubble, TourState, find_bubble
-from carpus.ui.screens.welcome.panel import Check, WelcomePanel
+from carpus.ui.screens.welcome.panel import WelcomePanel
 from carpus.ui.shell.main_window import MIN_SIZE_PX
 from carpus.ui.shell.messages import NoticeStrip
 from carpus.ui.shell.view_models import Preferences
@@ -235,7 +235,7 @@ class WelcomeController(QObject):
 
         def show_findings(found: list[Finding]) -> None:
             if panel is self.panel:
-                panel.show_checks([*(self._to_check(finding) for finding in found), *here])
+                panel.show_checks([*(self._translate(finding) for finding in found), *here])
 
         def show_fault(fault: Exception) -> None:
             panel.show_checks(here)
@@ -246,7 +246,7 @@ class WelcomeController(QObject):
             lambda: list(examine_at_start(folder, needs_camera=needs_camera)), show_findings, show_fault, panel
         )
 
-    def _check_window(self) -> list[Check]:
+    def _check_window(self) -> list[Finding]:
         """Check screen size and fonts."""
         name = self.tr("Screen")
         room = QGuiApplication.primaryScreen().availableGeometry()
@@ -254,22 +254,22 @@ class WelcomeController(QObject):
         small = room.width() < MIN_SIZE_PX[0] or room.height() < MIN_SIZE_PX[1]
         remedy = self.tr("Choose more pixels, or a smaller scale, in the display settings: {width} × {height} or more.")
         checks = [
-            Check(name, "warning", found, remedy.format(width=MIN_SIZE_PX[0], height=MIN_SIZE_PX[1]))
+            Finding(name, "warning", found, remedy.format(width=MIN_SIZE_PX[0], height=MIN_SIZE_PX[1]))
             if small
-            else Check(name, "good", found)
+            else Finding(name, "good", found)
         ]
         if not {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts()):
             remedy = self.tr("Install Carpus again: part of it is missing or damaged.")
-            checks.append(Check(self.tr("Fonts"), "bad", self.tr("the fonts of Carpus cannot be used"), remedy))
+            checks.append(Finding(self.tr("Fonts"), "bad", self.tr("the fonts of Carpus cannot be used"), remedy))
         return checks
 
-    def _to_check(self, finding: Finding) -> Check:
+    def _translate(self, finding: Finding) -> Finding:
         names = {
             "Camera": self.tr("Camera"), "Driver": self.tr("Camera driver"),
             "Camera permissions": self.tr("Camera permissions"),
             "Data folder": self.tr("Data folder"), "Disk": self.tr("Disk"), "Fonts": self.tr("Fonts"),
         }  # fmt: skip
-        return Check(
+        return Finding(
             names.get(finding.name) or translate_phrase(finding.name),
             finding.state,
             translate_phrase(finding.observation),

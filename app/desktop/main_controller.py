@@ -6,7 +6,7 @@ Each screen has a flow of its own (:mod:`ui.shell.flow`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import date, datetime
 from functools import partial
 from pathlib import Path
@@ -35,34 +35,33 @@ from carpus.ui.shell.source_opener import OpenSourceFunction, SourceOpener
 ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
 
 
-@dataclass(frozen=True, slots=True)
-class AppServices:
-    """What the controller needs besides the window."""
-
-    library: DataFolder
-    open_source: OpenSourceFunction
-    cameras: MaintenanceCameras
-    settings: Settings
-    is_demo: bool
-    today: Callable[[], date]
-    """Returns the present day: the program may stay open for days."""
-
-
 class MainController(Screens):
     """Owner of the screens' flows and of what they share."""
 
-    def __init__(self, shell: MainWindow, theme: Theme, services: AppServices) -> None:
+    def __init__(
+        self,
+        shell: MainWindow,
+        theme: Theme,
+        library: DataFolder,
+        open_source: OpenSourceFunction,
+        cameras: MaintenanceCameras,
+        settings: Settings,
+        today: Callable[[], date],
+        *,
+        is_demo: bool,
+    ) -> None:
+        """``today`` is called each time: the program may stay open for days."""
         super().__init__(shell)
-        self._shell, self._library = shell, services.library
+        self._shell, self._library = shell, library
         self.handle_escape: Callable[[], bool] = lambda: False
         """Called first for Esc; returns True if it closed something, and the screen stays."""
-        self.settings, self.is_demo = services.settings, services.is_demo
-        self.current = CurrentSelection(source_choice=SourceChoice("practice" if services.is_demo else "camera"))
+        self.settings, self.is_demo = settings, is_demo
+        self.current = CurrentSelection(source_choice=SourceChoice("practice" if is_demo else "camera"))
         self.background = Background()
         self.messages = messages = Messages(shell.screen_stack, theme)
-        self.opener = SourceOpener(services.open_source, self.current, self.background, messages.show_fault, self)
+        self.opener = SourceOpener(open_source, self.current, self.background, messages.show_fault, self)
         self.camera_state = CameraState(
-            services.cameras, self.background, lambda: datetime.now().astimezone(), self, is_demo=services.is_demo
+            cameras, self.background, lambda: datetime.now().astimezone(), self, is_demo=is_demo
         )
         self.navigator = Navigator(
             shell, lambda: messages.is_busy, lambda: "live" in self.navigator.flows and self.live.is_recording
@@ -70,7 +69,7 @@ class MainController(Screens):
         self.context = ScreenContext(
             shell,
             theme,
-            services.library,
+            library,
             self.background,
             messages,
             self.navigator,
@@ -78,13 +77,13 @@ class MainController(Screens):
             NameDisplay(self),
             self.opener,
             self.camera_state,
-            services.cameras,
-            RecentLocations(services.library.folder),
-            services.settings.report,
-            services.today,
-            services.is_demo,
-            services.settings.patient.sound,
-            services.settings.recording.keep_pictures,
+            cameras,
+            RecentLocations(library.folder),
+            settings.report,
+            today,
+            is_demo,
+            settings.patient.sound,
+            settings.recording.keep_pictures,
             MB_PER_MINUTE,
         )
         for place in PLACES:
@@ -93,7 +92,7 @@ class MainController(Screens):
         self._connect()
         self.camera_state.start()
         self._check_new_results()
-        self.server_monitor = ServerMonitor(services.library, self)
+        self.server_monitor = ServerMonitor(library, self)
         self.server_monitor.server_lost.connect(self._on_server_lost)
         self.server_monitor.server_restored.connect(self._on_server_restored)
 

@@ -22,6 +22,7 @@ from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import DiskFull
 from carpus.core.model.fault_text import MessageText
+from carpus.core.model.installation import Finding
 from carpus.core.model.types import ByteImage, Side
 from carpus.core.records.corrections import ResultDifference
 from carpus.core.records.erasure import ErasurePlan
@@ -67,7 +68,7 @@ from carpus.ui.screens.setup.exercise import ExerciseScreen
 from carpus.ui.screens.setup.set_dialog import SetDialog
 from carpus.ui.screens.tour.bubble import BubbleView
 from carpus.ui.screens.tour.bubbles import Bubble
-from carpus.ui.screens.welcome.panel import Check, WelcomePanel
+from carpus.ui.screens.welcome.panel import WelcomePanel
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Answer, MessageDialog, NoticeStrip
 from carpus.ui.shell.name_display import NameDisplay
@@ -143,15 +144,15 @@ OLD_BACKUP = BackupFacts(
     "/media/clinic-disk/carpus-backup", "good", "412 GB free", True,
 )  # fmt: skip
 CHECKS = (
-    Check("Camera", "warning", "none plugged in", "Plug the camera in, preferably directly into the computer. It needs "
-          "a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
-    Check("Camera driver", "bad", "libOpenNI2.so.0: cannot open shared object file: No such file or directory",
+    Finding("Camera", "warning", "none plugged in", "Plug the camera in, preferably directly into the computer. It "
+            "needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
+    Finding("Camera driver", "bad", "libOpenNI2.so.0: cannot open shared object file: No such file or directory",
           "Needed for live cameras. Run: sudo apt-get install libopenni2-0"),
-    Check("Camera permissions", "good", "/lib/udev/rules.d/60-libopenni2-0.rules"),
-    Check("Data folder", "good", "/home/clinic/.local/share/carpus, made at the first recording"),
-    Check("Disk", "good", "212.4 GB free, about 1931 minutes with video"),
-    Check("Fonts", "good", "6 faces"),
-    Check("Screen", "good", "1920 × 1053 for windows"),
+    Finding("Camera permissions", "good", "/lib/udev/rules.d/60-libopenni2-0.rules"),
+    Finding("Data folder", "good", "/home/clinic/.local/share/carpus, made at the first recording"),
+    Finding("Disk", "good", "212.4 GB free, about 1931 minutes with video"),
+    Finding("Fonts", "good", "6 faces"),
+    Finding("Screen", "good", "1920 × 1053 for windows"),
 )  # fmt: skip
 ScreenT = TypeVar("ScreenT", bound=QWidget)
 DialogT = TypeVar("DialogT", bound=Dialog)
@@ -671,7 +672,7 @@ class Gallery(GalleryWindow):
     def help(self) -> None:
         self.show(HelpScreen(self.theme), where="")
 
-    def _welcome(self, checks: Sequence[Check], *, counts_later: bool = False) -> None:
+    def _welcome(self, checks: Sequence[Finding], *, counts_later: bool = False) -> None:
         screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY, NameDisplay())
         panel = WelcomePanel(self.theme)
         panel.show_folder("/home/clinic/.local/share/carpus", needs_restart=counts_later)

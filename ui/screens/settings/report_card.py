@@ -42,6 +42,7 @@ class ReportCard(Card):
         self.choose_button = Button(theme, self.tr("Choose a logo…"), height_px=40)
         self.remove_button = Button(theme, self.tr("Remove logo"), "quiet", height_px=40)
         self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.error_text.hide()
         parts = self.fields.labelled_widgets
         fill(
             self.body,

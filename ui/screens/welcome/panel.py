@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
+from carpus.core.model.installation import Finding
 from carpus.core.model.purpose import PURPOSE
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, Separator
@@ -19,18 +18,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import translate_phrase
 
-CheckState = Literal["good", "warning", "bad"]
-_ICONS: dict[CheckState, State] = {"good": "good", "warning": "warn", "bad": "bad"}
-
-
-@dataclass(frozen=True, slots=True)
-class Check:
-    """One requirement: its state, and what to do if it is not met."""
-
-    name: str
-    state: CheckState
-    found: str
-    remedy: str = ""
+_ICONS: dict[str, State] = {"good": "good", "warning": "warn", "bad": "bad"}
 
 
 def purpose_lines() -> str:
@@ -97,7 +85,7 @@ class WelcomePanel(Card):
         self.state_label.setText(self.tr("Checking this computer …"))
         self.again_button.setEnabled(False)
 
-    def show_checks(self, checks: Sequence[Check]) -> None:
+    def show_checks(self, checks: Sequence[Finding]) -> None:
         """Show the checks, problems first."""
         for old in self.check_rows:
             self._rows.removeWidget(old)
@@ -139,10 +127,10 @@ class WelcomePanel(Card):
 class CheckRow(QWidget):
     """One check: state, name, finding, remedy."""
 
-    def __init__(self, theme: Theme, check: Check) -> None:
+    def __init__(self, theme: Theme, check: Finding) -> None:
         super().__init__()
         self.check = check
-        words = column_layout(Text(theme, f"{check.name}: {check.found}", 14, REGULAR, wrap=True), gap=0)
+        words = column_layout(Text(theme, f"{check.name}: {check.observation}", 14, REGULAR, wrap=True), gap=0)
         if check.remedy:
             words.addWidget(Text(theme, check.remedy, 14, MEDIUM, wrap=True))
         row_layout(
@@ -153,4 +141,4 @@ class CheckRow(QWidget):
             parent=self,
         )
         states = {"good": self.tr("good"), "warning": self.tr("to check"), "bad": self.tr("missing")}
-        self.setAccessibleName(f"{check.name}, {states[check.state]}: {check.found}. {check.remedy}")
+        self.setAccessibleName(f"{check.name}, {states[check.state]}: {check.observation}. {check.remedy}")
