@@ -20,13 +20,11 @@ from carpus.app.command_line import (
 )
 
 if TYPE_CHECKING:
-    from carpus.core.calibration.camera.board import Board
     from carpus.core.calibration.camera.board_views import ViewCollector
     from carpus.core.capture.source import FrameSource
 
 EXAMPLE = """carpus calibrate-camera --board board.pdf
 carpus calibrate-camera"""
-PATTERNS = ("chessboard", "charuco")
 SQUARES_MM = (5.0, 200.0)
 
 
@@ -40,9 +38,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--board", type=Path, metavar="BOARD.pdf", help="write the board to print, and do nothing else")
     parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the board to print")
-    parser.add_argument(
-        "--pattern", choices=PATTERNS, help="chessboard (reaches farther) or charuco (may be partly covered)"
-    )
     parser.add_argument(
         "--square-mm",
         type=number_type(*SQUARES_MM, "mm"),
@@ -64,16 +59,15 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _print_board(arguments: argparse.Namespace) -> int:
-    from carpus.core.calibration.camera.board import BOARDS, create_board_sheet
+    from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
     from carpus.core.model.errors import OutputExists
 
     if arguments.board.exists():
         raise OutputExists(arguments.board)
-    board = BOARDS[arguments.pattern or "chessboard"]
     from carpus.ui.report.pdf import write_sheets
 
-    write_sheets(arguments.board, [create_board_sheet(board, arguments.paper)], "Carpus camera board")
-    print(f"Board: {arguments.board} ({board.name()})")
+    write_sheets(arguments.board, [create_board_sheet(CHESSBOARD, arguments.paper)], "Carpus camera board")
+    print(f"Board: {arguments.board} ({CHESSBOARD.name()})")
     print("Print it at 100 %, check its ruler (100 mm), and glue it flat onto something stiff.")
     return 0
 
@@ -81,6 +75,7 @@ def _print_board(arguments: argparse.Namespace) -> int:
 def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.app.sources import open_board
+    from carpus.core.calibration.camera.board import CHESSBOARD
     from carpus.core.calibration.camera.board_views import ViewCollector
     from carpus.core.calibration.camera.calibrate import calibrate_camera, format_calibration
     from carpus.core.calibration.camera.storage import save_calibration, to_stored_calibration, write_calibration
@@ -91,7 +86,8 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
     source = open_board(arguments.recording, print_fault)
-    gathering = ViewCollector(source.info.camera, _boards(arguments))
+    square_m = CHESSBOARD.square_m if arguments.square_mm is None else 1e-3 * arguments.square_mm
+    gathering = ViewCollector(source.info.camera, replace(CHESSBOARD, square_m=square_m))
     try:
         _collect_views(source, gathering, is_live=arguments.recording is None)
     finally:
@@ -121,20 +117,8 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _boards(arguments: argparse.Namespace) -> list[Board]:
-    from carpus.core.calibration.camera.board import BOARDS
-
-    boards = [board for name, board in BOARDS.items() if arguments.pattern in (None, name)]
-    if arguments.square_mm is None:
-        return boards
-    side_m = 1e-3 * arguments.square_mm
-    return [replace(board, square_m=side_m, code_m=board.code_m * side_m / board.square_m) for board in boards]
-
-
 def _collect_views(source: FrameSource, gathering: ViewCollector, *, is_live: bool) -> None:
     """Collect views of the board: all of a recording, or of a camera until there are enough or Ctrl+C."""
-    from carpus.core.calibration.camera.board_views import WANTED_VIEWS
-
     said = ""
     if is_live:
         print("Hold the board in view, still for a moment in each place. Ctrl+C stops.", file=sys.stderr)
@@ -145,7 +129,7 @@ def _collect_views(source: FrameSource, gathering: ViewCollector, *, is_live: bo
             if not is_live or not kept:
                 continue
             judgement = gathering.coverage
-            step = judgement.next_instruction(WANTED_VIEWS[gathering.views[0].detected.board.pattern])
+            step = judgement.next_instruction()
             if step is None:
                 break
             if step != said:

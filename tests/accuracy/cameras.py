@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.camera.board import BOARDS, Pattern, create_board_sheet
+from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
 from carpus.core.calibration.camera.board_views import WANTED_VIEWS, ViewCollector
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
 from carpus.core.calibration.card.card import CardReading
@@ -29,7 +29,7 @@ OFF_SHARE = 0.02
 """Depth by so much off must be told by the card."""
 CARD_FRAMES, CARD_EVERY_S = 12, 2.5
 SEED = 7000
-_DISTANCES_M: dict[Pattern, tuple[float, ...]] = {"chessboard": (0.5, 0.62, 0.8), "charuco": (0.44, 0.5, 0.62)}
+_DISTANCES_M = (0.5, 0.62, 0.8)
 _FINE_M = 1e-4
 MOST_POSES = 64
 
@@ -61,7 +61,6 @@ class CameraRun:
     deviations; the middle in px; then the card before the calibrated camera: right, and with depth 2 % off."""
 
     camera: str
-    pattern: Pattern
     focal: float
     focal_sd: float
     middle_px: float
@@ -72,14 +71,13 @@ class CameraRun:
     told: tuple[bool, bool]
 
 
-def run_one(simulated: SimulatedCamera, pattern: Pattern, seed: int) -> CameraRun:
+def run_one(simulated: SimulatedCamera, seed: int) -> CameraRun:
     """Calibrate a camera never seen before and check it with the card."""
     studio = Studio(simulated.lens, seed, simulated.depth_share)
-    board = BOARDS[pattern]
-    texture = texture_of(create_board_sheet(board, "a4"))
+    texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
     unknown = replace(DEFAULT_CAMERA, sensor=simulated.lens.sensor)
-    gathering = ViewCollector(unknown, [board])
-    made = _calibrated(gathering, studio, texture, pattern, seed)
+    gathering = ViewCollector(unknown)
+    made = _calibrated(gathering, studio, texture, seed)
     found, lens, depth = made.intrinsics.camera, simulated.lens, made.depth
     assert depth is not None
     stored = StoredCalibration("simulated", "", depth.scale, depth.offset_m)
@@ -91,7 +89,7 @@ def run_one(simulated: SimulatedCamera, pattern: Pattern, seed: int) -> CameraRu
         for share in (0.0, OFF_SHARE, -OFF_SHARE)
     )
     return CameraRun(
-        simulated.name, pattern,
+        simulated.name,
         max(abs(found.fx_px / lens.fx_px - 1.0), abs(found.fy_px / lens.fy_px - 1.0)),
         made.intrinsics.focal_sd_px / lens.fx_px,
         max(abs(found.cx_px - lens.cx_px), abs(found.cy_px - lens.cy_px)),
@@ -101,14 +99,12 @@ def run_one(simulated: SimulatedCamera, pattern: Pattern, seed: int) -> CameraRu
     )  # fmt: skip
 
 
-def _calibrated(
-    gathering: ViewCollector, studio: Studio, texture: FloatArray, pattern: Pattern, seed: int
-) -> CameraCalibration:
+def _calibrated(gathering: ViewCollector, studio: Studio, texture: FloatArray, seed: int) -> CameraCalibration:
     """As a person does it: as many pictures as are asked for, and more while the program says that it needs them."""
-    shown = poses(texture, MOST_POSES, _DISTANCES_M[pattern], seed)
+    shown = poses(texture, MOST_POSES, _DISTANCES_M, seed)
     for k, placed in enumerate(shown, 1):
         gathering.add(studio.frame([placed], k, float(k)))
-        if len(gathering.views) >= WANTED_VIEWS[pattern] or k == len(shown):
+        if len(gathering.views) >= WANTED_VIEWS or k == len(shown):
             try:
                 return calibrate_camera(gathering.views, replace(DEFAULT_CAMERA, sensor=studio.camera.sensor), "camera")
             except BoardViewsTooSimilar:
@@ -141,9 +137,9 @@ def _lens_px(found: Camera, lens: Camera) -> float:
 
 
 def report(only: str, seeds: int) -> str:
-    """Run every camera with fresh seeds, the chessboard and the ChArUco board in turn, and tell."""
+    """Run every camera with fresh seeds, and tell."""
     runs = [
-        run_one(one, "charuco" if k % 3 == 2 else "chessboard", SEED + 100 * number + k)
+        run_one(one, SEED + 100 * number + k)
         for number, one in enumerate(CAMERAS)
         if only.lower() in one.name.lower()
         for k in range(seeds)

@@ -64,7 +64,7 @@ def test_camera_calibration_leads_from_settings_to_card(
     journey, board = desktop.controller, desktop.controller.board.screen
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "board.pdf"), ""))
     monkeypatch.setattr(maintenance_cameras, "open_camera", lambda *_, **__: BoardCamera())
-    monkeypatch.setitem(board_views.WANTED_VIEWS, "chessboard", 12)
+    monkeypatch.setattr(board_views, "WANTED_VIEWS", 12)
     journey.navigator.open_screen("settings")
     desktop.shell.findChild(CameraCard).calibrate_button.click()
     assert journey.place == "board"

@@ -146,7 +146,6 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("--board {file}", 1, "A file with this name already exists"),
         ("{file} --board {new}.pdf", 2, "--board only prints"),
         ("--square-mm 2", 2, "“2” is no number from 5 to 200 mm"),
-        ("--pattern chesboard", 2, "did you mean “chessboard”"),
     ],
     "check-card": [
         ("{gone}", 1, "Recording not found"),

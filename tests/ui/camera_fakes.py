@@ -24,12 +24,12 @@ from tests.ui.fakes import NOW
 @cache
 def board_progress() -> tuple[Frame, BoardProgress]:
     """Two pictures of the board, the newest with what follows."""
-    studio, gathering = Studio(seed=2), ViewCollector(DEFAULT_CAMERA, [CHESSBOARD])
+    studio, gathering = Studio(seed=2), ViewCollector(DEFAULT_CAMERA)
     placed = poses(texture_of(create_board_sheet(CHESSBOARD, "a4")))[2:4]
     frames = [studio.frame([one], k, float(k)) for k, one in enumerate(placed)]
     look = [gathering.process_frame(frame) for frame in frames][-1]
     return frames[-1], BoardProgress(
-        look.reject_reason, gathering.coverage, gathering.coverage.next_instruction(30) or "", 30
+        look.reject_reason, gathering.coverage, gathering.coverage.next_instruction() or ""
     )
 
 
@@ -46,7 +46,7 @@ def checked(*, out: bool = False) -> CheckStatus:
     """A camera that was checked today; with ``out`` its depth is 2.6 % off since."""
     scale = 1.026 if out else 1.0
     measured = np.array([one.true_value * (scale if one.kind == "length" else 1.0) + 0.3 for one in DIMENSIONS])
-    reading = CardReading(measured, np.full(6, 0.2), scale, 0.6, 30, 30)
+    reading = CardReading(measured, np.full(6, 0.2), scale, 0.6, 30)
     return CheckStatus("1210130114", 31.0, 0.1, CardCheck(NOW.isoformat(), "1210130114", reading))
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.calibration.camera.board import BOARDS, Board, Pattern
+from carpus.core.calibration.camera.board import CHESSBOARD, Board
 from carpus.core.calibration.camera.board_views import (
     FIELDS,
     MIN_FIELDS,
@@ -70,7 +70,7 @@ def button_words(progress: BoardProgress | None) -> str:
     """Return the text of the primary button: what it does, or what it waits for."""
     if progress is None:
         return tr("Calculate · show the board")
-    left = progress.required_views - progress.judgement.view_count
+    left = progress.judgement.missing_view_count
     if left > 0:
         one = tr("Calculate · 1 more image") if left == 1 else tr("Calculate · {count} more images")
         return one.format(count=left)
@@ -167,16 +167,14 @@ def storage_words(result: BoardResult) -> str:
 
 @dataclass(frozen=True, slots=True)
 class BoardChoice:
-    """Pattern and paper of a board, and its measured ruler."""
+    """Paper of a board, and its measured ruler."""
 
-    pattern: Pattern = "chessboard"
     paper: Paper = "a4"
     ruler_mm: float = RULER_MM
 
     @property
     def board(self) -> Board:
-        board, share = BOARDS[self.pattern], self.ruler_mm / RULER_MM
-        return replace(board, square_m=board.square_m * share, code_m=board.code_m * share)
+        return replace(CHESSBOARD, square_m=CHESSBOARD.square_m * self.ruler_mm / RULER_MM)
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,7 +184,6 @@ class BoardProgress:
     lack: RejectReason
     judgement: ViewCoverage
     step: str
-    required_views: int
 
 
 @dataclass(frozen=True, slots=True)

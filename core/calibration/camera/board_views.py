@@ -11,17 +11,16 @@ import cv2
 import numpy as np
 
 from carpus.core.calibration.camera.board import (
-    BOARDS,
+    CHESSBOARD,
     MAX_EDGE_WIDTH_PX,
     Board,
     DetectedBoard,
-    Pattern,
     edge_width_px,
     find_board,
 )
 from carpus.core.model.camera import Camera
 from carpus.core.model.phrase import Phrase, phrase
-from carpus.core.model.types import ByteImage, DepthImage, FloatArray, Frame
+from carpus.core.model.types import DepthImage, Frame
 
 MIN_VIEWS = 12
 FIELDS = (6, 4)
@@ -75,6 +74,11 @@ class ViewCoverage:
         return self.farthest_m >= MIN_DISTANCE_RATIO * self.nearest_m
 
     @property
+    def missing_view_count(self) -> int:
+        """Number of views that are still wanted from a live camera."""
+        return max(WANTED_VIEWS - self.view_count, 0)
+
+    @property
     def missing_text(self) -> str:
         """First thing that is missing, empty if nothing is."""
         if self.view_count < MIN_VIEWS:
@@ -86,7 +90,7 @@ class ViewCoverage:
             return f"tilted by {MIN_TILT_DEG:g}° with these sides nearer: {tilted}; {MIN_TILT_SIDES} sides needed"
         return ""
 
-    def next_instruction(self, wanted_views: int) -> Phrase | None:
+    def next_instruction(self) -> Phrase | None:
         """Return what to do next with the board until there are enough views, else None."""
         empty = np.argwhere(self.corners_in_field == 0)
         if len(empty) and self.field_count < MIN_FIELDS:
@@ -97,7 +101,7 @@ class ViewCoverage:
         if not self.is_near_and_far:
             near = self.nearest_m <= NEAR_BOARD_M or self.nearest_m * MIN_DISTANCE_RATIO < FAR_BOARD_M
             return phrase("Move the board farther away") if near else phrase("Move the board nearer")
-        return phrase("Show the board in other places, at other tilts") if self.view_count < wanted_views else None
+        return phrase("Show the board in other places, at other tilts") if self.missing_view_count else None
 
 
 def side_name(side: TiltSide) -> Phrase:
@@ -120,24 +124,17 @@ def _place_name(down: int, across: int) -> Phrase:
     )[row][column]
 
 
-def board_pose(detected: DetectedBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
-    """Return rotation vector and translation of the board in the camera; None if there is no solution."""
-    points = detected.board.corners_m[detected.corner_ids]
-    is_solved, turn, shift = cv2.solvePnP(points, camera.undistort(detected.pixel), camera.matrix, np.zeros(5))
-    return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if is_solved else None
-
-
 def to_board_view(
     detected: DetectedBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float
 ) -> BoardView | None:
     """Return the view of a detected board; ``camera`` may be a guess. None for an impossible pose."""
-    pose = board_pose(detected, camera)
-    if pose is None:
+    points, pixel = detected.board.corners_m, camera.undistort(detected.pixel)
+    is_solved, rotation_vector, translation = cv2.solvePnP(points, pixel, camera.matrix, np.zeros(5))
+    if not is_solved:
         return None
-    rotation_vector, translation = pose
     rotation = np.asarray(cv2.Rodrigues(rotation_vector)[0], dtype=np.float64)
     normal = rotation[:, 2] if rotation[2, 2] > 0.0 else -rotation[:, 2]
-    centre = rotation @ detected.board.outline_m.mean(axis=0) + translation.ravel()
+    centre = rotation @ detected.board.outline_m.mean(axis=0) + np.ravel(translation)
     if centre[2] <= 0.0:
         return None
     away = centre / np.linalg.norm(centre)
@@ -154,17 +151,9 @@ def to_board_view(
     return BoardView(detected, tilt_deg, nearer_side, float(centre[2]), depth_raw, depth_unit_m)
 
 
-def is_new_view(detected: DetectedBoard, views: Sequence[BoardView]) -> bool:
-    """Return whether the board's pose differs from those of all views."""
-    return all(corner_motion_px(detected, view.detected) >= MIN_NEW_VIEW_PX for view in views)
-
-
 def corner_motion_px(one: DetectedBoard, other: DetectedBoard) -> float:
-    """Return the RMS distance of the common corners; infinite without any."""
-    _, a, b = np.intersect1d(one.corner_ids, other.corner_ids, return_indices=True)
-    if not len(a):
-        return math.inf
-    return float(np.sqrt(np.mean(np.sum((one.pixel[a] - other.pixel[b]) ** 2, axis=1))))
+    """Return the RMS distance of the corners."""
+    return float(np.sqrt(np.mean(np.sum((one.pixel - other.pixel) ** 2, axis=1))))
 
 
 def assess_views(views: Sequence[BoardView], width_px: int, height_px: int) -> ViewCoverage:
@@ -183,9 +172,9 @@ RejectReason = Literal["", "dark", "no_board", "too_tilted", "moving", "blurred"
 """Reason why a view was not kept, empty if it was."""
 MIN_BRIGHTNESS = 70.0
 """The brightest tenth of an image below this needs more light."""
-WANTED_VIEWS: dict[Pattern, int] = {"chessboard": 30, "charuco": 44}
+WANTED_VIEWS = 30
 """Views wanted from a live camera: more than needed, as each takes three seconds and the focal length is then known to
-0.1 %. A ChArUco board has half the corners."""
+0.1 %."""
 NEAR_BOARD_M, FAR_BOARD_M = 0.55, 0.85
 """A board nearer than the first is shown farther away next, and one near the second not."""
 
@@ -197,11 +186,6 @@ class BoardFrame:
     detected: DetectedBoard | None
     reject_reason: RejectReason
     is_kept: bool = False
-
-
-def is_dark(color_rgb: ByteImage) -> bool:
-    """Return whether an image has too little light to find a board."""
-    return float(np.percentile(color_rgb[::8, ::8].max(axis=2), 90)) < MIN_BRIGHTNESS
 
 
 SEARCH_INTERVAL_S = 0.12
@@ -217,8 +201,8 @@ class ViewCollector:
     A view is kept if the board's pose is new and it has not moved since the frame before, if there is one just before.
     """
 
-    def __init__(self, camera: Camera, boards: Sequence[Board] = tuple(BOARDS.values())) -> None:
-        self._camera, self._boards = camera, tuple(boards)
+    def __init__(self, camera: Camera, board: Board = CHESSBOARD) -> None:
+        self._camera, self._board = camera, board
         self._views: list[BoardView] = []
         self._last: tuple[float, DetectedBoard] | None = None
         self._last_search_s = float("-inf")
@@ -243,16 +227,17 @@ class ViewCollector:
             return None
         self._last_search_s = frame.timestamp_s
         self.searched_count += 1
-        found = find_board(frame.color_rgb, self._boards)
+        found = find_board(frame.color_rgb, self._board)
         before, self._last = self._last, None if found is None else (frame.timestamp_s, found)
         if found is None:
-            return BoardFrame(None, "dark" if is_dark(frame.color_rgb) else "no_board")
+            brightness = float(np.percentile(frame.color_rgb[::8, ::8].max(axis=2), 90))
+            return BoardFrame(None, "dark" if brightness < MIN_BRIGHTNESS else "no_board")
         self.detected_count += 1
-        self._boards = (found.board,)  # one board per calibration, and no time lost on the others
         view = to_board_view(found, self._camera, frame.depth_raw, frame.depth_unit_m)
         if view is None:
             return BoardFrame(found, "too_tilted")
-        reason: RejectReason = "" if is_new_view(found, self._views) else "known"
+        is_new = all(corner_motion_px(found, kept.detected) >= MIN_NEW_VIEW_PX for kept in self._views)
+        reason: RejectReason = "" if is_new else "known"
         if edge_width_px(frame.color_rgb, found) > MAX_EDGE_WIDTH_PX:
             reason = "blurred"
         if before is not None and frame.timestamp_s - before[0] <= _MAX_MOTION_GAP_S:

@@ -230,7 +230,7 @@ def _fit_intrinsics(
 ) -> tuple[Intrinsics, FloatArray]:
     """Return the intrinsics of the used views, and the RMS error (U,) of each."""
     some = [views[k].detected for k in used_views]
-    points = [found.board.corners_m[found.corner_ids].astype(np.float32) for found in some]
+    points = [found.board.corners_m.astype(np.float32) for found in some]
     pixels = [found.pixel.astype(np.float32).reshape(-1, 1, 2) for found in some]
     guess = np.array([[width_px * 0.82, 0.0, 0.5 * (width_px - 1)], [0.0, width_px * 0.82, 0.5 * (height_px - 1)],
                       [0.0, 0.0, 1.0]])  # fmt: skip

@@ -56,14 +56,12 @@ def stored(data_folder: Path, serial: str, day: int, scale: float = 1.0, offset_
 
 
 @pytest.mark.usefixtures("qapp")
-@pytest.mark.parametrize(
-    ("paper", "pattern", "size_mm"), [("a4", "chessboard", (297.0, 210.0)), ("letter", "charuco", (279.4, 215.9))]
-)
+@pytest.mark.parametrize(("paper", "size_mm"), [("a4", (297.0, 210.0)), ("letter", (279.4, 215.9))])
 def test_calibrate_command_board_page_has_its_size(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], paper: str, size_mm: tuple[float, float], pattern: str
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], paper: str, size_mm: tuple[float, float]
 ) -> None:
     pdf = tmp_path / "board.pdf"
-    assert main(["calibrate-camera", "--board", str(pdf), "--paper", paper, "--pattern", pattern]) == 0
+    assert main(["calibrate-camera", "--board", str(pdf), "--paper", paper]) == 0
     box = re.search(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", pdf.read_bytes())
     assert box is not None
     np.testing.assert_allclose([float(one) * 25.4 / 72.0 for one in box.groups()], size_mm, atol=0.4)

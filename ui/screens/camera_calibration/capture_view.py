@@ -102,7 +102,7 @@ class BoardCaptureView(FittedWidget):
         words = self.tr("1 image") if views == 1 else self.tr("{count} images")
         self.frame_count.show_state("partly" if now.step else "good", words.format(count=views))
         self.primary_button.set_label(button_words(now))
-        self.primary_button.setEnabled(views >= now.required_views and not now.judgement.missing_text)
+        self.primary_button.setEnabled(not now.judgement.missing_view_count and not now.judgement.missing_text)
         if not now.lack:  # this picture counts
             self._shortfall = ""
         for line, row in zip(self._condition_texts, progress_rows(now.judgement), strict=True):

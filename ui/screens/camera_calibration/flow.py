@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from datetime import datetime
 
-from carpus.core.calibration.camera.board import create_board_sheet
-from carpus.core.calibration.camera.board_views import WANTED_VIEWS, ViewCollector
+from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
+from carpus.core.calibration.camera.board_views import ViewCollector
 from carpus.core.calibration.camera.calibrate import calibrate_camera
 from carpus.core.calibration.camera.storage import save_calibration, to_stored_calibration
 from carpus.core.model.errors import BoardNotVisible, BoardViewsTooSimilar
@@ -75,9 +75,9 @@ class CameraCalibrationFlow(CameraFlowBase):
 
     # --- printing -----------------------------------------------------------------------------------------
     def _print_board(self) -> None:
-        choice = self.screen.setup_view.choice
-        sheet = create_board_sheet(BoardChoice(choice.pattern, choice.paper).board, choice.paper)
-        name, title = f"carpus-{choice.pattern}-{choice.paper}.pdf", self.tr("Save the board to print")
+        paper = self.screen.setup_view.choice.paper
+        sheet = create_board_sheet(CHESSBOARD, paper)
+        name, title = f"carpus-chessboard-{paper}.pdf", self.tr("Save the board to print")
         self.save_printout(name, title, lambda part: write_sheets(part, [sheet], "Carpus camera board"))
 
     # --- showing ------------------------------------------------------------------------------------------
@@ -92,16 +92,13 @@ class CameraCalibrationFlow(CameraFlowBase):
         self.screen.show_capture()
 
         def make_processor(session: LiveSession) -> FrameProcessor:
-            gathering = self._gathering = ViewCollector(session.info.camera, [choice.board])
-            asked = WANTED_VIEWS[choice.pattern]
+            gathering = self._gathering = ViewCollector(session.info.camera, choice.board)
 
             def process(frame: Frame) -> None:
                 seen = gathering.process_frame(frame) if known.is_set() else None
                 if seen is not None:
                     judgement = gathering.coverage
-                    newest.post(
-                        BoardProgress(seen.reject_reason, judgement, judgement.next_instruction(asked) or "", asked)
-                    )
+                    newest.post(BoardProgress(seen.reject_reason, judgement, judgement.next_instruction() or ""))
 
             return process
 

@@ -7,7 +7,6 @@ from typing import cast
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDoubleSpinBox, QStackedWidget, QWidget
 
-from carpus.core.calibration.camera.board import Pattern
 from carpus.core.calibration.camera.printed_sheet import RULER_MM, Paper
 from carpus.ui.kit.button import ENTER_KEY, Button
 from carpus.ui.kit.card import Card, Separator
@@ -81,14 +80,6 @@ class BoardSetupView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self.pattern = ChoiceRow(
-            theme,
-            [
-                ("chessboard", self.tr("Chessboard")),
-                ("charuco", self.tr("ChArUco: may be partly covered, takes longer")),
-            ],
-            "chessboard",
-        )  # fmt: skip
         self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
         self.print_button = Button(theme, self.tr("&Print the board…"), icon="file-text")
         self.ruler_field = QDoubleSpinBox()
@@ -118,7 +109,7 @@ class BoardSetupView(QWidget):
         body.addWidget(heading(theme, self.tr("Calibrate the camera"), wrap=True))
         fill(body, Text(theme, words, 16, REGULAR, "text2", wrap=True), self._status_text)
         board = self._make_card(self.tr("1  Print the board"))
-        fill(board.body, self.pattern, row_layout(self.paper, self.print_button, STRETCH, gap=12))
+        board.body.addLayout(row_layout(self.paper, self.print_button, STRETCH, gap=12))
         words = self.tr(
             "Print at 100 % (“actual size”) on plain paper. Glue it flat onto something stiff, such as glass or a "
             "thick board. Then measure the printed ruler."
@@ -154,9 +145,7 @@ class BoardSetupView(QWidget):
 
     @property
     def choice(self) -> BoardChoice:
-        return BoardChoice(
-            cast("Pattern", self.pattern.value()), cast("Paper", self.paper.value()), self.ruler_field.value()
-        )
+        return BoardChoice(cast("Paper", self.paper.value()), self.ruler_field.value())
 
     def show_status(self, words: str) -> None:
         """Show the camera's current status."""
