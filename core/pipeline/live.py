@@ -131,10 +131,6 @@ class LiveSession:
             self._tracking_thread.join()
         self._source.close()
 
-    @property
-    def is_running(self) -> bool:
-        return self._capture_thread.is_alive()
-
     # --- pictures -----------------------------------------------------------------------------
     def current_frame(self) -> Frame | None:
         return self._frame_mailbox.peek()
@@ -165,10 +161,6 @@ class LiveSession:
     def set_listener(self, listener: Listener | None) -> None:
         """Set who receives every tracked frame and event; a listener that raises is removed."""
         self._listener = listener
-
-    @property
-    def is_tracking(self) -> bool:
-        return self._pipeline is not None
 
     def current_view(self) -> TrackedView | None:
         """Return the last tracked frame with its image."""

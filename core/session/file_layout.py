@@ -13,7 +13,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand.dorsal_surface import TABLE_ROWS
 from carpus.core.session import schema
-from carpus.core.session.blocks import check_shape
+from carpus.core.session.columns import check_shape
 from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.values import Repetitions, SessionHeader
 
@@ -27,24 +27,24 @@ _GZIP_LEVEL = 1
 """Higher levels make files a hundredth smaller and take much longer."""
 
 
-def build_empty_session(
-    header: SessionHeader, camera: Camera, calibration: Calibration, raw_depth_unit_m: float | None = None
-) -> bytes:
-    """Return a session file without rows, as bytes; with a depth unit its frames have images."""
+def build_empty_session(header: SessionHeader, camera: Camera, calibration: Calibration) -> bytes:
+    """Return a session file without rows, as bytes."""
     with h5py.File("session", "w", driver="core", backing_store=False, libver="earliest") as file:
         layout = TableLayout(header.protocol, header.joint_names)
         write_header(file, header, camera)
         write_calibration(file, layout, calibration)
-        create_growing_datasets(file, layout, raw_depth_unit_m)
+        create_growing_datasets(file, layout)
         file.flush()
         return bytes(file.id.get_file_image())
 
 
 def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None:
     """Write the attributes of ``/`` and ``/camera``."""
+    is_inverse = camera.distortion_model == "inverse_brown_conrady"
     values = {
         "format": schema.FORMAT,
-        "format_version": choose_format_version(camera),
+        # files that an older Carpus would misread have a version that it refuses
+        "format_version": schema.LENS_VERSION if is_inverse and camera.is_distorted else schema.FORMAT_VERSION,
         "protocol": header.protocol.name,
         "complete": True,  # it gets its name only then
     }
@@ -54,12 +54,6 @@ def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None
     entries = asdict(camera) | {"sensor": json.dumps(camera.sensor.to_dict(), sort_keys=True)}
     for name, value in zip(schema.CAMERA_ATTRIBUTES, entries.values(), strict=True):
         group.attrs[name] = value
-
-
-def choose_format_version(camera: Camera) -> int:
-    """Return the format version: files that an older Carpus would misread have one that it refuses."""
-    is_inverse = camera.distortion_model == "inverse_brown_conrady" and camera.is_distorted
-    return schema.LENS_VERSION if is_inverse else schema.FORMAT_VERSION
 
 
 def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibration) -> None:
@@ -72,12 +66,10 @@ def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibra
         "surface": np.full((TABLE_ROWS, 5), np.nan) if surface is None else surface.to_table(),
     }
     for field in schema.CALIBRATION_FIELDS:
-        value = (
-            other_values[field.attribute] if field.attribute in other_values else getattr(calibration, field.attribute)
-        )
-        write_attributes(
-            create_checked_dataset(file, field.path, check_shape(field, value, layout.row_shape(field))), field, layout
-        )
+        name = field.attribute
+        value = other_values[name] if name in other_values else getattr(calibration, name)
+        dataset = create_checked_dataset(file, field.path, check_shape(field, value, layout.row_shape(field)))
+        write_attributes(dataset, field, layout)
     # JSON has no NaN
     known = [{name: value for name, value in asdict(each).items() if value == value} for each in verdict.findings]
     straight = np.array(calibration.clicks.straight_fingers, dtype=np.uint8)
@@ -86,17 +78,14 @@ def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibra
         file["/calibration"].attrs[name] = value
 
 
-def create_growing_datasets(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float | None) -> None:
-    """Create every dataset of rows, still empty; ``/raw`` only with a depth unit."""
-    raw = (*schema.RAW_STREAMS, *schema.RAW_ENDS) if raw_depth_unit_m is not None else ()
+def create_growing_datasets(file: h5py.File, layout: TableLayout) -> None:
+    """Create every dataset of rows, still empty."""
     detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
-    for field in (*schema.FRAME_FIELDS, *detections, *READINGS, *schema.EVENT_FIELDS, *raw):
+    for field in (*schema.FRAME_FIELDS, *detections, *READINGS, *schema.EVENT_FIELDS):
         if layout.has(field):
             create_dataset(file, field, layout)
     for group, names in layout.group_names().items():
         file[group].attrs["names"] = names
-    if raw_depth_unit_m is not None:
-        file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = raw_depth_unit_m
 
 
 def create_smoother_datasets(file: h5py.File, layout: TableLayout) -> None:

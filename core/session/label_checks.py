@@ -63,23 +63,16 @@ def predict_marker_px(session: Session, row: int, places: FloatArray, number: in
         return own
     measured_m = camera.backproject(camera.undistort(places[others][known]), depth_m[known])
     shape_m = session.calibration.marker_position_w0_m
-    position_m = _map_by_palm(shape_m[np.array(others)[known]], measured_m, shape_m[number])
-    return np.asarray(camera.distort(camera.project(position_m[None]))[0])
-
-
-def _map_by_palm(shape_m: FloatArray, measured_m: FloatArray, point_m: FloatArray) -> FloatArray:
-    """Return a point (3,) of the palm after fitting its markers (K, 3) to the measured ones (K, 3).
-
-    One outlier among the markers is excluded: its own place is wrong.
-    """
-    rotation, shift, misfit_m = _fit_rigid(shape_m, measured_m)
-    count = len(shape_m)
-    if misfit_m > MAX_FIT_ERROR_M and count > MIN_PALM_MARKERS:
-        without = [_fit_rigid(shape_m[np.arange(count) != k], measured_m[np.arange(count) != k]) for k in range(count)]
+    others_m = shape_m[np.array(others)[known]]
+    rotation, shift, misfit_m = _fit_rigid(others_m, measured_m)
+    if misfit_m > MAX_FIT_ERROR_M and len(others_m) > MIN_PALM_MARKERS:  # the place of one of them may be wrong
+        each = range(len(others_m))
+        without = [_fit_rigid(np.delete(others_m, k, axis=0), np.delete(measured_m, k, axis=0)) for k in each]
         best = min(without, key=lambda one: one[2])
         if best[2] < 0.5 * misfit_m:
             rotation, shift, _ = best
-    return np.asarray(rotation @ point_m + shift)
+    position_m = rotation @ shape_m[number] + shift
+    return np.asarray(camera.distort(camera.project(position_m[None]))[0])
 
 
 def _fit_rigid(shape_m: FloatArray, measured_m: FloatArray) -> tuple[FloatArray, FloatArray, float]:

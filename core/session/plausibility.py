@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.phrase import phrase
-from carpus.core.model.types import Detections, FloatArray
+from carpus.core.model.types import Detections
 from carpus.core.session.values import Session, SessionHeader
+
+
+class ContentError(Exception):
+    """Raised with a text for content of a session file that cannot be; its reader names the file."""
+
+
+def damage_error(place: str) -> ContentError:
+    """Return the error for a part of a session file, by its path or name."""
+    return ContentError(phrase("damaged: {value}", value=place))
+
 
 MAX_DURATION_S = 86_400.0
 MAX_TIME_S = 1e11
@@ -25,80 +37,53 @@ MAX_COVARIANCE_M2, COVARIANCE_TOLERANCE_M2 = 1.0, 1e-9
 MAX_TEXT_CHARACTERS, MAX_PARAMETERS_CHARACTERS = 200, 1 << 20
 MAX_PARAMETERS_DEPTH = 40
 STATUS_COUNT = 4
+_OWN_TEXTS = ("session_id", "recording_id", "subject_id", "recorded", "created")
 
 
-def check_header(path: Path, header: SessionHeader, parameters: object) -> None:
-    """Raise :class:`SessionUnreadable` for texts that cannot be a pseudonym, an exercise or settings."""
-    for name in (
-        "session_id",
-        "recording_id",
-        "subject_id",
-        "recorded",
-        "created",
-        "exercise",
-        "software_version",
-        "origin",
-    ):
+def check_header(header: SessionHeader, parameters: object) -> None:
+    """Raise :class:`ContentError` for texts that cannot be a pseudonym, an exercise or settings."""
+    for name in (*_OWN_TEXTS, "exercise", "software_version", "origin"):
         text: str = getattr(header, name)
-        if len(text) > MAX_TEXT_CHARACTERS or not (text.isprintable() or name == "origin"):
-            raise SessionUnreadable(path, phrase("damaged: invalid {name}", name=name))
-    if not header.session_id.strip():
-        raise SessionUnreadable(path, phrase("damaged: no session_id"))
+        is_missing = name == "session_id" and not text.strip()
+        if is_missing or len(text) > MAX_TEXT_CHARACTERS or not (text.isprintable() or name == "origin"):
+            raise damage_error(name)
     if _nesting_depth(parameters) > MAX_PARAMETERS_DEPTH or len(header.parameters) > MAX_PARAMETERS_CHARACTERS:
-        raise SessionUnreadable(path, phrase("damaged: invalid settings"))
+        raise damage_error("parameters")
 
 
-def check_times(path: Path, timestamp_s: FloatArray) -> None:
-    """Raise :class:`SessionUnreadable` unless the times are finite, rise, and span at most a day."""
-    if not len(timestamp_s):
-        return
-    if not np.isfinite(timestamp_s).all() or np.abs(timestamp_s).max() > MAX_TIME_S:
-        raise SessionUnreadable(path, phrase("damaged: impossible frame time"))
-    wrong = np.flatnonzero(np.diff(timestamp_s) <= 0.0)
-    if len(wrong):
-        raise SessionUnreadable(
-            path, phrase("damaged: frame {number} is not later than the previous one", number=int(wrong[0]) + 1)
-        )
-    if timestamp_s[-1] - timestamp_s[0] > MAX_DURATION_S:
-        raise SessionUnreadable(path, phrase("times span more than a day: damaged, or a clock jumped"))
-
-
-def check_values(path: Path, session: Session) -> None:
-    """Raise :class:`SessionUnreadable` for impossible numbers; NaN stands for unknown everywhere."""
-    check_times(path, session.timestamp_s)
-    if len(session.status) and int(session.status.max()) >= STATUS_COUNT:
-        raise SessionUnreadable(path, phrase("damaged: unknown frame status"))
-    limits: list[tuple[str, FloatArray, float]] = [
-        ("a marker's position", session.markers.position_cam_m, MAX_POSITION_M),
-        ("a calibrated position", session.calibration.marker_position_w0_m, MAX_POSITION_M),
-        ("the camera's place", session.calibration.translation_w0_cam_m, MAX_POSITION_M),
+def check_values(session: Session) -> None:
+    """Raise :class:`ContentError` for impossible numbers; NaN stands for unknown, and compares as neither."""
+    times_s = session.timestamp_s
+    if not np.isfinite(times_s).all() or (np.abs(times_s) > MAX_TIME_S).any() or (np.diff(times_s) <= 0.0).any():
+        raise damage_error("/frames/timestamp")
+    if len(times_s) and times_s[-1] - times_s[0] > MAX_DURATION_S:
+        raise ContentError(phrase("times span more than a day: damaged, or a clock jumped"))
+    limits: list[tuple[str, NDArray[Any], float, float]] = [
+        ("/frames/status", session.status, 0, STATUS_COUNT - 1),
+        ("/markers/position_camera", session.markers.position_cam_m, -MAX_POSITION_M, MAX_POSITION_M),
+        ("/calibration/marker_position", session.calibration.marker_position_w0_m, -MAX_POSITION_M, MAX_POSITION_M),
+        ("/calibration/translation", session.calibration.translation_w0_cam_m, -MAX_POSITION_M, MAX_POSITION_M),
     ]
-    for motion in (session.motion, session.smoothed):
+    for group, motion in (("", session.motion), ("/smoothed", session.smoothed)):
         if motion is not None:
             limits += [
-                ("a wrist angle", motion.angles_rad, MAX_ANGLE_RAD),
-                ("a joint angle", motion.joint_angles_rad, MAX_ANGLE_RAD),
-                ("a standard deviation", motion.angles_sd_rad, MAX_SD_RAD),
-                ("a standard deviation", motion.joint_angles_sd_rad, MAX_SD_RAD),
-                ("a position", motion.position_m, MAX_POSITION_M),
-                ("a joint's position", motion.joint_position_m, MAX_POSITION_M),
+                (f"{group}/wrist/angles", motion.angles_rad, -MAX_ANGLE_RAD, MAX_ANGLE_RAD),
+                (f"{group}/joints/angles", motion.joint_angles_rad, -MAX_ANGLE_RAD, MAX_ANGLE_RAD),
+                (f"{group}/wrist/angles_sd", motion.angles_sd_rad, 0.0, MAX_SD_RAD),
+                (f"{group}/joints/angles_sd", motion.joint_angles_sd_rad, 0.0, MAX_SD_RAD),
+                (f"{group}/wrist/position", motion.position_m, -MAX_POSITION_M, MAX_POSITION_M),
+                (f"{group}/joints/position", motion.joint_position_m, -MAX_POSITION_M, MAX_POSITION_M),
             ]
-    for what, values, limit in limits:
-        # NaN compares as neither, so unknown values pass.
-        if len(values) and bool((np.abs(values) > limit).any()):
-            raise SessionUnreadable(path, phrase("damaged: {what} out of range", what=what))
-    for motion in (session.motion, session.smoothed):
-        if motion is not None and any(
-            bool((values < 0.0).any()) for values in (motion.angles_sd_rad, motion.joint_angles_sd_rad)
-        ):
-            raise SessionUnreadable(path, phrase("damaged: negative standard deviation"))
+    for path, values, low, high in limits:
+        if ((values < low) | (values > high)).any():
+            raise damage_error(path)
     camera = session.camera
-    if not all(map(math.isfinite, (camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *camera.distortion))):
-        raise SessionUnreadable(path, phrase("damaged: unknown camera values"))
-    if min(camera.fx_px, camera.fy_px) <= 0.0 or not 1 <= min(camera.width_px, camera.height_px) <= 1 << 16:
-        raise SessionUnreadable(path, phrase("damaged: impossible camera values"))
+    numbers = (camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *camera.distortion)
+    is_camera = all(map(math.isfinite, numbers)) and min(camera.fx_px, camera.fy_px) > 0.0
+    if not is_camera or not 1 <= min(camera.width_px, camera.height_px) <= 1 << 16:
+        raise damage_error("/camera")
     if not all(math.isfinite(event.time_s) for event in session.events):
-        raise SessionUnreadable(path, phrase("damaged: an event has no time"))
+        raise damage_error("/events/time")
 
 
 def check_calibration(path: Path, calibration: Calibration) -> None:
@@ -115,14 +100,14 @@ def check_calibration(path: Path, calibration: Calibration) -> None:
         raise SessionUnreadable(path, phrase("damaged: its calibration does not describe a hand"))
 
 
-def check_detections(path: Path, detections: Detections) -> None:
-    """Raise :class:`SessionUnreadable` for impossible blobs; a depth may be unknown."""
+def check_detections(detections: Detections) -> None:
+    """Raise :class:`ContentError` for impossible blobs; a depth may be unknown."""
     good = bool((np.abs(detections.pixel) <= MAX_PIXEL).all())  # NaN is not
     good = good and bool(np.isfinite(detections.area_px).all() and np.isfinite(detections.similarity).all())
-    for values, most in ((detections.depth_m, MAX_POSITION_M), (detections.depth_sd_m, MAX_POSITION_M)):
-        good = good and not bool(((values < 0.0) | (values > most)).any())
+    for values in (detections.depth_m, detections.depth_sd_m):
+        good = good and not bool(((values < 0.0) | (values > MAX_POSITION_M)).any())
     if not good:
-        raise SessionUnreadable(path, phrase("damaged: a blue spot belongs to no frame"))
+        raise damage_error("/detections")
 
 
 def _nesting_depth(value: object) -> int:

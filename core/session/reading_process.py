@@ -48,11 +48,6 @@ Answer = tuple[str, Any]
 """``done`` and the value, or the name of a fault with its subject and detail."""
 
 
-def compute_cpu_limit_s(size_bytes: int) -> float:
-    """Return the processor time for a request about a file of this size."""
-    return CPU_S + size_bytes / BYTES_PER_CPU_S
-
-
 def run(link: Connection) -> None:
     """Answer requests (name, path, arguments) until the owner is gone (entry point of the process).
 
@@ -106,7 +101,7 @@ def _set_limits(size_bytes: int) -> None:
     """Limit processor time and memory of this process, enforced by the system."""
     if sys.platform == "win32":
         return  # only the owner's timeout applies
-    signal.setitimer(signal.ITIMER_PROF, compute_cpu_limit_s(size_bytes))
+    signal.setitimer(signal.ITIMER_PROF, CPU_S + size_bytes / BYTES_PER_CPU_S)
     room = min(BASE_MEMORY_BYTES + MEMORY_PER_BYTE * size_bytes, MAX_MEMORY_BYTES)
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
     try:

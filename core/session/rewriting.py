@@ -6,6 +6,7 @@ import os
 import shutil
 from collections.abc import Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 import h5py
@@ -23,8 +24,14 @@ from carpus.core.session.atomic_files import (
 )
 from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
 from carpus.core.session.file_layout import create_dataset
-from carpus.core.session.rows import RowCounts, count_readable_rows, count_whole_rows, find_growing_fields, read_rows
 from carpus.core.session.session_file import layout_from_file, open_session, verify
+from carpus.core.session.structure import (
+    RowCounts,
+    count_readable_rows,
+    count_whole_rows,
+    find_growing_fields,
+    read_rows,
+)
 
 
 def finish_part(part: Path, when: str) -> Path | None:
@@ -48,8 +55,9 @@ def finish_part(part: Path, when: str) -> Path | None:
     try:
         shutil.copyfile(part, copy)
         copy.chmod(0o600)
-        if not _has_content(copy):
-            return None
+        with copy.open("rb") as file:
+            if not any(block.strip(b"\0") for block in iter(partial(file.read, 1 << 20), b"")):
+                return None  # space was reserved, and nothing written
         repair_file_end(copy)
         with open_session(copy) as old:
             rows = count_whole_rows(old)
@@ -108,15 +116,6 @@ def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
         old.copy(schema.REPETITIONS.path, file)
 
 
-def _has_content(part: Path) -> bool:
-    """Return whether any byte was written, rather than only reserved."""
-    with part.open("rb") as file:
-        while block := file.read(1 << 20):
-            if block.strip(b"\0"):
-                return True
-    return False
-
-
 def rewrite_session(path: Path, target: Path, changed: Mapping[str, str]) -> None:
     """Write a session as ``target`` with changed attributes; no byte of their old values remains.
 
@@ -133,7 +132,14 @@ def rewrite_session(path: Path, target: Path, changed: Mapping[str, str]) -> Non
         try:
             with h5py.File(part, "x", libver="earliest") as file:
                 part.chmod(0o600)
-                _copy_with_attributes(old, file, changed)
+                attributes = {**old.attrs, **changed}
+                for name in sorted(attributes, key=[*schema.ROOT_ATTRIBUTES, *attributes].index):  # as it was recorded
+                    if name != CHECKSUM_ATTRIBUTE:
+                        file.attrs[name] = attributes[name]
+                for name in old:
+                    old.copy(name, file)
+                if CHECKSUM_ATTRIBUTE in old.attrs:
+                    file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
             with part.open("rb") as written:
                 os.fsync(written.fileno())
             verify(part)
@@ -142,14 +148,3 @@ def rewrite_session(path: Path, target: Path, changed: Mapping[str, str]) -> Non
             raise write_fault(target, cause) from cause
         finally:
             part.unlink(missing_ok=True)
-
-
-def _copy_with_attributes(old: h5py.File, file: h5py.File, changed: Mapping[str, str]) -> None:
-    told = {**old.attrs, **changed}
-    for name in sorted(told, key=[*schema.ROOT_ATTRIBUTES, *told].index):  # as it was recorded
-        if name != CHECKSUM_ATTRIBUTE:
-            file.attrs[name] = told[name]
-    for name in old:
-        old.copy(name, file)
-    if CHECKSUM_ATTRIBUTE in old.attrs:
-        file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)

@@ -32,9 +32,16 @@ from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Detections
 from carpus.core.session import schema
 from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
-from carpus.core.session.plausibility import MAX_DURATION_S, check_detections, check_header, check_values
-from carpus.core.session.rows import RowCounts, check_structure
+from carpus.core.session.plausibility import (
+    MAX_DURATION_S,
+    ContentError,
+    check_detections,
+    check_header,
+    check_values,
+    damage_error,
+)
 from carpus.core.session.schema import Field, TableLayout
+from carpus.core.session.structure import RowCounts, check_structure
 from carpus.core.session.values import (
     DetectionTable,
     EncodedImages,
@@ -84,7 +91,7 @@ def read_detections(path: Path) -> DetectionTable:
         source = _SessionFile(path, file)
         pixel, depth, depth_sd, area, similarity = (source.read_array(field) for field in schema.DETECTION_FIELDS)
         blobs = Detections(pixel, depth, depth_sd, area, similarity)
-        check_detections(path, blobs)
+        check_detections(blobs)
         readings = (*schema.SURFACE_FIELDS, *schema.FINGER_FIELDS)
         kept = [source.read_array(field) if field.path in file else np.empty((0, 0)) for field in readings]
         return DetectionTable(source.read_array(schema.DETECTION_FRAME), blobs, (kept[0], kept[1]), (kept[2], kept[3]))
@@ -159,7 +166,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
         raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("not a file"))
     try:
         with h5py.File(path, "r") as file:
-            check_structure(path, file)
+            check_structure(file, path.stat().st_size)
             if file.attrs.get("format") != schema.FORMAT:
                 raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
             version = _format_version(file)
@@ -175,6 +182,8 @@ def open_session(path: Path) -> Iterator[h5py.File]:
         raise SessionUnreadable(path, phrase("still being recorded")) from cause
     except CarpusFault:
         raise
+    except ContentError as cause:
+        raise SessionUnreadable(path, cause.args[0]) from cause
     except MemoryError as cause:
         raise SessionUnreadable(path, phrase("damaged: needs more memory than any session")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
@@ -224,7 +233,7 @@ class _SessionFile:
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
             repetitions=self._read_repetitions(),
         )
-        check_values(self._path, session)
+        check_values(session)
         return session
 
     def _read_repetitions(self) -> Repetitions | None:
@@ -236,7 +245,7 @@ class _SessionFile:
         columns = [column for column in schema.REPETITION_COLUMNS if column.name not in missing]
         dtype = np.dtype([(column.name, column.dtype) for column in columns])
         if table.dtype != dtype or table.ndim != 1 or not missing <= {"at_least"}:  # which is from later
-            raise SessionUnreadable(self._path, phrase("damaged: {value}", value=path))
+            raise damage_error(path)
         names = [column.attribute for column in columns]
         rows = ({"at_least": False} | dict(zip(names, row, strict=True)) for row in table[()].tolist())
         return Repetitions(
@@ -256,7 +265,7 @@ class _SessionFile:
         times = self._file["/frames/timestamp"]
         duration_s = float(times[frames - 1] - times[0]) if frames else 0.0
         if not 0.0 <= duration_s <= MAX_DURATION_S:
-            raise SessionUnreadable(self._path, phrase("damaged: implausible frame times"))
+            raise damage_error("/frames/timestamp")
         return SessionOutline(
             header=self._header,
             frames=frames,
@@ -267,29 +276,18 @@ class _SessionFile:
 
     def read_array(self, field: Field) -> NDArray[Any]:
         """Return a dataset of the schema's type and shape, read-only; a missing optional one is unknown."""
-        expected = tuple(
-            self._rows.axis_length(str(axis)) if axis in schema.GROWING_AXES else size
-            for axis, size in zip(field.shape, self._read_sizes(field), strict=True)
-        )
+        expected = self.layout.row_shape(field)
+        if field.shape[0] in schema.GROWING_AXES:
+            expected = (self._rows.axis_length(str(field.shape[0])), *expected)
         if field.path not in self._file:
             if not field.optional:
-                raise SessionUnreadable(self._path, phrase("no dataset {path}", path=field.path))
+                raise ContentError(phrase("no dataset {path}", path=field.path))
             return np.full(expected, field.fill, dtype=field.h5_dtype)
         dataset = self._file[field.path]
         data = dataset[()]
         kinds = {"f": "f", "u": "iu", "i": "iu", "t": "SO"}[field.dtype[0]]
         if data.shape != expected or data.dtype.kind not in kinds:
-            raise SessionUnreadable(
-                self._path,
-                phrase(
-                    "{path} is {dtype} {shape}, {dtype2} {expected} expected",
-                    path=field.path,
-                    dtype=data.dtype,
-                    shape=data.shape,
-                    dtype2=field.dtype,
-                    expected=expected,
-                ),
-            )
+            raise damage_error(field.path)
         array: NDArray[Any] = data if data.dtype.kind == "O" else data.astype(field.h5_dtype, copy=False)
         array.setflags(write=False)
         return array
@@ -297,66 +295,51 @@ class _SessionFile:
     def read_raw_ends(self, number: int) -> NDArray[Any]:
         """Return the ends of each frame's images in a stream, checked, since they are used as indices."""
         ends = self.read_array(schema.RAW_ENDS[number])
-        stream = schema.RAW_STREAMS[number]
-        if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > self._file[stream.path].shape[0]):
-            raise SessionUnreadable(
-                self._path,
-                phrase("damaged: {path} does not match {path2}", path=schema.RAW_ENDS[number].path, path2=stream.path),
-            )
+        length = self._file[schema.RAW_STREAMS[number].path].shape[0]
+        if len(ends) and (ends[0] < 0 or (np.diff(ends) < 0).any() or ends[-1] > length):
+            raise damage_error(schema.RAW_ENDS[number].path)
         return ends
-
-    def _read_sizes(self, field: Field) -> tuple[int, ...]:
-        row = self.layout.row_shape(field)
-        return (0, *row) if field.shape[0] in schema.GROWING_AXES else row
 
     def _read_list(self, field: Field) -> list[Any]:
         values = self.read_array(field).tolist()
         return [value.decode("utf-8") if isinstance(value, bytes) else value for value in values]
 
     def _read_attribute(self, name: str) -> Any:
-        try:
-            return self._file.attrs[name]
-        except KeyError as cause:
-            raise SessionUnreadable(self._path, phrase("no attribute {name}", name=name)) from cause
+        if name not in self._file.attrs:
+            raise ContentError(phrase("no attribute {name}", name=name))
+        return self._file.attrs[name]
 
     def _read_header(self) -> SessionHeader:
         try:
             protocol = get_protocol(str(self._read_attribute("protocol")))
         except ProtocolUnknown as cause:
-            raise SessionUnreadable(self._path, phrase("marker set {subject}", subject=cause.subject)) from cause
+            raise ContentError(phrase("marker set {subject}", subject=cause.subject)) from cause
         hand = str(self._read_attribute("hand"))
         if hand not in ("right", "left"):
-            raise SessionUnreadable(self._path, phrase("hand {hand}", hand=f"{hand!r}"))
+            raise ContentError(phrase("hand {hand}", hand=f"{hand!r}"))
         joints = tuple(map(str, self._file["/joints"].attrs["names"])) if protocol.has_fingers else ()
         if protocol.has_fingers and joints not in (protocol.joint_names(False), protocol.joint_names(True)):
-            raise SessionUnreadable(
-                self._path,
-                phrase("{count} joint angles whose names differ from {name}", count=len(joints), name=protocol.name),
+            raise ContentError(
+                phrase("{count} joint angles whose names differ from {name}", count=len(joints), name=protocol.name)
             )
-        if (
-            _format_version(self._file) == 1
-        ):  # the times are the date if they count from 1970, else it is that of the file
+        if _format_version(self._file) == 1:  # the times are the date if they count from 1970, else that of the file
             first = self._file["/frames/timestamp"][:1]
             moment = moment_from_timestamp(float(first[0])) if len(first) else None
             recorded = str(self._read_attribute("created")) if moment is None else to_iso(moment)
             recording_id = str(self._file.attrs.get("origin", "") or self._read_attribute("session_id"))
         else:
             recorded, recording_id = (str(self._read_attribute(name)) for name in ("recorded", "recording_id"))
+        names = ("session_id", "subject_id", "created", "exercise", "software_version", "parameters")
         header = SessionHeader(
-            session_id=str(self._read_attribute("session_id")),
-            subject_id=str(self._read_attribute("subject_id")),
-            created=str(self._read_attribute("created")),
+            **{name: str(self._read_attribute(name)) for name in names},
             hand="right" if hand == "right" else "left",
             protocol=protocol,
-            exercise=str(self._read_attribute("exercise")),
-            software_version=str(self._read_attribute("software_version")),
-            parameters=str(self._read_attribute("parameters")),
             origin=str(self._file.attrs.get("origin", "")),
             joint_names=joints,
             recorded=recorded,
             recording_id=recording_id,
         )
-        check_header(self._path, header, json.loads(header.parameters))
+        check_header(header, json.loads(header.parameters))
         return header
 
     @cached_property
@@ -384,16 +367,13 @@ class _SessionFile:
             (one for one, count in DISTORTION_COEFFICIENT_COUNTS.items() if one == model and count == len(lens)), None
         )
         if known is None:
-            raise SessionUnreadable(
-                self._path, phrase("distortion {model} with {count} coefficients", model=model, count=len(lens))
-            )
+            raise ContentError(phrase("distortion {model} with {count} coefficients", model=model, count=len(lens)))
         try:
             sensor = (
                 parse_sensor(json.loads(attributes["depth_sensor"])) if "depth_sensor" in attributes else ASSUMED_SENSOR
             )
         except ValueError as cause:
-            text = phrase("damaged: depth sensor, {cause}", cause=cause)
-            raise SessionUnreadable(self._path, text) from cause
+            raise ContentError(phrase("damaged: depth sensor, {cause}", cause=cause)) from cause
         return Camera(
             fx_px=float(attributes["fx"]),
             fy_px=float(attributes["fy"]),

@@ -20,14 +20,8 @@ from carpus.core.model.types import TrackedFrame
 from carpus.core.platform.durable import FileWriter, open_private, write_fault
 from carpus.core.session import schema
 from carpus.core.session.atomic_files import publish, remove_leftovers, reserve_space, temporary_path
-from carpus.core.session.blocks import (
-    Blocks,
-    build_event_blocks,
-    build_frame_blocks,
-    build_image_blocks,
-    build_motion_blocks,
-)
 from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
+from carpus.core.session.columns import Blocks, build_event_blocks, build_frame_blocks, build_motion_blocks
 from carpus.core.session.file_layout import (
     ROWS_AT_ONCE,
     build_empty_session,
@@ -35,7 +29,7 @@ from carpus.core.session.file_layout import (
     create_smoother_datasets,
 )
 from carpus.core.session.session_file import layout_from_file, session_from_file
-from carpus.core.session.values import EncodedImages, Event, Motion, Repetitions, Session, SessionHeader
+from carpus.core.session.values import Event, Motion, Repetitions, Session, SessionHeader
 
 _TIMES = schema.FRAME_FIELDS[0].path
 _INDEX_BYTES = 512 * 1024
@@ -64,7 +58,6 @@ class SessionWriter(FileWriter):
         self._temporary = temporary_path(path)
         self._rows: dict[str, int] = {}
         self._pending_frames: list[TrackedFrame] = []
-        self._pending_images: list[EncodedImages] = []
         self._written: dict[str, int] = {}
         self._pending: dict[str, list[Any]] = {}
         self._digests: dict[str, Any] = {}
@@ -81,32 +74,20 @@ class SessionWriter(FileWriter):
         self._layout = layout_from_file(path, self._file)
 
     @classmethod
-    def create(
-        cls,
-        path: Path,
-        header: SessionHeader,
-        camera: Camera,
-        calibration: Calibration,
-        *,
-        raw_depth_unit_m: float | None = None,
-    ) -> Self:
-        """Create a session that will become ``path``; with ``raw_depth_unit_m`` every frame has images."""
-        return cls(path, build_empty_session(header, camera, calibration, raw_depth_unit_m))
+    def create(cls, path: Path, header: SessionHeader, camera: Camera, calibration: Calibration) -> Self:
+        """Create a session that will become ``path``."""
+        return cls(path, build_empty_session(header, camera, calibration))
 
     def __len__(self) -> int:
         """Return the number of frames appended so far."""
         return self._rows.get(_TIMES, 0) + len(self._pending_frames)
 
-    def append(self, tracked: TrackedFrame, raw: EncodedImages | None = None) -> None:
+    def append(self, tracked: TrackedFrame) -> None:
         if tracked.timestamp_s <= self._last_time_s:
             times = {"timestamp_s": f"{tracked.timestamp_s:.6f}", "last_time_s": f"{self._last_time_s:.6f}"}
             raise TimesUnordered(self.path, phrase("{timestamp_s} s after {last_time_s} s", **times))
-        if (raw is not None) != (schema.RAW_ENDS[0].path in self._file):
-            raise ValueError("pictures come with every frame or with none")
         self._last_time_s = tracked.timestamp_s
         self._pending_frames.append(tracked)
-        if raw is not None:
-            self._pending_images.append(raw)
         if len(self._pending_frames) >= ROWS_AT_ONCE:
             self.flush()
 
@@ -117,11 +98,8 @@ class SessionWriter(FileWriter):
     def add_blocks(self, blocks: Blocks) -> None:
         """Add rows as arrays, of frames with all that belongs to them, or of events."""
         blocks = dict(blocks)
-        starts = {schema.DETECTION_FRAME.path: _TIMES}
-        starts |= {end.path: stream.path for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True)}
-        for path, counted in starts.items():
-            if path in blocks:
-                blocks[path] = blocks[path] + self._rows.get(counted, 0)
+        if schema.DETECTION_FRAME.path in blocks:
+            blocks[schema.DETECTION_FRAME.path] = blocks[schema.DETECTION_FRAME.path] + self._rows.get(_TIMES, 0)
         for path, data in blocks.items():
             self._pending.setdefault(path, []).append(data)
             self._rows[path] = self._rows.get(path, 0) + len(data)
@@ -169,11 +147,8 @@ class SessionWriter(FileWriter):
     def flush(self) -> None:
         """Write everything to the file."""
         if self._pending_frames:
-            blocks = build_frame_blocks(self._layout, self._pending_frames)
-            if self._pending_images:
-                blocks |= build_image_blocks(self._pending_images)
-            self._pending_frames, self._pending_images = [], []
-            self.add_blocks(blocks)
+            frames, self._pending_frames = self._pending_frames, []
+            self.add_blocks(build_frame_blocks(self._layout, frames))
         self._write()
 
     def close(self, recovered: str = "") -> None:

@@ -52,7 +52,6 @@ def test_live_session_previews_before_tracking() -> None:
         assert [f.index for f in live.recent_frames(500)] == list(range(10, 30))
         assert live.recent_frames(0) == []
         assert live.current_view() is None
-        assert not live.is_tracking
     assert source.closed >= 1
 
 
@@ -61,7 +60,6 @@ def test_live_session_tracks_from_next_frame() -> None:
     with LiveSession(source) as live:
         deliver(live, source, 5)
         live.start_tracking(tracked)
-        assert live.is_tracking
         deliver_tracked(live, source, 6)
         view = live.current_view()
         assert view.frame.index == view.tracked.index == 10
@@ -226,7 +224,6 @@ def test_live_session_tracker_fault_keeps_preview() -> None:
         events: list[LiveEvent] = []
         wait_until(lambda: events.extend(live.drain_events()) or bool(events))
         (event,) = events
-        assert not live.is_tracking
         assert event.kind == "tracking_failed"
         assert isinstance(event.cause, ZeroDivisionError)
         assert live.current_frame().index == 7
@@ -291,7 +288,7 @@ def test_live_session_stop_drains_queues() -> None:
     deliver(live, source, 8)
     stopper = threading.Thread(target=live.stop)
     stopper.start()
-    wait_until(lambda: not live.is_running)
+    wait_until(lambda: not live._capture_thread.is_alive())
     assert sink.rows == []
     gate.open()
     stopper.join()
@@ -436,7 +433,6 @@ def test_live_session_listener_fault_removes_listener() -> None:
         live.notify_listener("repetition", 99.5)
         live.set_listener(breaking)
         deliver_tracked(live, source, 4)
-        assert live.is_tracking
     assert listener.frames == [0, 1, 2]
     assert listener.events == [(pytest.approx(100 + 2 / 30), "note"), (99.5, "repetition")]
     assert breaking.frames == [3]
@@ -497,7 +493,7 @@ def test_live_session_source_fault_is_reported() -> None:
     source = ControlledSource(total=2, fault=FrameDamaged("000003.png"))
     with LiveSession(source) as live:
         source.let(2)
-        wait_until(lambda: not live.is_running)
+        wait_until(lambda: not live._capture_thread.is_alive())
         event = live.drain_events()[0]
         assert event.kind == "source_failed"
         assert isinstance(event.cause, FrameDamaged)
@@ -585,7 +581,7 @@ def test_live_session_waiting_file_can_be_stopped() -> None:
     wait_until(lambda: live.counters().frames_waiting == 2)
     threading.Timer(0.1, gate.open).start()
     live.stop()
-    assert not live.is_running
+    assert not live._capture_thread.is_alive()
 
 
 def test_live_session_stopped_file_ends_early() -> None:
@@ -604,7 +600,7 @@ def test_live_session_stopped_file_ends_early() -> None:
         live.stop_recording()
         stored = [row.index for row in sink.rows]
         assert stored == list(range(len(stored)))
-        assert live.is_running
+        assert live._capture_thread.is_alive()
 
 
 def test_backlog_stale_frames_are_skipped() -> None:

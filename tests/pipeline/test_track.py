@@ -35,7 +35,7 @@ from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.rendered import LEFT_DEVIATION, Rendered, truth_in
-from tests.session.samples import make_frame
+from tests.session.samples import add_pictures, make_frame
 
 
 @dataclass(frozen=True)
@@ -252,14 +252,13 @@ def test_retrack_keeps_header_and_set_up(made: Made, tmp_path: Path) -> None:
 def keep_pictures(folder: Path, session: Path, output: Path) -> None:
     """A session with the head of another and the pictures that one was tracked from."""
     stored = read_session(session)
-    writer = SessionWriter.create(
-        output, stored.header, stored.camera, stored.calibration, raw_depth_unit_m=DEPTH_UNIT_M
-    )
+    writer, pictures = SessionWriter.create(output, stored.header, stored.camera, stored.calibration), []
     for frame in TumFolder(folder).frames():
         assert frame.depth_raw is not None
-        pictures = EncodedImages(encode_color(frame.color_rgb, lossless=True), encode_depth(frame.depth_raw))
-        writer.append(replace(make_frame(frame.index), timestamp_s=frame.timestamp_s), pictures)
+        pictures.append(EncodedImages(encode_color(frame.color_rgb, lossless=True), encode_depth(frame.depth_raw)))
+        writer.append(replace(make_frame(frame.index), timestamp_s=frame.timestamp_s))
     writer.close()
+    add_pictures(output, pictures, DEPTH_UNIT_M)
 
 
 def test_retrack_session_without_rows_works(made: Made, tmp_path: Path) -> None:

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from functools import lru_cache, wraps
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.model.types import Detections, KinematicState, TrackedFrame, TrackStatus
+from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
+from carpus.core.session.file_layout import create_dataset
 from carpus.core.session.journal import RecordingJournal
+from carpus.core.session.schema import RAW_DEPTH_UNIT, RAW_ENDS, RAW_STREAMS, TableLayout
 from carpus.core.session.values import EncodedImages, SessionHeader, new_header
 from carpus.core.session.writer import SessionWriter
 
@@ -135,17 +139,30 @@ def begun(
     header: SessionHeader | None = None,
     rows: int = 0,
     camera: Camera = CAMERA,
-    pictures: Callable[[int], EncodedImages] | None = None,
     calibration: Calibration | None = None,
-    **options: Any,
 ) -> SessionWriter:
-    """A session in the making with so many rows, each with its ``pictures`` where these are kept."""
+    """A session in the making with so many rows."""
     header = header or make_header()
-    options = {"raw_depth_unit_m": None if pictures is None else 1e-3} | options
-    session = SessionWriter.create(path, header, camera, calibration or make_calibration(header.protocol), **options)
+    session = SessionWriter.create(path, header, camera, calibration or make_calibration(header.protocol))
     for row in range(rows):
-        session.append(make_frame(row, header.protocol), None if pictures is None else pictures(row))
+        session.append(make_frame(row, header.protocol))
     return session
+
+
+def add_pictures(path: Path, pictures: Sequence[EncodedImages], unit_m: float = 1e-3) -> None:
+    """Add the pictures of every row to a finished session, as older programs stored them."""
+    with h5py.File(path, "r+") as file:
+        layout = TableLayout(WRIST6, ())
+        for stream, end in zip(RAW_STREAMS, RAW_ENDS, strict=True):
+            contents = [getattr(both, stream.attribute) for both in pictures]
+            for field, data in (
+                (stream, np.frombuffer(b"".join(contents), np.uint8)), (end, np.cumsum([*map(len, contents)])),
+            ):  # fmt: skip
+                dataset = create_dataset(file, field, layout)
+                dataset.resize(len(data), axis=0)
+                dataset[:] = data
+        file["/raw"].attrs[RAW_DEPTH_UNIT] = unit_m
+        file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
 
 
 def stored_journal(path: Path, rows: int) -> Path:

@@ -18,16 +18,16 @@ from carpus.core.session.reader import verify
 from carpus.core.session.values import EncodedImages, VerificationResult, stack_states
 from carpus.core.session.writer import SessionWriter
 from tests.commands import Command
-from tests.session.samples import begun, make_frame, stored_journal, time_of, written_once
+from tests.session.samples import add_pictures, begun, make_frame, stored_journal, time_of, written_once
 from tests.session.test_golden import unpacked
 
 ROWS = 30
 
 
 def filled(path: Path) -> SessionWriter:
-    writer = begun(path, raw_depth_unit_m=1e-3)
+    writer = begun(path)
     for row in range(ROWS):
-        writer.append(make_frame(row), EncodedImages(bytes([row]) * 70, b"d" * 30))
+        writer.append(make_frame(row))
         if row % 7 == 0:
             writer.add_event(time_of(row), "note", f"Grüße {row}")
             writer.flush()
@@ -38,6 +38,7 @@ def filled(path: Path) -> SessionWriter:
 @written_once
 def stored(path: Path) -> Path:
     filled(path).close()
+    add_pictures(path, [EncodedImages(bytes([row]) * 70, b"d" * 30) for row in range(ROWS)])
     return path
 
 
@@ -97,8 +98,7 @@ def test_checksum_flipped_bits_are_detected(tmp_path: Path) -> None:
         for name in ("/wrist/angles", "/frames/timestamp", "/joints/angles", "/smoothed/wrist/angles", "/raw/color"):
             if name in file:
                 chunk = file[name].id.get_chunk_info(0)
-                rows = file[name].shape[0] * int(np.prod(file[name].shape[1:])) * file[name].dtype.itemsize
-                places = rng.integers(chunk.byte_offset, chunk.byte_offset + rows, 4).tolist()
+                places = rng.integers(chunk.byte_offset, chunk.byte_offset + chunk.size, 4).tolist()
                 used += [(name, at) for at in places]
     other = tmp_path / "other.h5"
     for name, at in used:

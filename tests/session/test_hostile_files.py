@@ -19,7 +19,7 @@ from carpus.core.model.errors import SessionUnreadable
 from carpus.core.session import reader, reading_process
 from carpus.core.session.reader import ReadingProcess, read_detections, read_outline, read_raw, read_session
 from carpus.core.session.values import EncodedImages, Session
-from tests.session.samples import begun, make_frame, make_header, written_once
+from tests.session.samples import add_pictures, begun, make_frame, make_header, written_once
 
 ROWS = 40
 
@@ -27,9 +27,10 @@ ROWS = 40
 @written_once
 def stored(path: Path, *, raw: bool = False) -> Path:
     """A sound session."""
-    pictures = (lambda _: EncodedImages(b"c" * 50, b"d" * 30)) if raw else None
-    with begun(path, make_header(session_id=uuid.uuid4()), ROWS, pictures=pictures) as writer:
+    with begun(path, make_header(session_id=uuid.uuid4()), ROWS) as writer:
         writer.add_event(make_frame(1).timestamp_s, "note", "x")
+    if raw:
+        add_pictures(path, [EncodedImages(b"c" * 50, b"d" * 30)] * ROWS)
     return path
 
 
@@ -67,35 +68,32 @@ def of(make: Callable[[h5py.File, Path], object]) -> Callable[[h5py.File, Path],
 
 
 PAIRS = np.zeros((ROWS, 3), [("a", "f4"), ("b", "f4")])
-ELSE: dict[str, tuple[Callable[[h5py.File, Path], object], str]] = {
-    "a link into another file": (
-        of(lambda _, folder: h5py.ExternalLink(str(stored(folder / "other.h5")), ANGLES)), "links outside the file",
+ELSE: dict[str, Callable[[h5py.File, Path], object]] = {
+    "a link into another file": of(lambda _, folder: h5py.ExternalLink(str(stored(folder / "other.h5")), ANGLES)),
+    "a soft link": of(lambda *_: h5py.SoftLink("/wrist/position")),
+    "the bytes of another file": lambda file, folder: outside(file, folder, "secret"),
+    "a pipe": lambda file, folder: outside(file, folder, "pipe"),
+    "a virtual dataset": virtual,
+    "one dataset under two names": of(lambda file, _: file["/wrist/position"]),
+    "one packed by what no session is packed by": lambda file, _: file.create_dataset(
+        ANGLES, data=np.zeros((ROWS, 3)), compression="lzf"
     ),
-    "a soft link": (of(lambda *_: h5py.SoftLink("/wrist/position")), "links outside the file"),
-    "the bytes of another file": (lambda file, folder: outside(file, folder, "secret"), "in another file"),
-    "a pipe": (lambda file, folder: outside(file, folder, "pipe"), "in another file"),
-    "a virtual dataset": (virtual, "in another file"),
-    "one dataset under two names": (of(lambda file, _: file["/wrist/position"]), "two names"),
-    "one packed by what no session is packed by": (
-        lambda file, _: file.create_dataset(ANGLES, data=np.zeros((ROWS, 3)), compression="lzf"), "unsupported",
+    "one that claims more than gzip can pack": lambda file, _: file.create_dataset(
+        ANGLES, (1 << 30, 3), "f8", chunks=(1024, 3), compression="gzip"
     ),
-    "one that claims more than gzip can pack": (
-        lambda file, _: file.create_dataset(ANGLES, (1 << 30, 3), "f8", chunks=(1024, 3), compression="gzip"), "bytes",
-    ),
-    "a group": (lambda file, _: file.create_group(ANGLES), ANGLES),
-    "one number": (of(lambda *_: 1.0), ANGLES),
-    "texts": (of(lambda *_: ["x"] * ROWS), ANGLES),
-    "nothing": (of(lambda *_: h5py.Empty("f8")), ANGLES),
-    "pairs": (of(lambda *_: PAIRS), ANGLES),
-}  # fmt: skip
+    "a group": lambda file, _: file.create_group(ANGLES),
+    "one number": of(lambda *_: 1.0),
+    "texts": of(lambda *_: ["x"] * ROWS),
+    "nothing": of(lambda *_: h5py.Empty("f8")),
+    "pairs": of(lambda *_: PAIRS),
+}
 
 
 @pytest.mark.parametrize("other", ELSE)
 def test_hostile_file_wrong_object_raises(tmp_path: Path, other: str) -> None:
-    make, said = ELSE[other]
-    path = replaced(stored(tmp_path / "s.h5"), make)
+    path = replaced(stored(tmp_path / "s.h5"), ELSE[other])
     for read in (read_outline, read_session):
-        with pytest.raises(SessionUnreadable, match=said):
+        with pytest.raises(SessionUnreadable, match="damaged: /wrist/"):
             read(path)
     os.mkfifo(tmp_path / "no session")
     with pytest.raises(SessionUnreadable, match="not a file"):
@@ -106,7 +104,7 @@ def test_hostile_file_huge_shape_costs_no_memory(tmp_path: Path) -> None:
     huge = {"shape": (50_000_000, 3), "dtype": "f8", "maxshape": (None, 3), "chunks": (1024, 3)}
     path = replaced(stored(tmp_path / "s.h5"), lambda file, _: file.create_dataset(ANGLES, **huge))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    with pytest.raises(SessionUnreadable, match="declares 1200000000 bytes"):
+    with pytest.raises(SessionUnreadable, match=ANGLES):
         read_session(path)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000  # kB
 
@@ -166,7 +164,7 @@ def test_hostile_file_invalid_image_ends_raise(tmp_path: Path) -> None:
     path = stored(tmp_path / "s.h5", raw=True)
     assert len(list(read_raw(path))) == ROWS
     changed(path, "/raw/color_end", 5, 1 << 60)
-    with pytest.raises(SessionUnreadable, match="does not match"):
+    with pytest.raises(SessionUnreadable, match="/raw/color_end"):
         list(read_raw(path))
 
 

@@ -26,7 +26,16 @@ from carpus.core.session.writer import SessionWriter
 from tests.capture.oni_samples import CAMERA as SMALL
 from tests.capture.oni_samples import color_picture, depth_picture
 from tests.records.samples import opened
-from tests.session.samples import CAMERA, CREATED, journal_of, make_calibration, make_frame, make_header, time_of
+from tests.session.samples import (
+    CAMERA,
+    CREATED,
+    add_pictures,
+    journal_of,
+    make_calibration,
+    make_frame,
+    make_header,
+    time_of,
+)
 from tests.session.test_golden import unpacked
 
 KINDS = ("session", "part", "tum", "clicks", "settings", "register", "journal")
@@ -54,11 +63,12 @@ def sound(kind: str, folder: Path) -> Path:
         return journal.path
     if kind == "session":
         header = make_header(session_id=uuid.UUID(int=77))
-        writer = SessionWriter.create(folder / "s.h5", header, CAMERA, make_calibration(), raw_depth_unit_m=1e-3)
+        writer = SessionWriter.create(folder / "s.h5", header, CAMERA, make_calibration())
         for row in range(30):
-            writer.append(make_frame(row), EncodedImages(b"c" * 90, b"d" * 30))
+            writer.append(make_frame(row))
         writer.add_event(time_of(3), "note", "a note")
         writer.close()
+        add_pictures(writer.path, [EncodedImages(b"c" * 90, b"d" * 30)] * 30)
         return writer.path
     if kind == "tum":
         with TumWriter(folder / "tum", info) as tum:

@@ -12,16 +12,14 @@ import itertools
 import math
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.model.errors import SessionUnreadable
-from carpus.core.model.phrase import phrase
 from carpus.core.session import schema
+from carpus.core.session.plausibility import damage_error
 from carpus.core.session.schema import Field
 
 MAX_OBJECTS = 400
@@ -36,42 +34,58 @@ _FIELDS = {field.path: field for field in schema.ALL_FIELDS}
 _ENDS_OF_RAW = {field.path for field in schema.RAW_STREAMS}
 
 
-def check_structure(path: Path, file: h5py.File) -> None:
-    """Raise :class:`SessionUnreadable` unless the file contains only plain groups and datasets of the schema's size."""
-    size = path.stat().st_size
+def check_structure(file: h5py.File, size_bytes: int) -> None:
+    """Raise :class:`ContentError` unless the file contains only plain groups and datasets of the schema's size."""
     whole = bool(file.attrs.get("complete", False))
     seen: set[tuple[int, int]] = set()
     waiting: list[tuple[str, h5py.h5g.GroupID, int]] = [("", h5py.h5g.open(file.id, b"/"), 0)]
     declared = 0
     while waiting:
         place, group, depth = waiting.pop()
-        if depth > MAX_DEPTH:
-            raise SessionUnreadable(path, phrase("endlessly nested groups at {place}", place=place))
-        for name in _list_members(path, group, place):
+        names = list(itertools.islice(group, MAX_OBJECTS + 1))
+        if depth > MAX_DEPTH or len(names) + len(seen) > MAX_OBJECTS:  # perhaps without an end
+            raise damage_error(place)
+        for name in names:
             inside = f"{place}/{name.decode('utf-8', 'replace')}"
             if group.links.get_info(name).type != h5py.h5l.TYPE_HARD:
-                raise SessionUnreadable(path, phrase("{inside} links outside the file", inside=inside))
+                raise damage_error(inside)
             info = h5py.h5o.get_info(group, name)
             key = (info.fileno, info.addr)
-            if key in seen:
-                raise SessionUnreadable(path, phrase("{inside} has two names", inside=inside))
+            if key in seen or (inside in _FIELDS and info.type != h5py.h5o.TYPE_DATASET):
+                raise damage_error(inside)
             seen.add(key)
-            if len(seen) > MAX_OBJECTS:
-                raise SessionUnreadable(path, phrase("more than {most_objects} parts", most_objects=MAX_OBJECTS))
             if info.type == h5py.h5o.TYPE_GROUP:
-                if inside in _FIELDS:
-                    raise SessionUnreadable(path, phrase("{inside} is a group, values expected", inside=inside))
                 waiting.append((inside, h5py.h5g.open(group, name), depth + 1))
             elif info.type == h5py.h5o.TYPE_DATASET:
                 dataset = h5py.Dataset(h5py.h5d.open(group, name))
-                _check_storage(path, inside, dataset)
-                field = _FIELDS.get(inside)
-                if field is not None:
-                    declared += _check_size(path, field, dataset, size, whole=whole)
-            elif inside in _FIELDS:
-                raise SessionUnreadable(path, phrase("{inside} is a type, values expected", inside=inside))
-    if declared > MAX_COMPRESSION_RATIO * size + 65536:
-        raise SessionUnreadable(path, phrase("more values declared than the file can hold"))
+                plan = dataset.id.get_create_plist()
+                filters = [plan.get_filter(number)[0] for number in range(plan.get_nfilters())]
+                is_inside = plan.get_layout() in _PLAIN_LAYOUTS and plan.get_external_count() == 0
+                if not is_inside or not set(filters) <= set(_PLAIN_FILTERS):
+                    raise damage_error(inside)
+                if inside in _FIELDS:
+                    declared += _check_size(_FIELDS[inside], dataset, size_bytes, whole=whole)
+    if declared > MAX_COMPRESSION_RATIO * size_bytes + 65536:
+        raise damage_error("/")
+
+
+def _check_size(field: Field, dataset: h5py.Dataset, file_bytes: int, *, whole: bool) -> int:
+    """Return the bytes that reading a dataset takes; raises if type, axes or size are not as declared."""
+    kind, shape = dataset.dtype.kind, dataset.shape
+    is_text = kind != "O" or h5py.check_string_dtype(dataset.dtype) is not None
+    if kind not in _KINDS[field.dtype[0]] or not is_text or shape is None or len(shape) != len(field.shape):
+        raise damage_error(field.path)
+    claimed = math.prod(int(length) for length in shape) * dataset.dtype.itemsize
+    stored = int(dataset.id.get_storage_size())
+    if dataset.chunks is not None and field.shape[0] in schema.GROWING_AXES and not whole:
+        # A flush that was cut short leaves rows announced whose chunk is not there; they are not read.
+        claimed = min(claimed, count_stored_rows(dataset) * math.prod(map(int, shape[1:])) * dataset.dtype.itemsize)
+        if math.prod(dataset.chunks) * dataset.dtype.itemsize > 1 << 27:
+            raise damage_error(field.path)
+    packed = MAX_COMPRESSION_RATIO if dataset.compression else 1
+    if stored > file_bytes or claimed > packed * max(stored, 0) + 4096:
+        raise damage_error(field.path)
+    return 0 if field.path in _ENDS_OF_RAW else claimed
 
 
 def count_stored_rows(dataset: h5py.Dataset) -> int:
@@ -79,65 +93,6 @@ def count_stored_rows(dataset: h5py.Dataset) -> int:
     step, *row = dataset.chunks
     chunk_bytes = step * math.prod(row) * dataset.dtype.itemsize + (4 if dataset.fletcher32 else 0)
     return int(dataset.id.get_storage_size()) // chunk_bytes * int(step) if chunk_bytes else int(dataset.shape[0])
-
-
-def _list_members(path: Path, group: h5py.h5g.GroupID, place: str) -> list[bytes]:
-    names = list(itertools.islice(group, MAX_OBJECTS + 1))
-    if len(names) > MAX_OBJECTS:
-        raise SessionUnreadable(
-            path, phrase("more than {most_objects} parts in {value}", most_objects=MAX_OBJECTS, value=place or "/")
-        )
-    return names
-
-
-def _check_storage(path: Path, place: str, dataset: h5py.Dataset) -> None:
-    plan = dataset.id.get_create_plist()
-    if plan.get_layout() not in _PLAIN_LAYOUTS or plan.get_external_count() > 0:
-        raise SessionUnreadable(path, phrase("{place} stores its values in another file", place=place))
-    if any(plan.get_filter(number)[0] not in _PLAIN_FILTERS for number in range(plan.get_nfilters())):
-        raise SessionUnreadable(path, phrase("{place} uses an unsupported compression", place=place))
-
-
-def _check_size(path: Path, field: Field, dataset: h5py.Dataset, file_bytes: int, *, whole: bool) -> int:
-    """Return the bytes that reading a dataset takes; raises if type, axes or size are not as declared."""
-    kind = dataset.dtype.kind
-    if kind not in _KINDS[field.dtype[0]] or (kind == "O" and h5py.check_string_dtype(dataset.dtype) is None):
-        raise SessionUnreadable(
-            path,
-            phrase(
-                "{path} has type {dtype}, {dtype2} expected",
-                path=field.path,
-                dtype=dataset.dtype,
-                dtype2=field.dtype,
-            ),
-        )
-    shape = dataset.shape
-    if shape is None or len(shape) != len(field.shape):
-        raise SessionUnreadable(
-            path,
-            phrase(
-                "{path} has shape {shape}, {count} axes expected",
-                path=field.path,
-                shape=shape,
-                count=len(field.shape),
-            ),
-        )
-    claimed = math.prod(int(length) for length in shape) * dataset.dtype.itemsize
-    stored = int(dataset.id.get_storage_size())
-    if dataset.chunks is not None and field.shape[0] in schema.GROWING_AXES and not whole:
-        # A flush that was cut short leaves rows announced whose chunk is not there; they are not read.
-        claimed = min(claimed, count_stored_rows(dataset) * math.prod(map(int, shape[1:])) * dataset.dtype.itemsize)
-        if math.prod(dataset.chunks) * dataset.dtype.itemsize > 1 << 27:
-            raise SessionUnreadable(path, phrase("{path} is stored in pieces that are too large", path=field.path))
-    packed = MAX_COMPRESSION_RATIO if dataset.compression else 1
-    if stored > file_bytes or claimed > packed * max(stored, 0) + 4096:
-        raise SessionUnreadable(
-            path,
-            phrase(
-                "{path} declares {claimed} bytes, {stored} are stored", path=field.path, claimed=claimed, stored=stored
-            ),
-        )
-    return 0 if field.path in _ENDS_OF_RAW else claimed
 
 
 _GROWING = [

@@ -10,11 +10,11 @@ import numpy as np
 from carpus.core.model.types import SurfaceSamples, TrackedFrame
 from carpus.core.session import schema
 from carpus.core.session.schema import Field, TableLayout
-from carpus.core.session.values import EncodedImages, Event, Motion
+from carpus.core.session.values import Event, Motion
 
 Blocks = dict[str, Any]
 """Rows to add, an array for the path of each dataset. ``/detections/frame`` counts from the first frame of the
-blocks, the ends of images from their first byte.
+blocks.
 """
 
 
@@ -58,16 +58,6 @@ def build_event_blocks(event: Event) -> Blocks:
         values = [getattr(row, field.attribute) for row in rows]
         cells = [value.encode() if isinstance(value, str) else value for value in values]
         found[field.path] = np.array(cells, dtype=field.h5_dtype)
-    return found
-
-
-def build_image_blocks(images: Sequence[EncodedImages]) -> Blocks:
-    """Return the encoded images of some frames, and the end of each."""
-    found: Blocks = {}
-    for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True):
-        contents = [getattr(both, stream.attribute) for both in images]
-        found[stream.path] = np.frombuffer(b"".join(contents), np.uint8)
-        found[end.path] = np.cumsum([len(content) for content in contents])
     return found
 
 
