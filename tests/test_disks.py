@@ -13,7 +13,6 @@ from carpus.core.platform.disks import (
     check_disk_encryption,
     detect_bitlocker,
     detect_encryption,
-    detect_filevault,
     detect_linux_encryption,
     format_encryption_advice,
     is_same_disk,
@@ -84,15 +83,10 @@ def test_linux_encryption_network_mount_is_unknown(system: System) -> None:
         assert system.state() == "unknown", kind
 
 
-def test_encryption_of_bitlocker_and_filevault() -> None:
+def test_encryption_of_bitlocker() -> None:
     answers = {"1\r\n": "encrypted", "2\n": "plain", "3\n": "plain", "6\n": "unknown", "": "unknown"}
     for said, state in answers.items():
         assert detect_bitlocker(Path("C:/data"), lambda _, said=said: said) == state  # type: ignore[misc]
-    root = Path("/")
-    assert detect_filevault(root, lambda _: "  Mounted:   Yes\n  FileVault:     Yes (Unlocked)\n") == "encrypted"
-    assert detect_filevault(root, lambda _: "  Mounted:   Yes\n  FileVault:     No\n") == "plain"
-    assert detect_filevault(root, lambda _: "  Encrypted:     Yes\n") == "encrypted"
-    assert detect_filevault(root, lambda command: " ".join(command)) == "unknown"
 
 
 def test_detect_encryption_on_this_computer_raises_nothing(tmp_path: Path) -> None:
@@ -106,7 +100,6 @@ def test_check_disk_encryption_only_encrypted_is_good() -> None:
         assert finding.state == "warning"
         assert format_encryption_advice() in finding.remedy
     assert "BitLocker" in format_encryption_advice("win32")
-    assert "FileVault" in format_encryption_advice("darwin")
     assert "LUKS" in format_encryption_advice("linux")
 
 

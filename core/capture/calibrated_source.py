@@ -32,33 +32,39 @@ class CalibratedSource:
 
     def __init__(self, source: FrameSource, info: CameraInfo) -> None:
         assert info.calibration is not None
-        self._source, self._calibration = source, info.calibration
+        calibration, recorded = info.calibration, source.info.recorded
+        self._source, self._calibration = source, calibration
+        measured = datetime.fromisoformat(recorded) if is_moment(recorded) else datetime.now(UTC)
         self.info: SourceInfo = replace(
             source.info,
             camera=replace(info.camera, origin=ORIGIN, sensor=source.info.sensor),
             settings={
                 **source.info.settings,
-                **_format_calibration_settings(info.calibration, source.info, datetime.now(UTC)),
+                "calibrated": calibration.calibrated,
+                "calibration_age_days": f"{age_days(calibration.calibrated, measured):.1f}",
+                "calibration_error_px": f"{calibration.error_px:.2f}",
+                "depth_scale_corrected": f"{calibration.depth_scale:.5f}",
+                "depth_offset_corrected_mm": f"{calibration.depth_offset_m * 1e3:.2f}",
             },
         )
-        self._correction_table: tuple[float, DepthImage] | None = None
 
     def frames(self) -> Iterator[Frame]:
+        calibration = self._calibration
+        is_exact = calibration.depth_scale == 1.0 and calibration.depth_offset_m == 0.0
+        tables: dict[float, DepthImage] = {}
         for frame in self._source.frames():
-            yield self._correct_depth(frame)
+            if frame.depth_raw is None or is_exact:
+                yield frame
+                continue
+            unit_m = frame.depth_unit_m
+            if unit_m not in tables:
+                tables[unit_m] = compute_correction_table(calibration, unit_m)
+            depth = tables[unit_m][frame.depth_raw]
+            depth.flags.writeable = False
+            yield replace(frame, depth_raw=depth, depth_unit_m=_DEPTH_STEP_M)
 
     def close(self) -> None:
         self._source.close()
-
-    def _correct_depth(self, frame: Frame) -> Frame:
-        calibration = self._calibration
-        if frame.depth_raw is None or (calibration.depth_scale == 1.0 and calibration.depth_offset_m == 0.0):
-            return frame
-        if self._correction_table is None or self._correction_table[0] != frame.depth_unit_m:
-            self._correction_table = (frame.depth_unit_m, compute_correction_table(calibration, frame.depth_unit_m))
-        depth = self._correction_table[1][frame.depth_raw]
-        depth.flags.writeable = False
-        return replace(frame, depth_raw=depth, depth_unit_m=_DEPTH_STEP_M)
 
 
 def compute_correction_table(calibration: StoredCalibration, unit_m: float) -> DepthImage:
@@ -127,18 +133,6 @@ def age_days(moment: str, now: datetime) -> float:
     if not is_moment(moment):
         return float("nan")
     return (now - datetime.fromisoformat(moment)).total_seconds() / 86400.0
-
-
-def _format_calibration_settings(calibration: StoredCalibration, info: SourceInfo, now: datetime) -> dict[str, str]:
-    """Return the settings that a session stores of its calibration."""
-    measured = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else now
-    return {
-        "calibrated": calibration.calibrated,
-        "calibration_age_days": f"{age_days(calibration.calibrated, measured):.1f}",
-        "calibration_error_px": f"{calibration.error_px:.2f}",
-        "depth_scale_corrected": f"{calibration.depth_scale:.5f}",
-        "depth_offset_corrected_mm": f"{calibration.depth_offset_m * 1e3:.2f}",
-    }
 
 
 MAX_NAME_CHARACTERS = 40

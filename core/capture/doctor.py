@@ -43,7 +43,7 @@ from carpus.core.model.errors import (
     ExtraMissing,
 )
 from carpus.core.model.fault_text import format_fault
-from carpus.core.model.installation import Finding, install_hint, is_packed
+from carpus.core.model.installation import Finding, State, install_hint, is_packed
 from carpus.core.model.phrase import phrase
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import Frame
@@ -74,7 +74,8 @@ _REMEDIES: dict[type[CarpusFault], str] = {
 
 def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: float = MEASURE_S) -> Iterator[Finding]:
     """Yield all findings; at the end the camera is opened for ``measure_s`` seconds."""
-    yield check_python(sys.version_info[:3])
+    system = f"{platform.python_version()}, {platform.system()} {platform.machine()}"
+    yield Finding(phrase("Python"), "good", system)
     yield check_packages()
     yield check_compiled_parts()
     yield check_window()
@@ -111,16 +112,6 @@ def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterato
     yield check_fonts()
 
 
-def check_python(found: tuple[int, int, int]) -> Finding:
-    """Check the version of Python."""
-    text = ".".join(map(str, found)) + f", {platform.system()} {platform.machine()}"
-    if found < (3, 11, 0):
-        return Finding(
-            phrase("Python"), "bad", text, phrase("Install Python 3.11 or newer and install Carpus with it.")
-        )
-    return Finding(phrase("Python"), "good", text)
-
-
 def check_packages(names: tuple[str, ...] = PACKAGES) -> Finding:
     """Check the packages that every command needs."""
     known, missing = [], []
@@ -146,34 +137,28 @@ def check_compiled_parts() -> Finding:
 
 def check_window() -> Finding:
     """Check what the desktop window needs, without loading it."""
+    name = phrase("Window")
     try:
         qt = version("PySide6-Essentials")
         version("pyqtgraph")
     except PackageNotFoundError as cause:
-        return Finding(
-            phrase("Window"),
-            "warning",
-            phrase("missing: {name}", name=cause.name),
-            install_hint(cause.name),
-        )
+        return Finding(name, "warning", phrase("missing: {name}", name=cause.name), install_hint(cause.name))
     if tuple(int(part) for part in qt.split(".")[:2]) >= (6, 12) and sys.version_info < (3, 12):
         found = phrase("Qt {qt}, which stops the program on Python 3.11", qt=qt)
-        return Finding(phrase("Window"), "bad", found, install_hint('"PySide6-Essentials<6.12"'))
+        return Finding(name, "bad", found, install_hint('"PySide6-Essentials<6.12"'))
     if not sys.platform.startswith("linux"):
-        return Finding(phrase("Window"), "good", f"Qt {qt}")
+        return Finding(name, "good", f"Qt {qt}")
     wanted = SYSTEM_LIBRARIES if is_packed() else WINDOW_LIBRARIES
-    missing = [name for name in wanted if ctypes.util.find_library(name) is None]
+    missing = ", ".join(f"lib{library}" for library in wanted if ctypes.util.find_library(library) is None)
     if missing:
         remedy = phrase("Install the packages that contain these libraries.")
         if not is_packed():
             remedy = phrase("Run: installer/setup.sh run. Or: install the packages that contain these libraries.")
-        return Finding(
-            phrase("Window"), "warning", f"Qt {qt}; missing: " + ", ".join(f"lib{name}" for name in missing), remedy
-        )
+        return Finding(name, "warning", f"Qt {qt}; missing: {missing}", remedy)
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM")):
         remedy = phrase("Start the window from a desktop. The commands for files work without a screen.")
-        return Finding(phrase("Window"), "warning", phrase("Qt {qt}; no screen", qt=qt), remedy)
-    return Finding(phrase("Window"), "good", f"Qt {qt}")
+        return Finding(name, "warning", phrase("Qt {qt}; no screen", qt=qt), remedy)
+    return Finding(name, "good", f"Qt {qt}")
 
 
 def check_fonts() -> Finding:
@@ -181,53 +166,36 @@ def check_fonts() -> Finding:
     folder = files("carpus.resources").joinpath("fonts")
     faces = [each.name for each in folder.iterdir() if each.name.endswith(".otf")] if folder.is_dir() else []
     if not faces:
-        return Finding(
-            phrase("Fonts"),
-            "bad",
-            phrase("no fonts of Carpus"),
-            phrase("Install Carpus again: part of it is missing."),
-        )
+        remedy = phrase("Install Carpus again: part of it is missing.")
+        return Finding(phrase("Fonts"), "bad", phrase("no fonts of Carpus"), remedy)
     return Finding(phrase("Fonts"), "good", phrase("{count} faces", count=len(faces)))
 
 
 def check_data_folder(folder: Path) -> Finding:
     """Check that recordings can be stored, and that no other user can read them."""
-    there = _existing_ancestor(folder)
+    name, there = phrase("Data folder"), _existing_ancestor(folder)
     if not os.access(there, os.W_OK | os.X_OK) or not there.is_dir():
-        remedy = phrase("Allow writing there, or choose another folder in the settings.")
-        return Finding(
-            phrase("Data folder"),
-            "bad",
-            phrase("{folder}: {there} cannot be written to", folder=folder, there=there),
-            remedy,
-        )
+        found = phrase("{folder}: {there} cannot be written to", folder=folder, there=there)
+        return Finding(name, "bad", found, phrase("Allow writing there, or choose another folder in the settings."))
     if not folder.exists():
-        return Finding(phrase("Data folder"), "good", phrase("{folder}, created at the first recording", folder=folder))
+        return Finding(name, "good", phrase("{folder}, created at the first recording", folder=folder))
     if os.name == "posix" and folder.stat().st_mode & 0o077:
         remedy = phrase(
             "Others on this computer can read it. In its properties, remove all rights of the group and of others,"
             " or run: chmod 700 '{folder}'",
             folder=folder,
         )
-        return Finding(phrase("Data folder"), "warning", str(folder), remedy)
-    return Finding(phrase("Data folder"), "good", str(folder))
+        return Finding(name, "warning", str(folder), remedy)
+    return Finding(name, "good", str(folder))
 
 
 def check_disk_space(folder: Path, free_bytes: int) -> Finding:
     """Check the space for recordings."""
-    minutes = free_bytes / (1e6 * MB_PER_MINUTE)
-    text = phrase(
-        "{free} GB free, about {minutes} minutes with video",
-        free=format_rounded(free_bytes / 1000000000.0, 1),
-        minutes=format_rounded(minutes),
-    )
+    free, minutes = (format_rounded(free_bytes / 1e9, 1), format_rounded(free_bytes / (1e6 * MB_PER_MINUTE)))
+    text = phrase("{free} GB free, about {minutes} minutes with video", free=free, minutes=minutes)
     if free_bytes < LOW_DISK_BYTES:
-        return Finding(
-            phrase("Disk"),
-            "warning",
-            text,
-            phrase("Free space on the disk of {folder}.", folder=_existing_ancestor(folder)),
-        )
+        remedy = phrase("Free space on the disk of {folder}.", folder=_existing_ancestor(folder))
+        return Finding(phrase("Disk"), "warning", text, remedy)
     return Finding(phrase("Disk"), "good", text)
 
 
@@ -299,30 +267,22 @@ def check_camera(kind: CameraKind, camera: UsbCamera) -> Finding:
         node=camera.node,
         speed_mbit=camera.speed_mbit,
     )
+    state: State = "good"
+    remedy = ""
     if not camera.can_open:
-        remedy = phrase(
+        state, remedy = "bad", phrase(
             "You have no permission to open {node}. Install the camera permissions named above, then plug "
             "the camera in again.",
             node=camera.node,
-        )
-        return Finding(phrase("Camera"), "bad", text, remedy)
-    if camera.is_claimed:
-        return Finding(
-            phrase("Camera"),
-            "warning",
-            phrase("{text}, in use", text=text),
-            phrase("Close the other program that uses the camera."),
-        )
-    if 0 < camera.speed_mbit < MIN_SPEED_MBIT:
-        return Finding(phrase("Camera"), "bad", text, phrase("This port is too slow. {port}", port=kind.port_advice))
-    if 0 < camera.speed_mbit < kind.needed_mbit:
-        return Finding(
-            phrase("Camera"),
-            "warning",
-            text,
-            phrase("This port is slow for this camera. {port}", port=kind.port_advice),
-        )
-    return Finding(phrase("Camera"), "good", text)
+        )  # fmt: skip
+    elif camera.is_claimed:
+        text = phrase("{text}, in use", text=text)
+        state, remedy = "warning", phrase("Close the other program that uses the camera.")
+    elif 0 < camera.speed_mbit < MIN_SPEED_MBIT:
+        state, remedy = "bad", phrase("This port is too slow. {port}", port=kind.port_advice)
+    elif 0 < camera.speed_mbit < kind.needed_mbit:
+        state, remedy = "warning", phrase("This port is slow for this camera. {port}", port=kind.port_advice)
+    return Finding(phrase("Camera"), state, text, remedy)
 
 
 def check_open_camera(uri: str, measure_s: float) -> list[Finding]:
@@ -354,9 +314,10 @@ def check_open_camera(uri: str, measure_s: float) -> list[Finding]:
 
 def check_frames(frames: list[Frame]) -> Finding:
     """Check rate, gaps and depth of some seconds of frames."""
+    name = phrase("Frames")
     if len(frames) < 2:
         remedy = phrase("Plug the camera in again, into another port, without a hub.")
-        return Finding(phrase("Frames"), "bad", phrase("{count} frames", count=len(frames)), remedy)
+        return Finding(name, "bad", phrase("{count} frames", count=len(frames)), remedy)
     gaps_s = np.array([later.timestamp_s - earlier.timestamp_s for earlier, later in pairwise(frames)])
     fps = 1.0 / float(gaps_s.mean())
     missing = sum(frame.dropped_before for frame in frames)
@@ -373,33 +334,23 @@ def check_frames(frames: list[Frame]) -> Finding:
     )
     remedy = phrase("Use another USB port, without a hub or other cameras. Close other demanding programs.")
     if fps < MIN_FPS or with_depth < len(frames) // 2:
-        return Finding(phrase("Frames"), "bad", text, remedy)
+        return Finding(name, "bad", text, remedy)
     if fps < GOOD_FPS or missing:
-        return Finding(
-            phrase("Frames"),
-            "warning",
-            text,
-            phrase("{remedy} In a dark room the camera slows down: add light.", remedy=remedy),
-        )
-    return Finding(phrase("Frames"), "good", text)
+        remedy = phrase("{remedy} In a dark room the camera slows down: add light.", remedy=remedy)
+        return Finding(name, "warning", text, remedy)
+    return Finding(name, "good", text)
 
 
 def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list[float]) -> list[Finding]:
     """Check registration, mirroring and clock of a camera that ran for some seconds."""
     settings, findings = info.settings, []
-    registered = settings.get("registered", "")
+    registered, name = settings.get("registered", ""), phrase("Depth registration")
     if registered == "no":
-        observation = phrase("depth and colour are not aligned")
         remedy = phrase("This camera does not align depth with colour. Depths will be read next to the markers.")
-        findings.append(Finding(phrase("Depth registration"), "warning", observation, remedy))
+        findings.append(Finding(name, "warning", phrase("depth and colour are not aligned"), remedy))
     elif registered:
-        findings.append(
-            Finding(
-                phrase("Depth registration"),
-                "good",
-                phrase("depth and colour are aligned, {registered}", registered=registered),
-            )
-        )
+        found = phrase("depth and colour are aligned, {registered}", registered=registered)
+        findings.append(Finding(name, "good", found))
     turned = settings.get("mirrored", "no") != "no"
     findings.append(Finding(phrase("Mirror"), "good", phrase("on, corrected by Carpus") if turned else phrase("off")))
     if len(frames) > 1:
@@ -410,18 +361,14 @@ def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list
 
 def check_clock(camera_s: float, computer_s: float, clock: str) -> Finding:
     """Check the camera's clock against the computer's; the tolerance covers the transfer of images."""
-    text = phrase(
-        "camera clock {own_s} s, computer clock {here_s} s",
-        own_s=format_rounded(camera_s, 2),
-        here_s=format_rounded(computer_s, 2),
-    )
+    own_s, here_s = format_rounded(camera_s, 2), format_rounded(computer_s, 2)
+    text = phrase("camera clock {own_s} s, computer clock {here_s} s", own_s=own_s, here_s=here_s)
+    remedy = ""
     if clock == "computer":
         remedy = phrase("This camera sends no time stamps. Times are those of arrival, so speeds are approximate.")
-        return Finding(phrase("Clock"), "warning", text, remedy)
-    if abs(camera_s - computer_s) > MAX_CLOCK_DRIFT * computer_s + CLOCK_TOLERANCE_S:
+    elif abs(camera_s - computer_s) > MAX_CLOCK_DRIFT * computer_s + CLOCK_TOLERANCE_S:
         remedy = phrase("Plug the camera in again. If this persists, times and speeds of this camera are not reliable.")
-        return Finding(phrase("Clock"), "warning", text, remedy)
-    return Finding(phrase("Clock"), "good", text)
+    return Finding(phrase("Clock"), "warning" if remedy else "good", text, remedy)
 
 
 def _camera_kinds() -> list[CameraKind]:

@@ -270,17 +270,6 @@ which eighths are exact.
 """
 
 
-def _undistort_pixels(camera: Camera, downscale: int = 1) -> NDArray[np.float32]:
-    """Return the undistorted position of each pixel centre (H, W, 2), for images downscaled by ``downscale``."""
-    width, height = camera.width_px // downscale, camera.height_px // downscale
-    across, down = (np.arange(0, side + GRID_STEP_PX, GRID_STEP_PX, dtype=np.float64) for side in (width, height))
-    # half-pixel centres: the centre of a pixel is at a whole number
-    nodes = (np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2) + 0.5) * downscale - 0.5
-    straight = camera.undistort(nodes).reshape(len(down), len(across), 2).astype(np.float32)
-    u, v = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
-    return np.asarray(cv2.remap(straight, u / GRID_STEP_PX, v / GRID_STEP_PX, cv2.INTER_LINEAR), dtype=np.float32)
-
-
 class DepthDistorter:
     """Maps undistorted depth (H, W) to the distorted, downscaled colour image.
 
@@ -290,9 +279,16 @@ class DepthDistorter:
 
     def __init__(self, camera: Camera, downscale: int = 1) -> None:
         self._maps: tuple[NDArray[np.float32], NDArray[np.float32]] | None = None
-        if camera.is_distorted or downscale > 1:
-            ideal = _undistort_pixels(camera, downscale)
-            self._maps = np.ascontiguousarray(ideal[..., 0]), np.ascontiguousarray(ideal[..., 1])
+        if not camera.is_distorted and downscale == 1:
+            return
+        width, height = camera.width_px // downscale, camera.height_px // downscale
+        across, down = (np.arange(0, side + GRID_STEP_PX, GRID_STEP_PX, dtype=np.float64) for side in (width, height))
+        # half-pixel centres: the centre of a pixel is at a whole number
+        nodes = (np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2) + 0.5) * downscale - 0.5
+        straight = camera.undistort(nodes).reshape(len(down), len(across), 2).astype(np.float32)
+        u, v = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
+        ideal = cv2.remap(straight, u / GRID_STEP_PX, v / GRID_STEP_PX, cv2.INTER_LINEAR)
+        self._maps = np.ascontiguousarray(ideal[..., 0]), np.ascontiguousarray(ideal[..., 1])
 
     def distort(self, depth: NDArray[Any]) -> NDArray[Any]:
         """Return depth (H, W) uint16 as the distorted lens shows it, (H / downscale, W / downscale)."""

@@ -32,8 +32,6 @@ def detect_encryption(folder: Path) -> EncryptionState:
     try:
         if sys.platform == "win32":
             return detect_bitlocker(there)
-        if sys.platform == "darwin":
-            return detect_filevault(there)
         return "encrypted" if _is_encrypted_folder(there) else detect_linux_encryption(there)
     except (OSError, ValueError, subprocess.SubprocessError):
         return "unknown"
@@ -58,11 +56,6 @@ def format_encryption_advice(platform: str = sys.platform) -> str:
         return phrase(
             "Turn it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the "
             "Control Panel. Do not keep the recovery key with this computer."
-        )
-    if platform == "darwin":
-        return phrase(
-            "Turn it on: System Settings → Privacy and Security → FileVault. Do not keep the recovery key with "
-            "this computer."
         )
     return phrase(
         "Linux encrypts a disk when it is set up (LUKS). Choose this when the system is installed, or move the "
@@ -92,14 +85,6 @@ def detect_bitlocker(folder: Path, run_command: Callable[[Sequence[str]], str] |
     command = ["powershell", "-NoProfile", "-Command", _BITLOCKER.format(drive=folder.drive)]
     said = (run_command or _run_command)(command).strip()
     return "encrypted" if said == "1" else "plain" if said in ("2", "3", "4", "5") else "unknown"
-
-
-def detect_filevault(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
-    """Detect FileVault of the volume; raises OSError or SubprocessError."""
-    mount = next((one for one in (folder, *folder.parents) if os.path.ismount(one)), Path("/"))
-    told = (run_command or _run_command)(["diskutil", "info", str(mount)])
-    said = re.findall(r"^\s*(?:FileVault|Encrypted):\s+(Yes|No)", told, re.MULTILINE)
-    return "unknown" if not said else "encrypted" if "Yes" in said else "plain"
 
 
 def _find_mount(folder: Path, mounts: str) -> tuple[str, str, str]:

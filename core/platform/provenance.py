@@ -4,29 +4,30 @@ from __future__ import annotations
 
 import hashlib
 import json
+import subprocess
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from carpus.core.platform.version import __version__
 
-_REVISION_LENGTH = 40
 REVISION_FILE = "revision.txt"
 """Resource of an installed program; a checkout knows its revision itself."""
+TIMEOUT_S = 10.0
 HASHED_LISTS = ("rgb.txt", "depth.txt", "camera_info.yaml")
 
 
+@cache
 def source_revision() -> str:
     """Return the source revision of this program, 40 digits; empty if unknown."""
     root = Path(__file__).resolve().parents[2]
-    with suppress(OSError, ValueError):
-        git = root / ".git"
-        if git.is_file():  # a second checkout of the same repository
-            git = root / git.read_text(encoding="utf-8").split(":", 1)[1].strip()
-        if git.is_dir():
-            return _head_revision(git)
+    if (root / ".git").exists():
+        with suppress(OSError, subprocess.SubprocessError):
+            command = ["git", "-C", str(root), "rev-parse", "HEAD"]
+            return subprocess.run(command, capture_output=True, text=True, check=True, timeout=TIMEOUT_S).stdout.strip()
     with suppress(OSError, ModuleNotFoundError):
         return resources.files("carpus.resources").joinpath(REVISION_FILE).read_text(encoding="utf-8").strip()
     return ""
@@ -79,18 +80,3 @@ def _listed_files(folder: Path) -> Iterator[str]:
                     words = line.split()
                     if len(words) > 1 and not line.startswith("#") and (folder / words[1]).is_file():
                         yield words[1]
-
-
-def _head_revision(git: Path) -> str:
-    head = (git / "HEAD").read_text(encoding="utf-8").strip()
-    if not head.startswith("ref:"):
-        return head if len(head) == _REVISION_LENGTH else ""
-    name = head.split(":", 1)[1].strip()
-    common = git / (git / "commondir").read_text(encoding="utf-8").strip() if (git / "commondir").exists() else git
-    for place in (git, common):
-        if (place / name).is_file():
-            return (place / name).read_text(encoding="utf-8").strip()
-    for line in (common / "packed-refs").read_text(encoding="utf-8").splitlines():
-        if line.endswith(f" {name}"):
-            return line.split()[0]
-    return ""

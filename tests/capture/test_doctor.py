@@ -44,11 +44,6 @@ def test_examine_without_camera_gives_remedies(tmp_path: Path) -> None:
     assert "Frames" not in [finding.name for finding in findings]
 
 
-def test_check_python_old_version_is_bad() -> None:
-    assert doctor.check_python((3, 10, 9)).state == "bad"
-    assert doctor.check_python((3, 11, 0)).state == "good"
-
-
 def test_check_packages_missing_one_is_bad() -> None:
     finding = doctor.check_packages(("numpy", "a-package-nobody-has"))
     assert finding == Finding(

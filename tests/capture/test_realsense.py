@@ -166,14 +166,14 @@ def test_realsense_open_by_serial_tells_the_cause() -> None:
         return UsbCamera(name, "8086", "0b07", Path("/dev/bus/usb/001/007"), 5000, can_open, is_claimed)
 
     wanted, other = seen("D435"), "D435 815412070124"
-    assert camera_unlisted_error([], []).fault is CameraMissing
-    assert camera_unlisted_error([wanted], [other]).fault is CameraMismatch
-    assert camera_unlisted_error([wanted, seen("D435", can_open=False)], [other]).fault is CameraPermission
-    assert camera_unlisted_error([wanted, seen("D435", is_claimed=True)], [other]).fault is CameraBusy
-    assert camera_unlisted_error([wanted], []).fault is DriverFailed
-    assert camera_open_error("errno=16 Last Error: Device or resource busy", [wanted]).fault is CameraBusy
-    assert camera_open_error("failed to open interface, RS2_USB_STATUS_ACCESS", [wanted]).fault is CameraPermission
-    assert camera_open_error("hwmon command timed out", [seen("D435", is_claimed=True)]).fault is DriverFailed
+    assert type(camera_unlisted_error([], [])) is CameraMissing
+    assert type(camera_unlisted_error([wanted], [other])) is CameraMismatch
+    assert type(camera_unlisted_error([wanted, seen("D435", can_open=False)], [other])) is CameraPermission
+    assert type(camera_unlisted_error([wanted, seen("D435", is_claimed=True)], [other])) is CameraBusy
+    assert type(camera_unlisted_error([wanted], [])) is DriverFailed
+    assert type(camera_open_error("errno=16 Last Error: Device or resource busy", [wanted])) is CameraBusy
+    assert type(camera_open_error("failed to open interface, RS2_USB_STATUS_ACCESS", [wanted])) is CameraPermission
+    assert type(camera_open_error("hwmon command timed out", [seen("D435", is_claimed=True)])) is DriverFailed
 
 
 def test_realsense_color_lock_keeps_colours(camera: ProcessCamera, told: list[CarpusFault]) -> None:

@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from enum import Enum, auto
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
 from typing import Any
@@ -31,7 +32,6 @@ from carpus.core.model.errors import (
     CameraPermission,
     CarpusFault,
     DriverFailed,
-    DriverMissing,
 )
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.child_process import end_with_owner
@@ -71,9 +71,13 @@ class RingBuffer:
     slot_bytes: int
 
 
-@dataclass(frozen=True, slots=True)
-class Heartbeat:
-    """Message: the process is up and not stuck in the driver."""
+class Signal(Enum):
+    """Messages without content."""
+
+    HEARTBEAT = auto()  # the process is up and not stuck in the driver
+    ENDED = auto()  # the recording has ended, or the process was asked to stop
+    LOCK_EXPOSURE = auto()  # command: lock exposure and white balance
+    STOP = auto()  # command: close the device and end
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,11 +114,6 @@ class ExposureLocked:
 
 
 @dataclass(frozen=True, slots=True)
-class StreamEnded:
-    """Message: the recording has ended, or the process was asked to stop."""
-
-
-@dataclass(frozen=True, slots=True)
 class FaultReport:
     """Message: the process ends with this fault."""
 
@@ -129,18 +128,8 @@ class ReleaseSlot:
     slot: int
 
 
-@dataclass(frozen=True, slots=True)
-class LockExposure:
-    """Command: lock exposure and white balance."""
-
-
-@dataclass(frozen=True, slots=True)
-class StopCapture:
-    """Command: close the device and end."""
-
-
-CaptureReport = Heartbeat | DeviceOpened | ImageArrived | ExposureLocked | StreamEnded | FaultReport
-CaptureCommand = ReleaseSlot | LockExposure | StopCapture
+CaptureReport = DeviceOpened | ImageArrived | ExposureLocked | FaultReport | Signal
+CaptureCommand = ReleaseSlot | Signal
 
 
 POLL_MS = 200
@@ -148,15 +137,6 @@ HEARTBEAT_S = 1.0
 MAX_SILENCE_S = 3.0
 WARM_UP_S = 6.0
 """Time to the first image after opening."""
-
-
-class CaptureFailed(Exception):
-    """Ends the capture process with a fault for the owner."""
-
-    def __init__(self, fault: type[CarpusFault], detail: str) -> None:
-        super().__init__(detail)
-        self.fault = fault
-        self.detail = detail
 
 
 class StreamWatchdog:
@@ -169,10 +149,10 @@ class StreamWatchdog:
         self._last_s[sensor] = time.monotonic()
 
     def check(self) -> None:
-        """Raise :class:`CaptureFailed` if a sensor has been silent for too long."""
+        """Raise a :class:`CarpusFault` if a sensor has been silent for too long."""
         for last_s in self._last_s.values():
             if time.monotonic() - last_s > MAX_SILENCE_S:
-                raise CaptureFailed(CameraLost, phrase("no frames for {seconds} s", seconds=f"{MAX_SILENCE_S:g}"))
+                raise CameraLost("", phrase("no frames for {seconds} s", seconds=f"{MAX_SILENCE_S:g}"))
 
 
 class CaptureOutlet:
@@ -210,7 +190,7 @@ class CaptureOutlet:
     def send_heartbeat(self) -> None:
         """Tell the owner once a second that the driver is not stuck."""
         if time.monotonic() - self._last_sent > HEARTBEAT_S:
-            self.send(Heartbeat())
+            self.send(Signal.HEARTBEAT)
 
     def run(
         self, sensors: Iterable[Sensor], unplugged: threading.Event, forward_images: Callable[[StreamWatchdog], None]
@@ -230,7 +210,7 @@ class CaptureOutlet:
         while not self.is_stopping:
             self.handle_commands(block=False)
             if unplugged.is_set():
-                raise CaptureFailed(CameraLost, phrase("unplugged"))
+                raise CameraLost("", phrase("unplugged"))
             forward_images(watchdog)
             watchdog.check()
             self.send_heartbeat()
@@ -253,32 +233,30 @@ class CaptureOutlet:
             block = False
             if isinstance(command, ReleaseSlot):
                 self._free.append(command.slot)
-            elif isinstance(command, LockExposure):
+            elif command is Signal.LOCK_EXPOSURE:
                 done = self.lock_exposure()
                 if done is not None:
                     self.send(ExposureLocked(done))
-            elif isinstance(command, StopCapture):
+            elif command is Signal.STOP:
                 self.is_stopping = True
 
 
 ServeFunction = Callable[[CaptureOutlet, Any], None]
-"""A driver's code: serves a camera until ``outlet.is_stopping``; raises :class:`CaptureFailed` or DriverMissing."""
+"""A driver's code: serves a camera until ``outlet.is_stopping``; raises a :class:`CarpusFault` or DriverMissing."""
 
 
 def run(link: Connection, serve: ServeFunction, plan: object, ring: RingBuffer) -> None:
-    """Serve a camera until it ends, :class:`StopCapture` comes, or the owner dies (entry point of the process)."""
+    """Serve a camera until it ends, :attr:`Signal.STOP` comes, or the owner dies (entry point of the process)."""
     end_with_owner()
     commands: queue.SimpleQueue[CaptureCommand] = queue.SimpleQueue()
     threading.Thread(target=_receive_commands, args=(link, commands), name="commands", daemon=True).start()
-    link.send(Heartbeat())
-    report: CaptureReport = StreamEnded()
+    link.send(Signal.HEARTBEAT)
+    report: CaptureReport = Signal.ENDED
     outlet = CaptureOutlet(link, commands, ring)
     try:
         serve(outlet, plan)
-    except CaptureFailed as failure:
-        report = FaultReport(failure.fault, failure.detail)
-    except DriverMissing as fault:
-        report = FaultReport(DriverMissing, fault.detail)
+    except CarpusFault as fault:
+        report = FaultReport(type(fault), fault.detail)
     except (BrokenPipeError, ConnectionResetError):
         os._exit(0)
     try:
@@ -299,7 +277,7 @@ _BUSY_WORDS = ("busy", "in use", "errno=16")
 _PERMISSION_WORDS = ("permission", "access denied", "usb_status_access", "errno=13")
 
 
-def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] = ()) -> CaptureFailed:
+def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] = ()) -> CarpusFault:
     """Return why the driver does not list the wanted camera.
 
     The bus does not state the serial numbers that drivers do: an unlisted camera may be the wanted one.
@@ -314,25 +292,24 @@ def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] 
     if len(connected) > len(listed):
         for camera in connected:
             if not camera.can_open:
-                return CaptureFailed(CameraPermission, str(camera.node))
+                return CameraPermission("", str(camera.node))
         for camera in connected:
             if camera.is_claimed:
-                return CaptureFailed(CameraBusy, camera.name)
-        return CaptureFailed(
-            DriverFailed, phrase("{name} is plugged in, but the driver does not see it", name=connected[0].name)
-        )
-    return CaptureFailed(CameraMismatch, ", ".join(listed)) if listed else CaptureFailed(CameraMissing, "")
+                return CameraBusy("", camera.name)
+        name = connected[0].name
+        return DriverFailed("", phrase("{name} is plugged in, but the driver does not see it", name=name))
+    return CameraMismatch("", ", ".join(listed)) if listed else CameraMissing("", "")
 
 
-def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CaptureFailed:
+def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CarpusFault:
     """Return why the driver could not open a listed camera, from its own error message.
 
     Which driver claims the camera is no help: the driver that failed may have claimed it itself.
     """
     text = reason.lower()
     if any(word in text for word in _BUSY_WORDS):
-        return CaptureFailed(CameraBusy, reason)
+        return CameraBusy("", reason)
     locked = [str(camera.node) for camera in connected if not camera.can_open]
     if locked or any(word in text for word in _PERMISSION_WORDS):
-        return CaptureFailed(CameraPermission, locked[0] if locked else reason)
-    return CaptureFailed(DriverFailed, reason)
+        return CameraPermission("", locked[0] if locked else reason)
+    return DriverFailed("", reason)

@@ -20,7 +20,7 @@ from carpus.core.capture.devices.capture_child import (
     ReleaseSlot,
     RingBuffer,
     ServeFunction,
-    StopCapture,
+    Signal,
     run,
 )
 from carpus.core.capture.video_mode import Sensor, VideoMode
@@ -118,10 +118,10 @@ class CaptureProcess:
         if self._closed:
             return
         if gently:
-            self.send_command(StopCapture())
+            self.send_command(Signal.STOP)
             deadline = time.monotonic() + STOP_TIMEOUT_S
             while self._child.is_alive and time.monotonic() < deadline:
-                self._drain_pipe()
+                self.discard_images()  # so that the process does not block on the pipe
                 time.sleep(0.02)
         self._child.end()
         self._release_memory()
@@ -137,14 +137,6 @@ class CaptureProcess:
                     self._deferred_reports.append(report)
         except (EOFError, OSError):
             return  # the next receive_report raises the cause
-
-    def _drain_pipe(self) -> None:
-        """Empty the pipe, so that the process does not block on it."""
-        try:
-            while self._link.poll(0):
-                self._link.recv()
-        except (EOFError, OSError):
-            return
 
     def _release_memory(self) -> None:
         self._closed = True

@@ -95,15 +95,13 @@ class ColorController:
         factor = math.exp(max(-MAX_LOG_STEP, min(MAX_LOG_STEP, darker)))
         self._exposure = _clamp(self._exposure * factor, self._exposures)
         if self._kelvins is not None and abs(redder) >= DONE_TOLERANCE:
-            self._kelvin = _clamp(self._kelvin + self._temperature_step_k(redder, measured.red_blue), self._kelvins)
+            red_blue, step_k = measured.red_blue, math.copysign(FIRST_STEP_K, redder)
+            tried, self._last_measurement = self._last_measurement, (self._kelvin, red_blue)
+            if tried is not None and tried[0] != self._kelvin and tried[1] != red_blue:
+                slope = (red_blue - tried[1]) / (self._kelvin - tried[0])
+                step_k = _clamp(redder / slope, (-1500.0, 1500.0))
+            self._kelvin = _clamp(self._kelvin + step_k, self._kelvins)
         return ColorSettings(self._exposure, self._kelvin)
-
-    def _temperature_step_k(self, redder: float, red_blue: float) -> float:
-        tried, self._last_measurement = self._last_measurement, (self._kelvin, red_blue)
-        if tried is None or tried[0] == self._kelvin or tried[1] == red_blue:
-            return math.copysign(FIRST_STEP_K, redder)
-        slope = (red_blue - tried[1]) / (self._kelvin - tried[0])
-        return max(-1500.0, min(1500.0, redder / slope))
 
 
 def _clamp(value: float, reach: tuple[float, float]) -> float:

@@ -23,7 +23,7 @@ from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.model.errors import DriverMissing
 
 API_VERSION = 2002
-LIBRARY_NAMES = {"win32": ("OpenNI2.dll",), "darwin": ("libOpenNI2.dylib",)}
+LIBRARY_NAMES = {"win32": ("OpenNI2.dll",)}
 LINUX_NAMES = ("libOpenNI2.so.0", "libOpenNI2.so")
 SETTLE_S = 0.08
 """Pause between stopping streams and destroying them.

@@ -13,7 +13,6 @@ from carpus.core.capture.devices.capture_child import (
     POLL_MS,
     SIZE_PX,
     CameraConfig,
-    CaptureFailed,
     CaptureOutlet,
     DeviceOpened,
     StreamWatchdog,
@@ -38,6 +37,7 @@ from carpus.core.model.errors import (
     CameraMissing,
     CameraPermission,
     CameraUnsuited,
+    CarpusFault,
     DriverFailed,
     DriverMissing,
 )
@@ -60,10 +60,10 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
         mode = choose_mode(device.list_modes(sensor), wanted, SIZE_PX, FPS)
         if mode is None:
-            raise CaptureFailed(CameraUnsuited, f"no {wanted.name} images")
+            raise CameraUnsuited("", f"no {wanted.name} images")
         stream = streams[sensor] = device.create_stream(sensor)
         if stream.read_mode() != mode and not stream.set_mode(mode):
-            raise CaptureFailed(CameraUnsuited, f"{sensor.name.lower()} {mode}")
+            raise CameraUnsuited("", f"{sensor.name.lower()} {mode}")
         stream.set_int(StreamProperty.MIRRORING, 0)
     automatic = [
         streams[Sensor.COLOR].set_int(key, 1)
@@ -147,12 +147,13 @@ def choose_mode(
     return max(fitting, key=lambda mode: (mode.width_px * mode.height_px, -abs(mode.fps - fps)), default=None)
 
 
-def _open_error(failure: OpenNI2Error, seen: Sequence[UsbCamera]) -> CaptureFailed:
-    if any(not camera.can_open for camera in seen):
-        return CaptureFailed(CameraPermission, str(next(camera.node for camera in seen if not camera.can_open)))
+def _open_error(failure: OpenNI2Error, seen: Sequence[UsbCamera]) -> CarpusFault:
+    locked = [str(camera.node) for camera in seen if not camera.can_open]
+    if locked:
+        return CameraPermission("", locked[0])
     if any(camera.is_claimed for camera in seen) or "USB interface" in failure.reason:
-        return CaptureFailed(CameraBusy, failure.reason)
-    return CaptureFailed(CameraMissing if not seen else DriverFailed, failure.reason)
+        return CameraBusy("", failure.reason)
+    return (DriverFailed if seen else CameraMissing)("", failure.reason)
 
 
 BYTES_PER_PIXEL: dict[int, int] = {PixelFormat.RGB888: 3, PixelFormat.DEPTH_1_MM: 2, PixelFormat.DEPTH_100_UM: 2}
@@ -163,7 +164,7 @@ def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
     try:
         _serve(outlet, plan)
     except OpenNI2Error as failure:
-        raise CaptureFailed(DriverFailed, f"{failure.call}: {failure.reason}") from failure
+        raise DriverFailed("", f"{failure.call}: {failure.reason}") from failure
 
 
 def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
@@ -178,17 +179,18 @@ def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
         if library.poll_streams(streams, POLL_MS) is not None:
             # the wait names the older stream; reading only that one would starve the other
             for stream in streams:
-                if library.poll_streams([stream], 0) is not None:
-                    _publish_image(outlet, stream, opened.modes[stream.sensor])
-                    watchdog.reset(stream.sensor)
+                if library.poll_streams([stream], 0) is None:
+                    continue
+                with stream.read_frame() as frame:
+                    size = None if frame is None else frame_size_bytes(frame, opened.modes[stream.sensor])
+                    if frame is not None and size is not None:
+                        pixels = memoryview((ctypes.c_ubyte * size).from_address(frame.address)).cast("B")
+                        outlet.publish(stream.sensor, frame.index, frame.timestamp_us, pixels)
+                watchdog.reset(stream.sensor)
 
-    def lock() -> bool:
-        color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
-        keys = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
-        done = [color.set_int(key, 0) for key in keys]
-        return all(done)
-
-    outlet.lock_exposure = lock
+    color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
+    automatic = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
+    outlet.lock_exposure = lambda: sum(color.set_int(key, 0) for key in automatic) == len(automatic)
     outlet.send(opened)
     try:
         outlet.run(opened.modes, unplugged, forward_images)
@@ -204,16 +206,6 @@ class _UnplugEvent(threading.Event):
     def handle_disconnect(self, uri: str) -> None:
         if uri == self.uri:
             self.set()
-
-
-def _publish_image(outlet: CaptureOutlet, stream: Stream, mode: VideoMode) -> None:
-    with stream.read_frame() as picture:
-        if picture is None:
-            return
-        size = frame_size_bytes(picture, mode)
-        if size is not None:
-            pixels = memoryview((ctypes.c_ubyte * size).from_address(picture.address)).cast("B")
-            outlet.publish(stream.sensor, picture.index, picture.timestamp_us, pixels)
 
 
 def frame_size_bytes(frame: VideoFrame, mode: VideoMode) -> int | None:

@@ -20,7 +20,6 @@ from carpus.core.capture.devices.capture_child import (
     POLL_MS,
     SIZE_PX,
     CameraConfig,
-    CaptureFailed,
     CaptureOutlet,
     DeviceOpened,
     StreamWatchdog,
@@ -91,7 +90,7 @@ class OrbbecStreams:
 
 
 def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
-    """Return the device to open; raises :class:`CaptureFailed` if there is none."""
+    """Return the device to open; raises a fault if there is none."""
     state = ob.OBDeviceAccessState
     held = (state.OB_DEVICE_ACCESS_STATE_CONTROLLED, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE)
     listing = context.query_devices()
@@ -101,7 +100,7 @@ def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
         name = f"{listing.get_device_name_by_index(index)} {serial}".strip()
         if wanted in ("", serial):
             if listing.query_device_access_state(index) in held:
-                raise CaptureFailed(CameraBusy, name)
+                raise CameraBusy("", name)
             return listing.get_device_by_index(index)
         names.append(name)
     raise camera_unlisted_error(find_usb_cameras(plan.models), names)
@@ -110,13 +109,13 @@ def find_device(ob: Any, context: Any, plan: CameraConfig) -> Any:
 def choose_streams(ob: Any, pipeline: Any) -> OrbbecStreams:
     """Choose colour of the wanted size, or of twice that to be downscaled, and depth at the same rate.
 
-    Raises :class:`CaptureFailed` if the camera has none.
+    Raises :class:`CameraUnsuited` if the camera has none.
     """
     width, height = SIZE_PX
     colors = _list_profiles(ob, pipeline, ob.OBSensorType.COLOR_SENSOR, (ob.OBFormat.RGB, ob.OBFormat.MJPG))
     depths = _list_profiles(ob, pipeline, ob.OBSensorType.DEPTH_SENSOR, (ob.OBFormat.Y16, ob.OBFormat.Z16))
     if not depths:
-        raise CaptureFailed(CameraUnsuited, phrase("no depth"))
+        raise CameraUnsuited("", phrase("no depth"))
     for shrink in (1, 2):
         within = (width * shrink, height * shrink)
         fitting = [each for each in colors if each.get_width() <= within[0] and each.get_height() <= within[1]]
@@ -127,7 +126,7 @@ def choose_streams(ob: Any, pipeline: Any) -> OrbbecStreams:
             rate = color.get_fps()
             return OrbbecStreams(color, max(depths, key=lambda each: _profile_score(each, DEPTH_SIZE_PX, rate)), shrink)
     size = {"width": width, "height": height}
-    raise CaptureFailed(CameraUnsuited, phrase("no colour images of {width} × {height} pixels", **size))
+    raise CameraUnsuited("", phrase("no colour images of {width} × {height} pixels", **size))
 
 
 def configure(ob: Any, device: Any) -> dict[str, str]:

@@ -15,9 +15,8 @@ from carpus.core.capture.devices.capture_child import (
     DeviceOpened,
     ExposureLocked,
     ImageArrived,
-    LockExposure,
     ServeFunction,
-    StreamEnded,
+    Signal,
 )
 from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, CaptureProcess
 from carpus.core.capture.frame_assembly import FrameAssembler, StreamLayout, camera_from_field_of_view, camera_from_lens
@@ -123,7 +122,7 @@ class ProcessCamera:
         A camera that cannot is reported by a notice.
         """
         self._is_exposure_locked = True
-        self._process.send_command(LockExposure())
+        self._process.send_command(Signal.LOCK_EXPOSURE)
 
     def frames(self) -> Iterator[Frame]:
         """Yield frames from now on until :meth:`close`; images from before are discarded."""
@@ -177,7 +176,7 @@ class ProcessCamera:
                     self._process.release_slot(report)
                 elif isinstance(report, ExposureLocked):
                     is_held = report.is_locked
-                elif report is None or isinstance(report, StreamEnded):
+                elif report is None or report is Signal.ENDED:
                     return
             if not is_held:
                 self._notice(ExposureUnstable(self._info.name))
@@ -186,7 +185,7 @@ class ProcessCamera:
                 if self._frames_to_relock:  # a reconnected camera has lost its lock; its automatic settles first
                     self._frames_to_relock -= 1
                     if self._frames_to_relock == 0 and self._is_exposure_locked:
-                        self._process.send_command(LockExposure())
+                        self._process.send_command(Signal.LOCK_EXPOSURE)
                 yield frame
 
     def _reconnect(self, lost: CarpusFault) -> float | None:
@@ -208,7 +207,10 @@ class ProcessCamera:
                     first = self._receive_first_image() if opened else None
                 if opened is None or first is None:
                     return None
-                self._check_same_camera(opened)
+                if _format_camera(opened) != _format_camera(self._opened) or opened.modes != self._opened.modes:
+                    shown = ", ".join(f"{sensor.name.lower()} {mode}" for sensor, mode in opened.modes.items())
+                    found = _format_camera(opened) + ("" if opened.modes == self._opened.modes else f": {shown}")
+                    raise CameraMismatch(_format_camera(self._opened), found)
                 self._opened = opened
                 away_s = time.monotonic() - self._last_frame_s
                 self._assembler.restart(_build_layout(opened), first.timestamp_us, round(away_s * 1e6))
@@ -222,14 +224,6 @@ class ProcessCamera:
                     raise lost from None
                 self._closing.wait(RETRY_S)
         return None
-
-    def _check_same_camera(self, opened: DeviceOpened) -> None:
-        """Raise :class:`CameraMismatch` if this is not the same camera with the same modes."""
-        if _format_camera(opened) != _format_camera(self._opened):
-            raise CameraMismatch(_format_camera(self._opened), _format_camera(opened))
-        if opened.modes != self._opened.modes:
-            shown = ", ".join(f"{sensor.name.lower()} {mode}" for sensor, mode in opened.modes.items())
-            raise CameraMismatch(_format_camera(self._opened), f"{_format_camera(opened)}: {shown}")
 
     def _receive_first_image(self) -> ImageArrived | None:
         """Return the first image after a restart, for its time only."""

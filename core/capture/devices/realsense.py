@@ -21,7 +21,6 @@ from carpus.core.capture.devices.capture_child import (
     POLL_MS,
     SIZE_PX,
     CameraConfig,
-    CaptureFailed,
     CaptureOutlet,
     DeviceOpened,
     StreamWatchdog,
@@ -83,7 +82,7 @@ class RealsenseStreams:
 
 
 def find_device(rs: Any, context: Any, plan: CameraConfig) -> Any:
-    """Return the device to open; raises :class:`CaptureFailed` if there is none."""
+    """Return the device to open; raises a fault if there is none."""
     wanted = plan.serial or plan.uri
     names = []
     for device in context.query_devices():
@@ -103,7 +102,7 @@ def read_device_info(rs: Any, device: Any, fact: str) -> str:
 def choose_streams(rs: Any, device: Any) -> RealsenseStreams:
     """Choose colour of the wanted size and rate, and depth as the camera measures it best.
 
-    Raises :class:`CaptureFailed` if the camera has none.
+    Raises :class:`CameraUnsuited` if the camera has none.
     """
     colors, depths = _list_profiles(rs, device)
     width, height = SIZE_PX
@@ -119,20 +118,20 @@ def choose_streams(rs: Any, device: Any) -> RealsenseStreams:
     ]
     if not fitting:
         size = {"width": width, "height": height}
-        raise CaptureFailed(CameraUnsuited, phrase("no colour images of {width} × {height} pixels", **size))
+        raise CameraUnsuited("", phrase("no colour images of {width} × {height} pixels", **size))
     if not depths:
-        raise CaptureFailed(CameraUnsuited, phrase("no depth"))
+        raise CameraUnsuited("", phrase("no depth"))
     color = max(fitting, key=lambda pair: nearness(pair, SIZE_PX))
     return _group_by_sensor([color, max(depths, key=lambda pair: nearness(pair, DEPTH_SIZE_PX))])
 
 
 def choose_recording_streams(rs: Any, playback: Any) -> RealsenseStreams:
-    """Return colour and, if there is any, depth of a recording; raises :class:`CaptureFailed`."""
+    """Return colour and, if there is any, depth of a recording; raises :class:`RecordingUnsupported`."""
     colors, depths = _list_profiles(rs, playback)
     readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
     if not readable:
         form = f"colour as {colors[0][1].format().name}" if colors else "no colour frames"
-        raise CaptureFailed(RecordingUnsupported, form)
+        raise RecordingUnsupported("", form)
     return _group_by_sensor([readable[0], *depths[:1]])
 
 
@@ -279,7 +278,7 @@ def serve(outlet: CaptureOutlet, plan: CameraConfig | Path) -> None:
     except RuntimeError as failure:  # all that the library raises
         reason = " ".join(str(failure).split())
         if isinstance(plan, Path):
-            raise CaptureFailed(DriverFailed, reason) from failure
+            raise DriverFailed("", reason) from failure
         raise camera_open_error(reason, find_usb_cameras(plan.models)) from failure
 
 
@@ -314,7 +313,7 @@ def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
         playback.set_real_time(False)
         streams = choose_recording_streams(rs, playback)
     except RuntimeError as failure:
-        raise CaptureFailed(RecordingDamaged, " ".join(str(failure).split())) from failure
+        raise RecordingDamaged("", " ".join(str(failure).split())) from failure
     outlet.retain(playback)
     playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
     images = _RealSenseImages(rs, outlet, streams, describe_device(rs, playback, streams), drops_oldest=False)
@@ -327,10 +326,10 @@ def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
             last_s = time.monotonic()
         elif is_stopped:
             if not images.has_reported:
-                raise CaptureFailed(RecordingDamaged, phrase("no frames"))
+                raise RecordingDamaged("", phrase("no frames"))
             return
         elif time.monotonic() - last_s > FILE_SILENCE_S:
-            raise CaptureFailed(RecordingDamaged, phrase("no frames for {seconds} s", seconds=f"{FILE_SILENCE_S:g}"))
+            raise RecordingDamaged("", phrase("no frames for {seconds} s", seconds=f"{FILE_SILENCE_S:g}"))
         outlet.send_heartbeat()
 
 

@@ -139,15 +139,12 @@ class TiledImage(Generic[AnyImage]):
                 number = row * self._columns + column
                 begin, end = self._bounds[number]
                 if begin < end:
-                    self._decode_tile(number, self._data[begin:end])
+                    tile, place = self._decode(self._data[begin:end]), self._image[self._tiles[number]]
+                    if tile is None or tile.shape != place.shape:
+                        raise self._decode_error()
+                    place[:] = tile
                     self._bounds[number] = (end, end)
         return self._read_only_view
-
-    def _decode_tile(self, number: int, data: memoryview) -> None:
-        tile, place = self._decode(data), self._image[self._tiles[number]]
-        if tile is None or tile.shape != place.shape:
-            raise self._decode_error()
-        place[:] = tile
 
     def _decode_error(self) -> RecordingUnreadable:
         return RecordingUnreadable(self._path, phrase("not an image"))

@@ -94,17 +94,15 @@ def decode_depth(data: bytes, codec: bytes, shape: tuple[int, int]) -> DepthImag
     if codec == Codec.RAW:
         return np.frombuffer(data, "<u2").reshape(shape) if len(data) == 2 * count else None
     try:
-        values, at = _read_value_table(data) if codec == Codec.DEPTH_TABLE else (None, 0)
+        values, at = None, 0
+        if codec == Codec.DEPTH_TABLE:
+            (count,) = struct.unpack_from("<H", data)
+            values, at = np.frombuffer(data, "<u2", count, 2), 2 + 2 * count
         index = _decode_indices(data[at + 2 :], *struct.unpack_from("<H", data, at))
         depth = index if values is None else values[index]
         return depth.astype(np.uint16).reshape(shape)
     except (IndexError, ValueError, struct.error):
         return None
-
-
-def _read_value_table(data: bytes) -> tuple[NDArray[np.uint16], int]:
-    (count,) = struct.unpack_from("<H", data)
-    return np.frombuffer(data, "<u2", count, 2), 2 + 2 * count
 
 
 def _build_byte_tables() -> tuple[NDArray[np.int32], NDArray[np.uint8]]:

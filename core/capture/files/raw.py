@@ -18,7 +18,7 @@ import time
 import zlib
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 from typing import BinaryIO
@@ -71,13 +71,7 @@ _NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16
 class RawWriter(FileWriter):
     """Writer of one raw recording: a context manager, or ended by :meth:`close`; synchronised twice a second."""
 
-    def __init__(
-        self,
-        path: Path,
-        info: SourceInfo,
-        *,
-        lossless: bool = False,
-    ) -> None:
+    def __init__(self, path: Path, info: SourceInfo, *, lossless: bool = False) -> None:
         self._path = path
         self._synced_at_s = time.monotonic()
         self._info = info
@@ -85,7 +79,12 @@ class RawWriter(FileWriter):
         self._depth_unit_m: float | None = None
         self._count = 0
         self._end = 0
-        self._file: BinaryIO | None = _create_file(path)
+        try:
+            self._file: BinaryIO | None = open(path, "x+b", opener=open_private)  # noqa: SIM115  # closed by close
+        except FileExistsError as cause:
+            raise OutputExists(path) from cause
+        except OSError as cause:
+            raise write_fault(path, cause) from cause
         self._write(_START.pack(MAGIC, VERSION))
 
     @property
@@ -143,17 +142,11 @@ class RawWriter(FileWriter):
             "recording_id": info.recording_id,
             "recorded": info.recorded,
             "depth_sensor": camera.sensor.to_dict(),
+            # an older Carpus, which would take any lens for plumb_bob, refuses a head that names one
             "camera": {
-                "fx_px": camera.fx_px,
-                "fy_px": camera.fy_px,
-                "cx_px": camera.cx_px,
-                "cy_px": camera.cy_px,
-                "width_px": camera.width_px,
-                "height_px": camera.height_px,
-                "distortion": list(camera.distortion),
-                "origin": camera.origin,
-                # An older Carpus, which would take any lens for plumb_bob, refuses a head that names one.
-                **({} if camera.distortion_model == "plumb_bob" else {"distortion_model": camera.distortion_model}),
+                name: value
+                for name, value in asdict(camera).items()
+                if name != "sensor" and (name, value) != ("distortion_model", "plumb_bob")
             },
         }
         return json.dumps(content, ensure_ascii=False).encode()
@@ -244,7 +237,9 @@ class RawRecording:
             camera["sensor"] = parse_sensor(content["depth_sensor"]) if "depth_sensor" in content else ASSUMED_SENSOR
             self._depth_unit_m = float(content["depth_unit_m"])
             lens = Camera(**camera)
-            _validate_camera(lens, self._depth_unit_m)
+            sizes = (lens.fx_px, lens.fy_px, lens.width_px, lens.height_px, self._depth_unit_m)
+            if not all(map(math.isfinite, (lens.cx_px, lens.cy_px, *lens.distortion, *sizes))) or min(sizes) <= 0.0:
+                raise ValueError("no camera's values")
             self._info = SourceInfo(
                 str(content["name"]),
                 lens,
@@ -418,26 +413,8 @@ def _find_record_tags(file: BinaryIO, position: int) -> Iterator[int]:
         length = min(2 * length, 1 << 20)
 
 
-def _validate_camera(camera: Camera, depth_unit_m: float) -> None:
-    """Raise ``ValueError`` for impossible camera values."""
-    if not all(map(math.isfinite, (camera.cx_px, camera.cy_px, *camera.distortion))):
-        raise ValueError("no camera's middle or lens")
-    sizes = (camera.fx_px, camera.fy_px, camera.width_px, camera.height_px, depth_unit_m)
-    if not all(0.0 < size < math.inf for size in sizes):
-        raise ValueError("no camera's size")
-
-
 def _read_payload(file: BinaryIO, entry: _RecordEntry) -> bytes | None:
     """Return the two images of a frame as bytes; None if the checksum differs."""
     file.seek(entry.position + _CHECKSUM_START)
     rest = file.read(entry.end - entry.position - _CHECKSUM_START)
     return rest[_RECORD.size - _CHECKSUM_START :] if zlib.crc32(rest) == entry.checksum else None
-
-
-def _create_file(path: Path) -> BinaryIO:
-    try:
-        return open(path, "x+b", opener=open_private)
-    except FileExistsError as cause:
-        raise OutputExists(path) from cause
-    except OSError as cause:
-        raise write_fault(path, cause) from cause

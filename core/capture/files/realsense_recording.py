@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.core.capture.devices.cameras import require_package
-from carpus.core.capture.devices.capture_child import DeviceOpened, ImageArrived, StreamEnded
+from carpus.core.capture.devices.capture_child import DeviceOpened, ImageArrived, Signal
 from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, CaptureProcess
 from carpus.core.capture.devices.realsense import PACKAGE, find_sensor, serve
 from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, StreamLayout, camera_from_lens
@@ -80,7 +80,7 @@ class RealSenseRecording:
                         pixels = process.view_image(report, opened.modes[report.sensor])
                         frames = take(report.timestamp_us, report.number, pixels)
                         process.release_slot(report)
-                if isinstance(report, StreamEnded):
+                if report is Signal.ENDED:
                     yield from assembler.finish()
                     return
                 yield from frames
