@@ -81,7 +81,6 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ),
     ("pen-marks", {"type": whole_number, "help": "blue dots of a pen on the skin"}),
     ("skin-tone", {"type": whole_number, "help": "0 light to 5 dark"}),
-    ("skin-movement-mm", {"type": number_type(), "help": "how far the WRIST marker slides on the bone"}),
     ("light", {"choices": ("drawn", "bright", "normal", "dim"), "help": "of the room"}),
     ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue", "jeans"), "help": "of the clothes"}),
     ("distance-m", {"type": number_type(), "help": "camera to hand"}),

@@ -8,7 +8,7 @@ flexion + flexion, pronosupination + supination. Ranges: flexion 50 degrees to b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -186,16 +186,29 @@ def _build_reach_grasp(builder: _MotionBuilder) -> None:
         done += 1
 
 
-def _build_fist(builder: _MotionBuilder) -> None:
-    thumb = {"CMC1_extension": -5.0, "CMC1_abduction": 25.0, "MCP1_flexion": 35.0, "IP1_flexion": 40.0}
-    closed = builder.finger_posture(MCP_flexion=70, PIP_flexion=80, MCP_abduction=0, **thumb)
-    builder.add_repetitions(builder.joints, [closed, builder.neutral], builder.neutral)
+def _make_finger_exercise(*postures: Mapping[str, float]) -> Callable[[_MotionBuilder], None]:
+    """Make an exercise through postures of the fingers in degrees; the empty one is neutral."""
+
+    def build(builder: _MotionBuilder) -> None:
+        targets = [builder.finger_posture(**posture) for posture in postures]
+        builder.add_repetitions(builder.joints, targets, builder.neutral)
+
+    return build
 
 
-def _build_hook(builder: _MotionBuilder) -> None:
-    bent = {"DIP_flexion": 45.0} if builder.dip_free else {}
-    closed = builder.finger_posture(MCP_flexion=8, PIP_flexion=85, **bent)
-    builder.add_repetitions(builder.joints, [closed, builder.neutral], builder.neutral)
+_FIST = {
+    "MCP_flexion": 70.0, "PIP_flexion": 80.0, "MCP_abduction": 0.0, "CMC1_extension": -5.0, "CMC1_abduction": 25.0,
+    "MCP1_flexion": 35.0, "IP1_flexion": 40.0,
+}  # fmt: skip
+_HOOK = {"MCP_flexion": 8.0, "PIP_flexion": 85.0, "DIP_flexion": 45.0}
+_SPREAD = {
+    "MCP2_abduction": 16.0, "MCP3_abduction": 2.0, "MCP4_abduction": -12.0, "MCP5_abduction": -20.0,
+    "CMC1_extension": 38.0,
+}  # fmt: skip
+_THUMB_OUT = {"CMC1_extension": 35.0, "CMC1_abduction": 15.0}
+_THUMB_ACROSS = {"CMC1_extension": -8.0, "CMC1_abduction": 40.0, "MCP1_flexion": 35.0, "IP1_flexion": 35.0}
+_HALF_BENT = {"MCP_flexion": 45.0, "PIP_flexion": 45.0}
+"""What the palm's skin does then is no wrist movement."""
 
 
 def _build_single_fingers(builder: _MotionBuilder) -> None:
@@ -209,19 +222,6 @@ def _build_single_fingers(builder: _MotionBuilder) -> None:
         ]
     builder.cycle_s *= 4.0
     builder.add_repetitions(builder.joints, targets, builder.neutral)
-
-
-def _build_abduction(builder: _MotionBuilder) -> None:
-    wide = builder.finger_posture(MCP2_abduction=16, MCP3_abduction=2, MCP4_abduction=-12, MCP5_abduction=-20,
-                           CMC1_extension=38)  # fmt: skip
-    builder.add_repetitions(builder.joints, [wide, builder.neutral], builder.neutral)
-
-
-def _build_thumb(builder: _MotionBuilder) -> None:
-    """Move the thumb out, then across towards the little finger."""
-    wide = builder.finger_posture(CMC1_extension=35, CMC1_abduction=15)
-    across = builder.finger_posture(CMC1_extension=-8, CMC1_abduction=40, MCP1_flexion=35, IP1_flexion=35)
-    builder.add_repetitions(builder.joints, [wide, across], builder.neutral)
 
 
 _TOUCH_ANGLES_DEG = {
@@ -254,12 +254,6 @@ def _build_opposition(builder: _MotionBuilder) -> None:
         builder.add_stroke(builder.joints, wide, way_s, 0.0)
         done += 1
     builder.joints.add_stroke(builder.neutral, way_s)
-
-
-def _build_bend45(builder: _MotionBuilder) -> None:
-    """Flex all fingers to 45 degrees: what the palm's skin does then is no wrist movement."""
-    closed = builder.finger_posture(MCP_flexion=45, PIP_flexion=45)
-    builder.add_repetitions(builder.joints, [closed, builder.neutral], builder.neutral)
 
 
 def _build_power_grip(builder: _MotionBuilder) -> None:
@@ -356,14 +350,14 @@ MOTIONS: dict[str, tuple[Callable[[_MotionBuilder], None], float]] = {
     "fast_deviation": (_make_wrist_exercise(0.0, deviation=1.0), 1.7),
     "reach": (_build_reach, 1.0 / _DEFAULT_REACH_S),
     "reach_grasp": (_build_reach_grasp, 1.0 / _DEFAULT_REACH_S),
-    "fist": (_build_fist, 0.3),
-    "hook": (_build_hook, 0.3),
+    "fist": (_make_finger_exercise(_FIST, {}), 0.3),
+    "hook": (_make_finger_exercise(_HOOK, {}), 0.3),
     "fingers": (_build_single_fingers, 0.4),
-    "abduction": (_build_abduction, 0.4),
-    "thumb": (_build_thumb, 0.35),
+    "abduction": (_make_finger_exercise(_SPREAD, {}), 0.4),
+    "thumb": (_make_finger_exercise(_THUMB_OUT, _THUMB_ACROSS), 0.35),
     "opposition": (_build_opposition, 0.35),
     "tremor": (_build_rest, 0.3),
-    "bend45": (_build_bend45, 0.35),
+    "bend45": (_make_finger_exercise(_HALF_BENT, {}), 0.35),
     "power_grip": (_build_power_grip, 0.3),
     "grasp_mug": (_build_grasp_mug, 1.0 / _DEFAULT_REACH_S),
 }

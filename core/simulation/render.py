@@ -18,7 +18,6 @@ from carpus.core.simulation.disturbances import sample_false_blobs, sample_passi
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.skin import Cones, Part
 from carpus.core.simulation.sphere_tracing import Box, FloatImage, TracedSurface, bounding_box, trace_cones
-from carpus.core.simulation.truth import protocol_rows
 
 _EDGE_ON = 0.02
 _LARGEST_SAG_M, _HIDING_GAP_M = 0.004, 0.004
@@ -246,7 +245,7 @@ class Renderer:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.appearance: Appearance = sample_appearance(scene)
-        self._rows = protocol_rows(scene.spec)
+        self._rows = scene.spec.marker_protocol.sites
         self._blobs = sample_false_blobs(scene)
         self._rod = sample_passing_rod(scene)
         camera = scene.camera

@@ -26,9 +26,6 @@ _FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 _LOWEST_GAP_M = 0.006
 _PICTURE_MARGIN_PX = 22.0
 _MOTION_SAMPLES = 80
-_FULL_FLEXION_RAD = math.radians(50.0)
-_SKIN_MOVEMENT_SHARE = np.array([1.0, 0.6, 0.5, 0.5, 0.5, 0.5])
-"""Movement of WRIST, CMC1, MCP2 to MCP5 over the bones as a share of WRIST's (reference 2)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +62,6 @@ class Scene:
         self._last_skin_markers: tuple[HandPose, tuple[FloatArray, FloatArray]] | None = None
         self._markers_follow_skin = not self.tissue.is_rigid or bool(self.patient.placement_error_m.any())
         self._palm_normals = self.skin.palm_normals()
-        self._skin_height_change_m = np.zeros((2, 6))
-        if spec.skin_movement_mm > 0.0:
-            self._skin_height_change_m = self._compute_skin_height_change_m()
         rng = spec.generator(RandomStream.SCENE)
         focal_px = 525.0 * rng.uniform(0.98, 1.02)
         self.camera = Camera(
@@ -92,11 +86,7 @@ class Scene:
         """Return all 21 marker centres in W0, (N, 21, 3)."""
         if self._markers_follow_skin:
             return _to_w0(self._skin_markers_w(pose)[0], pose)
-        local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
-        if self.spec.skin_movement_mm > 0.0:
-            share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
-            local[:, list(PALM_SITES)] += self._skin_shift_m(share)
-        return _to_w0(local, pose)
+        return _to_w0(disc_centres(self.patient.anatomy, pose.joint_angles_rad), pose)
 
     def marker_normals_w0(self, pose: HandPose) -> FloatArray:
         """Return the unit normals of the 21 markers in W0, (N, 21, 3).
@@ -140,8 +130,6 @@ class Scene:
         anatomy, tissue = self.patient.anatomy, pose.tissue
         markers = disc_centres(anatomy, pose.joint_angles_rad)
         markers = markers + self._displacement_m(segment_frames(anatomy, pose.joint_angles_rad), tissue.glide_m)
-        share = np.clip(pose.angles_rad[:, 1] / _FULL_FLEXION_RAD, -1.0, 1.0)
-        markers[:, list(PALM_SITES), 0] += self._skin_shift_m(share)[..., 0]
         cones = self.skin.cones_w(pose.joint_angles_rad, tissue)
         return project_to_surface(self.skin.cup_points(markers, tissue.cup_rad), cones)
 
@@ -167,24 +155,6 @@ class Scene:
         palm = list(PALM_SITES)
         glides[:, palm, 1] += mirror * self.tissue.swerve_rad[palm]
         return np.asarray(glide_m[..., None] * glides + off_m[:, :1] * distal + off_m[:, 1:] * radial)
-
-    def _skin_shift_m(self, share: FloatArray) -> FloatArray:
-        """Return the movement (N, 6, 3) of the palm's markers along the skin at shares of full flexion."""
-        along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
-        rise = self._skin_height_change_m
-        quadratic, linear = 0.5 * (rise[1] + rise[0]), 0.5 * (rise[1] - rise[0])
-        s = share[:, None]
-        return np.stack((s * along, np.zeros_like(s * along), s * s * quadratic + s * linear), axis=-1)
-
-    def _compute_skin_height_change_m(self) -> FloatArray:
-        """Return the rise (2, 6) of the skin under the palm's markers at full extension and flexion."""
-        markers = disc_centres(self.patient.anatomy, np.zeros(17))[list(PALM_SITES)]
-        along = 0.5e-3 * self.spec.skin_movement_mm * _SKIN_MOVEMENT_SHARE
-
-        def rise_m(marker: FloatArray, step_m: float) -> float:
-            return float(self.skin.palm_height_m(marker[:2] + [step_m, 0.0]) - marker[2])
-
-        return np.array([[rise_m(*pair) for pair in zip(markers, side * along, strict=True)] for side in (-1.0, 1.0)])
 
     def marker_frame(self) -> tuple[FloatArray, FloatArray]:
         """Return axes (3, 3) and origin (3,) of the markers' W of the first frame in that of the bones.

@@ -6,12 +6,13 @@ steps of 1/8 pixel. With f b = 43.1 px m a step is 2.85e-3 z^2 and the standard 
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.model.camera import Camera
-from carpus.core.model.depth_sensor import DepthSensor
 from carpus.core.model.types import ByteImage, DepthImage
 from carpus.core.simulation.appearance import READ_NOISE_ELECTRONS, Appearance
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
@@ -94,25 +95,38 @@ def depth_scale(spec: RecordingSpec) -> float:
     return 1.0 + spec.depth_scale_error * float(spec.generator(RandomStream.DEPTH_NOISE).uniform(-1.0, 1.0))
 
 
-class StructuredLightSensor:
-    """Structured-light depth camera of one recording, with its own scale and pattern."""
+class SimulatedDepthSensor(ABC):
+    """Depth camera of one recording, registered to colour; the noise depends on seed and frame only."""
 
-    def __init__(self, spec: RecordingSpec, shape: tuple[int, int]) -> None:
-        rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 1, 0])
+    def __init__(self, spec: RecordingSpec, camera: Camera) -> None:
         self._seed = spec.seed
         self._noisy = spec.sensor_noise
         self._scale = depth_scale(spec)
-        self._shape = shape
-        self._fixed_pattern = np.float32(_FIXED_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
-        self._shadow_side = 1 if rng.random() < 0.5 else -1
+        self._shape = (camera.height_px, camera.width_px)
+        self._sensor, self._color_focal_px = camera.sensor, camera.fx_px
 
     def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
         """Return counts of 1/5000 m, 0 without a reading, of true metres (H, W).
 
-        The noise depends on seed and frame only.
+        ``color`` (H, W, 3) linear light tells how much each surface returns; without it all is bright.
         """
-        if not self._noisy:
-            return to_depth_counts(depth_m)
+        return self._measure(depth_m, frame, color) if self._noisy else to_depth_counts(depth_m)
+
+    @abstractmethod
+    def _measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None) -> DepthImage:
+        """Return the noisy counts."""
+
+
+class StructuredLightSensor(SimulatedDepthSensor):
+    """Structured-light depth camera of one recording, with its own scale and pattern."""
+
+    def __init__(self, spec: RecordingSpec, camera: Camera) -> None:
+        super().__init__(spec, camera)
+        rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 1, 0])
+        self._fixed_pattern = np.float32(_FIXED_STEPS * DISPARITY_STEP_PX) * window_noise(rng, self._shape, _WINDOW_PX)
+        self._shadow_side = 1 if rng.random() < 0.5 else -1
+
+    def _measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None) -> DepthImage:
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, frame])
         disparity = np.float32(DISPARITY_PX_M) / depth_m
         window = np.ones((5, 5), np.uint8)
@@ -194,37 +208,27 @@ _REFERENCE_BRIGHTNESS = 0.5
 _MIN_BRIGHTNESS = 0.05
 
 
-class TimeOfFlightSensor:
-    """Time-of-flight depth camera of one recording, registered to colour.
+class TimeOfFlightSensor(SimulatedDepthSensor):
+    """Time-of-flight depth camera of one recording.
 
     A reading mixes the light of all surfaces in its pixel. Noise rises as less light returns, so dark skin is noisier
     (Tolgyessy et al. 2021). Light that arrives by way of the table or another finger lengthens the way (multipath) by
     some millimetres that vary slowly over the image.
     """
 
-    def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
+    def __init__(self, spec: RecordingSpec, camera: Camera) -> None:
+        super().__init__(spec, camera)
         rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 3, 0])
-        self._seed = spec.seed
-        self._noisy = spec.sensor_noise
-        self._scale = depth_scale(spec)
-        self._sensor, self._shape = sensor, shape
-        self._color_px_m = COLOR_BASELINE_M * color_focal_px
         self._side = 1 if rng.random() < 0.5 else -1
-        self._patch_px = max(round(sensor.patch_px), 1)
-        height, width = shape
+        self._patch_px = max(round(self._sensor.patch_px), 1)
+        height, width = self._shape
         cells = rng.standard_normal((height // _MULTIPATH_CELL_PX + 2, width // _MULTIPATH_CELL_PX + 2))
         slow = cv2.resize(cells.astype(np.float32), (width, height), interpolation=cv2.INTER_CUBIC)
         slow = slow * np.float32(_MULTIPATH_SD_M / float(np.std(slow)))
-        own = np.float32(_PIXEL_PATTERN_SD_M) * window_noise(rng, shape, self._patch_px)
+        own = np.float32(_PIXEL_PATTERN_SD_M) * window_noise(rng, self._shape, self._patch_px)
         self._range_bias_m = np.float32(_MULTIPATH_M * rng.uniform()) + slow + own
 
-    def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
-        """Return counts of 1/5000 m, 0 without a reading, of true metres (H, W).
-
-        ``color`` (H, W, 3) linear light tells how much each surface returns; without it all is bright.
-        """
-        if not self._noisy:
-            return to_depth_counts(depth_m)
+    def _measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None) -> DepthImage:
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 3, 1 + frame])
         around = np.ones((3, 3), np.uint8)
         flying = cv2.dilate(depth_m, around) - cv2.erode(depth_m, around) > _EDGE_M
@@ -234,7 +238,7 @@ class TimeOfFlightSensor:
             measured + self._range_bias_m + sd_m * window_noise(rng, self._shape, self._patch_px)
         )
         lost = flying & (fleck_noise(rng, self._shape) > 0.9)
-        lost |= is_in_shadow(np.float32(self._color_px_m) / depth_m, self._side)
+        lost |= is_in_shadow(np.float32(COLOR_BASELINE_M * self._color_focal_px) / depth_m, self._side)
         return _to_depth_image(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _FLIGHT_LOST_SHARE, rng)
 
     def _noise_factor(self, color: FloatImage | None) -> FloatImage:
@@ -255,37 +259,29 @@ _STEREO_STEP_PX = 1.0 / 32.0
 _STEREO_LOST_SHARE = 1e-3
 
 
-class ActiveStereoSensor:
-    """Active stereo depth camera of one recording, registered to colour.
+class ActiveStereoSensor(SimulatedDepthSensor):
+    """Active stereo depth camera of one recording.
 
     Disparity f b / z by window matching, with a standard deviation of 0.08 pixel over a plane (Grunnet-Jepsen et al.,
     "Tuning depth cameras for best performance"). Most of it is constant: the projected spots stay, and matching errs
     with the fraction of the disparity (subpixel non-linearity). Edges are thick, and one eye misses a band beside them.
     """
 
-    def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
+    def __init__(self, spec: RecordingSpec, camera: Camera) -> None:
+        super().__init__(spec, camera)
         rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 2, 0])
-        self._seed = spec.seed
-        self._noisy = spec.sensor_noise
-        self._scale = depth_scale(spec)
-        self._sensor, self._shape = sensor, shape
+        sensor = self._sensor
         self._product_px_m = sensor.focal_px * sensor.baseline_m
-        self._enlarged = color_focal_px / sensor.focal_px
+        self._enlarged = camera.fx_px / sensor.focal_px
         self._window_px = round(sensor.patch_px) | 1
         stays_px = sensor.stays.square_per_m * self._product_px_m
         whole_px = sensor.reading.square_per_m * self._product_px_m
         self._temporal_px = float(np.sqrt(max(whole_px**2 - stays_px**2, 0.0)))
         # Two patterns that take turns as the disparity goes through a pixel: a surface that moves nearer finds another.
-        self._patterns = [np.float32(stays_px) * window_noise(rng, shape, self._window_px) for _ in range(2)]
+        self._patterns = [np.float32(stays_px) * window_noise(rng, self._shape, self._window_px) for _ in range(2)]
         self._second_eye = 1 if rng.random() < 0.5 else -1
 
-    def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
-        """Return counts of 1/5000 m, 0 without a reading, of true metres (H, W).
-
-        The noise depends on seed and frame only; the projector brings its own light.
-        """
-        if not self._noisy:
-            return to_depth_counts(depth_m)
+    def _measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None) -> DepthImage:
         rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 2, 1 + frame])
         disparity = np.float32(self._product_px_m) / depth_m
         width = self._window_px
@@ -308,14 +304,7 @@ class ActiveStereoSensor:
         return _to_depth_image(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _STEREO_LOST_SHARE, rng)
 
 
-SimulatedDepthSensor = StructuredLightSensor | ActiveStereoSensor | TimeOfFlightSensor
-
-
 def create_depth_sensor(spec: RecordingSpec, camera: Camera) -> SimulatedDepthSensor:
     """Create the depth sensor of a camera."""
-    shape, sensor = (camera.height_px, camera.width_px), camera.sensor
-    if sensor.kind == "active stereo":
-        return ActiveStereoSensor(spec, sensor, shape, camera.fx_px)
-    if sensor.kind == "time of flight":
-        return TimeOfFlightSensor(spec, sensor, shape, camera.fx_px)
-    return StructuredLightSensor(spec, shape)
+    models = {"active stereo": ActiveStereoSensor, "time of flight": TimeOfFlightSensor}
+    return models.get(camera.sensor.kind, StructuredLightSensor)(spec, camera)

@@ -56,7 +56,6 @@ _LIMITS: Limits = {
     "tremor_deg": (0.0, 30.0),
     "tremor_hz": (0.0, 30.0),
     "hand_length_mm": (100.0, 240.0),
-    "skin_movement_mm": (-30.0, 30.0),
     "skin_glide_mm": (0.0, 12.0),
     "cupping": (0.0, 1.5),
     "skin_tone": (0, 5),
@@ -83,8 +82,7 @@ class RecordingSpec:
 
     Motion: ``motion`` is a name of :data:`core.simulation.motions.MOTIONS`; ``speed_hz`` repetitions per second;
     ``range_share`` scales the motion's range; ``repetitions`` ends the motion early; ``pain_limited`` stops strokes
-    short, in several sub-movements. ``skin_movement_mm`` shifts the WRIST marker along X between full flexion and
-    extension. ``skin_offsets=False`` puts the joint centres into the markers (the papers' chain).
+    short, in several sub-movements. ``skin_offsets=False`` puts the joint centres into the markers (the papers' chain).
 
     Soft hand (reference 10): ``skin_glide_mm`` of the knuckle markers for 90 degrees of their joints, other markers
     less; ``cupping`` is the share of the full flexion of metacarpals 4 and 5 in a power grip; both are 0 for the rigid
@@ -119,7 +117,6 @@ class RecordingSpec:
     dip: Literal["coupled", "free"] = "coupled"
     hand_length_mm: float | None = None
     skin_offsets: bool = True
-    skin_movement_mm: float = 0.0
     skin_glide_mm: float | None = 0.0
     cupping: float | None = 0.0
     habit: str = NONE

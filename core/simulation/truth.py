@@ -70,11 +70,6 @@ class Truth:
     translation_w0_cam_m: FloatArray
 
 
-def protocol_rows(spec: RecordingSpec) -> list[int]:
-    """Return the rows of the sites of a spec's protocol, in its order."""
-    return list(spec.marker_protocol.sites)
-
-
 def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
     """Compute the true values at the colour images' times; velocities are derivatives of the motion."""
     spec = scene.spec
@@ -85,7 +80,9 @@ def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
     current, before, after = (
         _change_frame(at, axes, origin, spec.hand) for at in (pose, scene.pose(t - _STEP_S), scene.pose(t + _STEP_S))
     )
-    rows = protocol_rows(spec)
+    turn = before.rotation_w2_w0.transpose(0, 2, 1) @ after.rotation_w2_w0
+    skew = 0.5 * (turn - turn.transpose(0, 2, 1))
+    rows = list(spec.marker_protocol.sites)
     markers_cam = scene.to_camera(scene.markers_w0_m(pose)[:, rows])
     joint_names = spec.marker_protocol.joint_names(spec.dip == "free")
     columns = [scene.motion.joint_names.index(name) for name in joint_names]
@@ -99,7 +96,7 @@ def compute_truth(scene: Scene, times: FrameTimes | None = None) -> Truth:
         position_m=current.position_m,
         velocity_m_s=(after.position_m - before.position_m) / (2.0 * _STEP_S),
         rotation_w2_w0=current.rotation_w2_w0,
-        angular_velocity_rad_s=_angular_velocity(before, after),
+        angular_velocity_rad_s=np.stack((skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]), axis=-1) / (2.0 * _STEP_S),
         angles_rad=current.angles_rad,
         joint_names=joint_names,
         joint_angles_rad=pose.joint_angles_rad[:, columns],
@@ -122,13 +119,6 @@ def _change_frame(pose: HandPose, axes: FloatArray, origin_m: FloatArray, side: 
     position = (pose.rotation_w2_w0 @ origin_m + pose.position_m - origin_m) @ axes
     angles = angles_from_rotation(rotation, side)
     return replace(pose, rotation_w2_w0=rotation, position_m=position, angles_rad=angles)
-
-
-def _angular_velocity(before: HandPose, after: HandPose) -> FloatArray:
-    """Return the angular velocity (N, 3) in W2 from two rotations a small step apart, rad/s."""
-    turn = before.rotation_w2_w0.transpose(0, 2, 1) @ after.rotation_w2_w0
-    skew = 0.5 * (turn - turn.transpose(0, 2, 1))
-    return np.asarray(np.stack((skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]), axis=-1) / (2.0 * _STEP_S))
 
 
 MIN_VISIBLE_SHARE = 0.35

@@ -82,7 +82,6 @@ TROUBLE = (
     _troubled("dark skin", skin_tone=5, pictures=True),
     _troubled("child", hand_length_mm=135.0, pictures=True),
     _troubled("left hand", hand="left"),
-    _troubled("skin moves 6 mm", skin_movement_mm=6.0),
     _troubled("clicks off by 5 px", click_error_px=5.0),
     _troubled("depth scale 2 %", depth_scale_error=0.02),
     _troubled("15 frames a second", fps=15.0),

@@ -25,7 +25,7 @@ from carpus.core.simulation.disturbances import (
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.truth import Truth, compute_truth, protocol_rows
+from carpus.core.simulation.truth import Truth, compute_truth
 from tests.simulation.visibility import coarse_visibility
 
 LEAST_FOUND_M = 0.0021
@@ -96,7 +96,7 @@ def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
     t = times.color_s
     count, markers = truth.marker_px.shape[:2]
     rng = spec.generator(RandomStream.MEASUREMENTS)
-    rows = protocol_rows(spec)
+    rows = list(spec.marker_protocol.sites)
     pose = scene.pose(t)
     share, facing = coarse_visibility(scene, pose, t, sample_passing_rod(scene))
     share, facing = share[:, rows], facing[:, rows]

@@ -95,9 +95,6 @@ def test_scene_palm_markers_are_rigid() -> None:
     palm = truth.marker_position_cam_m[:, [HAND21.markers.index(name) for name in PALM_MARKERS]]
     gaps = np.linalg.norm(palm[:, :, None] - palm[:, None], axis=-1)
     assert np.ptp(gaps, axis=0).max() < 1e-12
-    moved = compute_truth(Scene(RecordingSpec(seed=5, motion="flexion", skin_movement_mm=6.0)))
-    wrist_to_knuckle = np.linalg.norm(moved.marker_position_cam_m[:, 0] - moved.marker_position_cam_m[:, 3], axis=-1)
-    assert 2e-3 < np.ptp(wrist_to_knuckle) < 5e-3
 
 
 def test_scene_wrist_marker_turns_about_its_joint() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import SimulatedDepthSensor, StructuredLightSensor, create_depth_sensor
@@ -42,7 +43,7 @@ def block() -> np.ndarray:
 
 @pytest.mark.parametrize("z_m", few([0.7, 0.6, 0.9]))
 def test_depth_noise_matches_the_reference(z_m: float) -> None:
-    sensor, wall = StructuredLightSensor(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
+    sensor, wall = StructuredLightSensor(RecordingSpec(seed=1, depth_scale_error=0.0), DEFAULT_CAMERA), slope(z_m)
     error = measure_errors(wall, sensor, 12)
     sigma = 1.425e-3 * z_m**2
     assert np.nanstd(error) == pytest.approx(sigma, rel=0.15)
@@ -110,7 +111,7 @@ def test_time_of_flight_dark_surfaces_are_noisier() -> None:
 
 def test_depth_steps_are_an_eighth_of_a_pixel() -> None:
     wall = slope(0.8)
-    raw = StructuredLightSensor(RecordingSpec(seed=2, depth_scale_error=0.0), SHAPE).measure(wall, 0) * UNIT_M
+    raw = StructuredLightSensor(RecordingSpec(seed=2, depth_scale_error=0.0), DEFAULT_CAMERA).measure(wall, 0) * UNIT_M
     values = np.unique(raw[raw > 0.0])
     step = 2.85e-3 * 0.8**2
     assert np.median(np.diff(values)) == pytest.approx(step, abs=6e-4)
@@ -120,7 +121,7 @@ def test_depth_steps_are_an_eighth_of_a_pixel() -> None:
 
 
 def test_depth_edges_have_holes_and_a_shadow() -> None:
-    raw = StructuredLightSensor(RecordingSpec(seed=3), SHAPE).measure(block(), 0)[150:330] > 0
+    raw = StructuredLightSensor(RecordingSpec(seed=3), DEFAULT_CAMERA).measure(block(), 0)[150:330] > 0
     holes = 1.0 - raw.mean(axis=0)
     assert holes[206:394].max() < 0.1
     assert holes[:180].max() < 0.1
@@ -134,7 +135,7 @@ def test_depth_edges_have_holes_and_a_shadow() -> None:
 def test_sensor_noise_depends_on_seed_and_frame_only() -> None:
     wall = slope(0.7)
     spec = RecordingSpec(seed=4)
-    first, again = StructuredLightSensor(spec, SHAPE), StructuredLightSensor(spec, SHAPE)
+    first, again = StructuredLightSensor(spec, DEFAULT_CAMERA), StructuredLightSensor(spec, DEFAULT_CAMERA)
     first.measure(wall, 0)
     np.testing.assert_array_equal(first.measure(wall, 5), again.measure(wall, 5))
     assert np.any(first.measure(wall, 5) != first.measure(wall, 6))
