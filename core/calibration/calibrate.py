@@ -143,8 +143,9 @@ def calibrate_hand(
     left, top = (int(value) for value in clicks.pixel.min(axis=0) - margin_px)
     right, bottom = (int(value) + 1 for value in clicks.pixel.max(axis=0) + margin_px)
     region = Region(left, top, right, bottom).clip(camera.width_px, camera.height_px)
-    found = _find_clicked_markers(clicks, first, region, MAX_CLICK_DISTANCE_RADII * radius_px, camera, detection)
-    appearance, blobs, blob_index, findings = found.appearance, found.blobs, found.blob_index, found.findings
+    appearance, blobs, blob_index, findings = _find_clicked_markers(
+        clicks, first, region, MAX_CLICK_DISTANCE_RADII * radius_px, camera, detection
+    )
     detector = Detector(appearance, camera, detection)
     found_px = np.where((blob_index >= 0)[:, None], _select_rows(blobs.pixel, blob_index), np.nan)
     if np.any(blob_index < 0):
@@ -223,14 +224,8 @@ def _add_finding(hand: _HandT, finding: CalibrationFinding) -> _HandT:
     return replace(hand, verdict=verdict, calibration=calibration)
 
 
-@dataclass(frozen=True, slots=True)
-class _ClickedMarkers:
-    """Appearance, blobs of the clicked frame, blob of each click (M,) or -1, findings."""
-
-    appearance: MarkerAppearance
-    blobs: Detections
-    blob_index: NDArray[np.int64]
-    findings: list[CalibrationFinding]
+_ClickedMarkers = tuple[MarkerAppearance, Detections, NDArray[np.int64], list[CalibrationFinding]]
+"""Appearance, blobs of the clicked frame, blob of each click (M,) or -1, findings."""
 
 
 def _find_clicked_markers(
@@ -240,16 +235,16 @@ def _find_clicked_markers(
         """Learn the appearance at ``pixel`` (M, 2) and assign the blobs."""
         appearance, _ = learn_appearance(frame, pixel, camera, detection)
         blobs = Detector(appearance, camera, detection).detect(frame, region)
-        return _ClickedMarkers(appearance, blobs, *_assign_clicks(clicks, blobs, reach_px))
+        return appearance, blobs, *_assign_clicks(clicks, blobs, reach_px)
 
     found = detect_at_pixels(clicks.pixel)
-    if np.all(found.blob_index >= 0):
+    if np.all(found[2] >= 0):
         return found
     # With small markers, or clicks at their edges, the appearance is better learnt in the middle of a blue spot.
     spots_px = find_marker_candidates(frame, camera, detection).pixel
     spot = assign_nearest(np.linalg.norm(clicks.pixel[:, None] - spots_px[None], axis=-1), reach_px)
     again = detect_at_pixels(np.where((spot >= 0)[:, None], _select_rows(spots_px, spot), clicks.pixel))
-    return max(found, again, key=lambda each: int(np.count_nonzero(each.blob_index >= 0)))
+    return max(found, again, key=lambda each: int(np.count_nonzero(each[2] >= 0)))
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:
@@ -371,7 +366,12 @@ def measure_hand(
         noise,
         camera,
     )
-    residual_mm = _residuals_mm(capture, camera, marker_w0_m, rotation, translation)
+    # the RMS distance of each marker from its fitted place
+    ideal = camera.undistort(np.nan_to_num(capture.pixel.reshape(-1, 2))).reshape(capture.pixel.shape)
+    measured_m = camera.backproject(ideal, capture.depth_m)
+    squared = np.sum((measured_m - (marker_w0_m @ rotation.T + translation)) ** 2, axis=-1)
+    squared[~np.isfinite(capture.pixel[..., 0])] = np.nan
+    residual_mm = 1e3 * np.sqrt(_nanmean(squared))
     hand_length_mm = 1e3 * float(np.linalg.norm(marker_w0_m[palm[3]])) / _MCP3_OVER_HAND_LENGTH
     view_axis = -origin_cam / np.linalg.norm(origin_cam)
     tilt_deg = float(np.degrees(np.arccos(np.clip(rotation[:, 2] @ view_axis, -1.0, 1.0))))
@@ -440,19 +440,6 @@ def _marker_covariances(
     flat = np.diag([1.0, 1.0, 0.0])
     in_cam = across_m[:, None, None] ** 2 * flat + along[:, None, None] * (ray[:, :, None] * ray[:, None, :])
     return np.asarray(rotation.T @ in_cam @ rotation)
-
-
-def _residuals_mm(
-    capture: NeutralCapture, camera: Camera, marker_w0_m: FloatArray, rotation: FloatArray, translation: FloatArray
-) -> FloatArray:
-    """Return the RMS distance (M,) of each marker from its fitted place."""
-    placed = marker_w0_m @ rotation.T + translation
-    flat = capture.pixel.reshape(-1, 2)
-    ideal = camera.undistort(np.nan_to_num(flat)).reshape(capture.pixel.shape)
-    seen = camera.backproject(ideal, capture.depth_m)
-    squared = np.sum((seen - placed) ** 2, axis=-1)
-    squared[~np.isfinite(capture.pixel[..., 0])] = np.nan
-    return np.asarray(1e3 * np.sqrt(_nanmean(squared)))
 
 
 def _check_calibration(

@@ -84,12 +84,19 @@ def check_clicks_inside(clicks: Clicks, width_px: int, height_px: int) -> None:
 
 
 def _read_json_object(path: Path) -> dict[str, Any]:
+    def to_dict(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        names = [name for name, _ in pairs]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:  # of which JSON would silently take the second
+            raise ClicksUnreadable(path, phrase("{cause} appears twice", cause=twice))
+        return dict(pairs)
+
     try:
         with path.open("rb") as file:
             data = file.read(_MAX_BYTES + 1)
         if len(data) > _MAX_BYTES:
             raise ClicksUnreadable(path, phrase("too long for a file of clicks"))
-        content = json.loads(data.decode("utf-8-sig"), object_pairs_hook=_reject_duplicate_keys)
+        content = json.loads(data.decode("utf-8-sig"), object_pairs_hook=to_dict)
     except FileNotFoundError as cause:
         raise ClicksUnreadable(path, phrase("file not found")) from cause
     except OSError as cause:
@@ -98,26 +105,11 @@ def _read_json_object(path: Path) -> dict[str, Any]:
         raise ClicksUnreadable(path, phrase("not a text file")) from cause
     except json.JSONDecodeError as cause:
         raise ClicksUnreadable(path, phrase("not JSON, line {lineno}", lineno=cause.lineno)) from cause
-    except _DuplicateKeyError as cause:
-        raise ClicksUnreadable(path, phrase("{cause} appears twice", cause=cause)) from cause
     except (ValueError, RecursionError) as cause:
         raise ClicksUnreadable(path, phrase("not JSON")) from cause
     if not isinstance(content, dict):
         raise ClicksUnreadable(path, phrase("not an object with hand, protocol and markers"))
     return content
-
-
-class _DuplicateKeyError(Exception):
-    """A key that a JSON object holds twice, of which JSON would silently take the second."""
-
-
-def _reject_duplicate_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for name, value in pairs:
-        if name in found:
-            raise _DuplicateKeyError(name)
-        found[name] = value
-    return found
 
 
 def _parse_pixel(path: Path, name: str, value: Any) -> tuple[float, float]:

@@ -292,23 +292,12 @@ def find_odd_marker(side: Side, palm_plan: FloatArray, spots_plan: FloatArray) -
         return OddMarker(best[1], best[2], is_spot_better=True)
     if own_misfit >= MAX_PALM_MISFIT:
         return OddMarker(int(misfit_per_removed_marker(average, palm_plan).argmin()), -1, is_spot_better=False)
-    spare = _spots_on_palm(palm_plan, spots_plan)
-    if 0 < len(spare) <= MAX_SPARE_SPOTS:
-        return OddMarker(-1, int(spare[0]), is_spot_better=False)
-    return None
-
-
-def _spots_on_palm(palm_plan: FloatArray, spots_plan: FloatArray) -> NDArray[np.int64]:
-    if not len(spots_plan):
-        return np.empty(0, dtype=np.int64)
-    length = float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
-    distance = np.linalg.norm(spots_plan[:, None] - palm_plan[None], axis=-1).min(axis=1)
-    inside = np.array([_is_inside(spot, palm_plan) for spot in spots_plan])
-    return np.flatnonzero(inside | (distance < PALM_MARGIN_SHARE * length))
-
-
-def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
-    """Return whether the corners go all the way round the point."""
-    angles = np.sort(np.arctan2(corners[:, 1] - spot[1], corners[:, 0] - spot[0]))
-    gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
-    return bool(gaps.max() < np.pi)
+    margin_m = PALM_MARGIN_SHARE * float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
+    spare = []
+    for number, spot in enumerate(spots_plan):
+        away = palm_plan - spot
+        angles = np.sort(np.arctan2(away[:, 1], away[:, 0]))
+        is_surrounded = np.diff(np.append(angles, angles[0] + 2.0 * np.pi)).max() < np.pi
+        if is_surrounded or np.linalg.norm(away, axis=1).min() < margin_m:
+            spare.append(number)
+    return OddMarker(-1, spare[0], is_spot_better=False) if 0 < len(spare) <= MAX_SPARE_SPOTS else None

@@ -19,7 +19,7 @@ from carpus.core.measures.noise import (
     cutoff_for_speed,
     limit_noise,
 )
-from carpus.core.measures.repetitions import MIN_RANGE_RAD, Stroke, find_repetitions
+from carpus.core.measures.repetitions import MIN_AMPLITUDE_RAD, Stroke, find_repetitions
 from carpus.core.measures.signals import Signal, low_pass, rate_of_change
 from carpus.core.measures.speed import MIN_PEAK_M_S, ONSET_SPEED_SHARE, count_speed_peaks, sparc
 from carpus.core.model.types import FloatArray
@@ -155,7 +155,9 @@ def find_reaches(
         line = np.linalg.svd(places - places.mean(axis=0), full_matrices=False)[2][0]
         distance_from_start_m = (smooth.value - start) @ (line if float(line @ direction) >= 0.0 else -line)
     # Repetitions are found as in an angle, with its least range for the least reach.
-    strokes = find_repetitions(replace(position, value=distance_from_start_m * (MIN_RANGE_RAD / MIN_REACH_M))).strokes
+    strokes = find_repetitions(
+        replace(position, value=distance_from_start_m * (MIN_AMPLITUDE_RAD / MIN_REACH_M))
+    ).strokes
     found = (_measure_reach(position, smooth, stroke, noise, hidden_s) for stroke in strokes if not stroke.is_half)
     return tuple(reach for reach in found if reach is not None)
 

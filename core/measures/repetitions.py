@@ -14,7 +14,7 @@ from carpus.core.measures.signals import Signal, find_runs, low_pass
 from carpus.core.model.types import FloatArray
 
 COUNTING_CUTOFF_HZ = 4.0
-MIN_RANGE_RAD = math.radians(10.0)
+MIN_AMPLITUDE_RAD = math.radians(10.0)
 MIN_DURATION_S = 0.4
 MAX_OCCLUSION_S = 1.0
 """Nothing is counted across a longer occlusion."""
@@ -120,19 +120,19 @@ def find_repetitions(angle: Signal) -> RepetitionAnalysis:
     residual = np.abs(angle.value - smooth)
     residual = residual[np.isfinite(residual)]
     noise = _NOISE_RANGE * (1.4826 * float(np.median(residual)) if len(residual) else 0.0)
-    min_swing = max(MIN_RANGE_RAD, noise)
+    min_amplitude = max(MIN_AMPLITUDE_RAD, noise)
     parts = _split_at_long_gaps(angle)
-    usual_swing = _median_swing([_find_turning_points(smooth, min_swing, part) for part in parts])
+    usual_swing = _median_swing([_find_turning_points(smooth, min_amplitude, part) for part in parts])
     occluded = tuple((float(start), float(end)) for start, end in angle.gaps_s if end - start > MAX_OCCLUSION_S)
     if math.isnan(usual_swing):
         return RepetitionAnalysis((), (), occluded_s=occluded)
-    min_swing = max(min_swing, _MIN_AMPLITUDE_SHARE * usual_swing)
+    min_amplitude = max(min_amplitude, _MIN_AMPLITUDE_SHARE * usual_swing)
     tolerance = max(_HYSTERESIS_SHARE * usual_swing, _MIN_HYSTERESIS_RAD)
     still_rad = max(_STILL_SHARE * usual_swing, noise)
     segments = [
         _Segment.with_end_points(smooth, part, points, tolerance, still_rad, angle.rate_hz)
         for part in parts
-        if (points := _find_turning_points(smooth, min_swing, part))
+        if (points := _find_turning_points(smooth, min_amplitude, part))
     ]
     rest, time_s = _RestPosition.from_segments(segments, tolerance), angle.time_s
     strokes: list[Stroke] = []
@@ -141,7 +141,7 @@ def find_repetitions(angle: Signal) -> RepetitionAnalysis:
     for segment in segments:
         points = segment.turning_points
         for a, b in pairwise(points):
-            if abs(b.value - a.value) >= min_swing:
+            if abs(b.value - a.value) >= min_amplitude:
                 is_half = rest.side is None and "middle" in map(rest.classify, (a, b))
                 strokes.append(Stroke(float(time_s[a.sample]), float(time_s[b.sample]), b.is_high, is_half))
         bounds = rest.repetition_boundaries(segment, segments)
@@ -153,7 +153,7 @@ def find_repetitions(angle: Signal) -> RepetitionAnalysis:
             partial.append(_make_repetition(angle, first, bounds[0] if bounds else last, first))
         # A hand that stops half way and stays there has not come back: the visible part ends in that repetition.
         has_left = rest.side is not None and points[-1].is_high is not rest.side
-        has_left = has_left and abs(points[-1].value - points[-2].value) >= min_swing
+        has_left = has_left and abs(points[-1].value - points[-2].value) >= min_amplitude
         if (has_left or not rest.is_at_rest(points[-1])) and bounds and bounds[-1] < points[-1].sample:
             partial.append(_make_repetition(angle, bounds[-1], last, last))
     return RepetitionAnalysis(tuple(whole), tuple(strokes), tuple(partial), occluded)
@@ -185,7 +185,7 @@ def explain_no_repetitions(angle: Signal, analysis: RepetitionAnalysis) -> NoRep
         return "nothing_seen"
     if angle.time_s[-1] - angle.time_s[0] < MIN_RECORDING_S:
         return "too_short"
-    if float(np.ptp(known)) < MIN_RANGE_RAD:
+    if float(np.ptp(known)) < MIN_AMPLITUDE_RAD:
         return "small_range"
     if any(one.cut == "cut_by_gap" for one in analysis.partial_repetitions):
         return "cut_by_gap"
@@ -205,8 +205,8 @@ def _split_at_long_gaps(angle: Signal) -> list[slice]:
     return out
 
 
-def _find_turning_points(value: FloatArray, min_swing: float, part: slice = slice(None)) -> list[_TurningPoint]:
-    """Find where a curve (n,) turns back by ``min_swing`` or more, highs and lows in turn, with both ends.
+def _find_turning_points(value: FloatArray, min_amplitude: float, part: slice = slice(None)) -> list[_TurningPoint]:
+    """Find where a curve (n,) turns back by ``min_amplitude`` or more, highs and lows in turn, with both ends.
 
     Later samples do not change a turning point once the curve has come back from it.
     """
@@ -228,10 +228,10 @@ def _find_turning_points(value: FloatArray, min_swing: float, part: slice = slic
             high = at
         if curve[at] < curve[low]:
             low = at
-        if rising is not False and curve[high] - curve[at] >= min_swing:
+        if rising is not False and curve[high] - curve[at] >= min_amplitude:
             turns.append(point(high, is_high=True))
             rising, low = False, at
-        elif rising is not True and curve[at] - curve[low] >= min_swing:
+        elif rising is not True and curve[at] - curve[low] >= min_amplitude:
             turns.append(point(low, is_high=False))
             rising, high = True, at
     if rising is not None:

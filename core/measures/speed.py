@@ -26,7 +26,7 @@ from carpus.core.measures.noise import (
     max_cutoff_for_speed,
     moving_noise,
 )
-from carpus.core.measures.repetitions import MIN_RANGE_RAD, Stroke
+from carpus.core.measures.repetitions import MIN_AMPLITUDE_RAD, Stroke
 from carpus.core.measures.signals import SPEED_CUTOFF_HZ, Signal, find_runs, low_pass, rate_of_change
 from carpus.core.model.types import FloatArray
 
@@ -171,7 +171,7 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     clean = low_pass(part, clean_cutoff_hz(duration_s)).value
     high, low = (estimate_extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
     arc = high - low
-    if not arc >= MIN_RANGE_RAD:
+    if not arc >= MIN_AMPLITUDE_RAD:
         return StrokeMeasures(stroke, arc)
     quickest = _find_quickest_part(angle, stroke, noise, arc, duration_s)
     if quickest is None:

@@ -271,10 +271,10 @@ class Tracker:
         reacquired = self._reacquire(posterior, scan)
         if reacquired is not None:
             # A vague prediction has nothing against the place found: the smoother may go on through it.
-            is_linked = is_linked and self._manager.is_vague(turn_sd_rad)
+            is_linked = is_linked and self._manager.is_turn_uncertain(turn_sd_rad)
             posterior = reacquired
-        elif self._manager.is_ambiguous(posterior.seen_count, turn_sd_rad) or (
-            self._manager.is_uncertain(posterior.seen_count, turn_sd_rad)
+        elif self._manager.is_chance_match(posterior.seen_count, turn_sd_rad) or (
+            self._manager.is_weakly_supported(posterior.seen_count, turn_sd_rad)
             and self._filter.is_other_hand(posterior, scan)
         ):
             posterior = self._filter.update(predicted, scan.without_blobs())
@@ -302,15 +302,15 @@ class Tracker:
         is_flipped = manager.can_be_flipped(seen, unassigned) and not self._filter.is_rotation_measured(posterior)
         if not (is_flipped or manager.is_reacquisition_due(seen, unassigned, turn_sd_rad)):
             return None
-        is_vague, rotation = manager.is_vague(turn_sd_rad), posterior.predicted.nominal.rotation_w2_w0
-        ideal = scan.ideal if is_vague else scan.ideal.subset(~posterior.is_finger)
+        is_turn_uncertain, rotation = manager.is_turn_uncertain(turn_sd_rad), posterior.predicted.nominal.rotation_w2_w0
+        ideal = scan.ideal if is_turn_uncertain else scan.ideal.subset(~posterior.is_finger)
         found = self._filter.find_palm(ideal, manager.turn_limits(rotation, scan.timestamp_s))
-        if found is None or not (is_vague or found.count > seen):
+        if found is None or not (is_turn_uncertain or found.count > seen):
             return None
         if found.count <= MIN_FOUND_MARKERS and self._filter.is_contradicted(found, posterior):
             return None
         is_predicted = angle_between_rad(rotation, found.rotation_w2_w0) < TURN_SLACK_RAD
-        if is_vague and not (is_predicted or manager.is_confirmed(found, scan.timestamp_s)):
+        if is_turn_uncertain and not (is_predicted or manager.is_confirmed(found, scan.timestamp_s)):
             return None
         reacquired = self._filter.update(self._filter.predict_from_found(found, posterior.predicted), scan)
         is_agreed = (

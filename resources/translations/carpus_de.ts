@@ -3112,10 +3112,6 @@
         <translation>Installieren Sie OpenNI2 vom Hersteller der Kamera, und starten Sie Carpus neu.</translation>
     </message>
     <message>
-        <source>Install Python 3.11 or newer and install Carpus with it.</source>
-        <translation>Installieren Sie Python 3.11 oder neuer und damit Carpus.</translation>
-    </message>
-    <message>
         <source>Install the package {package}, which is next to the Carpus package.</source>
         <translation>Installieren Sie das Paket {package}, das neben dem von Carpus liegt.</translation>
     </message>
@@ -3266,10 +3262,6 @@
     <message>
         <source>Carpus check card</source>
         <translation>Prüfkarte für Carpus</translation>
-    </message>
-    <message>
-        <source>ChArUco board {columns} x {rows}, squares of {size} mm</source>
-        <translation>ChArUco-Tafel {columns} x {rows}, Felder von {size} mm</translation>
     </message>
     <message>
         <source>Install Carpus again.</source>
@@ -3556,22 +3548,6 @@
         <translation>beschädigt oder kein C3D</translation>
     </message>
     <message>
-        <source>damaged: unknown frame status</source>
-        <translation>beschädigt: unbekannter Bildstatus</translation>
-    </message>
-    <message>
-        <source>damaged: impossible frame time</source>
-        <translation>beschädigt: unmögliche Bildzeit</translation>
-    </message>
-    <message>
-        <source>damaged: negative standard deviation</source>
-        <translation>beschädigt: negative Standardabweichung</translation>
-    </message>
-    <message>
-        <source>damaged: an event has no time</source>
-        <translation>beschädigt: ein Ereignis hat keine Zeit</translation>
-    </message>
-    <message>
         <source>damaged: depth sensor, {cause}</source>
         <translation>beschädigt: Tiefensensor, {cause}</translation>
     </message>
@@ -3580,52 +3556,16 @@
         <translation>beschädigt: nicht bis zum Ende lesbar</translation>
     </message>
     <message>
-        <source>damaged: invalid settings</source>
-        <translation>beschädigt: ungültige Einstellungen</translation>
-    </message>
-    <message>
-        <source>damaged: invalid {name}</source>
-        <translation>beschädigt: {name} ist ungültig</translation>
-    </message>
-    <message>
-        <source>damaged: no session_id</source>
-        <translation>beschädigt: keine session_id</translation>
-    </message>
-    <message>
         <source>damaged: reading does not finish</source>
         <translation>beschädigt: das Lesen endet nicht</translation>
-    </message>
-    <message>
-        <source>damaged: impossible camera values</source>
-        <translation>beschädigt: unmögliche Kamerawerte</translation>
-    </message>
-    <message>
-        <source>damaged: unknown camera values</source>
-        <translation>beschädigt: unbekannte Kamerawerte</translation>
-    </message>
-    <message>
-        <source>damaged: frame {number} is not later than the previous one</source>
-        <translation>beschädigt: Bild {number} liegt zeitlich nicht nach dem vorigen</translation>
-    </message>
-    <message>
-        <source>damaged: implausible frame times</source>
-        <translation>beschädigt: unplausible Bildzeiten</translation>
     </message>
     <message>
         <source>damaged: its content is implausible</source>
         <translation>beschädigt: unplausibler Inhalt</translation>
     </message>
     <message>
-        <source>damaged: {path} does not match {path2}</source>
-        <translation>beschädigt: {path} passt nicht zu {path2}</translation>
-    </message>
-    <message>
         <source>damaged: {value}</source>
         <translation>beschädigt: {value}</translation>
-    </message>
-    <message>
-        <source>damaged: {what} out of range</source>
-        <translation>beschädigt: {what} außerhalb des Bereichs</translation>
     </message>
     <message>
         <source>depth as {name}</source>
@@ -3692,10 +3632,6 @@
         <translation>grau, erwartet ist ein Farbbild</translation>
     </message>
     <message>
-        <source>endlessly nested groups at {place}</source>
-        <translation>endlos verschachtelte Gruppen bei {place}</translation>
-    </message>
-    <message>
         <source>hand</source>
         <translation>Hand</translation>
     </message>
@@ -3742,10 +3678,6 @@
     <message>
         <source>not readable as JSON, so the default limits apply</source>
         <translation>nicht als JSON lesbar; es gelten die Standardgrenzen</translation>
-    </message>
-    <message>
-        <source>more values declared than the file can hold</source>
-        <translation>mehr Werte angegeben, als die Datei fasst</translation>
     </message>
     <message>
         <source>no frames</source>
@@ -3878,14 +3810,6 @@
     <message>
         <source>more than one camera</source>
         <translation>mehr als eine Kamera</translation>
-    </message>
-    <message>
-        <source>more than {most_objects} parts</source>
-        <translation>mehr als {most_objects} Teile</translation>
-    </message>
-    <message>
-        <source>more than {most_objects} parts in {value}</source>
-        <translation>mehr als {most_objects} Teile in {value}</translation>
     </message>
     <message>
         <source>too long for a camera calibration</source>
@@ -4240,22 +4164,6 @@
         <translation>{free} MB frei, {least_free_bytes} MB werden gebraucht</translation>
     </message>
     <message>
-        <source>{inside} has two names</source>
-        <translation>{inside} hat zwei Namen</translation>
-    </message>
-    <message>
-        <source>{inside} is a group, values expected</source>
-        <translation>{inside} ist eine Gruppe, erwartet sind Werte</translation>
-    </message>
-    <message>
-        <source>{inside} is a type, values expected</source>
-        <translation>{inside} ist ein Typ, erwartet sind Werte</translation>
-    </message>
-    <message>
-        <source>{inside} links outside the file</source>
-        <translation>{inside} verweist nach außerhalb der Datei</translation>
-    </message>
-    <message>
         <source>{key} has no data</source>
         <translation>{key} hat keine Daten</translation>
     </message>
@@ -4298,30 +4206,6 @@
     <message>
         <source>{one}; {other}</source>
         <translation>{one}; {other}</translation>
-    </message>
-    <message>
-        <source>{path} declares {claimed} bytes, {stored} are stored</source>
-        <translation>{path} gibt {claimed} Byte an, gespeichert sind {stored}</translation>
-    </message>
-    <message>
-        <source>{path} has shape {shape}, {count} axes expected</source>
-        <translation>{path} hat die Form {shape}, erwartet sind {count} Achsen</translation>
-    </message>
-    <message>
-        <source>{path} has type {dtype}, {dtype2} expected</source>
-        <translation>{path} hat den Typ {dtype}, erwartet ist {dtype2}</translation>
-    </message>
-    <message>
-        <source>{path} is stored in pieces that are too large</source>
-        <translation>{path} ist in zu großen Stücken gespeichert</translation>
-    </message>
-    <message>
-        <source>{path} is {dtype} {shape}, {dtype2} {expected} expected</source>
-        <translation>{path} ist {dtype} {shape}, erwartet ist {dtype2} {expected}</translation>
-    </message>
-    <message>
-        <source>{place} stores its values in another file</source>
-        <translation>{place} speichert seine Werte in einer anderen Datei</translation>
     </message>
     <message>
         <source>{shape} x {shape2} pixels, {width} x {height} before</source>
@@ -4432,10 +4316,6 @@
         <translation>In Windows einschalten: Einstellungen → Datenschutz und Sicherheit → Geräteverschlüsselung, oder BitLocker in der Systemsteuerung. Bewahren Sie den Wiederherstellungsschlüssel nicht an diesem Computer auf.</translation>
     </message>
     <message>
-        <source>Turn it on: System Settings → Privacy and Security → FileVault. Do not keep the recovery key with this computer.</source>
-        <translation>Einschalten: Systemeinstellungen → Datenschutz und Sicherheit → FileVault. Bewahren Sie den Wiederherstellungsschlüssel nicht an diesem Computer auf.</translation>
-    </message>
-    <message>
         <source>The disk of the data folder is encrypted by the system.</source>
         <translation>Der Datenträger des Datenordners ist vom System verschlüsselt.</translation>
     </message>
@@ -4446,10 +4326,6 @@
     <message>
         <source>It is not known whether the disk of the data folder is encrypted.</source>
         <translation>Es ist nicht bekannt, ob der Datenträger des Datenordners verschlüsselt ist.</translation>
-    </message>
-    <message>
-        <source>damaged: a blue spot belongs to no frame</source>
-        <translation>beschädigt: Eine blaue Stelle gehört zu keinem Bild</translation>
     </message>
     <message>
         <source>damaged: its calibration does not describe a hand</source>
@@ -5098,10 +4974,6 @@
     <message>
         <source>not a recording journal</source>
         <translation>kein Aufnahmejournal</translation>
-    </message>
-    <message>
-        <source>{place} uses an unsupported compression</source>
-        <translation>{place} verwendet eine nicht unterstützte Komprimierung</translation>
     </message>
     <message>
         <source>the data read back differ from the data written</source>
@@ -6710,16 +6582,8 @@
 <context>
     <name>BoardSetupView</name>
     <message>
-        <source>Chessboard</source>
-        <translation>Schachbrett</translation>
-    </message>
-    <message>
         <source>&amp;Print the board…</source>
         <translation>Tafel &amp;drucken…</translation>
-    </message>
-    <message>
-        <source>ChArUco: may be partly covered, takes longer</source>
-        <translation>ChArUco: darf teilweise verdeckt sein, dauert länger</translation>
     </message>
     <message>
         <source>Length of the printed ruler</source>

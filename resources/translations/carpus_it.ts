@@ -3116,10 +3116,6 @@
         <translation>Installare OpenNI2 del produttore della telecamera, poi riavviare Carpus.</translation>
     </message>
     <message>
-        <source>Install Python 3.11 or newer and install Carpus with it.</source>
-        <translation>Installare Python 3.11 o più recente e con esso Carpus.</translation>
-    </message>
-    <message>
         <source>Install the packages that contain these libraries.</source>
         <translation>Installare i pacchetti che contengono queste librerie.</translation>
     </message>
@@ -3282,10 +3278,6 @@
     <message>
         <source>Carpus check card</source>
         <translation>Cartoncino di controllo di Carpus</translation>
-    </message>
-    <message>
-        <source>ChArUco board {columns} x {rows}, squares of {size} mm</source>
-        <translation>tavola ChArUco {columns} x {rows}, quadrati di {size} mm</translation>
     </message>
     <message>
         <source>Install Carpus again.</source>
@@ -3556,22 +3548,6 @@
         <translation>danneggiato, o non è C3D</translation>
     </message>
     <message>
-        <source>damaged: unknown frame status</source>
-        <translation>danneggiato: stato di un fotogramma sconosciuto</translation>
-    </message>
-    <message>
-        <source>damaged: impossible frame time</source>
-        <translation>danneggiato: tempo di un fotogramma impossibile</translation>
-    </message>
-    <message>
-        <source>damaged: negative standard deviation</source>
-        <translation>danneggiato: deviazione standard negativa</translation>
-    </message>
-    <message>
-        <source>damaged: an event has no time</source>
-        <translation>danneggiato: un evento non ha un tempo</translation>
-    </message>
-    <message>
         <source>damaged: depth sensor, {cause}</source>
         <translation>danneggiato: sensore di profondità, {cause}</translation>
     </message>
@@ -3580,52 +3556,16 @@
         <translation>danneggiato: non leggibile fino alla fine</translation>
     </message>
     <message>
-        <source>damaged: invalid settings</source>
-        <translation>danneggiato: impostazioni non valide</translation>
-    </message>
-    <message>
-        <source>damaged: invalid {name}</source>
-        <translation>danneggiato: {name} non valido</translation>
-    </message>
-    <message>
-        <source>damaged: no session_id</source>
-        <translation>danneggiato: manca session_id</translation>
-    </message>
-    <message>
         <source>damaged: reading does not finish</source>
         <translation>danneggiato: la lettura non termina</translation>
-    </message>
-    <message>
-        <source>damaged: impossible camera values</source>
-        <translation>danneggiato: valori della telecamera impossibili</translation>
-    </message>
-    <message>
-        <source>damaged: unknown camera values</source>
-        <translation>danneggiato: valori della telecamera sconosciuti</translation>
-    </message>
-    <message>
-        <source>damaged: frame {number} is not later than the previous one</source>
-        <translation>danneggiato: il fotogramma {number} non è successivo al precedente</translation>
-    </message>
-    <message>
-        <source>damaged: implausible frame times</source>
-        <translation>danneggiato: tempi dei fotogrammi non plausibili</translation>
     </message>
     <message>
         <source>damaged: its content is implausible</source>
         <translation>danneggiato: contenuto non plausibile</translation>
     </message>
     <message>
-        <source>damaged: {path} does not match {path2}</source>
-        <translation>danneggiato: {path} non corrisponde a {path2}</translation>
-    </message>
-    <message>
         <source>damaged: {value}</source>
         <translation>danneggiato: {value}</translation>
-    </message>
-    <message>
-        <source>damaged: {what} out of range</source>
-        <translation>danneggiato: {what} fuori intervallo</translation>
     </message>
     <message>
         <source>depth as {name}</source>
@@ -3692,10 +3632,6 @@
         <translation>grigio, attesa un’immagine a colori</translation>
     </message>
     <message>
-        <source>endlessly nested groups at {place}</source>
-        <translation>gruppi annidati senza fine in {place}</translation>
-    </message>
-    <message>
         <source>hand</source>
         <translation>mano</translation>
     </message>
@@ -3742,10 +3678,6 @@
     <message>
         <source>not readable as JSON, so the default limits apply</source>
         <translation>non leggibile come JSON; valgono i limiti predefiniti</translation>
-    </message>
-    <message>
-        <source>more values declared than the file can hold</source>
-        <translation>più valori dichiarati di quanti il file possa contenere</translation>
     </message>
     <message>
         <source>no frames</source>
@@ -3878,14 +3810,6 @@
     <message>
         <source>more than one camera</source>
         <translation>più di una telecamera</translation>
-    </message>
-    <message>
-        <source>more than {most_objects} parts</source>
-        <translation>più di {most_objects} parti</translation>
-    </message>
-    <message>
-        <source>more than {most_objects} parts in {value}</source>
-        <translation>più di {most_objects} parti in {value}</translation>
     </message>
     <message>
         <source>too long for a camera calibration</source>
@@ -4240,22 +4164,6 @@
         <translation>{free} MB liberi, ne servono {least_free_bytes}</translation>
     </message>
     <message>
-        <source>{inside} has two names</source>
-        <translation>{inside} ha due nomi</translation>
-    </message>
-    <message>
-        <source>{inside} is a group, values expected</source>
-        <translation>{inside} è un gruppo, attesi valori</translation>
-    </message>
-    <message>
-        <source>{inside} is a type, values expected</source>
-        <translation>{inside} è un tipo, attesi valori</translation>
-    </message>
-    <message>
-        <source>{inside} links outside the file</source>
-        <translation>{inside} rimanda fuori dal file</translation>
-    </message>
-    <message>
         <source>{key} has no data</source>
         <translation>{key} non ha dati</translation>
     </message>
@@ -4298,30 +4206,6 @@
     <message>
         <source>{one}; {other}</source>
         <translation>{one}; {other}</translation>
-    </message>
-    <message>
-        <source>{path} declares {claimed} bytes, {stored} are stored</source>
-        <translation>{path} dichiara {claimed} byte, ne sono salvati {stored}</translation>
-    </message>
-    <message>
-        <source>{path} has shape {shape}, {count} axes expected</source>
-        <translation>{path} ha la forma {shape}, attesi {count} assi</translation>
-    </message>
-    <message>
-        <source>{path} has type {dtype}, {dtype2} expected</source>
-        <translation>{path} è del tipo {dtype}, atteso {dtype2}</translation>
-    </message>
-    <message>
-        <source>{path} is stored in pieces that are too large</source>
-        <translation>{path} è salvato in pezzi troppo grandi</translation>
-    </message>
-    <message>
-        <source>{path} is {dtype} {shape}, {dtype2} {expected} expected</source>
-        <translation>{path} è {dtype} {shape}, atteso {dtype2} {expected}</translation>
-    </message>
-    <message>
-        <source>{place} stores its values in another file</source>
-        <translation>{place} salva i suoi valori in un altro file</translation>
     </message>
     <message>
         <source>{shape} x {shape2} pixels, {width} x {height} before</source>
@@ -4432,10 +4316,6 @@
         <translation>Si attiva in Windows: Impostazioni → Privacy e sicurezza → Crittografia del dispositivo, o BitLocker nel Pannello di controllo. Non conservare la chiave di ripristino con questo computer.</translation>
     </message>
     <message>
-        <source>Turn it on: System Settings → Privacy and Security → FileVault. Do not keep the recovery key with this computer.</source>
-        <translation>Si attiva in Impostazioni di Sistema → Privacy e sicurezza → FileVault. Non conservare la chiave di recupero con questo computer.</translation>
-    </message>
-    <message>
         <source>The disk of the data folder is encrypted by the system.</source>
         <translation>Il disco della cartella dei dati è cifrato dal sistema.</translation>
     </message>
@@ -4446,10 +4326,6 @@
     <message>
         <source>It is not known whether the disk of the data folder is encrypted.</source>
         <translation>Non si sa se il disco della cartella dei dati sia cifrato.</translation>
-    </message>
-    <message>
-        <source>damaged: a blue spot belongs to no frame</source>
-        <translation>danneggiata: un punto blu non appartiene ad alcun fotogramma</translation>
     </message>
     <message>
         <source>damaged: its calibration does not describe a hand</source>
@@ -5098,10 +4974,6 @@
     <message>
         <source>not a recording journal</source>
         <translation>non è un giornale di registrazione</translation>
-    </message>
-    <message>
-        <source>{place} uses an unsupported compression</source>
-        <translation>{place} usa una compressione non supportata</translation>
     </message>
     <message>
         <source>the data read back differ from the data written</source>
@@ -6710,16 +6582,8 @@
 <context>
     <name>BoardSetupView</name>
     <message>
-        <source>Chessboard</source>
-        <translation>Scacchiera</translation>
-    </message>
-    <message>
         <source>&amp;Print the board…</source>
         <translation>&amp;Stampa la tavola…</translation>
-    </message>
-    <message>
-        <source>ChArUco: may be partly covered, takes longer</source>
-        <translation>ChArUco: può essere in parte coperta, richiede più tempo</translation>
     </message>
     <message>
         <source>Length of the printed ruler</source>

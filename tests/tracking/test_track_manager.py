@@ -77,13 +77,13 @@ def test_track_found_by_fewest_markers_is_tentative(count: int, stage: TrackStag
 def test_track_unconfirmed_or_few_markers_is_uncertain() -> None:
     track = manager()
     update_track(track, 0.0, 6)
-    assert not track.is_uncertain(MIN_PALM_MARKERS + 1, VAGUE_SD_RAD)
-    assert track.is_uncertain(MIN_PALM_MARKERS, 0.0)
-    assert track.is_uncertain(6, VAGUE_SD_RAD + 0.01)
+    assert not track.is_weakly_supported(MIN_PALM_MARKERS + 1, VAGUE_SD_RAD)
+    assert track.is_weakly_supported(MIN_PALM_MARKERS, 0.0)
+    assert track.is_weakly_supported(6, VAGUE_SD_RAD + 0.01)
     update_track(track, 0.1, 0)
-    assert track.is_uncertain(6, 0.0)
+    assert track.is_weakly_supported(6, 0.0)
     update_track(track, 0.2, 6)
-    assert not track.is_uncertain(6, 0.0)
+    assert not track.is_weakly_supported(6, 0.0)
 
 
 def test_track_reacquired_unconfirmed_pose_is_lost_within_probation_only() -> None:

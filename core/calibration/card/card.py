@@ -180,7 +180,6 @@ class CardReading:
     scale: float
     distance_m: float
     frames_used: int
-    frames_searched: int
     max_angle_error_deg: float = MAX_ANGLE_ERROR_DEG
     max_length_error_mm: float = MAX_LENGTH_ERROR_MM
 

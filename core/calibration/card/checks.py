@@ -182,5 +182,5 @@ def _parse_check(line: str) -> CardCheck | None:
     numbers = (*measured.flat, scale, most_angle_deg, most_length_mm)
     if not is_moment(when) or measured.shape != (len(DIMENSIONS),) or not all(map(math.isfinite, numbers)):
         return None
-    reading = CardReading(measured, sd, scale, math.nan, 0, 0, most_angle_deg, most_length_mm)
+    reading = CardReading(measured, sd, scale, math.nan, 0, most_angle_deg, most_length_mm)
     return CardCheck(when, serial, reading, calibrated)

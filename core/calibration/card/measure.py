@@ -104,8 +104,8 @@ class CardMeasurement:
     With ``only_steady`` only time counts in which the card is found at rest, for a live camera; else the first 30 s.
     """
 
-    def __init__(self, camera: Camera, settings: DetectionSettings | None = None, *, only_steady: bool = False) -> None:
-        self._camera, self._settings, self._only_steady = camera, settings or DetectionSettings(), only_steady
+    def __init__(self, camera: Camera, *, only_steady: bool = False) -> None:
+        self._camera, self._only_steady = camera, only_steady
         self._positions: list[FloatArray] = []
         self._frames_searched, self._first_s, self._last_s, self._measured_s = 0, math.nan, -math.inf, 0.0
 
@@ -120,7 +120,7 @@ class CardMeasurement:
         if frame.depth_raw is None or now_s - self._last_s < SEARCH_INTERVAL_S:
             return None
         since_s, self._last_s = now_s - self._last_s, now_s
-        blobs = find_marker_candidates(frame, self._camera, self._settings)
+        blobs = find_marker_candidates(frame, self._camera, DetectionSettings())
         self._frames_searched += 1
         found = find_card_discs(blobs, self._camera)
         moved = False
@@ -147,16 +147,14 @@ class CardMeasurement:
         distance_m = float(np.linalg.norm(middle.mean(axis=0)))
         sd = each.std(axis=0, ddof=1)
         return CardReading(
-            measure_dimensions(middle), sd, float(scale), distance_m, len(self._positions), self._frames_searched,
+            measure_dimensions(middle), sd, float(scale), distance_m, len(self._positions),
             *card_limits(middle, self._camera),
         )  # fmt: skip
 
 
-def measure_card(
-    frames: Iterable[Frame], camera: Camera, subject: str, settings: DetectionSettings | None = None
-) -> CardReading:
+def measure_card(frames: Iterable[Frame], camera: Camera, subject: str) -> CardReading:
     """Measure the card over the first 30 s. Raises :class:`CardNotVisible` with fewer than five frames."""
-    measurement = CardMeasurement(camera, settings)
+    measurement = CardMeasurement(camera)
     first_s = math.nan
     for frame in frames:
         first_s = frame.timestamp_s if math.isnan(first_s) else first_s

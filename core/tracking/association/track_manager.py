@@ -124,7 +124,7 @@ class TrackManager:
         """Return how far a hand can be turned of which nothing is known."""
         return TurnLimits(np.eye(3), MAX_TURN_RAD, MAX_TURN_RAD)
 
-    def is_vague(self, turn_sd_rad: float) -> bool:
+    def is_turn_uncertain(self, turn_sd_rad: float) -> bool:
         """Return whether the turn was predicted so unsurely that the filter may settle at a wrong one."""
         return turn_sd_rad > VAGUE_SD_RAD
 
@@ -134,11 +134,11 @@ class TrackManager:
         ``seen`` markers are where they were predicted, ``unassigned`` blobs are left over.
         """
         few = seen <= MIN_PALM_MARKERS or self.stage is TrackStage.TENTATIVE
-        return (few or self.is_vague(turn_sd_rad)) and unassigned + seen > MIN_PALM_MARKERS
+        return (few or self.is_turn_uncertain(turn_sd_rad)) and unassigned + seen > MIN_PALM_MARKERS
 
-    def is_uncertain(self, seen: int, turn_sd_rad: float) -> bool:
+    def is_weakly_supported(self, seen: int, turn_sd_rad: float) -> bool:
         """Return whether ``seen`` markers may be of another hand: few, or not confirmed a moment ago."""
-        return seen <= MIN_PALM_MARKERS or self.stage is not TrackStage.CONFIRMED or self.is_vague(turn_sd_rad)
+        return seen <= MIN_PALM_MARKERS or self.stage is not TrackStage.CONFIRMED or self.is_turn_uncertain(turn_sd_rad)
 
     def can_be_flipped(self, seen: int, unassigned: int) -> bool:
         """Return whether blobs are left for the markers that are not where they were predicted.
@@ -147,7 +147,7 @@ class TrackManager:
         """
         return seen < len(self._ambiguous_sd_rad) <= seen + unassigned
 
-    def is_ambiguous(self, seen: int, turn_sd_rad: float) -> bool:
+    def is_chance_match(self, seen: int, turn_sd_rad: float) -> bool:
         """Return whether any so many blobs would do for markers of so unsure a prediction."""
         return seen < len(self._ambiguous_sd_rad) and turn_sd_rad > self._ambiguous_sd_rad[seen]
 

@@ -58,7 +58,7 @@ def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0)
     measured = np.array([one.true_value for one in DIMENSIONS])
     measured[0] += angle
     measured[3] += length
-    reading = CardReading(measured, np.full(6, 0.1), scale, np.nan, 0, 0)
+    reading = CardReading(measured, np.full(6, 0.1), scale, np.nan, 0)
     return CardCheck((NOW + timedelta(days=day)).isoformat(), "77", reading, "x")
 
 
