@@ -52,7 +52,7 @@ def test_tracking_with_a_part_not_compiled_ends_with_one_sentence(tmp_path: Path
         f"spec = u.spec_from_file_location('carpus.core.compiled', {str(tmp_path / '__init__.py')!r},"
         f" submodule_search_locations=[{str(tmp_path)!r}]); m = u.module_from_spec(spec);"
         "f = type('F', (), {'find_spec': staticmethod(lambda n, *a: spec if n == 'carpus.core.compiled' else None)});"
-        "sys.meta_path.insert(0, f); sys.exit(main(['track', 'nowhere']))"
+        "sys.meta_path.insert(0, f); sys.exit(main(['track', 'nowhere', '--output', 'w.csv']))"
     )
     environment = {name: value for name, value in os.environ.items() if name != "CARPUS_UNCOMPILED"}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
