@@ -7108,6 +7108,25 @@
     </message>
 </context>
 <context>
+    <name>DateField</name>
+    <message>
+        <source>day month year</source>
+        <translation>Tag Monat Jahr</translation>
+    </message>
+    <message>
+        <source>The date is in the future</source>
+        <translation>Das Datum liegt in der Zukunft</translation>
+    </message>
+    <message>
+        <source>This date does not exist</source>
+        <translation>Dieses Datum gibt es nicht</translation>
+    </message>
+    <message>
+        <source>Day, month, year</source>
+        <translation>Tag, Monat, Jahr</translation>
+    </message>
+</context>
+<context>
     <name>DegreesField</name>
     <message>
         <source>Up to {most}°, or empty</source>
@@ -9150,6 +9169,45 @@ von oben</translation>
     </message>
 </context>
 <context>
+    <name>PracticeSystemCard</name>
+    <message>
+        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
+        <translation>Die Praxissoftware legt eine Person als GDT-2.1-Datei in den ersten Ordner, und Carpus öffnet sie. „An Praxissoftware senden“ auf einem Bericht legt Werte und PDF in den zweiten. Diese Dateien enthalten echte Namen.</translation>
+    </message>
+    <message>
+        <source>Change…</source>
+        <translation>Ändern…</translation>
+    </message>
+    <message>
+        <source>Do not use</source>
+        <translation>Nicht verwenden</translation>
+    </message>
+    <message>
+        <source>Test the folders</source>
+        <translation>Ordner prüfen</translation>
+    </message>
+    <message>
+        <source>Practice system (GDT)</source>
+        <translation>Praxissoftware (GDT)</translation>
+    </message>
+    <message>
+        <source>Patients from the practice system</source>
+        <translation>Patienten aus der Praxissoftware</translation>
+    </message>
+    <message>
+        <source>Results for the practice system</source>
+        <translation>Ergebnisse für die Praxissoftware</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Ordner wählen</translation>
+    </message>
+    <message>
+        <source>No folder chosen</source>
+        <translation>Kein Ordner gewählt</translation>
+    </message>
+</context>
+<context>
     <name>PreviousPhoto</name>
     <message>
         <source>Last time, {day}</source>
@@ -10449,6 +10507,32 @@ von oben</translation>
     </message>
 </context>
 <context>
+    <name>TherapistCard</name>
+    <message>
+        <source>Initials</source>
+        <translation>Kürzel</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Therapists</source>
+        <translation>Therapeutinnen und Therapeuten</translation>
+    </message>
+    <message>
+        <source>Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist in the top bar. Clear the initials to remove a therapist.</source>
+        <translation>Sitzungen, Berichte, Briefe und Protokoll tragen das Kürzel der Therapeutin oder des Therapeuten. Die Auswahl steht in der Leiste oben. Zum Entfernen einer Person das Kürzel leeren.</translation>
+    </message>
+</context>
+<context>
+    <name>TherapistController</name>
+    <message>
+        <source>Edit the list…</source>
+        <translation>Liste bearbeiten…</translation>
+    </message>
+</context>
+<context>
     <name>TimeSlider</name>
     <message>
         <source>Time in the session</source>
@@ -10811,90 +10895,6 @@ von oben</translation>
     <message>
         <source>Measure without the list</source>
         <translation>Ohne die Liste messen</translation>
-    </message>
-</context>
-<context>
-    <name>DateField</name>
-    <message>
-        <source>day month year</source>
-        <translation>Tag Monat Jahr</translation>
-    </message>
-    <message>
-        <source>The date is in the future</source>
-        <translation>Das Datum liegt in der Zukunft</translation>
-    </message>
-    <message>
-        <source>This date does not exist</source>
-        <translation>Dieses Datum gibt es nicht</translation>
-    </message>
-    <message>
-        <source>Day, month, year</source>
-        <translation>Tag, Monat, Jahr</translation>
-    </message>
-</context>
-<context>
-    <name>TherapistCard</name>
-    <message>
-        <source>Initials</source>
-        <translation>Kürzel</translation>
-    </message>
-    <message>
-        <source>Name</source>
-        <translation>Name</translation>
-    </message>
-    <message>
-        <source>Therapists</source>
-        <translation>Therapeutinnen und Therapeuten</translation>
-    </message>
-    <message>
-        <source>Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist in the top bar. Clear the initials to remove a therapist.</source>
-        <translation>Sitzungen, Berichte, Briefe und Protokoll tragen das Kürzel der Therapeutin oder des Therapeuten. Die Auswahl steht in der Leiste oben. Zum Entfernen einer Person das Kürzel leeren.</translation>
-    </message>
-</context>
-<context>
-    <name>TherapistController</name>
-    <message>
-        <source>Edit the list…</source>
-        <translation>Liste bearbeiten…</translation>
-    </message>
-</context>
-<context>
-    <name>PracticeSystemCard</name>
-    <message>
-        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
-        <translation>Die Praxissoftware legt eine Person als GDT-2.1-Datei in den ersten Ordner, und Carpus öffnet sie. „An Praxissoftware senden“ auf einem Bericht legt Werte und PDF in den zweiten. Diese Dateien enthalten echte Namen.</translation>
-    </message>
-    <message>
-        <source>Change…</source>
-        <translation>Ändern…</translation>
-    </message>
-    <message>
-        <source>Do not use</source>
-        <translation>Nicht verwenden</translation>
-    </message>
-    <message>
-        <source>Test the folders</source>
-        <translation>Ordner prüfen</translation>
-    </message>
-    <message>
-        <source>Practice system (GDT)</source>
-        <translation>Praxissoftware (GDT)</translation>
-    </message>
-    <message>
-        <source>Patients from the practice system</source>
-        <translation>Patienten aus der Praxissoftware</translation>
-    </message>
-    <message>
-        <source>Results for the practice system</source>
-        <translation>Ergebnisse für die Praxissoftware</translation>
-    </message>
-    <message>
-        <source>Choose a folder</source>
-        <translation>Ordner wählen</translation>
-    </message>
-    <message>
-        <source>No folder chosen</source>
-        <translation>Kein Ordner gewählt</translation>
     </message>
 </context>
 </TS>

@@ -7108,6 +7108,25 @@
     </message>
 </context>
 <context>
+    <name>DateField</name>
+    <message>
+        <source>day month year</source>
+        <translation>giorno mese anno</translation>
+    </message>
+    <message>
+        <source>The date is in the future</source>
+        <translation>La data è nel futuro</translation>
+    </message>
+    <message>
+        <source>This date does not exist</source>
+        <translation>Questa data non esiste</translation>
+    </message>
+    <message>
+        <source>Day, month, year</source>
+        <translation>Giorno, mese, anno</translation>
+    </message>
+</context>
+<context>
     <name>DegreesField</name>
     <message>
         <source>Up to {most}°, or empty</source>
@@ -9150,6 +9169,45 @@ dall’alto</translation>
     </message>
 </context>
 <context>
+    <name>PracticeSystemCard</name>
+    <message>
+        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
+        <translation>Il gestionale mette un paziente come file GDT 2.1 nella prima cartella e Carpus lo apre. “Invia al gestionale” accanto a una relazione mette i valori e il PDF nella seconda. Questi file contengono i nomi reali.</translation>
+    </message>
+    <message>
+        <source>Change…</source>
+        <translation>Cambia…</translation>
+    </message>
+    <message>
+        <source>Do not use</source>
+        <translation>Non usare</translation>
+    </message>
+    <message>
+        <source>Test the folders</source>
+        <translation>Verifica le cartelle</translation>
+    </message>
+    <message>
+        <source>Practice system (GDT)</source>
+        <translation>Gestionale (GDT)</translation>
+    </message>
+    <message>
+        <source>Patients from the practice system</source>
+        <translation>Pazienti dal gestionale</translation>
+    </message>
+    <message>
+        <source>Results for the practice system</source>
+        <translation>Risultati per il gestionale</translation>
+    </message>
+    <message>
+        <source>Choose a folder</source>
+        <translation>Scegli una cartella</translation>
+    </message>
+    <message>
+        <source>No folder chosen</source>
+        <translation>Nessuna cartella scelta</translation>
+    </message>
+</context>
+<context>
     <name>PreviousPhoto</name>
     <message>
         <source>Last time, {day}</source>
@@ -10449,6 +10507,32 @@ dall’alto</translation>
     </message>
 </context>
 <context>
+    <name>TherapistCard</name>
+    <message>
+        <source>Initials</source>
+        <translation>Iniziali</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nome</translation>
+    </message>
+    <message>
+        <source>Therapists</source>
+        <translation>Terapisti</translation>
+    </message>
+    <message>
+        <source>Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist in the top bar. Clear the initials to remove a therapist.</source>
+        <translation>Sedute, relazioni, lettere e registro riportano le iniziali del terapista. Il terapista si sceglie nella barra in alto. Per togliere un terapista, cancellare le iniziali.</translation>
+    </message>
+</context>
+<context>
+    <name>TherapistController</name>
+    <message>
+        <source>Edit the list…</source>
+        <translation>Modifica l’elenco…</translation>
+    </message>
+</context>
+<context>
     <name>TimeSlider</name>
     <message>
         <source>Time in the session</source>
@@ -10811,90 +10895,6 @@ dall’alto</translation>
     <message>
         <source>Measure without the list</source>
         <translation>Misurare senza l’elenco</translation>
-    </message>
-</context>
-<context>
-    <name>DateField</name>
-    <message>
-        <source>day month year</source>
-        <translation>giorno mese anno</translation>
-    </message>
-    <message>
-        <source>The date is in the future</source>
-        <translation>La data è nel futuro</translation>
-    </message>
-    <message>
-        <source>This date does not exist</source>
-        <translation>Questa data non esiste</translation>
-    </message>
-    <message>
-        <source>Day, month, year</source>
-        <translation>Giorno, mese, anno</translation>
-    </message>
-</context>
-<context>
-    <name>TherapistCard</name>
-    <message>
-        <source>Initials</source>
-        <translation>Iniziali</translation>
-    </message>
-    <message>
-        <source>Name</source>
-        <translation>Nome</translation>
-    </message>
-    <message>
-        <source>Therapists</source>
-        <translation>Terapisti</translation>
-    </message>
-    <message>
-        <source>Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist in the top bar. Clear the initials to remove a therapist.</source>
-        <translation>Sedute, relazioni, lettere e registro riportano le iniziali del terapista. Il terapista si sceglie nella barra in alto. Per togliere un terapista, cancellare le iniziali.</translation>
-    </message>
-</context>
-<context>
-    <name>TherapistController</name>
-    <message>
-        <source>Edit the list…</source>
-        <translation>Modifica l’elenco…</translation>
-    </message>
-</context>
-<context>
-    <name>PracticeSystemCard</name>
-    <message>
-        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
-        <translation>Il gestionale mette un paziente come file GDT 2.1 nella prima cartella e Carpus lo apre. “Invia al gestionale” accanto a una relazione mette i valori e il PDF nella seconda. Questi file contengono i nomi reali.</translation>
-    </message>
-    <message>
-        <source>Change…</source>
-        <translation>Cambia…</translation>
-    </message>
-    <message>
-        <source>Do not use</source>
-        <translation>Non usare</translation>
-    </message>
-    <message>
-        <source>Test the folders</source>
-        <translation>Verifica le cartelle</translation>
-    </message>
-    <message>
-        <source>Practice system (GDT)</source>
-        <translation>Gestionale (GDT)</translation>
-    </message>
-    <message>
-        <source>Patients from the practice system</source>
-        <translation>Pazienti dal gestionale</translation>
-    </message>
-    <message>
-        <source>Results for the practice system</source>
-        <translation>Risultati per il gestionale</translation>
-    </message>
-    <message>
-        <source>Choose a folder</source>
-        <translation>Scegli una cartella</translation>
-    </message>
-    <message>
-        <source>No folder chosen</source>
-        <translation>Nessuna cartella scelta</translation>
     </message>
 </context>
 </TS>
