@@ -332,3 +332,11 @@ def test_measure_hand_covariance_falls_with_frames(frames: int, said_over_book: 
     across_m = np.hypot(0.1 / np.sqrt(frames), 0.1) * 0.7 / CAMERA.fx_px
     flat = np.linalg.eigvalsh(in_cam)[:, 0]
     assert np.sqrt(flat) == pytest.approx(np.full(6, across_m), rel=0.15)
+
+
+def test_calibrate_hand_tilt_just_beyond_limit_is_found() -> None:
+    scene = Scene(tilt_deg=9.0, distance_m=0.66)
+    tilt_deg = outcome_of(scene).verdict.tilt_deg
+    for share, findings in ((1.01, []), (0.99, ["tilt"])):
+        settings = replace(CalibrationSettings(), most_tilt_deg=share * tilt_deg)
+        assert [one.kind for one in outcome_of(scene, settings=settings).verdict.findings] == findings

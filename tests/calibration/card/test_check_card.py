@@ -208,3 +208,10 @@ def test_check_card_command_prints_measures_and_saves(
 
 def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:
     assert main(["check-card", str(tmp_path), "--card", str(tmp_path / "c.pdf")]) == 2
+
+
+def test_card_reading_largest_errors() -> None:
+    measured = np.array([30.5, 50.0, 88.0, 80.4, 119.0, 25.2])
+    reading = CardReading(measured, np.zeros(6), 1.0, 0.6, 9, 9)
+    assert reading.angle_error_deg == pytest.approx(2.0)
+    assert reading.length_error_mm == pytest.approx(1.0)

@@ -12,6 +12,7 @@ from carpus.core.model.types import FloatArray
 from carpus.core.research.agreement.time_alignment import (
     AlignmentCurves,
     ClockShift,
+    _correlations,
     find_shift,
     with_residual_drift,
 )
@@ -74,6 +75,36 @@ def test_find_shift_periodic_curve_has_rivals() -> None:
     assert found.has_more_rivals
 
 
+def test_residual_drift_with_opposite_sign_is_found() -> None:
+    one, other = (make_curves(sine, 0.2, length_s=30.0, drift=0.01, sign=sign) for sign in (1.0, -1.0))
+    both = replace(
+        one,
+        values=np.hstack((other.values, 0.2 * one.values)),
+        reference_values=np.hstack((other.reference_values, 0.2 * one.reference_values)),
+    )
+    for each in (one, other, both):
+        found = with_residual_drift(each, find_shift(each, 10.0))
+        assert found.residual_drift == pytest.approx(0.01, abs=5e-4)
+        assert found.drift_free_lag_s == pytest.approx(0.2, abs=0.02)
+
+
+def test_correlations_equal_those_of_each_lag() -> None:
+    rng = np.random.default_rng(3)
+    a, b = (np.cumsum(rng.normal(0.0, 1.0, count)) + 1e3 for count in (300, 380))
+    a[40:90], b[:7], b[200:230] = np.nan, np.nan, np.nan
+    a[:40] = 1e3  # at rest
+    later = np.arange(-400, 401)
+    found = _correlations(a, b, later, 60)
+    for shift, match in zip(later.tolist(), found.tolist(), strict=True):
+        mine, other = a[max(0, -shift) :], b[max(0, shift) :]
+        count = min(len(mine), len(other))
+        both = np.isfinite(mine[:count]) & np.isfinite(other[:count])
+        if both.sum() >= 60:
+            assert match == pytest.approx(np.corrcoef(mine[:count][both], other[:count][both])[0, 1], abs=1e-9)
+        else:
+            assert np.isnan(match)
+
+
 def test_find_shift_at_the_search_limit_is_flagged() -> None:
     assert find_shift(make_curves(hand_curve, 3.0), 2.9).is_at_search_limit
     assert not find_shift(make_curves(hand_curve, 3.0), 10.0).is_at_search_limit
@@ -96,3 +127,10 @@ def test_residual_drift_of_equal_clocks_is_none(noise_deg: float) -> None:
     assert np.isnan(with_residual_drift(both, find_shift(both, 10.0)).residual_drift)
     short = make_curves(hand_curve, 0.5, length_s=8.0, drift=0.01)
     assert np.isnan(with_residual_drift(short, find_shift(short, 10.0)).residual_drift), "too short to tell"
+
+
+def test_find_shift_lag_beyond_search_gives_same_sign_shift() -> None:
+    found = find_shift(make_curves(lambda time_s: np.where(time_s > 4.0, sine(time_s), 0.0), 5.0), 4.0)
+    assert found.match < 0.0
+    assert 0.0 < found.same_sign_shift[1] < 1.0
+    assert found.max_shift_s == 4.0

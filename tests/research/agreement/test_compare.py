@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -264,3 +265,11 @@ def test_compare_opposed_curves_remark_a_larger_shift() -> None:
         "time shift is more than" in remark
         for remark in comparison_remarks((), replace(against, match=0.98, same_sign_shift=None))
     )
+
+
+@pytest.mark.parametrize(("match", "suits"), [(0.51, True), (-0.51, True), (0.49, False)])
+def test_compare_match_below_a_half_is_refused(match: float, suits: bool) -> None:
+    time_s = np.arange(0.0, 10.0, 0.1)
+    curves = AlignmentCurves(time_s, time_s[:, None], time_s, time_s[:, None], ignores_sign=True)
+    with nullcontext() if suits else pytest.raises(ReferenceUnsuited):
+        _check_match(Reference(Path("x.mot"), "angles"), curves, ClockShift(0.0, match))

@@ -125,3 +125,10 @@ def test_papers_tracker_random_blobs_never_fail(seed: int) -> None:
                 assert (frame.kinematics.angles_sd_rad >= 0.0).all()
                 assert np.isfinite(frame.kinematics.joint_angles_sd_rad).all()
         assert len(frame.measured_share) in (3, 17)
+
+
+def test_papers_tracker_gap_loses_the_hand() -> None:
+    tracker, seen = wrist_tracker(), palm_blobs(swing(0, 0.0), 5)
+    track_poses(tracker, seen)
+    assert is_unknown(tracker.step(5, 9.0, seen[0]))
+    assert tracker.step(6, 9.03, seen[0]).status is TrackStatus.TRACKED
