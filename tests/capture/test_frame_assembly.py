@@ -249,3 +249,9 @@ def test_choose_mode_of_an_xtion_prefers_vga() -> None:
     best = openni2_camera.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
     assert best == VideoMode(PixelFormat.RGB888, 640, 480, 30)
     assert openni2_camera.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None
+
+
+def test_frame_assembler_counts_missing_numbers() -> None:
+    assembler = FrameAssembler(StreamLayout((6, 4), None), 1e6, 4)
+    frames = assembler.add_color(0, 1, color_of(1)) + assembler.add_color(PERIOD_US, 4, color_of(2))
+    assert frames[1].dropped_before == 2

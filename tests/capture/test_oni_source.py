@@ -240,3 +240,11 @@ def test_oni_source_new_pass_ends_the_one_before(tmp_path: Path) -> None:
     assert_whole(list(source.frames()), 30)
     assert len(list(first)) < 30
     assert told == []
+
+
+def test_oni_source_sidecar_overrides_mirror_flag(tmp_path: Path) -> None:
+    path = write_sample(tmp_path / "a.oni", 1, mirrored=True)
+    write_camera_info(sidecar_path(path), CAMERA, registered=True, mirrored=False)
+    (frame,) = play(path)[0]
+    assert np.array_equal(frame.color_rgb, color_picture(1)[:, ::-1])
+    assert np.array_equal(frame.depth_raw, depth_picture(1)[:, ::-1])

@@ -108,3 +108,11 @@ def test_motion_range_hand_leaving_at_the_top_is_limited() -> None:
     found = measure_range(value, valid=value <= 45.0)
     assert math.degrees(found.maximum.best) == pytest.approx(40.0, abs=0.5)
     assert measure_range(value[-30:], valid=value[-30:] <= 45.0).top_limited
+
+
+def test_motion_range_without_valid_samples_is_unknown() -> None:
+    value = exercise_deg([40.0] * 3)
+    found = measure_range(value, valid=np.zeros(len(value), dtype=bool))
+    assert found.repetitions == 0
+    assert math.isnan(found.arc.mean)
+    assert math.isnan(found.arc.best)

@@ -9,7 +9,7 @@ import pytest
 
 from carpus.core.model.errors import SettingsInvalid
 from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
-from carpus.core.simulation.hand_motion import STILL_S
+from carpus.core.simulation.hand_motion import STILL_S, StrokePath
 from carpus.core.simulation.motions import MOTIONS, create_motion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
@@ -147,3 +147,10 @@ def test_scene_left_hand_mirrors_the_right() -> None:
     cones_a, cones_b = a.skin.cones_w(one.joint_angles_rad[9]), b.skin.cones_w(two.joint_angles_rad[9])
     np.testing.assert_allclose(cones_a.b_m, cones_b.b_m * mirror, atol=1e-9)
     np.testing.assert_allclose(cones_a.radius_b_m, cones_b.radius_b_m, atol=1e-9)
+
+
+def test_stroke_path_holds_and_passes_through_its_postures() -> None:
+    path = StrokePath(np.array([0.0, 1.0, 2.0, 3.0]), np.array([[0.0], [2.0], [2.0], [-1.0]]))
+    np.testing.assert_allclose(
+        path.evaluate(np.array([-1.0, 1.0, 1.5, 2.0, 2.5, 3.0, 9.0]))[:, 0], [0, 2, 2, 2, 0.5, -1, -1]
+    )

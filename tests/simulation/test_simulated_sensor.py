@@ -149,3 +149,14 @@ def test_color_neighbours_share_chroma() -> None:
     between = np.abs(difference[:, 1:-1:2] - difference[:, 2::2])
     assert np.percentile(pairs, 99) <= 3
     assert between.mean() > 3 * pairs.mean()
+
+
+def test_color_dim_light_is_noisier() -> None:
+    def noise(light: str) -> float:
+        pictures = SimulatedRecording(RecordingSpec(seed=2, light=light, motion="rest"))  # type: ignore[arg-type]
+        clean = pictures.render_clean(0)
+        stack = np.stack([pictures.apply_sensor(i, clean)[0][200:260, 20:120].astype(float) for i in range(3)])
+        return float(stack.std(axis=0).mean())
+
+    assert 0.5 < noise("bright") < 3.0
+    assert noise("dim") > 1.5 * noise("bright")

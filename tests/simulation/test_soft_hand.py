@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from carpus.core.model.errors import SettingsInvalid
 from carpus.core.model.hand.protocols import HAND21
-from carpus.core.simulation.hand_motion import FULL_CUP_RAD, apply_lag, apply_play, sample_tissue
+from carpus.core.simulation.hand_motion import FULL_CUP_RAD, TissueState, apply_lag, apply_play, sample_tissue
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.skin import skin_distance
@@ -173,3 +174,25 @@ def test_habits_have_their_effect() -> None:
     assert set(RecordingSpec(habit="grip+tenodesis").habits) < set(HABITS)
     with pytest.raises(SettingsInvalid):
         RecordingSpec(habit="grip+humming")
+
+
+def test_soft_hand_knuckles_stand_out_in_flexion() -> None:
+    _, soft = scenes(motion="bend45", protocol="hand21")
+    joints = soft.motion.joint_angles_rad(np.zeros(1))[0]
+    still = TissueState.rigid(1).select(0)
+    risen = dataclasses.replace(still, rise=np.ones(4))
+    disc = soft.patient.anatomy.palm_disc_m[3]
+    place = np.array([disc[0] + 0.003, disc[1], 0.05])
+    low, high = (height_m(place, soft.skin.cones_w(joints, state)) for state in (still, risen))
+    assert 0.3e-3 < high - low < 1.5e-3
+
+
+def test_soft_hand_metacarpals_flex_with_the_grip() -> None:
+    _, soft = scenes(motion="power_grip", protocol="hand21", seconds=6.0)
+    time_s = np.arange(0.0, 6.0, 0.02)
+    cup = soft.pose(time_s).tissue.cup_rad
+    np.testing.assert_allclose(cup[:, 0] * FULL_CUP_RAD[1], cup[:, 1] * FULL_CUP_RAD[0], atol=1e-12)
+    assert 0.8 * FULL_CUP_RAD[1] < cup[:, 1].max() <= FULL_CUP_RAD[1]
+    ring = np.degrees(soft.motion.joint_angles_rad(time_s)[:, soft.motion.joint_names.index("MCP4_flexion")])
+    assert np.corrcoef(ring, cup[:, 1])[0, 1] > 0.9
+    assert np.abs(cup[time_s < 0.7]).max() < 1e-12
