@@ -34,6 +34,7 @@ from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.model.hand.protocols import SITES, get_protocol
 from carpus.core.model.types import BoolArray, FloatArray, Frame, Side, TrackedFrame, TrackStatus
 from carpus.core.pipeline.track import TrackSettings, start_tracking, track_recording
+from carpus.core.platform.durable import write_fault
 from carpus.core.research.agreement.agreement_files import compare_files
 from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S, Comparison
 from carpus.core.research.agreement.reference import ANGLE_NAMES
@@ -196,7 +197,7 @@ def write_session(
     profile: Profile = "standard",
     lost_after_s: float = 1.5,
 ) -> OpenedSession:
-    """Track a stored recording into a new session file, as ``carpus track``, and open it.
+    """Track a stored recording into a new session file, as ``carpus track``, and open it; its folder is made.
 
     The repetitions of an ``exercise`` are counted: its id, such as ``WRIST_FE``; that of the clicks without it. The
     papers' method has no smoother and ignores ``smooth``. Other parameters as in :func:`track`.
@@ -212,6 +213,10 @@ def write_session(
     told = _load_clicks(where, clicks)
     source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_show_warning)
     try:
+        try:
+            out.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as cause:
+            raise write_fault(out.parent, cause) from cause
         track_recording(
             source, told, out, replace(chosen, smooth=smooth and chosen.smooth),
             subject_id=subject_id, exercise=exercise or told.exercise, path=recorded,
