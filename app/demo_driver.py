@@ -171,7 +171,7 @@ class DemoDriver:
         return self.controller.current.session_id
 
     def click_tab(self, place: str) -> None:
-        button = self.desktop.shell.top_bar.navigation_buttons()[PATIENT_TABS.index(place)]
+        button = self.desktop.shell.top_bar.navigation_buttons[PATIENT_TABS.index(place)]
         QTest.mouseClick(button, Qt.MouseButton.LeftButton)
         self.run_until_screen(place)
 

@@ -59,12 +59,12 @@ class TopBarController(QObject):
         bar.show_session(here.title(), " · ".join(words))
         if place in SETUP_STEPS and place != "live":
             names = [self.tr("Exercise"), self.tr("Camera"), self.tr("Markers"), self.tr("Measure")]
-            bar.show_steps(names, SETUP_STEPS.index(place))
+            bar.show_navigation(names, SETUP_STEPS.index(place), is_steps=True)
         elif place in PATIENT_TABS or here.parent_tab:
             names = [self.tr("Sessions"), self.tr("Review"), self.tr("Progress"), self.tr("Report")]
-            bar.show_tabs(names, PATIENT_TABS.index(here.parent_tab or place))
+            bar.show_navigation(names, PATIENT_TABS.index(here.parent_tab or place))
         else:
-            bar.clear_navigation()
+            bar.show_navigation()
         if place != "live":
             self._shell.top_bar.disk.show_state("none", "")
         self.show_reanalysis(*self._reanalysis)

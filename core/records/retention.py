@@ -147,10 +147,6 @@ class RecordRetention:
                 found.append(ArchivedItem(session_id, pseudonym, since, 1, owner, entry.recorded, session_id))
         return sorted(found, key=lambda one: one.since, reverse=True)
 
-    def due_patients(self, years: int, today: date) -> list[DuePatient]:
-        """Return patients whose records need no longer be kept."""
-        return find_due_patients(self._store, years, today)
-
     def read_log(self) -> tuple[AuditEntry, ...]:
         """Return the log, then log that it was read."""
         found = read_log(self._store)

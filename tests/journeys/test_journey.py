@@ -155,11 +155,11 @@ def test_whole_journey_by_mouse(
     assert path.read_bytes() == before, "what was left out is stored beside the session"
     assert path.is_relative_to(desktop.library.store.sessions_folder)
     assert desktop.shell.top_bar.recording_pill.state == "off"
-    click(qtbot, desktop.shell.top_bar.navigation_buttons()[2])
+    click(qtbot, desktop.shell.top_bar.navigation_buttons[2])
     at(qtbot, desktop.controller, "progress")
-    click(qtbot, desktop.shell.top_bar.navigation_buttons()[1])
+    click(qtbot, desktop.shell.top_bar.navigation_buttons[1])
     reviewed(qtbot, desktop)
-    click(qtbot, desktop.shell.top_bar.navigation_buttons()[2])
+    click(qtbot, desktop.shell.top_bar.navigation_buttons[2])
     at(qtbot, desktop.controller, "progress")
     wait(qtbot, lambda: bool(journey.progress.screen.chart.points()))
     spot = journey.progress.screen.chart.points()[0][2].toPoint()

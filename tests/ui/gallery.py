@@ -192,11 +192,11 @@ class GalleryWindow:
         bar.show()
         bar.show_session("Linden 42" if steps >= 0 or tab >= 0 or where else "", where)
         if steps >= 0:
-            bar.show_steps(STEPS, steps)
+            bar.show_navigation(STEPS, steps, is_steps=True)
         elif tab >= 0:
-            bar.show_tabs(TABS, tab)
+            bar.show_navigation(TABS, tab)
         else:
-            bar.clear_navigation()
+            bar.show_navigation()
         bar.camera.show_state("good" if camera else "none", camera)
         bar.disk.show_state("none", "")
         bar.recording_pill.show_state("off", 0)

@@ -54,7 +54,7 @@ class TopBar(Surface):
         self.help_button = icon_button(theme, "circle-help", self.tr("Help (F1)"))
         self.settings_button = icon_button(theme, "settings", self.tr("Settings (Ctrl+,)"))
         self._navigation = row_layout(gap=4)
-        self._navigation_buttons: list[NavigationButton] = []
+        self.navigation_buttons: list[NavigationButton] = []
         self._left, self._right = QWidget(), QWidget()
         left = _row(self._left, 8, self.brand, self._separator, self.back_button, self.patient_name, self.session_label)
         left.addStretch(1)
@@ -130,7 +130,7 @@ class TopBar(Surface):
             [self.reanalysis_button.width_px(short=not is_shown["again"])] if self.reanalysis_button.text_shown else []
         )
         right += [self.recording_pill.sizeHint().width()] if self.recording_pill.state != "off" else []
-        middle = [one.sizeHint().width() for one in self._navigation_buttons]
+        middle = [one.sizeHint().width() for one in self.navigation_buttons]
         gaps = 8 * (len(left) - 1) + 4 * max(len(middle) - 1, 0) + 16 * (len(right) - 1) - 16
         return sum(left) + sum(middle) + sum(right) + gaps + 2 * MARGIN_PX - 14 + 3 * 8
 
@@ -157,34 +157,19 @@ class TopBar(Surface):
         self.names_button.setToolTip(name)
         self.names_button.setAccessibleName(name)
 
-    def show_steps(self, names: Sequence[str], current: int) -> None:
-        self._show_navigation(
-            [NavigationButton(self._theme, name, number, current, True) for number, name in enumerate(names)]
-        )
-        for number, button in enumerate(self._navigation_buttons):
-            button.setEnabled(number < current)
-            button.clicked.connect(lambda _=False, number=number: self.step_selected.emit(number))
-
-    def show_tabs(self, names: Sequence[str], current: int) -> None:
-        self._show_navigation(
-            [NavigationButton(self._theme, name, number, current, False) for number, name in enumerate(names)]
-        )
-        for number, button in enumerate(self._navigation_buttons):
-            button.clicked.connect(lambda _=False, number=number: self.tab_selected.emit(number))
-
-    def clear_navigation(self) -> None:
-        self._show_navigation([])
-
-    def navigation_buttons(self) -> list[NavigationButton]:
-        return self._navigation_buttons
-
-    def _show_navigation(self, buttons: list[NavigationButton]) -> None:
-        for old in self._navigation_buttons:
+    def show_navigation(self, names: Sequence[str] = (), current: int = 0, *, is_steps: bool = False) -> None:
+        """Show the steps of the set-up or the tabs of a patient; nothing without names."""
+        for old in self.navigation_buttons:
             self._navigation.removeWidget(old)
             old.hide()
             old.deleteLater()
-        self._navigation_buttons = buttons
-        for button in buttons:
+        self.navigation_buttons = [
+            NavigationButton(self._theme, name, number, current, is_steps) for number, name in enumerate(names)
+        ]
+        selected = self.step_selected if is_steps else self.tab_selected
+        for number, button in enumerate(self.navigation_buttons):
+            button.setEnabled(not is_steps or number < current)
+            button.clicked.connect(lambda _=False, number=number: selected.emit(number))
             self._navigation.addWidget(button)
             button.show()
         self._fit()

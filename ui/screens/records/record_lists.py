@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QAbstractItemView, QTableWidget, QTableWidgetItem, QWidget
 
 from carpus.core.records.log import AuditEntry
-from carpus.core.records.retention import RETENTION_YEARS, ArchivedItem, DuePatient, RecordRetention
+from carpus.core.records.retention import RETENTION_YEARS, ArchivedItem, DuePatient, RecordRetention, find_due_patients
 from carpus.ui.kit import numbers
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Separator
@@ -82,7 +82,8 @@ class RecordListsController(QObject):
 
     def show_due(self) -> None:
         """Show patients past their retention period."""
-        self._run(lambda: self._records.due_patients(self.retention_years, self._context.today()), self._show_due)
+        store, years, today = self._context.library.store, self.retention_years, self._context.today()
+        self._run(lambda: find_due_patients(store, years, today), self._show_due)
 
     def _show_due(self, found: list[DuePatient]) -> None:
         words = self.tr("No record is past its retention period.")
