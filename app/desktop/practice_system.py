@@ -18,12 +18,14 @@ from carpus.core.formats import gdt
 from carpus.core.model.errors import CarpusFault, GdtUnreadable
 from carpus.core.records.practice_system import save_requested_patient, set_aside
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.translate import tr
+from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.report.pdf import report_pdf, save_pdf
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.screens.report.screen import default_file_name
 from carpus.ui.screens.settings.practice_system_card import PracticeSystemCard
+from carpus.ui.words import terms
 from carpus.ui.words.progress import range_name
+from carpus.ui.words.ranges import neutral_zero_words
 
 POLL_MS = 2000
 """A folder in the network gives no notice of new files, so it is looked at."""
@@ -122,13 +124,15 @@ class PracticeSystemController(QObject):
         request = replace(request, sex=patient.sex if patient.sex in ("male", "female") else "")
         content, name = report_pdf(screen.preview.pages), default_file_name(report)
         tests = gdt.build_tests(report.results.measures, lambda row: range_name(row, names_arc=True))
+        findings = _describe_findings(report)
 
         def work() -> str:
             target = folder / name
             if target.exists():  # sent before, and this report may say something else
                 target = target.with_stem(f"{target.stem}_{datetime.now():%H%M%S}")
             save_pdf(target, content)
-            gdt.write_result(folder, request, gdt.format_result(request, report.results.when, tests, report=target))
+            record = gdt.format_result(request, report.results.when, tests, findings=findings, report=target)
+            gdt.write_result(folder, request, record)
             return str(target)
 
         def show_failure(fault: Exception) -> None:
@@ -178,3 +182,17 @@ def _read_oldest(folder: Path) -> tuple[Path, gdt.GdtRequest | GdtUnreadable] | 
             if time.time() - path.stat().st_mtime > SETTLED_S:
                 return path, fault
     return None
+
+
+def _describe_findings(report: SessionReport) -> list[str]:
+    """Return exercise and hand, and the ranges of the wrist by the neutral-zero method."""
+    results = report.results
+    ranges = [words for angle in range(3) if (words := neutral_zero_words(results, angle))]
+    heading = f"{terms.exercise_name(results.exercise.id)}, {to_mid_sentence(terms.hand_name(results.side))}"
+    return [
+        heading,
+        *(
+            words.replace("\N{NON-BREAKING HYPHEN}", "-").replace("\N{GREATER-THAN OR EQUAL TO}", ">=")
+            for words in ranges
+        ),
+    ]

@@ -1,8 +1,8 @@
 """FHIR R4: a session as a collection of patient, observations and a diagnostic report.
 
-Each range of motion and task measure is an Observation. Codes are SNOMED CT where a concept is known for certain, else
-a text; no LOINC code for movements of the wrist and the fingers is known to us. A report ``NAME.pdf`` that lies in the
-folder already is attached.
+Each range of motion and task measure is an Observation of its mean. Codes are SNOMED CT where a concept is known for
+certain, else a text; no LOINC code for movements of the wrist and the fingers is known to us. A ``NAME.pdf`` that
+lies in the folder already is attached.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ class _Bundle:
 
 def _build_observation(row: Measure, results: SessionResults) -> dict[str, Any]:
     angular = row.group == "range"
-    value = row.best if math.isfinite(row.best) else row.mean
+    value = row.mean
     observation: dict[str, Any] = {
         "resourceType": "Observation",
         "status": "final",

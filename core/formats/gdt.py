@@ -153,17 +153,12 @@ def _parse_date(text: str, name: str) -> date | None:
 
 
 def build_tests(measures: Iterable[Measure], describe: Callable[[Measure], str]) -> list[GdtTest]:
-    """Return ranges of motion as results; ``describe`` names a measure in the clinic's language.
-
-    The value is the best of the repetitions where a best is known, else their mean.
-    """
-    tests = []
-    for row in measures:
-        value = row.best if math.isfinite(row.best) else row.mean
-        if row.group == "range" and math.isfinite(value):
-            unit = row.unit.replace("deg", "°")
-            tests.append(GdtTest(_identify(row), describe(row), value, unit, is_lower_bound=row.is_lower_bound))
-    return tests
+    """Return ranges of motion (means) as results; ``describe`` names a measure in the clinic's language."""
+    return [
+        GdtTest(_identify(row), describe(row), row.mean, row.unit.replace("deg", "°"), row.is_lower_bound)
+        for row in measures
+        if row.group == "range" and math.isfinite(row.mean)
+    ]
 
 
 def _identify(row: Measure) -> str:

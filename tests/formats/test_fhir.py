@@ -31,7 +31,7 @@ def test_bundle_of_a_session_holds_each_measure_once(tmp_path: Path, protocol: s
     observations = resources["Observation"]
     assert len(observations) == len(rows) > 0
     for row, observation in zip(rows, observations, strict=True):
-        known = row.best if row.best == row.best else row.mean
+        known = row.mean
         if known == known:
             assert observation.valueQuantity.value == pytest.approx(known, abs=5e-4)
             assert (observation.valueQuantity.comparator == ">=") == row.is_lower_bound

@@ -14,13 +14,14 @@ from carpus.core.formats.gdt import (
     GdtRequest,
     GdtTest,
     build_tests,
+    find_requests,
     format_result,
     parse_fields,
     parse_request,
     read_request,
     write_result,
 )
-from carpus.core.model.errors import CarpusFault, GdtUnreadable, OutputExists
+from carpus.core.model.errors import CarpusFault, GdtUnreadable
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.results.measure import summarise_values
 
@@ -147,11 +148,11 @@ def test_result_identifiers_are_short_and_each_its_own() -> None:
     assert len(set(names)) == len([row for row in rows if row.wrist_angle < 0 or row.quantity == "arc"]) + 2
 
 
-def test_write_result_twice_keeps_the_first(tmp_path: Path) -> None:
-    record = format_result(GdtRequest("1"), WHEN, [])
-    path = write_result(tmp_path / "PRAXCARP.001", record)
+def test_write_result_twice_takes_the_next_number(tmp_path: Path) -> None:
+    request = parse_request(encode(MUSTERMANN, "iso8859-1"))
+    first, second = (write_result(tmp_path, request, format_result(request, WHEN, [])) for _ in range(2))
 
-    with pytest.raises(OutputExists):
-        write_result(path, record)
+    assert (first.name, second.name) == ("PRAXCARP.001", "PRAXCARP.002")
+    assert find_requests(tmp_path) == [first, second]
     with pytest.raises(GdtUnreadable):
-        read_request(path)
+        read_request(first)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 
 from carpus.core.measures.repetitions import NoRepetitionReason
 from carpus.core.model.hand.exercises import STILL_NAMES
+from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.rounding import format_rounded
 from carpus.core.results.measure import Measure, negate_measure
@@ -125,6 +126,32 @@ def mean_head(name: str, rows: Iterable[Measure]) -> str:
     return tr("{name}, mean ± sd").format(name=name) if any(has_sd(row) for row in rows) else name
 
 
+_SFTR_ENDS = (("F", "radial", "ulnar"), ("S", "extension", "flexion"), ("R", "supination", "pronation"))
+"""Plane and both ends of each wrist angle in the order of the neutral-zero method."""
+_HYPHEN = "\N{NON-BREAKING HYPHEN}"
+
+
+def neutral_zero_words(results: SessionResults, angle: int) -> str:
+    """Return ``S 55-0-52`` of a wrist angle: extension, neutral and flexion; empty if an end is unknown.
+
+    Neutral-zero method in SFTR notation (Gerhardt and Russe 1975): where neutral is not reached, 0 stands outside.
+    """
+    plane, *movements = _SFTR_ENDS[angle]
+    ends = [results.find(WRIST_ANGLES[angle], movement) for movement in movements]
+    first, second = (math.nan if end is None else end.mean for end in ends)
+    if not math.isfinite(first + second):
+        return ""
+    signs = ["\N{GREATER-THAN OR EQUAL TO}" if end is not None and end.is_lower_bound else "" for end in ends]
+    texts = [f"{sign}{format_rounded(abs(value))}" for sign, value in zip(signs, (first, second), strict=True)]
+    if first < 0.0:
+        texts = ["0", *texts]
+    elif second < 0.0:
+        texts = [*texts, "0"]
+    else:
+        texts.insert(1, "0")
+    return f"{plane} {_HYPHEN.join(texts)}"
+
+
 def has_sd(row: Measure) -> bool:
     """Return whether the ± is the SD between repetitions, not the tracker's."""
     return math.isfinite(row.sd)
@@ -157,6 +184,8 @@ def _line_of_range(
     limited = tr("partly occluded") if row.is_lower_bound else ""
     words, verdict = "; ".join(filter(None, (text, limited))), change.verdict if change else ""
     norm = wrist_norm(row.quantity, row.wrist_angle, results.exercise)
+    if row.quantity == "arc" and (neutral_zero := neutral_zero_words(results, row.wrist_angle)):
+        name = f"{name}, {neutral_zero}"
     return (
         name if row.quantity == "arc" else Cell(name, MEDIUM, mark_token=CURVE_TOKENS[row.wrist_angle]),
         mean_words(row),
