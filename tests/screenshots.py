@@ -68,8 +68,9 @@ def write_guide() -> int:
     from PySide6.QtCore import QRectF
     from PySide6.QtGui import QColor, QImage, QPainter
 
-    from carpus.ui.screens.help.cards import FILE_NAME, paint_camera_setup, paint_marker_map, write_cards
+    from carpus.ui.screens.help.cards import FILE_NAME, write_cards
     from tests.ui.gallery import render_all_screens
+    from tests.ui.guide_drawings import paint_camera_setup, paint_marker_map
 
     folder = GUIDE / "pictures"
     folder.mkdir(parents=True, exist_ok=True)

@@ -584,116 +584,8 @@
         <translation>{row}, Bewegungsausmaß</translation>
     </message>
     <message>
-        <source>Blue matt paper, 12 mm, on clean dry skin</source>
-        <translation>Blaues mattes Papier, 12 mm, auf sauberer trockener Haut</translation>
-    </message>
-    <message>
-        <source>The left hand is the mirror image.</source>
-        <translation>Die linke Hand ist das Spiegelbild.</translation>
-    </message>
-    <message>
-        <source>{size} mm</source>
-        <translation>{size} mm</translation>
-    </message>
-    <message>
-        <source>40 mm, if printed at 100 %</source>
-        <translation>40 mm, wenn mit 100 % gedruckt</translation>
-    </message>
-    <message>
-        <source>Setting up</source>
-        <translation>Aufbau</translation>
-    </message>
-    <message>
         <source>Carpus: markers and set-up</source>
         <translation>Carpus: Marker und Aufbau</translation>
-    </message>
-    <message>
-        <source>Where the markers go</source>
-        <translation>Wohin die Marker gehören</translation>
-    </message>
-    <message>
-        <source>1. Wrist: middle of the dorsal side, over the crease of the extended wrist.</source>
-        <translation>1. Handgelenk: Mitte der Streckseite, über der Falte bei Extension.</translation>
-    </message>
-    <message>
-        <source>2. Thumb base (CMC): on the bony edge, one thumb’s width from the wrist marker.</source>
-        <translation>2. Daumensattelgelenk (CMC): auf der Knochenkante, eine Daumenbreite vom Handgelenkmarker.</translation>
-    </message>
-    <message>
-        <source>3. MCP joints: on the back of the hand, just proximal to each MCP joint.</source>
-        <translation>3. MCP-Gelenke: auf dem Handrücken, knapp proximal des Gelenks.</translation>
-    </message>
-    <message>
-        <source>Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm.</source>
-        <translation>Ganze Hand: auch über der Falte jedes Fingergelenks und auf den Nägeln. Kleine Finger: 8 mm.</translation>
-    </message>
-    <message>
-        <source>Place them where they were last time, never on wounds, dressings or fragile skin.</source>
-        <translation>Kleben Sie sie dorthin, wo sie letztes Mal waren, nie auf Wunden, Verbände oder empfindliche Haut.</translation>
-    </message>
-    <message>
-        <source>Keep everything else blue out of view: sleeves, pens, rings, nails.</source>
-        <translation>Halten Sie alles andere Blaue aus dem Bild: Ärmel, Stifte, Ringe, Nägel.</translation>
-    </message>
-    <message>
-        <source>Camera, arm, light, image</source>
-        <translation>Kamera, Arm, Licht, Bild</translation>
-    </message>
-    <message>
-        <source>1. Camera 70 to 80 cm above the table, pointing straight down, secured with a cord and connected directly.</source>
-        <translation>1. Kamera 70 bis 80 cm über dem Tisch, senkrecht nach unten, mit einer Schnur gesichert und direkt angeschlossen.</translation>
-    </message>
-    <message>
-        <source>2. Even light from the ceiling. No sun and no shadow of the camera arm on the hand.</source>
-        <translation>2. Gleichmäßiges Licht von der Decke. Keine Sonne und kein Schatten des Kameraarms auf der Hand.</translation>
-    </message>
-    <message>
-        <source>3. The forearm rests and stays still. A towel under it lets the wrist flex over the edge.</source>
-        <translation>3. Der Unterarm liegt auf und bleibt ruhig. Ein Handtuch darunter lässt das Handgelenk über die Kante beugen.</translation>
-    </message>
-    <message>
-        <source>4. Remove everything blue from the table. Roll up blue sleeves.</source>
-        <translation>4. Räumen Sie alles Blaue vom Tisch. Krempeln Sie blaue Ärmel hoch.</translation>
-    </message>
-    <message>
-        <source>5. Choose the patient and press Enter. Lay the hand flat and still and press Space.</source>
-        <translation>5. Wählen Sie den Patienten, und drücken Sie Eingabe. Hand flach und ruhig hinlegen, dann Leertaste.</translation>
-    </message>
-    <message>
-        <source>6. Click the markers in the order of the drawing. For the whole hand, check the labels.</source>
-        <translation>6. Klicken Sie die Marker in der Reihenfolge der Zeichnung an. Bei der ganzen Hand prüfen Sie die Bezeichnungen.</translation>
-    </message>
-    <message>
-        <source>7. When all checks are green, press Enter. Space starts the recording, and ends it and opens the review.</source>
-        <translation>7. Sind alle Prüfungen grün, drücken Sie Eingabe. Die Leertaste startet die Aufnahme, beendet sie und öffnet die Auswertung.</translation>
-    </message>
-    <message>
-        <source>Stop at pain of 5 or more, at 2 more than before, at numbness, swelling or dizziness.</source>
-        <translation>Abbruch bei Schmerz ab 5, bei 2 mehr als zuvor, bei Taubheit, Schwellung oder Schwindel.</translation>
-    </message>
-    <message>
-        <source>70 to 80 cm,</source>
-        <translation>70 bis 80 cm,</translation>
-    </message>
-    <message>
-        <source>at least 60 cm</source>
-        <translation>mindestens 60 cm</translation>
-    </message>
-    <message>
-        <source>camera, straight down</source>
-        <translation>Kamera, nach unten</translation>
-    </message>
-    <message>
-        <source>safety cord</source>
-        <translation>Sicherungsschnur</translation>
-    </message>
-    <message>
-        <source>forearm rests, still</source>
-        <translation>Unterarm liegt auf, ruhig</translation>
-    </message>
-    <message>
-        <source>plain table, nothing blue</source>
-        <translation>leerer Tisch, nichts Blaues</translation>
     </message>
     <message>
         <source>Help</source>
@@ -794,10 +686,6 @@
     <message>
         <source>Exclude or include a repetition</source>
         <translation>Wiederholung aus- oder einschließen</translation>
-    </message>
-    <message>
-        <source>Cycle: angles, path, speeds, Euler ZYZ</source>
-        <translation>Reihum: Winkel, Bahn, Geschwindigkeiten, Euler ZYZ</translation>
     </message>
     <message>
         <source>Move the repetition boundary earlier</source>
@@ -8688,13 +8576,6 @@ von oben</translation>
     </message>
 </context>
 <context>
-    <name>PathsChart</name>
-    <message>
-        <source>Paths in three planes</source>
-        <translation>Bahnen in drei Ebenen</translation>
-    </message>
-</context>
-<context>
     <name>PatientCardView</name>
     <message>
         <source>Start session, same set-up</source>
@@ -9093,18 +8974,6 @@ von oben</translation>
 <context>
     <name>Player</name>
     <message>
-        <source>Angles</source>
-        <translation>Winkel</translation>
-    </message>
-    <message>
-        <source>Path</source>
-        <translation>Bahn</translation>
-    </message>
-    <message>
-        <source>ZYZ</source>
-        <translation>ZYZ</translation>
-    </message>
-    <message>
         <source>Space</source>
         <translation>Leertaste</translation>
     </message>
@@ -9123,18 +8992,6 @@ von oben</translation>
     <message>
         <source>frame</source>
         <translation>Bild</translation>
-    </message>
-    <message>
-        <source>Movement display</source>
-        <translation>Darstellung der Bewegung</translation>
-    </message>
-    <message>
-        <source>Movement display (V)</source>
-        <translation>Darstellung der Bewegung (V)</translation>
-    </message>
-    <message>
-        <source>Position, speed</source>
-        <translation>Position, Tempo</translation>
     </message>
 </context>
 <context>
@@ -9980,18 +9837,6 @@ von oben</translation>
     <message>
         <source>Wrist</source>
         <translation>Handgelenk</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, with the hand’s axes</source>
-        <translation>Bahn des Handgelenks, mit den Achsen der Hand</translation>
-    </message>
-    <message>
-        <source>Fingertip paths</source>
-        <translation>Bahnen der Fingerspitzen</translation>
-    </message>
-    <message>
-        <source>Joint paths: {finger}</source>
-        <translation>Bahnen der Gelenke: {finger}</translation>
     </message>
 </context>
 <context>

@@ -584,116 +584,8 @@
         <translation>{row}, escursione</translation>
     </message>
     <message>
-        <source>Blue matt paper, 12 mm, on clean dry skin</source>
-        <translation>Carta blu opaca, 12 mm, su pelle pulita e asciutta</translation>
-    </message>
-    <message>
-        <source>The left hand is the mirror image.</source>
-        <translation>La mano sinistra è speculare.</translation>
-    </message>
-    <message>
-        <source>{size} mm</source>
-        <translation>{size} mm</translation>
-    </message>
-    <message>
-        <source>40 mm, if printed at 100 %</source>
-        <translation>40 mm, se stampato al 100 %</translation>
-    </message>
-    <message>
-        <source>Setting up</source>
-        <translation>Preparazione</translation>
-    </message>
-    <message>
         <source>Carpus: markers and set-up</source>
         <translation>Carpus: marcatori e preparazione</translation>
-    </message>
-    <message>
-        <source>Where the markers go</source>
-        <translation>Dove vanno i marcatori</translation>
-    </message>
-    <message>
-        <source>1. Wrist: middle of the dorsal side, over the crease of the extended wrist.</source>
-        <translation>1. Polso: al centro del dorso, sopra la piega del polso esteso.</translation>
-    </message>
-    <message>
-        <source>2. Thumb base (CMC): on the bony edge, one thumb’s width from the wrist marker.</source>
-        <translation>2. Base del pollice (CMC): sul bordo osseo, a un pollice dal marcatore del polso.</translation>
-    </message>
-    <message>
-        <source>3. MCP joints: on the back of the hand, just proximal to each MCP joint.</source>
-        <translation>3. Articolazioni MCF: sul dorso della mano, subito prossimali a ogni articolazione.</translation>
-    </message>
-    <message>
-        <source>Whole hand: also over the crease of each finger joint and on the nails. Small fingers: 8 mm.</source>
-        <translation>Mano intera: anche sulla piega di ogni articolazione delle dita e sulle unghie. Dita piccole: 8 mm.</translation>
-    </message>
-    <message>
-        <source>Place them where they were last time, never on wounds, dressings or fragile skin.</source>
-        <translation>Metterli dov’erano l’ultima volta, mai su ferite, medicazioni o pelle fragile.</translation>
-    </message>
-    <message>
-        <source>Keep everything else blue out of view: sleeves, pens, rings, nails.</source>
-        <translation>Togliere dall’inquadratura ogni altra cosa blu: maniche, penne, anelli, unghie.</translation>
-    </message>
-    <message>
-        <source>Camera, arm, light, image</source>
-        <translation>Telecamera, braccio, luce, immagine</translation>
-    </message>
-    <message>
-        <source>1. Camera 70 to 80 cm above the table, pointing straight down, secured with a cord and connected directly.</source>
-        <translation>1. Telecamera 70–80 cm sopra il tavolo, a piombo, assicurata con un cordino e collegata direttamente al computer.</translation>
-    </message>
-    <message>
-        <source>2. Even light from the ceiling. No sun and no shadow of the camera arm on the hand.</source>
-        <translation>2. Luce uniforme dal soffitto. Né sole né ombra del braccio della telecamera sulla mano.</translation>
-    </message>
-    <message>
-        <source>3. The forearm rests and stays still. A towel under it lets the wrist flex over the edge.</source>
-        <translation>3. L’avambraccio è appoggiato e fermo. Un asciugamano sotto permette al polso di flettersi oltre il bordo.</translation>
-    </message>
-    <message>
-        <source>4. Remove everything blue from the table. Roll up blue sleeves.</source>
-        <translation>4. Togliere dal tavolo tutto ciò che è blu. Arrotolare le maniche blu.</translation>
-    </message>
-    <message>
-        <source>5. Choose the patient and press Enter. Lay the hand flat and still and press Space.</source>
-        <translation>5. Scegliere il paziente e premere Invio. Con la mano piatta e ferma premere la barra spaziatrice.</translation>
-    </message>
-    <message>
-        <source>6. Click the markers in the order of the drawing. For the whole hand, check the labels.</source>
-        <translation>6. Fare clic sui marcatori nell’ordine del disegno. Con la mano intera controllare le etichette.</translation>
-    </message>
-    <message>
-        <source>7. When all checks are green, press Enter. Space starts the recording, and ends it and opens the review.</source>
-        <translation>7. Quando tutti i controlli sono verdi, premere Invio. La barra spaziatrice avvia la registrazione, poi la termina e apre la revisione.</translation>
-    </message>
-    <message>
-        <source>Stop at pain of 5 or more, at 2 more than before, at numbness, swelling or dizziness.</source>
-        <translation>Fermarsi con dolore da 5 in su, se aumenta di 2, con formicolio, gonfiore o capogiro.</translation>
-    </message>
-    <message>
-        <source>70 to 80 cm,</source>
-        <translation>da 70 a 80 cm,</translation>
-    </message>
-    <message>
-        <source>at least 60 cm</source>
-        <translation>almeno 60 cm</translation>
-    </message>
-    <message>
-        <source>camera, straight down</source>
-        <translation>telecamera a piombo</translation>
-    </message>
-    <message>
-        <source>safety cord</source>
-        <translation>cordino di sicurezza</translation>
-    </message>
-    <message>
-        <source>forearm rests, still</source>
-        <translation>avambraccio appoggiato, fermo</translation>
-    </message>
-    <message>
-        <source>plain table, nothing blue</source>
-        <translation>tavolo semplice, niente blu</translation>
     </message>
     <message>
         <source>Help</source>
@@ -794,10 +686,6 @@
     <message>
         <source>Exclude or include a repetition</source>
         <translation>Escludi o includi una ripetizione</translation>
-    </message>
-    <message>
-        <source>Cycle: angles, path, speeds, Euler ZYZ</source>
-        <translation>A turno: angoli, percorso, velocità, angoli di Eulero ZYZ</translation>
     </message>
     <message>
         <source>Move the repetition boundary earlier</source>
@@ -8688,13 +8576,6 @@ dall’alto</translation>
     </message>
 </context>
 <context>
-    <name>PathsChart</name>
-    <message>
-        <source>Paths in three planes</source>
-        <translation>Percorsi in tre piani</translation>
-    </message>
-</context>
-<context>
     <name>PatientCardView</name>
     <message>
         <source>Start session, same set-up</source>
@@ -9093,18 +8974,6 @@ dall’alto</translation>
 <context>
     <name>Player</name>
     <message>
-        <source>Angles</source>
-        <translation>Angoli</translation>
-    </message>
-    <message>
-        <source>Path</source>
-        <translation>Percorso</translation>
-    </message>
-    <message>
-        <source>ZYZ</source>
-        <translation>ZYZ</translation>
-    </message>
-    <message>
         <source>Space</source>
         <translation>Spazio</translation>
     </message>
@@ -9123,18 +8992,6 @@ dall’alto</translation>
     <message>
         <source>frame</source>
         <translation>fotogramma</translation>
-    </message>
-    <message>
-        <source>Movement display</source>
-        <translation>Visualizzazione del movimento</translation>
-    </message>
-    <message>
-        <source>Movement display (V)</source>
-        <translation>Visualizzazione del movimento (V)</translation>
-    </message>
-    <message>
-        <source>Position, speed</source>
-        <translation>Posizione, velocità</translation>
     </message>
 </context>
 <context>
@@ -9980,18 +9837,6 @@ dall’alto</translation>
     <message>
         <source>Wrist</source>
         <translation>Polso</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, with the hand’s axes</source>
-        <translation>Percorso del polso, con gli assi della mano</translation>
-    </message>
-    <message>
-        <source>Fingertip paths</source>
-        <translation>Percorsi dei polpastrelli</translation>
-    </message>
-    <message>
-        <source>Joint paths: {finger}</source>
-        <translation>Percorsi delle articolazioni: {finger}</translation>
     </message>
 </context>
 <context>

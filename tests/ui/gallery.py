@@ -471,7 +471,7 @@ class Gallery(GalleryWindow):
         self.exercise().show_history("linden", self.sessions.history("linden"))
 
     def _review(
-        self, store: FakeSessions | None = None, session_id: str = "session-7", *, view: str = "", finger: int = -1,
+        self, store: FakeSessions | None = None, session_id: str = "session-7", *, finger: int = -1,
         at_s: float = 20.6,
     ) -> ReviewScreen:  # fmt: skip
         screen = ReviewScreen(self.theme, self.background, store or self.sessions)
@@ -479,8 +479,6 @@ class Gallery(GalleryWindow):
         self.settle()
         if finger >= 0:
             screen.charts.finger.buttons()[finger].click()
-        if view:
-            screen.player.view.setCurrentIndex(screen.player.view.findData(view))
         screen.playing.set_time(at_s)
         self.settle()
         screen.playing.stop()
@@ -507,9 +505,6 @@ class Gallery(GalleryWindow):
         screen.hand_image_dialog.open_form()
         screen.hand_image_dialog.consent_check.click()
 
-    review_path = partialmethod(_review, view="path")
-    review_zyz = partialmethod(_review, view="zyz")
-
     def review_reach(self) -> None:
         store = FakeHandSessions()
         store.sessions = {
@@ -518,7 +513,7 @@ class Gallery(GalleryWindow):
             )
             for number, days, share in ((6, 7, 0.9), (7, 0, 1.0))
         }
-        self._review(store, "hand-7", view="path", finger=6, at_s=9.5)
+        self._review(store, "hand-7", finger=6, at_s=9.5)
 
     def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectionScreen:
         """With ``wrong_px``, where the middle knuckle was taken to be."""

@@ -116,7 +116,7 @@ def test_page_html_escapes_text(theme: Theme) -> None:
 def test_write_cards_makes_two_pages_with_their_texts(qtbot: QtBot, tmp_path: Path) -> None:
     write_cards(tmp_path / "cards.pdf")
     assert pages_of(tmp_path / "cards.pdf") == 2
-    assert "Thumb CMC" in words_of(tmp_path / "cards.pdf", 1)
+    assert "Thumb base (CMC)" in words_of(tmp_path / "cards.pdf", 1)
     assert "70 to 80 cm" in words_of(tmp_path / "cards.pdf", 2)
     with pytest.raises(OutputNotWritable):
         write_cards(tmp_path / "cards.pdf" / "no folder" / "cards.pdf")

@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QRectF
-from pytestqt.qtbot import QtBot
 
 from carpus.core.results.motion_curves import compute_motion_curves
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.valid_data import wrist_curves
 from carpus.ui.charts.motion import MotionPlot
-from carpus.ui.charts.paths import PathsChart, finger_paths
+from carpus.ui.charts.paths import PathsChart, PlaneItem, finger_paths
 from carpus.ui.kit.cells import Cell
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.builders import write_session_report
-from carpus.ui.screens.review.charts import WRIST
 from carpus.ui.words.fingers import finger_table
 from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
-from tests.ui.fakes import NOW, FakeSessions, figures_once, session
+from tests.ui.fakes import NOW, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.printed import words_of
 
@@ -32,22 +29,15 @@ BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 # --- ways -------------------------------------------------------------------------------------------------
 
 
-def shown(qtbot: QtBot, theme: Theme) -> PathsChart:
-    chart = PathsChart(theme)
-    qtbot.addWidget(chart)
-    chart.resize(720, 300)
-    chart.show()
-    return chart
-
-
-def test_thumb_side_is_on_its_side_of_panel_for_both_hands(qtbot: QtBot, theme: Theme) -> None:
-    chart = shown(qtbot, theme)
+def test_thumb_side_is_on_its_side_of_panel_for_both_hands(theme: Theme) -> None:
     for side, thumb_left in (("right", True), ("left", False)):
         plot = finger_paths(
             compute_motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)), 0
         )
-        chart.show_plot(plot)
-        item = chart._planes[0]
+        chart = PathsChart(theme, plot)
+        chart.area = BOX
+        chart.build()
+        item = next(one for one in chart.plots[0].childGroup.childItems() if isinstance(one, PlaneItem))
         x = [
             float(np.nanmean(item._project_positions(item.plot.local_panel, way.position_mm)[0])) for way in plot.paths
         ]
@@ -55,40 +45,15 @@ def test_thumb_side_is_on_its_side_of_panel_for_both_hands(qtbot: QtBot, theme: 
 
 
 # --- curves -----------------------------------------------------------------------------------------------
-def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
+def test_motion_curves_stay_within_their_axes() -> None:
     made = session()
-    figures, curves, motion = figures_once(made), wrist_curves(made), compute_motion_curves(made)
-    row = 600
-    time_s = float(motion.time_s[row])
-    plot = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="place")
-    values = [value.value_deg for key in (0, 1, 2) for value in plot.read_values(key, time_s)]
-    there = np.concatenate((motion.position_mm[row], motion.velocity_mm_s[row], motion.angular_velocity_deg_s[row]))
-    assert np.allclose(values, there)
-    zyz = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="zyz")
-    beta = zyz.read_values(1, time_s)[0]
-    assert (beta.value_deg, beta.sd_deg) == (motion.zyz_deg[row, 1], motion.zyz_sd_deg[row, 1])
-    assert math.isclose(zyz.read_values(2, time_s)[1].value_deg, float(motion.zyz_sum_deg[row]))
-    for key in (0, 1, 2):  # nothing leaves its axis
-        scale = plot.panels(BOX, 8.0)[key][0].scale
-        assert np.nanmax(np.abs(plot.quantity(key))) <= scale.high
+    figures, motion = figures_once(made), compute_motion_curves(made)
+    plot = MotionPlot(wrist_curves(made), figures.exercise, figures.repetitions, motion=motion, kind="place")
+    for panel, key in plot.panels(BOX, 8.0):
+        assert np.nanmax(np.abs(plot.quantity(key))) <= panel.scale.high
 
 
 # --- review -----------------------------------------------------------------------------------------------
-def test_review_shows_path_speeds_and_zyz_in_turn(review: Reviewing) -> None:
-    screen = review(FakeSessions(), "session-7")
-    assert screen.charts.curves.isVisible()
-    screen.player.next_view()
-    assert screen.charts.paths.isVisible()
-    assert not screen.charts.curves.isVisible()
-    screen.player.next_view()
-    assert isinstance(screen.charts.curves._plot, MotionPlot)
-    assert screen.charts.curves._plot.kind == "place"
-    screen.player.next_view()
-    assert screen.charts.curves._plot.kind == "zyz"
-    screen.player.next_view()
-    assert not isinstance(screen.charts.curves._plot, MotionPlot)
-
-
 def test_review_of_reach_has_its_values_and_ways_of_joints(review: Reviewing) -> None:
     store = FakeHandSessions(pictures=False)
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
@@ -103,11 +68,6 @@ def test_review_of_reach_has_its_values_and_ways_of_joints(review: Reviewing) ->
     ):
         assert name in names
     assert screen.card.tables.task_table.isVisibleTo(screen)
-    screen.player.view.setCurrentIndex(screen.player.view.findData("path"))
-    for finger, joints in ((0, 5), (1, 4), (3, 4), (WRIST, 1)):
-        screen.charts.finger.choose(finger)
-        screen._refresh()
-        assert len(screen.charts.paths._plot.paths) == joints
 
 
 # --- words ------------------------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -17,7 +16,7 @@ from carpus.ui.charts.axes import Panel, Scale
 from carpus.ui.charts.chart import Plot
 from carpus.ui.charts.paths import AXIS_LETTERS, AXIS_TOKENS
 from carpus.ui.charts.series import Series, find_max_step_s
-from carpus.ui.charts.session import SessionPlot, Value, add_panel_name, find_nearest_row
+from carpus.ui.charts.session import SessionPlot, add_panel_name
 from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr
 
@@ -40,10 +39,6 @@ class MotionPlot(SessionPlot):
 
     motion: MotionCurves | None = None
     kind: MotionKind = "place"
-
-    @property
-    def has_readings(self) -> bool:
-        return True
 
     def quantity(self, key: int) -> FloatArray:
         """Return position, linear or angular velocity (N, 3)."""
@@ -106,25 +101,6 @@ class MotionPlot(SessionPlot):
 
     def visible_curves(self, key: int, points: int) -> list:  # type: ignore[type-arg]
         return [self._curve(series, token, points) for _, token, series in self.all_series(key)]
-
-    def read_values(self, key: int, time_s: float) -> list[Value]:
-        out = []
-        row = find_nearest_row(self.curves.time_s, time_s)
-        for name, token, series in self.all_series(key):
-            value = sd = math.nan
-            if len(series.time_s) and abs(float(series.time_s[row]) - time_s) <= series.max_step_s:
-                value = float(series.value[row])
-                sd = math.nan if series.sd is None else float(series.sd[row])
-            out.append(Value(name, token, value, sd, text=self._value_text(name, value, sd)))
-        return out
-
-    def _value_text(self, name: str, value: float, sd: float) -> str:
-        if not math.isfinite(value):
-            return f"{name} {numbers.UNKNOWN}"
-        if self.kind == "zyz":
-            return f"{name} {numbers.format_signed_degrees(value)} {numbers.format_sd(sd)}"
-        shown = format_rounded(value)
-        return f"{name} {shown.replace('-', MINUS)}"
 
 
 MINUS = "\N{MINUS SIGN}"

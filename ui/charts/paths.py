@@ -18,15 +18,13 @@ from carpus.core.results.motion_curves import MotionCurves
 from carpus.ui.charts.axes import Panel, Scale, align_to_pixels
 from carpus.ui.charts.chart import CURVES, GRID, LINES, Chart, PixelItem, Plot
 from carpus.ui.charts.series import find_runs
-from carpus.ui.charts.style import PlotStyle, draw_text, paint_dot
+from carpus.ui.charts.style import PlotStyle, dash_pen, draw_text
 from carpus.ui.kit import numbers
-from carpus.ui.kit.fonts import SEMIBOLD, font
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.words.finger_angles import FINGERS
 from carpus.ui.words.marker_words import finger_name
 
-EDGE_PX, HEAD_PX, BETWEEN_PX = 20, 34, 14
 BAR_LENGTHS_MM = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
 # The view is never narrower, also of a still hand.
 MIN_SPAN_MM = 40.0
@@ -36,8 +34,7 @@ MIN_LINES_WITH_TITLE = 8.0
 VIEW_MARGIN = 1.3
 # So many times the hand's axes are drawn along a path, evenly in time.
 AXES_COUNT = 9
-AXIS_FRACTION, CURRENT_AXIS_FRACTION = 0.075, 0.16
-RECENT_S = 1.0
+AXIS_FRACTION = 0.075
 _FINGER_JOINTS = ("MCP", "PIP", "DIP", "TIP")
 _THUMB_JOINTS = ("CMC", "MCP", "IP", "TIP")
 _JOINT_TOKENS = ("curve_a", "curve_b", "curve_c", "accent")
@@ -140,46 +137,22 @@ def plane_panels(style: PlotStyle, box: QRectF, gap: float) -> list[Panel]:
 
 
 class PlaneItem(PixelItem):
-    """Paths in one plane up to ``until_s``, or whole if it is NaN, with the hand's axes."""
+    """Whole paths in one plane, with the hand's axes along the first."""
 
-    def __init__(self, plot: Plot, plane: int) -> None:
+    def __init__(self, plot: Plot, plane: int, plot_data: PathPlot) -> None:
         super().__init__(plot, is_cached=False)
-        self.plane, self.occupied = plane, list[QRectF]()
-        self.plot_data: PathPlot | None = None
-        self.until_s = math.nan
-
-    def show_paths(self, plot_data: PathPlot | None, until_s: float) -> None:
-        self.plot_data, self.until_s = plot_data, until_s
-        self.update()
+        self.plane, self.plot_data, self.occupied = plane, plot_data, list[QRectF]()
 
     def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        if self.plot_data is None:
-            return
         if self.plot_data.axes is not None:
             self._paint_axes_along(painter, style, panel, self.plot_data.axes)
-        occupied = [*self.occupied]
-        row = self._current_row()
-        for way in self.plot_data.paths:
-            x, y = self._project_positions(panel, way.position_mm)
-            self._paint_path(painter, style, way, x, y)
-            if row >= 0 and math.isfinite(float(x[row] + y[row])):
-                paint_dot(painter, style, QPointF(float(x[row]), float(y[row])), way.token, 4.5)
-        for way in self.plot_data.paths:
-            self._paint_name(painter, style, panel, way, self._project_positions(panel, way.position_mm), occupied)
-        if row >= 0 and self.plot_data.axes is not None:
-            place = self._project_positions(panel, self.plot_data.paths[0].position_mm[row : row + 1])
-            at = QPointF(float(place[0][0]), float(place[1][0]))
-            length = panel.box.height() * CURRENT_AXIS_FRACTION
-            self._paint_axes(painter, style, at, self.plot_data.axes[row], length, lettered=True)
-
-    def _current_row(self) -> int:
-        assert self.plot_data is not None
-        if not math.isfinite(self.until_s) or not len(self.plot_data.time_s):
-            return -1
-        return int(np.abs(self.plot_data.time_s - self.until_s).argmin())
+        placed = [(way, *self._project_positions(panel, way.position_mm)) for way in self.plot_data.paths]
+        for one in placed:
+            self._paint_path(painter, style, *one)
+        for one in placed:
+            self._paint_name(painter, style, panel, *one)
 
     def _project_positions(self, panel: Panel, place_mm: FloatArray) -> tuple[FloatArray, FloatArray]:
-        assert self.plot_data is not None
         away = place_mm - 0.5 * (self.plot_data.low_mm + self.plot_data.high_mm)
         scale = self.plot_data.per_mm(panel.box)
         across, up, sign = ACROSS[self.plane], UP[self.plane], ACROSS_SIGN[self.plane]
@@ -187,36 +160,22 @@ class PlaneItem(PixelItem):
         return center.x() + sign * away[:, across] * scale, center.y() - away[:, up] * scale
 
     def _paint_path(self, painter: QPainter, style: PlotStyle, path: PathLine, x: FloatArray, y: FloatArray) -> None:
-        """Paint a path: solid if visible, dashed if occluded, faint beyond ``until_s``."""
-        assert self.plot_data is not None
+        """Paint a path: solid if visible, dashed if occluded."""
         painter.setBrush(Qt.BrushStyle.NoBrush)
         known = np.isfinite(x) & np.isfinite(y)
-        row = self._current_row()
         for first, last in find_runs(known):
             for seen in (True, False):
                 for start, stop in find_runs(path.is_visible[first:last] == seen):
                     begin, end = max(first + start - 1, first), first + stop
-                    pen = QPen(style.color(path.token), style.line_width if row >= 0 else 0.5 * style.line_width)
-                    if row >= 0:
-                        pen.setColor(style.color(path.token, 120))
-                    if not seen:
-                        pen.setDashPattern([2.2, 2.2])
-                    painter.setPen(pen)
+                    painter.setPen(
+                        dash_pen(style.color(path.token), 0.5 * style.line_width, () if seen else (2.2, 2.2))
+                    )
                     painter.drawPolyline(arrayToQPolygonF(x[begin:end], y[begin:end]))
-        if row >= 0:
-            recent = int(np.searchsorted(self.plot_data.time_s, self.plot_data.time_s[row] - RECENT_S))
-            painter.setPen(QPen(style.color(path.token), 2.0 * style.line_width))
-            for first, last in find_runs(known[recent : row + 1]):
-                painter.drawPolyline(
-                    arrayToQPolygonF(x[recent + first : recent + last], y[recent + first : recent + last])
-                )
 
     def _paint_name(
-        self, painter: QPainter, style: PlotStyle, panel: Panel, path: PathLine,
-        places: tuple[FloatArray, FloatArray], occupied: list[QRectF],
-    ) -> None:  # fmt: skip
+        self, painter: QPainter, style: PlotStyle, panel: Panel, path: PathLine, x: FloatArray, y: FloatArray
+    ) -> None:
         """Write the name at the outermost free point of the path; omit it without room."""
-        x, y = places
         known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
         if not path.name or not len(known):
             return
@@ -227,15 +186,14 @@ class PlaneItem(PixelItem):
             for left in (float(x[row]) + 5 * style.unit, float(x[row]) - width - 5 * style.unit):
                 box = QRectF(left, float(y[row]) - height / 2, width, height)
                 inside = panel.box.adjusted(2, 2, -2, -2).contains(box)
-                if inside and not any(box.intersects(other) for other in occupied):
-                    occupied.append(box)
+                if inside and not any(box.intersects(other) for other in self.occupied):
+                    self.occupied.append(box)
                     painter.fillRect(box.adjusted(-1, 2, 1, -2), style.color("surface", 200))
                     color = style.color(path.token)
                     draw_text(painter, box, path.name, style.end_label_font, color, Qt.AlignmentFlag.AlignCenter)
                     return
 
     def _paint_axes_along(self, painter: QPainter, style: PlotStyle, panel: Panel, axes: FloatArray) -> None:
-        assert self.plot_data is not None
         place_mm = self.plot_data.paths[0].position_mm
         known = np.flatnonzero(np.isfinite(place_mm).all(axis=1) & np.isfinite(axes).all(axis=(1, 2)))
         if not len(known):
@@ -244,41 +202,14 @@ class PlaneItem(PixelItem):
         x, y = self._project_positions(panel, place_mm[rows])
         for k, row in enumerate(rows.tolist()):
             at = QPointF(float(x[k]), float(y[k]))
-            self._paint_axes(painter, style, at, axes[row], panel.box.height() * AXIS_FRACTION, lettered=False)
+            self._paint_axes(painter, style, at, axes[row], panel.box.height() * AXIS_FRACTION)
 
-    def _paint_axes(
-        self,
-        painter: QPainter,
-        style: PlotStyle,
-        position: QPointF,
-        turned: FloatArray,
-        length: float,
-        *,
-        lettered: bool,
-    ) -> None:
+    def _paint_axes(self, painter: QPainter, style: PlotStyle, at: QPointF, turned: FloatArray, length: float) -> None:
         across, up, sign = ACROSS[self.plane], UP[self.plane], ACROSS_SIGN[self.plane]
-        letters: list[QPointF] = []
-        named = PLANE_LETTERS[self.plane]  # the plane's own first: where two would touch, the third goes without
-        for axis in sorted(range(3), key=lambda axis: AXIS_LETTERS[axis] not in named):
+        for axis, token in enumerate(AXIS_TOKENS):
             away = QPointF(sign * float(turned[across, axis]) * length, -float(turned[up, axis]) * length)
-            if not math.isfinite(away.x() + away.y()):
-                return
-            width = (2.0 if lettered else 1.0) * style.unit
-            color = style.color(AXIS_TOKENS[axis], 255 if lettered else 170)
-            painter.setPen(QPen(color, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-            painter.drawLine(position, position + away)
-            reach = math.hypot(away.x(), away.y())
-            size = style.label_font.pixelSize()
-            center = position + away * (1.0 + 0.7 * size / max(reach, 1e-6))
-            free = all(math.hypot((center - other).x(), (center - other).y()) > size for other in letters)
-            box = QRectF(center.x() - size, center.y() - size, 2 * size, 2 * size)
-            small, edge = box.adjusted(size / 3, size / 3, -size / 3, -size / 3), 0.6 * size
-            inside = QRectF(self.plot.rect()).adjusted(edge, edge, -edge, -edge).contains(center)
-            inside = inside and not any(small.intersects(other) for other in self.occupied)
-            if lettered and reach >= size and free and inside:
-                letters.append(center)
-                face, middle = font(size, SEMIBOLD, display=False), Qt.AlignmentFlag.AlignCenter
-                draw_text(painter, box, AXIS_LETTERS[axis], face, color, middle)
+            painter.setPen(QPen(style.color(token, 170), style.unit, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawLine(at, at + away)
 
 
 def has_title(style: PlotStyle, panel: Panel) -> bool:
@@ -291,60 +222,28 @@ def _line_height(style: PlotStyle) -> float:
 
 
 class PathsChart(Chart):
-    """Card with the paths of a session up to the player's time; on paper whole and without title."""
+    """The paths of a session on paper."""
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, plot: PathPlot) -> None:
         super().__init__(theme)
-        self._plot: PathPlot | None = None
-        self._title = ""
-        self._time_s = math.nan
-        self._planes: list[PlaneItem] = []
-        self.setAccessibleName(self.tr("Paths in three planes"))
-
-    def show_plot(self, plot: PathPlot, title: str = "") -> None:
-        self._plot, self._title = plot, title
-        self.refresh()
-
-    def set_time(self, time_s: float) -> None:
-        self._time_s = time_s
-        for item in self._planes:
-            item.show_paths(self._plot, self._time_s)
-
-    def panels(self) -> list[Panel]:
-        if self.is_printing:
-            return plane_panels(self.plot_style, self.area, 16 * self.plot_style.unit)
-        head = HEAD_PX * self._theme.text_scale
-        box = QRectF(self.rect()).adjusted(EDGE_PX, head, -EDGE_PX, -10)
-        return plane_panels(self.plot_style, box, BETWEEN_PX)
+        self._plot = plot
 
     def build(self) -> None:
         ways, look, line = self._plot, self.plot_style, _line_height(self.plot_style)
-        self._planes = []
-        if ways is None:
-            return
-        if not self.is_printing:
-            scale = self._theme.text_scale
-            self.add_text(self._title, font(14 * scale, SEMIBOLD), "text", (0.0, 0.5)).setPos(EDGE_PX, 19 * scale)
-        for plane, (panel, (up, across, title, letters)) in enumerate(
-            zip(self.panels(), plane_names(ways.side), strict=True)
-        ):
+        panels = plane_panels(look, self.area, 16 * look.unit)
+        for plane, (panel, (up, across, title, letters)) in enumerate(zip(panels, plane_names(ways.side), strict=True)):
             plot, box = self.add_plot(panel), panel.box
             pen = plot.pen("line", look.grid_width / look.unit)
             plot.setBorder(pen)
             for angle in (0, 90):
                 plot.add_to_layer(pg.InfiniteLine(0.0, angle, pen), GRID)
-            item = plot.add_to_layer(PlaneItem(plot, plane), CURVES)
-            self._planes.append(item)
-            self.add_text(f"{letters} · {up}", look.label_font, "text2", (0.0, 0.5)).setPos(
-                box.left(), box.top() - line / 2
-            )
-            self.add_text(across, look.label_font, "text2", (1.0, 0.5)).setPos(box.right(), box.top() - line / 2)
+            item = plot.add_to_layer(PlaneItem(plot, plane, ways), CURVES)
+            above, below = box.top() - line / 2, box.bottom() + line / 2
+            self.add_text(f"{letters} · {up}", look.label_font, "text2", (0.0, 0.5)).setPos(box.left(), above)
+            self.add_text(across, look.label_font, "text2", (1.0, 0.5)).setPos(box.right(), above)
             if has_title(look, panel):
-                self.add_text(title, look.end_label_font, "text", (0.0, 0.5)).setPos(
-                    box.left(), box.bottom() + line / 2
-                )
+                self.add_text(title, look.end_label_font, "text", (0.0, 0.5)).setPos(box.left(), below)
             self._add_bar(item, ways)
-            item.show_paths(ways, math.nan if self.is_printing else self._time_s)
 
     def _add_bar(self, item: PlaneItem, plot_data: PathPlot) -> None:
         """Add the scale bar in the lower left corner."""
@@ -360,7 +259,6 @@ class PathsChart(Chart):
 
 def paint_paths(painter: QPainter, style: PlotStyle, plot: PathPlot, box: QRectF) -> None:
     """Paint the chart into a box on paper."""
-    chart = PathsChart(Theme("light"))
-    chart.show_plot(plot)
+    chart = PathsChart(Theme("light"), plot)
     chart.render_on_paper(painter, style, box)
     chart.deleteLater()

@@ -110,13 +110,11 @@ class Value:
     value_deg: float
     sd_deg: float
     is_occluded: bool = False
-    # Replaces angle and SD, if given.
-    text: str = ""
 
     @property
     def display_text(self) -> str:
         """Text such as ``42° ± 2°``."""
-        return self.text or numbers.format_with_sd(self.value_deg, self.sd_deg)
+        return numbers.format_with_sd(self.value_deg, self.sd_deg)
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,11 +129,6 @@ class SessionPlot:
     target_negative_deg: float = math.nan
     # Visible time span; None for all of it.
     window_s: tuple[float, float] | None = None
-
-    @property
-    def has_readings(self) -> bool:
-        """Whether several values stand beside a panel, one under the other."""
-        return False
 
     @property
     def visible_s(self) -> tuple[float, float]:
@@ -523,7 +516,7 @@ class SessionChart(ZoomChart):
     def _reading_html(self, plot: SessionPlot, key: int, values: Sequence[Value], panels: int, most: int) -> str:
         """Return the values beside a panel: one with its name, several as a list or in one line."""
         scale = self._theme.text_scale
-        if values and not plot.has_readings and not isinstance(plot, HandPlot):
+        if values and not isinstance(plot, HandPlot):
             (value,) = values
             face = fit_font(font(14 * scale, REGULAR), value.name, (RIGHT_PX - 16) * scale)
             named = span_html(value.name, self.plot_style, "text2", face.pixelSize(), REGULAR)
@@ -583,7 +576,6 @@ class SessionChart(ZoomChart):
                         if not math.isfinite(value.value_deg)
                         else f"{value.name} {value.display_text} {hidden}"
                     )
-                    named = value.text or named
                     lines.append(named.strip())
         return lines
 

@@ -1,4 +1,4 @@
-"""Curves or paths of the review, and the player below them."""
+"""Curves of the review, and the player below them."""
 
 from __future__ import annotations
 
@@ -8,16 +8,13 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from carpus.core.results.repetition_rows import RepetitionResult
-from carpus.ui.charts.motion import MotionPlot
-from carpus.ui.charts.paths import PathsChart, finger_paths, wrist_path
 from carpus.ui.charts.session import HandPlot, SessionChart, SessionPlot
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, KeyCaps
-from carpus.ui.kit.field import ChoiceRow, Combo
+from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.layouts import STRETCH, column_layout, fill, row_layout
 from carpus.ui.kit.text import MEDIUM, Text
 from carpus.ui.kit.theme import Theme
-from carpus.ui.kit.translate import to_mid_sentence
 from carpus.ui.picture.playback_controls import PlaybackClock, PlaybackControls, TimeSlider, clock_words
 from carpus.ui.screens.review.reviewed_session import ReviewedSession
 from carpus.ui.words.finger_angles import FINGERS, find_finger_angle
@@ -41,10 +38,8 @@ class ReviewCharts(QWidget):
         for button in self.finger.buttons():
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click must leave Space and the arrows to the player
         self.curves = SessionChart(theme)
-        self.paths = PathsChart(theme)
-        self.paths.hide()
         self._column = column_layout(self.finger, gap=8, margins=(0, 0, 0, 0), parent=self)
-        fill(self._column, (self.curves, 1), (self.paths, 1))
+        fill(self._column, (self.curves, 1))
         self.finger.chosen.connect(lambda _: self.finger_chosen.emit())
 
     @property
@@ -65,59 +60,27 @@ class ReviewCharts(QWidget):
             return True
         return False
 
-    def show_plot(self, reviewed: ReviewedSession, view: str, current: int) -> SessionPlot:
-        """Show the ``angles``, ``path``, ``place`` or ``zyz`` of a session."""
+    def show_plot(self, reviewed: ReviewedSession, current: int) -> SessionPlot:
+        """Show the angles of the wrist or of the chosen finger."""
         shown = (reviewed.curves, reviewed.results.exercise, reviewed.results.repetitions, current)
-        if view in ("place", "zyz"):
-            plot: SessionPlot = MotionPlot(*shown, motion=reviewed.motion, kind="zyz" if view == "zyz" else "place")
-        elif reviewed.joints is not None and self.finger_number != WRIST:
+        plot: SessionPlot
+        if reviewed.joints is not None and self.finger_number != WRIST:
             plot = HandPlot(*shown, joints=reviewed.joints, finger=self.finger_number)
         else:
             plot = SessionPlot(*shown, *reviewed.results.targets_deg)
         self.curves.show_plot(plot)
-        self.curves.setVisible(view != "path")
-        self.paths.setVisible(view == "path")
-        self.finger.setVisible(reviewed.is_hand and view in ("angles", "path"))
-        if view == "path":
-            self._show_paths(reviewed)
         return plot
-
-    def _show_paths(self, reviewed: ReviewedSession) -> None:
-        if not reviewed.is_hand or self.finger_number == WRIST:
-            self.paths.show_plot(wrist_path(reviewed.motion), self.tr("Path of the wrist, with the hand’s axes"))
-            return
-        words = self.tr("Fingertip paths")
-        if self.finger_number:
-            words = self.tr("Joint paths: {finger}").format(
-                finger=to_mid_sentence(finger_name(str(self.finger_number)))
-            )
-        self.paths.show_plot(finger_paths(reviewed.motion, self.finger_number), words)
-
-    def set_time(self, time_s: float) -> None:
-        self.curves.set_time(time_s)
-        self.paths.set_time(time_s)
 
 
 class Player(Card):
-    """Emits ``view_chosen`` (name) and ``repetition_requested``."""
+    """Emits ``repetition_requested``."""
 
-    view_chosen = Signal(str)
     repetition_requested = Signal()
 
     def __init__(self, theme: Theme, playing: PlaybackClock) -> None:
         super().__init__(theme, 0)
-        self._research = True
         self._end_s = 1.0
         self.transport = PlaybackControls(theme, playing)
-        self.view = Combo()
-        self.view.setAccessibleName(self.tr("Movement display"))
-        self.view.setToolTip(self.tr("Movement display (V)"))
-        self.view.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
-        self.view.set_choices([
-            ("angles", self.tr("Angles")), ("path", self.tr("Path")), ("place", self.tr("Position, speed")),
-            ("zyz", self.tr("ZYZ")),
-        ])  # fmt: skip
-        self.view_key = KeyCaps(theme, [("V", "")])
         self.hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play"))])
         self.repetition_button = Button(theme, self.tr("Repetition…"), "quiet", hint="X", height_px=40)
         self.repetition_button.setToolTip(self.tr("Passive or excluded (X); [ and ] select another"))
@@ -127,10 +90,6 @@ class Player(Card):
         row = row_layout(
             self.transport,
             8,
-            self.view,
-            4,
-            self.view_key,
-            12,
             self.hints,
             self.repetition_button,
             STRETCH,
@@ -144,22 +103,8 @@ class Player(Card):
         )
         self.body.addLayout(row)
         self.repetition_button.clicked.connect(self.repetition_requested)
-        self.view.currentIndexChanged.connect(lambda _: self.view_chosen.emit(self.view.currentData()))
         self.scrubber.time_chosen.connect(playing.set_time)
         playing.time_changed.connect(self._show_time)
-
-    def next_view(self) -> None:
-        if not self._research:
-            return
-        self.view.setCurrentIndex((self.view.currentIndex() + 1) % self.view.count())
-
-    def show_research(self, *, on: bool) -> None:
-        """Offer paths, positions, speeds and ZYZ angles too, or the angles alone."""
-        self._research = on
-        if not on:
-            self.view.setCurrentIndex(0)
-        for shown in (self.view, self.view_key):
-            shown.setVisible(on)
 
     def show_session(self, end_s: float, repetitions: Sequence[RepetitionResult], current: int) -> None:
         self._end_s = end_s

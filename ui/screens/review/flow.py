@@ -89,8 +89,7 @@ class ReviewFlow(Flow):
         self.screen.playing.stop()
 
     def show_research(self, *, on: bool) -> None:
-        """Show paths, positions and speeds besides the angles, and all export formats."""
-        self.screen.player.show_research(on=on)
+        """Offer all export formats."""
         self.exporting.dialog.show_research(on=on)
 
     def save_hand_image(self, hand_image: HandImage) -> None:

@@ -14,7 +14,6 @@ from carpus.core.measures.manual_measurements import ManualValue, session_values
 from carpus.core.model.hand.exercises import FLEXION, Exercise
 from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.records.values import SessionEntry, read_or_default
-from carpus.core.results.motion_curves import MotionCurves, compute_motion_curves
 from carpus.core.results.progress import error_limits
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.session_results import SessionResults, compute_session_results
@@ -45,7 +44,6 @@ class ReviewedSession:
     manual_values: Sequence[ManualValue]
     curves: WristCurves
     joints: JointCurves | None
-    motion: MotionCurves
     modelled_px: FloatArray | None
     results: SessionResults
 
@@ -59,7 +57,7 @@ class ReviewedSession:
         results = tuple(
             one for one in store.result_versions(session_id) if store.owner_id(one.session_id) == patient_id
         )
-        drawn = wrist_curves(session), joint_curves(session), compute_motion_curves(session)
+        drawn = wrist_curves(session), joint_curves(session)
         modelled = None if drawn[1] is None else project_markers(session.camera, session.markers.position_cam_m)
         figures = compute_session_results(session, choices, error_limits(history))
         return cls(session, choices, history, results, by_hand, *drawn, modelled, figures)

@@ -107,7 +107,6 @@ class ReviewScreen(FittedWidget):
         curves.menu.fault_raised.connect(self.fault_raised)
         self.charts.finger_chosen.connect(self._refresh)
         self.player.transport.stepped.connect(self.step)
-        self.player.view_chosen.connect(lambda _: self._refresh())
         self.player.repetition_requested.connect(self.toggle_excluded)
         self.exclusion_dialog.reason_chosen.connect(self._exclude_repetition)
         self.hand_image_dialog.accepted.connect(self._request_hand_image)
@@ -125,7 +124,7 @@ class ReviewScreen(FittedWidget):
             "play": self.playing.toggle, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
             "repetition_back": lambda: self.select_repetition(self.current - 1),
             "repetition_on": lambda: self.select_repetition(self.current + 1),
-            "leave_out": self.toggle_excluded, "next_view": self.player.next_view,
+            "leave_out": self.toggle_excluded,
             "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S), "edge_on": lambda: self.nudge_edge(EDGE_STEP_S),
             "report": card.report_button.click, "export": card.export_button.click, "plot_in": curves.zoom_in,
             "plot_out": curves.zoom_out, "plot_all": curves.show_all, "correct": self.correct_here,
@@ -196,7 +195,7 @@ class ReviewScreen(FittedWidget):
         reviewed = self.reviewed
         if reviewed is None:
             return
-        plot = self.charts.show_plot(reviewed, str(self.player.view.currentData()), self.current)
+        plot = self.charts.show_plot(reviewed, self.current)
         self.player.show_session(plot.end_s, reviewed.results.repetitions, self.current)
         self.frame_view.show_repetition(reviewed, self.current, max(self.charts.finger_number, 0))
         self.card.show_session(reviewed)
@@ -211,7 +210,7 @@ class ReviewScreen(FittedWidget):
         if under and self.current not in under:
             self.current = under[0]
             self._refresh()
-        self.charts.set_time(time_s)
+        self.charts.curves.set_time(time_s)
         self.frame_view.show_time(time_s, find_nearest_row(self.reviewed.curves.time_s, time_s))
 
     def step(self, frames: int) -> None:
