@@ -38,7 +38,7 @@ class TherapistCard(Card):
         self.table.horizontalHeader().setStretchLastSection(True)
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.AllEditTriggers)
         self.table.setTabKeyNavigation(False)
-        self.table.cellChanged.connect(lambda *_: self.changed.emit(self.therapists()))
+        self.table.cellChanged.connect(self._on_edited)
         self.body.addWidget(Text(theme, self.tr("Therapists"), 20, SEMIBOLD))
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.body.addWidget(self.table)
@@ -47,13 +47,19 @@ class TherapistCard(Card):
     def show_therapists(self, therapists: Sequence[Therapist]) -> None:
         """Show the list, with rows for further ones."""
         self.table.blockSignals(True)
+        self.table.setRowCount(0)
         self.table.setRowCount(len(therapists) + SPARE_ROWS)
-        for number in range(self.table.rowCount()):
-            one = therapists[number] if number < len(therapists) else Therapist("")
+        for number, one in enumerate(therapists):
             for column, text in enumerate((one.initials, one.name)):
                 self.table.setItem(number, column, QTableWidgetItem(text))
         self.table.blockSignals(False)
         self._fit()
+
+    def _on_edited(self, row: int) -> None:
+        """Report the list; no row moves while the next cell is typed."""
+        self.table.setRowCount(max(self.table.rowCount(), row + 1 + SPARE_ROWS))
+        self._fit()
+        self.changed.emit(self.therapists())
 
     def therapists(self) -> list[Therapist]:
         model = self.table.model()

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 from carpus.core.model.errors import CarpusFault
 from carpus.core.records.clinic_records import read_therapists, save_therapists
 from carpus.core.records.values import Therapist, read_or_default
-from carpus.ui.screens.settings.therapist_card import SPARE_ROWS, TherapistCard
+from carpus.ui.screens.settings.therapist_card import TherapistCard
 from carpus.ui.shell.flow import ScreenContext
 
 
@@ -71,7 +71,5 @@ class TherapistController(QObject):
             self._context.messages.show_fault(fault)
             return
         listed = self.list_therapists()
-        if len(self.card.therapists()) + SPARE_ROWS > self.card.table.rowCount():
-            self.card.show_therapists(listed)
         if len(listed) == 1 or self._initials() not in [one.initials for one in listed]:
             self.choose(listed[0].initials if len(listed) == 1 else "")
