@@ -128,12 +128,17 @@ def read_therapists(store: Store) -> list[Therapist]:
     return [Therapist(row.initials, row.name) for row in rows]
 
 
-def save_therapists(store: Store, therapists: Iterable[Therapist]) -> None:
-    """Store the list in place of the last one; of two with the same initials the later stays."""
-    rows = {uuid.uuid5(uuid.NAMESPACE_OID, one.initials).hex: one for one in therapists if one.initials}
-    gone = [row.id for row in store.rows(select(THERAPIST.c.id)) if row.id not in rows]
-    kept = [upsert_row(THERAPIST, row_id, initials=one.initials, name=one.name) for row_id, one in rows.items()]
-    store.apply([*(delete_row(THERAPIST, one) for one in gone), *kept])
+def save_therapists(store: Store, therapists: Iterable[Therapist], previous: Iterable[Therapist] = ()) -> None:
+    """Save what differs from the ``previous`` list; what another computer added meanwhile stays."""
+    rows, before = ({_therapist_id(one): one for one in listed} for listed in (therapists, previous))
+    gone = [delete_row(THERAPIST, row_id) for row_id in before.keys() - rows.keys()]
+    changed = {row_id: one for row_id, one in rows.items() if before.get(row_id) != one}
+    kept = [upsert_row(THERAPIST, row_id, initials=one.initials, name=one.name) for row_id, one in changed.items()]
+    store.apply([*gone, *kept])
+
+
+def _therapist_id(therapist: Therapist) -> str:
+    return uuid.uuid5(uuid.NAMESPACE_OID, therapist.initials).hex
 
 
 def therapist_words(store: Store, initials: str) -> str:

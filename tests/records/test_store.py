@@ -30,7 +30,7 @@ from carpus.core.model.errors import (
     PseudonymTaken,
 )
 from carpus.core.model.names import normalize_name
-from carpus.core.records import patients, schema, session_records
+from carpus.core.records import clinic_records, patients, schema, session_records
 from carpus.core.records.changes import insert_row
 from carpus.core.records.database import STORE_FILE, move_aside
 from carpus.core.records.exercise_sets import read_sets
@@ -38,7 +38,7 @@ from carpus.core.records.log import read_log
 from carpus.core.records.patients import WORDS, patient_columns, suggest_pseudonym
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import HomePlan, Patient
+from carpus.core.records.values import HomePlan, Patient, Therapist
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record, written
@@ -451,3 +451,14 @@ def test_valid_rows_skips_and_reports_damaged_row_once(tmp_path: Path) -> None:
             assert session_records.read_choices(house.store, session_id)[0] == RepetitionChoices()
             assert read_sets(house.store) == ()
     assert [type(one) for one in told] == [PatientListDamaged] * 4
+
+
+def test_therapists_of_two_computers_are_kept(tmp_path: Path) -> None:
+    anna, katrin, maria = Therapist("AB", "Anna"), Therapist("KB"), Therapist("MR", "Maria")
+    with opened(tmp_path) as one, opened(tmp_path) as other:
+        clinic_records.save_therapists(one.store, [anna, katrin])
+        clinic_records.save_therapists(other.store, [maria])
+        clinic_records.save_therapists(one.store, [replace(anna, name="Anna B")], [anna, katrin])
+        listed = [replace(anna, name="Anna B"), maria]
+        assert clinic_records.read_therapists(other.store) == listed
+        assert [clinic_records.therapist_words(one.store, one_) for one_ in ("AB", "XX")] == ["Anna B (AB)", "XX"]

@@ -71,6 +71,7 @@ class TherapistCard(Card):
 
     def _fit(self) -> None:
         theme, rows = self._theme, self.table.rowCount()
+        self.table.setStyleSheet(f"QTableWidget {{ gridline-color: {theme.tokens.line}; }}")
         self.table.setFont(font(14 * theme.text_scale, REGULAR))
         self.table.verticalHeader().setDefaultSectionSize(theme.px(ROW_PX))
         self.table.setColumnWidth(0, theme.px(INITIALS_PX))

@@ -25,12 +25,12 @@ class TherapistController(QObject):
         self.card.changed.connect(self._save)
         self._button = context.window.top_bar.therapist_button
         self._button.menu().aboutToShow.connect(self._fill_menu)
+        self._shown: Sequence[Therapist] = ()
         with suppress(CarpusFault):
-            listed = self.list_therapists()
-            if initials() and initials() not in [one.initials for one in listed]:
-                save_therapists(context.library.store, [*listed, Therapist(initials())])
-        self.card.show_therapists(self.list_therapists())
-        self._show_current()
+            if initials() and initials() not in [one.initials for one in read_therapists(context.library.store)]:
+                save_therapists(context.library.store, [Therapist(initials())])
+        context.navigator.screen_changed.connect(lambda name: self._show_list() if name == "settings" else None)
+        context.window.top_bar.show_therapist(initials())
 
     def list_therapists(self) -> list[Therapist]:
         """Return all therapists; none while the clinic's server is away."""
@@ -45,10 +45,11 @@ class TherapistController(QObject):
         """Set who works now."""
         if initials != self._initials():
             self._choose(initials)
-            self._show_current()
+            self._context.window.top_bar.show_therapist(initials)
 
-    def _show_current(self) -> None:
-        self._context.window.top_bar.show_therapist(self._initials())
+    def _show_list(self) -> None:
+        self._shown = self.list_therapists()
+        self.card.show_therapists(self._shown)
 
     def _fill_menu(self) -> None:
         menu = self._button.menu()
@@ -66,10 +67,11 @@ class TherapistController(QObject):
     def _save(self, therapists: Sequence[Therapist]) -> None:
         """Save the list; the only one in it works now."""
         try:
-            save_therapists(self._context.library.store, therapists)
+            save_therapists(self._context.library.store, therapists, self._shown)
         except CarpusFault as fault:
             self._context.messages.show_fault(fault)
             return
-        listed = self.list_therapists()
-        if len(listed) == 1 or self._initials() not in [one.initials for one in listed]:
-            self.choose(listed[0].initials if len(listed) == 1 else "")
+        self._shown = therapists
+        listed = [one.initials for one in self.list_therapists()]
+        if len(listed) == 1 or self._initials() not in listed:
+            self.choose(listed[0] if len(listed) == 1 else "")
