@@ -74,8 +74,12 @@ package-test: setup-test        ## the .deb in clean roots: install, start, meas
 windows-test:                   ## the Windows installer around a stand-in, its handling of files under Wine
 	installer/package/windows/try_under_wine.sh
 
-docs: build/docs-tools/ready    ## the documentation as a site, into build/site; a link that leads nowhere ends it
+docs: setup-test build/docs-tools/ready build/tutorials ## the documentation as a site, into build/site; a link that leads nowhere ends it
 	NO_MKDOCS_2_WARNING=1 build/docs-tools/bin/python installer/docs.py
+
+build/tutorials: resources/tutorials/*.ipynb
+	$(PY) installer/tutorials.py resources/tutorials $@
+	touch $@
 
 build/docs-tools/ready: requirements-docs.lock
 	$(PACKAGE_PY) -m venv --clear build/docs-tools

@@ -7,6 +7,8 @@ places in a copy, so that their links hold; a link or an anchor that leads nowhe
 from __future__ import annotations
 
 import ast
+import json
+import os
 import re
 import shutil
 import subprocess
@@ -17,8 +19,9 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES, CONFIG, SITE = ROOT / "build" / "docs", ROOT / "build" / "docs.yml", ROOT / "build" / "site"
+SOURCE, TUTORIALS = ROOT / "build" / "docs-source", ROOT / "build" / "tutorials"
 FIRST = ("README", "CONTRIBUTING", "CHANGELOG", "SECURITY", "CODE_OF_CONDUCT")
-BESIDE = ("LICENSE", "CITATION.cff")
+BESIDE = ("LICENSE", "CITATION.cff", "pyproject.toml")
 LANGUAGES = {"en": "Guide", "de": "Anleitung", "it": "Guida"}
 RESOURCES = {
     "Method": ("method", "accuracy", "performance", "untried", "decisions"),
@@ -27,13 +30,31 @@ RESOURCES = {
 }
 OTHERS = "Keeping it running"
 """Of all that no heading names."""
-PYTHON = """# Python interface
-
-::: carpus.app.python_api
-    options:
-      members: [track, write_session, open_session, simulate, propose_clicks, export, compare]
-      show_root_toc_entry: false
-"""
+REFERENCE = {
+    "carpus.app.opened_session": ("open_session", "open_sessions", "OpenedSession"),
+    "carpus.app.python_api": (
+        "track", "write_session", "simulate", "propose_clicks", "export", "compare",
+        "HandFrame", "Wrist", "ProposedClicks",
+    ),
+    "carpus.core.session.values": ("Session", "SessionHeader", "Motion", "MarkerSeries", "QualitySeries", "Event",
+                                   "Repetitions", "RepetitionRow"),
+    "carpus.core.results.measures_table": ("MeasureRow",),
+    "carpus.core.simulation.spec": ("RecordingSpec",),
+    "carpus.core.formats.export": ("ExportResult", "RefusedSession"),
+    "carpus.core.research.agreement.compare": ("Comparison", "AnglePairs"),
+    "carpus.core.research.agreement.statistics": ("Agreement",),
+    "carpus.core.model.camera": ("Camera",),
+    "carpus.core.model.errors": ("CarpusFault",),
+}  # fmt: skip
+"""Functions of ``import carpus``, and the classes that they take and return."""
+COMMANDS = {
+    "Without a command, and to try": ("demo", "review"),
+    "Recordings and sessions": ("simulate", "record", "track", "recover", "info", "verify"),
+    "Results": ("results", "progress", "report", "export"),
+    "Studies": ("compare", "retest"),
+    "Cameras": ("doctor", "calibrate-camera", "check-card"),
+    "Data folder": ("backup", "restore", "log", "erase"),
+}
 
 
 def lay_out() -> None:
@@ -49,7 +70,53 @@ def lay_out() -> None:
     for page in (PAGES / "resources/guide").glob("*/*.md"):  # the window looks for pictures in their own folder
         text = page.read_text(encoding="utf-8")
         page.write_text(re.sub(r"\]\(([\w-]+\.(?:png|jpg))\)", r"](../pictures/\1)", text), encoding="utf-8")
-    (PAGES / "python.md").write_text(PYTHON, encoding="utf-8")
+    if TUTORIALS.is_dir():
+        shutil.copytree(TUTORIALS, PAGES / "resources/tutorials")
+        page = PAGES / "resources/api.md"
+        page.write_text(page.read_text(encoding="utf-8").replace(".ipynb)", ".md)"), encoding="utf-8")
+    else:
+        shutil.copytree(ROOT / "resources/tutorials", PAGES / "resources/tutorials")
+    (PAGES / "python.md").write_text(reference(), encoding="utf-8")
+    (PAGES / "commands.md").write_text(command_page(), encoding="utf-8")
+
+
+def reference() -> str:
+    """Page of the Python interface, from the code: a copy of it, whose roles are the site's own marks."""
+    lines = ["# Python interface", ""]
+    for module, names in REFERENCE.items():
+        path = Path(*module.split(".")[1:]).with_suffix(".py")
+        text = re.sub(r":\w+:`[~.]*(?:[\w.]+\.)?(\w+)`", r"``\1``", (ROOT / path).read_text(encoding="utf-8"))
+        copy = SOURCE / "carpus" / path
+        for folder in (copy.parent, *copy.parent.relative_to(SOURCE).parents):
+            (SOURCE / folder).mkdir(parents=True, exist_ok=True)
+            if folder != Path():
+                (SOURCE / folder / "__init__.py").touch()
+        copy.write_text(text, encoding="utf-8")
+        lines += [line for name in names for line in (f"::: {module}.{name}", "")]
+    return "\n".join(lines)
+
+
+HELP = """
+import json, sys
+from carpus.app.__main__ import build_parser
+parsers = {name: build_parser([name])._subparsers._group_actions[0].choices[name] for name in json.loads(sys.argv[1])}
+print(json.dumps({name: parser.format_help() for name, parser in parsers.items()}))
+"""
+
+
+def command_page() -> str:
+    """Page of the commands, from their own help."""
+    names = json.dumps([name for names in COMMANDS.values() for name in names])
+    asked = [ROOT / ".venv/bin/python", "-c", HELP, names]
+    environment = {**os.environ, "COLUMNS": "100"}
+    done = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=True, env=environment)
+    told = json.loads(done.stdout)
+    lines = ["# Commands", ""]
+    for title, some in COMMANDS.items():
+        lines += [f"## {title}", ""]
+        for name in some:
+            lines += [f"### carpus {name}", "", "```text", told[name].rstrip(), "```", ""]
+    return "\n".join(lines)
 
 
 def navigation() -> list[object]:
@@ -64,7 +131,8 @@ def navigation() -> list[object]:
         "README.md",
         *({title: pages} for title, pages in guides.items()),
         *({title: [f"resources/{name}.md" for name in names]} for title, names in headings.items()),
-        {"Python": "python.md"},
+        {"Tutorials": sorted(str(path.relative_to(PAGES)) for path in (PAGES / "resources/tutorials").glob("*.md"))},
+        {"Reference": ["commands.md", "python.md"]},
         {"Working on it": [f"{name}.md" for name in FIRST[1:]]},
     ]
 
@@ -81,13 +149,19 @@ def guide_pages() -> tuple[str, ...]:
 
 def config() -> dict[str, object]:
     """What MkDocs is told."""
+    options = {
+        "docstring_style": "numpy", "show_signature_annotations": True, "separate_signature": True,
+        "show_root_heading": True, "show_root_full_path": False, "show_source": False, "heading_level": 2,
+    }  # fmt: skip
+    python = {"paths": [str(SOURCE)], "options": options}
     return {
         "site_name": "Carpus",
         "docs_dir": str(PAGES),
         "site_dir": str(SITE),
         "use_directory_urls": False,  # read from a folder, without a server
         "theme": {"name": "material", "font": False, "features": ["navigation.tabs", "search.suggest"]},
-        "plugins": ["search", {"mkdocstrings": {"handlers": {"python": {"paths": [str(ROOT)]}}}}],
+        "plugins": ["search", "offline", {"mkdocstrings": {"handlers": {"python": python}}}],
+        "markdown_extensions": ["tables", "toc", "attr_list"],
         "validation": {
             "nav": {"omitted_files": "warn", "not_found": "warn"},
             "links": {"not_found": "warn", "anchors": "warn", "unrecognized_links": "warn"},

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
+import carpus
+from carpus.app.commands import COMMANDS
 from tests.installer.test_package import script
 
 ROOT = Path(__file__).parents[2]
@@ -17,6 +20,8 @@ ROOT = Path(__file__).parents[2]
 def docs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     module = script(ROOT / "installer" / "docs.py", monkeypatch)
     monkeypatch.setattr(module, "PAGES", tmp_path / "docs")
+    monkeypatch.setattr(module, "SOURCE", tmp_path / "source")
+    monkeypatch.setattr(module, "TUTORIALS", tmp_path / "tutorials")
     module.lay_out()
     return module
 
@@ -37,6 +42,16 @@ def test_docs_site_has_every_page_once(docs: ModuleType) -> None:
     assert kept <= there, "a page that nobody can find"
 
 
+def test_every_command_and_public_function_is_in_the_reference(docs: ModuleType) -> None:
+    assert {name for names in docs.COMMANDS.values() for name in names} == set(COMMANDS)
+    assert "usage: carpus track" in (docs.PAGES / "commands.md").read_text()
+    named = {name for names in docs.REFERENCE.values() for name in names}
+    assert named >= set(carpus.__all__) - {"__version__"}
+    for module, names in docs.REFERENCE.items():
+        assert all(hasattr(import_module(module), name) for name in names), module
+        assert not re.search(r":\w+:`", (docs.SOURCE / f"{module.replace('.', '/')}.py").read_text()), "a raw role"
+
+
 def test_pictures_of_the_guide_are_found_and_no_warning_is_kept_quiet(docs: ModuleType) -> None:
     shown = [
         (path, name)
@@ -46,3 +61,11 @@ def test_pictures_of_the_guide_are_found_and_no_warning_is_kept_quiet(docs: Modu
     assert len(shown) > 40
     assert all((path.parent / name).is_file() for path, name in shown)
     assert "--quiet" not in Path(docs.__file__).read_text(), "MkDocs counts only the warnings that it says"
+
+
+def test_citation_names_version_and_day_of_last_release() -> None:
+    cited = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    released = re.findall(
+        r"^## \[([\d.]+)\] - ([\d-]+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
+    assert (f"version: {released[0][0]}\n" in cited, f"date-released: {released[0][1]}\n" in cited) == (True, True)
