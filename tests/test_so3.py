@@ -82,29 +82,6 @@ def test_exponential_and_logarithm_work_on_batches_as_one_by_one() -> None:
     assert np.allclose(so3.log(rotations), turns, atol=1e-8)
 
 
-@NO_LIMIT
-@given(unit_axes, st.floats(0.0, 3.0), unit_axes, st.floats(0.0, 2.5), st.floats(0.0, 1.0))
-def test_mean_of_two_lies_on_the_way_between_them(
-    axis: FloatArray, angle: float, way: FloatArray, length: float, share: float
-) -> None:
-    one = so3.exp(axis * angle)
-    two = one @ so3.exp(way * length)
-    mean = so3.mean_rotation(np.stack((one, two)), np.array([1.0 - share, share]))
-    assert turn_between(mean, one @ so3.exp(way * length * share)) < 1e-7
-
-
-def test_mean_leaves_no_weighted_turn_over_and_does_not_depend_on_the_axes() -> None:
-    """The definition of the mean on the manifold, with weights as the unscented transform has them."""
-    turns = np.concatenate((np.zeros((1, 3)), random_turns(6, 0.5, seed=5)))
-    weight = np.array([-8.0, *(9.0 / 6.0,) * 6])
-    rotations = so3.exp(turns)
-    mean = so3.mean_rotation(rotations, weight)
-    assert np.linalg.norm(weight @ so3.log(mean.T @ rotations)) < 1e-9
-    left, right = so3.exp(random_turns(2, 3.0, seed=6))
-    moved = so3.mean_rotation(left @ rotations @ right, weight)
-    assert turn_between(moved, left @ mean @ right) < 1e-8
-
-
 def test_nearest_rotation_is_the_least_squares_one() -> None:
     rng = np.random.default_rng(7)
     rotations = so3.exp(random_turns(30, 3.0, seed=8))

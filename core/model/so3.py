@@ -127,18 +127,3 @@ def fit_rigid_transform(source: FloatArray, target: FloatArray) -> tuple[FloatAr
     a, b = source.mean(axis=0), target.mean(axis=0)
     turn = project_to_rotation((target - b).T @ (source - a))
     return turn, b - turn @ a
-
-
-def mean_rotation(rotation: FloatArray, weight: FloatArray) -> FloatArray:
-    """Return the weighted mean of rotations (N, 3, 3), weights (N,) summing to 1.
-
-    Gauss-Newton on the tangent space, started at the first rotation; weights may be negative (unscented transform) as
-    long as the rotations lie within a quarter turn of each other.
-    """
-    mean = rotation[0]
-    for _ in range(8):
-        step = weight @ log(mean.T @ rotation)
-        mean = mean @ exp(step)
-        if float(step @ step) < 1e-20:
-            break
-    return np.asarray(mean)

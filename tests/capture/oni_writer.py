@@ -30,6 +30,8 @@ DepthCodec = Literal["table", "raw"]
 MAX_DEPTH = 10000
 NOT_KNOWN = 0xFFFFFFFFFFFFFFFF
 """A time that is not known yet: all ones, as the library's own recorder writes it."""
+_NODE_ADDED_FIELDS = struct.Struct("<I4sIQQQ")
+"""After the name: node type, codec, number of images, first and last timestamp, position of the seek table."""
 _DATA_BEGIN_FIELDS = struct.Struct("<IQ")
 _SEEK_ENTRY = struct.Struct("<QIQ")
 _FRAME_SIZE, _MAX_DEPTH = "oniRequiredFrameSize", "xnDeviceMaxDepth"
@@ -158,7 +160,7 @@ class OniWriter:
     def _added(self, stream: _Stream, seek_at: int, count: int) -> bytes:
         last_us = stream.entries[-1][0] if stream.entries else 0
         numbers = (stream.kind, stream.codec, count, 0, last_us, seek_at)
-        fields = _string(stream.name) + oni.NODE_ADDED_FIELDS.pack(*numbers)
+        fields = _string(stream.name) + _NODE_ADDED_FIELDS.pack(*numbers)
         return _record_bytes(RecordType.NODE_ADDED, stream.node, fields, 0, 0)
 
     def _int(self, stream: _Stream, name: str, value: int) -> None:

@@ -27,8 +27,6 @@ RECORD_HEADER = struct.Struct("<IIIIIQ")
 OLD_RECORD_HEADER = struct.Struct("<IIIIII")
 """Before version 1.0.1.0, with 32-bit positions."""
 
-NODE_ADDED_FIELDS = struct.Struct("<I4sIQQQ")
-"""After the name: node type, codec, number of images, first and last timestamp, position of the seek table."""
 NEW_DATA_FIELDS = struct.Struct("<QI")
 """timestamp (microseconds), image number from 1."""
 
@@ -78,8 +76,6 @@ FIELD_OF_VIEW = "xnFOV"
 
 SMALL_STEP = 6
 """Differences up to this take half a byte."""
-MEDIUM_STEP = 63
-"""Differences up to this take a byte after the escape."""
 
 
 def decode_depth(data: bytes, codec: bytes, shape: tuple[int, int]) -> DepthImage | None:

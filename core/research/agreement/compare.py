@@ -421,7 +421,7 @@ def _angles_from_points(
         # The reference began later: its zero is the session's at the first common frame.
         begin_s, zero = float(time_s[both][0]), FIRST_IN_COMMON
         own = session.motion.rotation_w2_w0[both & _is_in_neutral_pose(time_s, begin_s)]
-        start = so3.mean_rotation(own, np.full(len(own), 1.0 / len(own)))
+        start = so3.project_to_rotation(own.mean(axis=0))
     neutral = reference_values[known & _is_in_neutral_pose(own_s, begin_s)].mean(axis=0)
     w0_in_reference = turn.T @ session.calibration.rotation_w0_cam
     rotation = np.full((len(reference_values), 3, 3), np.nan)
