@@ -6232,7 +6232,7 @@
         <translation>{name}, Mittel ± SD</translation>
     </message>
     <message>
-        <source>{count} per stroke, {seconds} s in all</source>
+        <source>{count} per movement, {seconds} s in total</source>
         <translation>{count} je Bewegung, insgesamt {seconds} s</translation>
     </message>
     <message>

@@ -6232,7 +6232,7 @@
         <translation>{name}, media ± DS</translation>
     </message>
     <message>
-        <source>{count} per stroke, {seconds} s in all</source>
+        <source>{count} per movement, {seconds} s in total</source>
         <translation>{count} per movimento, {seconds} s in tutto</translation>
     </message>
     <message>

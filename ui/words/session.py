@@ -278,7 +278,7 @@ def research_lines(results: SessionResults) -> list[tuple[str, str]]:
         value = numbers.format_fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
     if pauses is not None and pause_time is not None and pauses.count:
-        words = tr("{count} per stroke, {seconds} s in all") if pauses.mean else tr("none")
+        words = tr("{count} per movement, {seconds} s in total") if pauses.mean else tr("none")
         count, seconds = numbers.format_fixed(pauses.mean, 1), numbers.format_fixed(pause_time.mean, 1)
         lines.append((tr("Pauses during the movement, mean"), words.format(count=count, seconds=seconds)))
     if results.exercise.is_forearm_fixed and math.isfinite(quality.centre_residual_mm):
