@@ -103,11 +103,9 @@ def detected_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
     return MeasurementSequence(truth, measured.blobs, tuple(labels))
 
 
-def run_on_blobs(
-    scenario: Scenario, sequence: MeasurementSequence, settings: TrackerSettings | None = None
-) -> tuple[Run, float]:
+def run_on_blobs(scenario: Scenario, sequence: MeasurementSequence) -> tuple[Run, float]:
     """Track and smooth measurements; also when the neutral pose ends: only frames after it are scored."""
-    tracker, neutral_ends_s = learnt_tracker(sequence, settings)
+    tracker, neutral_ends_s = learnt_tracker(sequence)
     frames, _ = stepped(tracker, sequence, neutral_ends_s)
     status = np.array([frame.status for frame in frames])
     measured_px = np.array([frame.marker_measured_px for frame in frames])
@@ -115,16 +113,14 @@ def run_on_blobs(
     return _scored(scenario, "blobs", sequence, neutral_ends_s, *motions, measured_px, status), neutral_ends_s
 
 
-def run_on_pictures(
-    scenario: Scenario, seed: int, seconds: float, settings: TrackSettings | None = None
-) -> tuple[Run, MeasurementSequence, float, Path]:
+def run_on_pictures(scenario: Scenario, seed: int, seconds: float) -> tuple[Run, MeasurementSequence, float, Path]:
     """Track a rendered recording through the whole of Carpus.
 
     Also the blobs that were found, by their true names, when the neutral pose ended, and the recording's folder.
     """
     spec = scenario.spec(seed, seconds)
     folder = render_cached(spec)
-    found = measured_session(folder, settings)
+    found = measured_session(folder)
     sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
     assert session.smoothed is not None
     run = _scored(

@@ -47,8 +47,6 @@ class Figures:
     rmse: float
     sd: float
     inside: float
-    hidden_rmse: float
-    hidden_sd: float
     hidden_inside: float
     all_inside: float
     back: float
@@ -108,8 +106,6 @@ def figures(runs: Sequence[HandRun], group: str) -> Figures:
         rms(error[shown]),
         mean(sd[shown]),
         mean(inside[shown]),
-        rms(error[hidden]),
-        mean(sd[hidden]),
         mean(inside[hidden]),
         mean(inside[known]),
         rms(back[shown]),

@@ -27,16 +27,9 @@ from tests.simulation.measurements import MeasurementSequence
 from tests.tracking.hands import RIGID
 
 
-def informed_run(
-    scenario: Scenario,
-    sequence: MeasurementSequence,
-    begin_s: float,
-    mode: Mode,
-    settings: TrackerSettings | None = None,
-) -> Run:
+def informed_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: float, mode: Mode) -> Run:
     """Filter a wrist sequence; frames after ``begin_s`` are scored, as those of Carpus are."""
-    settings = TrackerSettings() if settings is None else settings
-    truth = sequence.truth
+    settings, truth = TrackerSettings(), sequence.truth
     measured, error = measured_and_errors(sequence)
     measured = measured - np.nanmean(error, axis=0)
     variance = np.nanmean(np.nanvar(error, axis=0), axis=0)

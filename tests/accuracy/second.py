@@ -14,7 +14,6 @@ from threadpoolctl import threadpool_limits
 
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.types import FloatArray
-from carpus.core.pipeline.track import TrackSettings
 from tests.accuracy import readings_table
 from tests.accuracy.carpus import measured_session
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, readable, seen_joints, with_end_joints
@@ -43,22 +42,19 @@ class SecondRun:
     joints: Reading | None
 
 
-def tracked_run(row: Row, seed: int, settings: TrackSettings | None = None) -> SecondRun | str:
+def _tracked(job: tuple[Row, int]) -> SecondRun | str:
     """Track one recording of a row and compare it with its truth; what is in the way where that cannot be done."""
+    row, seed = job
     try:
-        return _tracked_run(row, seed, settings)
+        return _tracked_run(row, seed)
     except CarpusFault as fault:
         return f"second: {row.name}, seed {seed}: not tracked, {type(fault).__name__}: {fault}"
 
 
-def _tracked(job: tuple[Row, int]) -> SecondRun | str:
-    return tracked_run(*job)
-
-
-def _tracked_run(row: Row, seed: int, settings: TrackSettings | None) -> SecondRun:
+def _tracked_run(row: Row, seed: int) -> SecondRun:
     folder, truth = kept_recording(row, seed)
     with threadpool_limits(1):
-        found = measured_session(folder, settings)
+        found = measured_session(folder)
     session = found.session
     pixel = np.array([truth.camera.distort(some) for some in truth.disc_pixel])
     labels = [markers_of(some, pixel[i], truth.visible_share[i]) for i, some in enumerate(found.blobs)]
