@@ -17,7 +17,7 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.kit.language import use_language
-from carpus.ui.report.builders import build_session_report, write_session_report
+from carpus.ui.report.builders import build_progress_report, build_session_report, write_session_report
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pdf import write_report
@@ -196,6 +196,20 @@ def test_letter_names_no_one_unless_asked(tmp_path: Path) -> None:
     words = words_of(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
     kept = ("Dr A", "Vienna", "22 Nov 2026", "Total arc", "± ", "first session on", LEGAL_SENTENCE[:60])
     assert all(one in words for one in (f"camera: {made.pseudonym} Dear", *kept))
+
+
+def test_reports_print_the_real_name_in_their_language_where_asked(tmp_path: Path) -> None:
+    erika = Patient("Linden 42", "right", name="Erika Muster", birth_day=date(1981, 3, 12), record_number="PR-1")
+    made = replace(report(), pseudonym="Linden 42")
+    home, course = home_report("de"), build_progress_report(FakeSessions().history("linden"))
+    pages = (
+        (replace(made, printed_patient=erika), "born 12 Mar 1981, No. PR-1"),
+        (replace(course, printed_patient=erika), "born 12 Mar 1981, No. PR-1"),
+        (replace(home, report=replace(made, printed_patient=erika)), "geb. 12. März 1981, Nr. PR-1"),
+    )
+    for number, (page, born) in enumerate(pages):
+        assert f"Erika Muster, {born}" in words_of(write_report(page, tmp_path / f"{number}.pdf")).replace("\n", " ")
+    assert "Erika" not in words_of(write_report(made, tmp_path / "plain.pdf"))
 
 
 def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None:
