@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.ui.kit.keys import key_name
 from carpus.ui.kit.layouts import FittedWidget, column_layout
-from carpus.ui.kit.text import MEDIUM, Text
+from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
 
 
@@ -53,6 +53,12 @@ class Card(Surface):
     ) -> None:
         super().__init__(theme, fill, edge)
         self.body = column_layout(gap=8, margins=(padding_px, padding_px, padding_px, padding_px), parent=self)
+
+    def add_heading(self, title: str, words: str = "") -> None:
+        """Add a title, and an explanation below it."""
+        self.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
+        if words:
+            self.body.addWidget(Text(self._theme, words, 14, REGULAR, "text2", wrap=True))
 
 
 class ColorFill(QWidget):

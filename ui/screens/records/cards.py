@@ -37,11 +37,10 @@ class BackupCard(Card):
 
     def __init__(self, theme: Theme, hour: int) -> None:
         super().__init__(theme, 24)
-        self.body.addWidget(Text(theme, self.tr("Backup"), 20, SEMIBOLD))
         words = self.tr(
             "Backs up the whole data folder: patients, sessions, images and log. You can continue measuring."
         )
-        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.add_heading(self.tr("Backup"), words)
         self.state_card = Card(theme, 14, "soft", "soft")
         self.state_sign = StateText(theme, 16, SEMIBOLD)
         self.headline = Text(theme, "", 16, SEMIBOLD, wrap=True)
@@ -104,9 +103,8 @@ class LockCard(Card):
 
     def __init__(self, theme: Theme, minutes: int) -> None:
         super().__init__(theme, 24)
-        self.body.addWidget(Text(theme, self.tr("Lock"), 20, SEMIBOLD))
         words = self.tr("A PIN only hides the screen. It does not encrypt files.")
-        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.add_heading(self.tr("Lock"), words)
         self.disk = StateText(theme, 14, SEMIBOLD)
         self.disk_remedy = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         fill(self.body, self.disk, self.disk_remedy)
@@ -152,9 +150,8 @@ class RecordsCard(Card):
 
     def __init__(self, theme: Theme, years: int, choices: Sequence[int]) -> None:
         super().__init__(theme, 24)
-        self.body.addWidget(Text(theme, self.tr("Records"), 20, SEMIBOLD))
         words = self.tr("Enter the retention period that the law requires after the last session.")
-        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.add_heading(self.tr("Records"), words)
         names = {0: self.tr("Not set")}
         shown = sorted({*choices, years})
         options = [(one, names.get(one, self.tr("{n} years").format(n=one))) for one in shown]

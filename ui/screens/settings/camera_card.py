@@ -6,7 +6,7 @@ from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.icons import State
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
-from carpus.ui.kit.text import REGULAR, SEMIBOLD, Icon, Text
+from carpus.ui.kit.text import SEMIBOLD, Icon, Text
 from carpus.ui.kit.theme import Theme
 
 
@@ -16,12 +16,11 @@ class CameraCard(Card):
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
         self._theme = theme
-        self.body.addWidget(Text(theme, self.tr("Camera"), 20, SEMIBOLD))
         words = self.tr(
             "A printed board calibrates the camera. A printed card checks in 30 seconds whether it is still within "
             "tolerance."
         )
-        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.add_heading(self.tr("Camera"), words)
         self._row = row_layout(gap=10)
         self._sign = Icon(theme, "none")
         self._state = Text(theme, "", 14, SEMIBOLD, wrap=True)

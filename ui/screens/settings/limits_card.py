@@ -31,8 +31,7 @@ from carpus.ui.words.verdicts import error_limit_words
 def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
     """Return the card with default limits in two columns, and the clinic's own below."""
     card = Card(theme, 24)
-    card.body.addWidget(Text(theme, tr("Measurement error (MDC95)"), 20, SEMIBOLD))
-    card.body.addWidget(Text(theme, error_limit_words(), 14, REGULAR, "text2", wrap=True))
+    card.add_heading(tr("Measurement error (MDC95)"), error_limit_words())
     grid = grid_layout(24, 6)
     lines = limit_rows()
     half = (len(lines) + 1) // 2

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFileDialog
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
-from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
 
 
@@ -34,8 +34,7 @@ class PracticeSystemCard(Card):
         self.clear_buttons = [Button(theme, self.tr("Do not use"), "quiet", height_px=40) for _ in self._folders]
         self.test_button = Button(theme, self.tr("Test the folders"), height_px=40)
         self.test_text = Text(theme, "", 14, SEMIBOLD, wrap=True)
-        self.body.addWidget(Text(theme, self.tr("Practice system (GDT)"), 20, SEMIBOLD))
-        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.add_heading(self.tr("Practice system (GDT)"), words)
         titles = (self.tr("Patients from the practice system"), self.tr("Results for the practice system"))
         for number, title in enumerate(titles):
             row = row_layout(self.folder_buttons[number], self.clear_buttons[number], STRETCH, gap=8)

@@ -15,7 +15,7 @@ from carpus.ui.kit.card import Card
 from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.forms import Field, Form
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
-from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 
@@ -44,10 +44,9 @@ class ReportCard(Card):
         self.error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.error_text.hide()
         parts = self.fields.labelled_widgets
+        self.add_heading(self.tr("Report"), words)
         fill(
             self.body,
-            Text(theme, self.tr("Report"), 20, SEMIBOLD),
-            Text(theme, words, 14, REGULAR, "text2", wrap=True),
             parts["name"],
             parts["address"],
             row_layout(self.logo_label, self.choose_button, self.remove_button, STRETCH, gap=12),

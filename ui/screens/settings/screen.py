@@ -242,9 +242,7 @@ class SettingsScreen(QWidget):
 
     def _make_card(self, title: str, words: str, *parts: Part) -> Card:
         card = Card(self._theme, 24)
-        card.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
-        if words:
-            card.body.addWidget(Text(self._theme, words, 14, REGULAR, "text2", wrap=True))
+        card.add_heading(title, words)
         fill(card.body, *parts)
         return card
 

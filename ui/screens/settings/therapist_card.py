@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractItemView, QTableWidget, QTableWidgetItem
 from carpus.core.records.values import MAX_INITIALS, Therapist
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.fonts import font
-from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.kit.text import REGULAR
 from carpus.ui.kit.theme import Theme
 
 ROW_PX, INITIALS_PX, SPARE_ROWS = 36, 140, 2
@@ -39,8 +39,7 @@ class TherapistCard(Card):
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.AllEditTriggers)
         self.table.setTabKeyNavigation(False)
         self.table.cellChanged.connect(self._on_edited)
-        self.body.addWidget(Text(theme, self.tr("Therapists"), 20, SEMIBOLD))
-        self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.add_heading(self.tr("Therapists"), words)
         self.body.addWidget(self.table)
         theme.changed.connect(self._fit)
 
