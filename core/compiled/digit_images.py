@@ -148,7 +148,7 @@ def _place_in_camera(
     """Fill in R p + t."""
     k: cython.int
     for k in range(3):
-        out[k] = _dot(rotation[k], place) + translation[k]
+        out[k] = rotation[k, 0] * place[0] + rotation[k, 1] * place[1] + rotation[k, 2] * place[2] + translation[k]
 
 
 @cython.cfunc

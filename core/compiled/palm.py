@@ -146,7 +146,7 @@ def compute_palm_transition(
     for i in range(count):
         total: double = 0.0
         for j in range(count):
-            rate = rates[i, j]
+            rate: double = rates[i, j]
             if is_joint_driven and i == HOME and j != HOME:
                 rate += leaving * max(palm, thumb, fingers)
             elif not is_joint_driven and i < resting and j == WRIST:
@@ -163,7 +163,7 @@ def compute_palm_transition(
     leave = 1.0 - exp(-dt / motion.dwell_s)
     for i in range(modes):
         for j in range(modes):
-            chance = between[tissue_of[i], tissue_of[j]]
+            chance: double = between[tissue_of[i], tissue_of[j]]
             if j < at_rest <= i:
                 chance /= scales
             elif j < at_rest and scales > 1:
@@ -250,7 +250,7 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
         multiply(rotation, turned, there)
         multiply(w0_cam, there, in_camera)
         for i in range(3):
-            origin = at[i]
+            origin: double = at[i]
             for j in range(3):
                 origin += w0_cam[i, j] * (state[POSITION + j] + shift[j])
             for d in range(DISCS):
@@ -278,7 +278,7 @@ def predict_palm_measurement(estimate: Any, mixture: Any, view: Any, weights: An
             bend[p, a] = 0.5 * (sigma[1 + p, a] + sigma[7 + p, a]) - line[a]
     for a in range(SEEN):
         for b in range(a + 1):
-            total = scatter_of_middle * (sigma[0, a] - line[a]) * (sigma[0, b] - line[b])
+            total: double = scatter_of_middle * (sigma[0, a] - line[a]) * (sigma[0, b] - line[b])
             for p in range(6):
                 total += 2.0 * scatter_of_others * bend[p, a] * bend[p, b]
             missed[a, b] = missed[b, a] = total

@@ -37,7 +37,6 @@ from carpus.core.tracking.filter.settings import TrackerSettings
 
 _SLOT = np.arange(N_SLOTS)
 _LOG_2_PI = float(np.log(2.0 * np.pi))
-_OF_DISC = np.arange(3 * N_DISCS).reshape(N_DISCS, 3, 1)  # components of each disc's image
 
 SKIN_SD_PX = 0.1  # of a disc on a finger about where the model has it, besides the noise of its centre
 MIN_VISIBLE_PROBABILITY = 0.5  # with less a disc was hidden a moment ago
@@ -171,9 +170,10 @@ def _associate_separately(scene: DigitScene, settings: TrackerSettings) -> Digit
     if not len(scene.blobs):
         return DigitAssignment(np.full((N_DIGITS, N_DISCS), -1), np.zeros((N_DIGITS, N_DISCS), dtype=bool))
     own = settings.association
+    own_covariance = scene.image_covariance.reshape(N_DIGITS, N_DISCS, 3, N_DISCS, 3).diagonal(axis1=1, axis2=3)
     by_disc = association.log_odds(
         scene.linearised.value.reshape(-1, 3),
-        scene.image_covariance[:, _OF_DISC, _OF_DISC.swapaxes(1, 2)].reshape(-1, 3, 3),
+        np.moveaxis(own_covariance, -1, 1).reshape(-1, 3, 3),
         scene.blobs.value,
         scene.blobs.variance,
         scene.resolution_px2 / EXPECTED_CLUTTER,
@@ -182,8 +182,9 @@ def _associate_separately(scene: DigitScene, settings: TrackerSettings) -> Digit
     )
     # A marker's prior says how likely it is to be seen, which is known better here.
     log_seen = np.log(scene.visible / (1.0 - scene.visible)) - math.log(own.prior_marker / own.prior_clutter)
-    is_possible = (scene.has_discs[:, None] & np.ones(N_DISCS, dtype=bool)).reshape(-1, 1) & scene.is_free
-    odds = np.where(is_possible, by_disc.value + log_seen.reshape(-1, 1), association.LOG_IMPOSSIBLE)
+    log_seen[~scene.has_discs] = association.LOG_IMPOSSIBLE
+    odds = by_disc.value + log_seen.reshape(-1, 1)
+    odds[:, ~scene.is_free] = association.LOG_IMPOSSIBLE
     assigned = association.assign_blobs(odds)
     uses_depth = by_disc.with_depth[np.arange(assigned.size), assigned] & (assigned >= 0)
     return DigitAssignment(assigned.reshape(N_DIGITS, N_DISCS), uses_depth.reshape(N_DIGITS, N_DISCS))

@@ -29,7 +29,8 @@ def compute_tilts(
     independently.
     """
     centre = linearised.centre_m
-    cosine = -np.vecdot(normal @ view.rotation.T, centre) / np.sqrt(np.vecdot(centre, centre))
+    cosine = -np.vecdot(normal.reshape(-1, 3) @ view.rotation.T, centre.reshape(-1, 3)).reshape(N_DIGITS, N_DISCS)
+    cosine /= np.sqrt(np.vecdot(centre, centre))
     variance = covariance.diagonal(axis1=1, axis2=2)[:, :N_SLOTS] * _TILTING
     return np.arccos(np.minimum(np.maximum(cosine, -1.0), 1.0)), np.cumsum(variance, axis=1)[:, -N_DISCS:]
 

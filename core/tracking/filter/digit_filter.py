@@ -26,8 +26,17 @@ JOINTS, RATES = slice(0, N_SLOTS), slice(N_SLOTS, 2 * N_SLOTS)
 ANATOMY = slice(RATES.stop, RATES.stop + N_CONSTANTS)
 DIGIT_SIZE = ANATOMY.stop
 OBSERVED = np.r_[JOINTS, ANATOMY]  # rows on which the discs depend
-_ROW = np.arange(DIGIT_SIZE)
-_JOINT, _RATE, _CONSTANT = _ROW[JOINTS], _ROW[RATES], _ROW[ANATOMY]
+
+
+def _find_diagonal(row: int, column: int, count: int) -> slice:
+    """Return the places of a diagonal in a matrix (n, n) stored row by row."""
+    first = row * DIGIT_SIZE + column
+    return slice(first, first + count * (DIGIT_SIZE + 1), DIGIT_SIZE + 1)
+
+
+_JOINTS, _RATES = _find_diagonal(0, 0, N_SLOTS), _find_diagonal(N_SLOTS, N_SLOTS, N_SLOTS)
+_JOINTS_BY_RATES, _RATES_BY_JOINTS = _find_diagonal(0, N_SLOTS, N_SLOTS), _find_diagonal(N_SLOTS, 0, N_SLOTS)
+_CONSTANTS = _find_diagonal(ANATOMY.start, ANATOMY.start, N_CONSTANTS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,20 +89,20 @@ class DigitMotion:
         """
         pushed = scale2[:, :, None] * self.density[:, None]
         settled = np.where(self.stationary2 > 0.0, math.exp(-dt_s / self.settles_s), 1.0)
-        forward, noise = np.zeros((N_DIGITS, DIGIT_SIZE, DIGIT_SIZE)), np.zeros((*scale2.shape, DIGIT_SIZE, DIGIT_SIZE))
-        forward[:, _ROW, _ROW] = 1.0
-        forward[:, _JOINT, _JOINT] = settled
-        forward[:, _JOINT, _RATE] = dt_s
-        noise[..., _JOINT, _JOINT] = pushed * (dt_s**3 / 3.0) + (self.stationary2 * (1.0 - settled**2))[:, None]
-        noise[..., _JOINT, _RATE] = noise[..., _RATE, _JOINT] = pushed * (0.5 * dt_s**2)
-        noise[..., _RATE, _RATE] = pushed * dt_s
-        noise[..., _CONSTANT, _CONSTANT] = (self.drift * dt_s)[:, None]
+        forward, noise = np.zeros((N_DIGITS, DIGIT_SIZE**2)), np.zeros((*scale2.shape, DIGIT_SIZE**2))
+        forward[:, :: DIGIT_SIZE + 1] = 1.0
+        forward[:, _JOINTS], forward[:, _JOINTS_BY_RATES] = settled, dt_s
+        noise[..., _JOINTS] = pushed * (dt_s**3 / 3.0) + (self.stationary2 * (1.0 - settled**2))[:, None]
+        noise[..., _JOINTS_BY_RATES] = noise[..., _RATES_BY_JOINTS] = pushed * (0.5 * dt_s**2)
+        noise[..., _RATES] = pushed * dt_s
+        noise[..., _CONSTANTS] = (self.drift * dt_s)[:, None]
         if forgetting is not None:
-            forward[:, _JOINT, _RATE] *= forgetting.keep_rate
-            forward[:, _RATE, _RATE] = forgetting.keep_rate
-            noise[..., _JOINT, _JOINT] += forgetting.angle2[:, None]
-            noise[..., _RATE, _RATE] += forgetting.rate2[:, None]
-        return forward, noise
+            forward[:, _JOINTS_BY_RATES] *= forgetting.keep_rate
+            forward[:, _RATES] = forgetting.keep_rate
+            noise[..., _JOINTS] += forgetting.angle2[:, None]
+            noise[..., _RATES] += forgetting.rate2[:, None]
+        shape = DIGIT_SIZE, DIGIT_SIZE
+        return forward.reshape(N_DIGITS, *shape), noise.reshape(*scale2.shape, *shape)
 
 
 @dataclass(frozen=True, slots=True)

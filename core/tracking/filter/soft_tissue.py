@@ -14,6 +14,7 @@ flex by 20 and 27 degrees at most, tied to each other; the wrist's and thumb's s
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
@@ -131,7 +132,7 @@ class TissueModes:
 
     @property
     def is_joint_driven(self) -> bool:
-        return bool(np.isfinite(self.lasts_rad))
+        return math.isfinite(self.lasts_rad)
 
     @property
     def initial_probability(self) -> FloatArray:
