@@ -8846,7 +8846,7 @@ von oben</translation>
     </message>
     <message>
         <source>New patient</source>
-        <translation>Neuer Patient</translation>
+        <translation>Neu</translation>
     </message>
     <message>
         <source>Ctrl+N</source>

@@ -8846,7 +8846,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>New patient</source>
-        <translation>Nuovo paziente</translation>
+        <translation>Nuovo</translation>
     </message>
     <message>
         <source>Ctrl+N</source>

@@ -68,13 +68,15 @@ class GuidancePanel(QWidget):
         column.addLayout(row_layout((self.primary_button, 1), self.second_button, gap=12))
 
     def fit(self, height_px: int, *, clicks: bool) -> None:
-        """Hide what has no room: the drawing, unless it says where to click (``clicks``), then the bubble."""
+        """Hide what has no room: the drawing, unless it says where to click (``clicks``), the bubble, good checks."""
         self.setFixedWidth(self._theme.px(COLUMN_PX))
         self.bubble.set_room(height_px >= MIN_SCREEN_PX * self._theme.text_scale)
         self.hand_drawing.show()
+        self.verdict_panel.show_all(True)
         if 0 < height_px < self._min_height_px():
             self.hand_drawing.setVisible(clicks)
             self.bubble.set_room(self._min_height_px() <= height_px)
+            self.verdict_panel.show_all(self._min_height_px() <= height_px)
 
     def _min_height_px(self) -> int:
         self._column.invalidate()

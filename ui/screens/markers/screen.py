@@ -308,7 +308,6 @@ class MarkersScreen(FittedWidget):
         self.new_frame_button.setEnabled(clicking is not None)
         named = clicking is not None and clicking.is_complete
         self.guidance.straight_fingers.setVisible(named and calibrator.protocol.has_fingers)
-        self._fit()
         doubtful = outcome is not None and not outcome.verdict.is_good
         remedy = naming.remedy() if doubtful else "correct"
         pair = outcome is not None and outcome.verdict.can_start and bool(find_swapped(outcome.verdict))
@@ -326,7 +325,6 @@ class MarkersScreen(FittedWidget):
             sees_none = not clicking.confirmed_px and calibrator.count_candidates() < MIN_MARKERS
             self.guidance.show_labelling(clicking, sees_none=sees_none, is_proposing=naming.is_proposing)
             self.hint.setText(self.tr("The hand lies flat and still, palm down. Fingers that stay bent are fine."))
-            self._fit()  # by the words of this marker
         else:
             wrong = find_faulty_markers(outcome.verdict)
             self.picture.show_wrong(wrong)
@@ -337,6 +335,7 @@ class MarkersScreen(FittedWidget):
                 self.click_again_button.set_label(self.tr("Click these again") if wrong else self.tr("Click all again"))
                 self.click_again_button.setVisible(remedy != "click_these")  # the primary says it
                 self.hint.setText(self.tr("The labels stay as they are until you change one."))
+        self._fit()  # by what is shown now
         self.picture.update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

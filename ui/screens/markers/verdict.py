@@ -119,6 +119,14 @@ class VerdictPanel(Card):
         self._lines.append(cells)
         self._grid.setRowMinimumHeight(place + 1, self._theme.px(29))
 
+    def show_all(self, shown: bool) -> None:
+        """Show all rows, or only those that are not good."""
+        for number, cells in enumerate(self._lines):
+            visible = shown or cells[0].state != "good"
+            for row, column in ((2 * number, 0), *((2 * number + 1, column) for column in range(3))):
+                self._grid.itemAtPosition(row, column).widget().setVisible(visible)
+            self._grid.setRowMinimumHeight(2 * number + 1, self._theme.px(29) if visible else 0)
+
     def states(self) -> list[State]:
         return [line[0].state for line in self._lines]
 
