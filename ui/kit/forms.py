@@ -8,7 +8,7 @@ from functools import partial
 from itertools import takewhile
 from typing import Any
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, QWidget
 
 from carpus.ui.kit.button import CheckButton
@@ -99,7 +99,7 @@ class Form(QObject):
         for name, part in self.labelled_widgets.items():
             if not self._fields[name].continues_row:
                 lines.append(row_layout(gap=24))
-            lines[-1].addWidget(part, self._fields[name].stretch)
+            lines[-1].addWidget(part, self._fields[name].stretch, Qt.AlignmentFlag.AlignTop)  # above a fault's text
         for line in lines:
             if line.count() > 1 and not any(line.stretch(place) for place in range(line.count())):
                 line.addStretch(1)
