@@ -16,6 +16,7 @@ from carpus.core.session.values import Event, Session
 from carpus.ui.report.builders import write_session_report
 from carpus.ui.words.active_passive import MANUAL_SIGN, build_active_passive
 from carpus.ui.words.ranges import repetition_words
+from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.printed import words_of
@@ -119,3 +120,23 @@ def test_report_prints_both_and_what_was_measured_manually(tmp_path: Path) -> No
     assert "Active and passive" in words
     assert f"{MANUAL_SIGN} 48° / 60°" in words
     assert "passive" in words
+
+
+def test_passive_repetition_that_was_hidden_says_that() -> None:
+    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
+    number = next(number for number, one in enumerate(figures.repetitions) if one.is_passive)
+    shown = list(figures.repetitions)
+    shown[number] = replace(shown[number], unmeasured_reason="hidden")
+    assert f"number {number + 1} excluded: not visible enough" in repetition_words(
+        replace(figures, repetitions=tuple(shown))
+    )
+
+
+def test_passive_range_below_active_is_reported_with_sign() -> None:
+    found = build_active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
+    arc = next(row for row in found.table.rows if row[0] == "Total arc")
+    assert arc[3].startswith("\N{MINUS SIGN}")
+    assert "MDC" in arc[3]
+    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
+    made = with_ranges(figures, lambda row: {"mean": -12.0} if row.quantity == "flexion" and not row.is_passive else {})
+    assert "active \N{MINUS SIGN}12°" in build_active_passive(made, ()).sentence, "it does not reach neutral"

@@ -63,3 +63,15 @@ def test_panels_include_a_range_that_the_newest_session_lacks() -> None:
     fewer = replace(newest, measures=tuple(row for row in newest.measures if row.quantity != "extension"))
     progress = Progress((ProgressPoint(older, ()), ProgressPoint(fewer, ())), (), None)
     assert [key[1] for key in panel_keys(progress)] == ["arc", "flexion", "extension"]
+
+
+def test_arrows_point_at_one_session_after_the_other_and_enter_opens_it(qtbot: QtBot, chart: ProgressChart) -> None:
+    chart.step(1)
+    assert chart.current_session == 0
+    for _ in range(9):
+        chart.step(1)
+    assert chart.current_session == 6
+    chart.step(-1)
+    with qtbot.waitSignal(chart.session_chosen) as opened:
+        chart.choose_current()
+    assert opened.args == ["session-6"]

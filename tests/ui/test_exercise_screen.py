@@ -59,3 +59,11 @@ def test_exercise_screen_of_both_hands_requires_choice(qtbot: QtBot, screen: Exe
     qtbot.mouseClick(screen.form["side"].buttons()[1], Qt.MouseButton.LeftButton)
     assert screen.primary_button.isEnabled()
     assert screen.set_up().side == "left"
+
+
+def test_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen) -> None:
+    for typed, degrees in (("37,5", 37.5), ("37.5", 37.5), ("40", 40.0), ("40°", 40.0), (" ", math.nan)):
+        screen.target_fields[0].clear()
+        qtbot.keyClicks(screen.target_fields[0], typed)
+        assert screen.primary_button.isEnabled()
+        assert screen.set_up().target_positive_deg == pytest.approx(degrees, nan_ok=True)

@@ -18,7 +18,7 @@ from carpus.core.records.changes import delete_row
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets, save_setup
 from carpus.core.records.schema import EXERCISE_SET, GOAL, PATIENT
-from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart, start_set
+from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart, next_part, start_set
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.ui.kit.background import Background
@@ -132,3 +132,20 @@ def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> N
     live.snapshot_taken.emit(told)
     assert patient.window.view.scene.phase != GuideScene().phase
     patient.close()
+
+
+def test_next_session_begins_with_set_of_last_one(tmp_path: Path) -> None:
+    library = DataFolder(tmp_path)
+    patient = library.patients.add(Patient("Heron 3", "left"))
+    save_sets(library.store, (OWN,), DEFAULT_SETS)
+    first = start_set(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True), {})
+    second = next_part(first)
+    assert second is not None
+    assert next_part(second) is None
+    save_setup(library.store, second)
+    again = read_last_setup(library.store, patient)
+    assert (again.exercise.id, again.repetitions, again.for_child) == ("WRIST_FE", 2, True)
+    assert again.set_run.run_id != first.set_run.run_id
+    save_sets(library.store, DEFAULT_SETS, (OWN,))
+    assert read_last_setup(library.store, patient).set_run is None  # type: ignore[union-attr]
+    library.close()

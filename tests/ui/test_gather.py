@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from carpus.ui.report.builders import build_progress_report, build_session_report
-from tests.ui.fakes import FakeSessions
+from carpus.ui.screens.live.status_light import TrackingLag, lag_light
+from tests.ui.fakes import FakeFeed, FakeSessions
 
 
 def test_number_of_session_counts_sessions_of_its_hand() -> None:
@@ -19,3 +22,12 @@ def test_report_of_progress_shows_other_hand_that_screen_shows() -> None:
     assert build_progress_report(right).progress.other_hand is None
     assert build_progress_report(right, other_hand=left).progress.other_hand is left
     assert build_progress_report(history).progress.other_hand is left
+
+
+def test_pictures_that_never_came_are_not_told_as_kept() -> None:
+    counters, behind = FakeFeed().counters(), TrackingLag()
+    behind.lag_s = 4.0
+    behind.count_missing(replace(counters, missing=380))
+    assert "every frame is saved" in lag_light(behind, recording=True).remedy
+    behind.count_missing(replace(counters, missing=383))
+    assert lag_light(behind, recording=True).remedy == "3 frames are missing: close other programs"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from dataclasses import replace
@@ -17,13 +18,14 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.model.errors import OutputNotWritable
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.model.types import ByteImage, TrackStatus
+from carpus.core.model.types import SIMULATED, ByteImage, TrackStatus
 from carpus.core.results.hand_cutout import BACKGROUND_GREY, angle_overlay, cut_out_hand
+from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.review.flow import ReviewFlow
-from carpus.ui.screens.review.hand_image import HandImage
+from carpus.ui.screens.review.hand_image import HandImage, build_hand_image
 from tests.ui.conftest import Reviewing
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeSessions, session
@@ -132,3 +134,15 @@ def test_saved_frame_shows_hand_alone_is_reported_and_noted(
     qtbot.waitUntil(lambda: bool(told.faults))
     assert isinstance(told.faults[0], OutputNotWritable)
     assert not list(tmp_path.iterdir())
+
+
+def test_words_on_a_picture_say_where_the_angle_is_not_the_patients_own(qtbot: QtBot, review: Reviewing) -> None:
+    screen = review(FakeSessions(), "session-7")
+    screen.select_repetition(3)
+    row, time_s = screen.frame_view.row, screen.playing.time_s
+    screen._exclude_repetition(screen.current + 1, PASSIVE, and_after=False)
+    reviewed = screen.reviewed
+    assert build_hand_image(reviewed, row, time_s).words.endswith("°, passive")
+    header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
+    simulated = replace(reviewed, session=replace(reviewed.session, header=header))
+    assert build_hand_image(simulated, row, time_s).words.endswith("°, passive · Simulated hand")

@@ -27,7 +27,7 @@ from carpus.ui.screens.live.marker_doubt import find_doubt, make_doubt_light
 from carpus.ui.screens.live.number_card import NumberCard, Reading
 from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
 from carpus.ui.screens.live.repetition_counter import RepetitionCounter
-from carpus.ui.screens.live.status_light import StatusLight, SteadyLight
+from carpus.ui.screens.live.status_light import StatusLight, SteadyLight, wrist_light
 from tests.moments import with_moment
 from tests.ui.conftest import Live
 from tests.ui.fakes import FakeFeed, LateFeed
@@ -440,3 +440,19 @@ def test_frames_just_after_a_hand_came_back_give_no_best() -> None:
         running = RepetitionCounter(get_exercise("WRIST_FE"))
         running.append(shown)
         assert abs(running.best_positive_deg - best_deg) < 1e-9
+
+
+def test_light_names_one_hidden_marker_and_its_remedy() -> None:
+    frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
+    lamp = wrist_light(frame, MARKERS, False)
+    assert lamp.state == "Thumb CMC occluded"
+    assert lamp.remedy == "Turn the thumb side up"
+    assert wrist_light(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
+    assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Forearm moved"
+
+
+def test_after_the_key_it_is_counted_whatever_the_hand_does() -> None:
+    beginning = StartTrigger()
+    beginning.start_countdown(5.0)
+    assert [beginning.remaining_s(time_s) for time_s in (5.0, 6.5, 7.9)] == [3, 2, 1]
+    assert begun(beginning, lambda t: 40.0 * math.sin(3.0 * t), 60.0, 5.0) == pytest.approx(5.0 + COUNTDOWN_S, abs=0.05)

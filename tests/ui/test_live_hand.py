@@ -8,6 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
 
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import HAND21, joint_angle_names
@@ -184,3 +186,43 @@ def test_light_cells_and_large_number_say_the_same_at_every_moment(live: Live) -
                 assert screen.history.angle_value(k)[2] != bool(of_it)
         assert math.isfinite(reading.value_deg) != bool(hidden & {"MCP3", "PIP3"})
     assert ranks == {"good", "warn"}
+
+
+def test_predicted_frame_supports_no_joint() -> None:
+    frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
+    assert not estimate_finger_angles(HAND21, [frame])[3].any()
+
+
+def test_live_hand_with_free_dip_infers_nothing() -> None:
+    frame = feed_of().frames[10]
+    free = joint_angle_names(dip_free=True)
+    frame = with_moment(
+        frame,
+        joint_angles_rad=np.radians(np.arange(21.0)),
+        joint_angles_sd_rad=np.full(21, 0.1),
+        joint_velocity_rad_s=np.zeros(21),
+    )
+    history = History(HAND21)
+    history.append([frame])
+    end = FINGER_ANGLES.index(FingerAngle(4, "end"))
+    assert history.angle_value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
+    assert not history.is_inferred(end)
+
+
+def test_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
+    tried = live(feed_of(), CLOSED_S)
+    feed, screen = tried.feed, tried.screen
+    assert screen.number_card.movement_name() == "Middle finger, MCP"
+    assert screen.number_card.reading.target_positive_deg == 90.0
+    spot = screen.finger_curves.cell(FingerAngle(4, "knuckle")).center().toPoint()
+    qtbot.mouseClick(screen.finger_curves.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
+    assert screen.number_card.movement_name() == "Ring finger, MCP"
+    assert math.isnan(screen.number_card.reading.target_positive_deg)  # the target is the trained joint's
+    angle = feed.frames[feed.place].kinematics.joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
+    assert screen.number_card.reading.value_deg == pytest.approx(math.degrees(angle))
+    screen.show_angle(screen.number_card.reading.with_next_angle())
+    screen.show_angle(screen.number_card.reading.with_next_finger())
+    assert screen.number_card.movement_name() == "Little finger, PIP"
+    for _ in range(3):
+        screen.show_angle(screen.number_card.reading.with_next_angle())
+    assert screen.number_card.movement_name() == "Little finger, total active motion (TAM)"

@@ -20,6 +20,7 @@ from carpus.ui.screens.markers.screen import MarkersScreen
 from carpus.ui.shell.view_models import CalibrationAssessment, LabelProposal
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCalibrator
+from tests.ui.geometry import painted_texts
 
 
 def walk(qtbot: QtBot, picture: MarkerFrameView, pixel: np.ndarray) -> None:
@@ -321,3 +322,75 @@ def test_undo_walks_back_through_any_order() -> None:
         clicking.current = name
         clicking.set_label(np.zeros(2), 9.0)
     assert [clicking.undo() for _ in range(4)] == ["MCP2", "WRIST", "MCP4", ""]
+
+
+def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking) -> None:
+    discs_px = marking.begin().disc_px
+    marking.click(*discs_px[:3])
+    assert marking.clicking.current == WRIST6.markers[3]
+    marking.press(Qt.Key.Key_Backspace)
+    assert (marking.clicking.current, set(marking.clicking.confirmed_px)) == (
+        WRIST6.markers[2],
+        set(WRIST6.markers[:2]),
+    )
+    assert "index MCP" in marking.screen.guidance.title_label.text(), "it is asked for again"
+    for _ in range(2):
+        marking.press(Qt.Key.Key_Backspace)
+    assert marking.clicking.current == "WRIST"
+    marking.press(Qt.Key.Key_Tab)
+    marking.click(discs_px[1])
+    assert list(marking.clicking.confirmed_px) == ["CMC1"], "Tab chooses which is clicked next"
+    assert marking.clicking.missing[0] == "WRIST"
+    marking.press(Qt.Key.Key_Backspace)
+    marking.clicking.current = "WRIST"
+    marking.click(discs_px[1])
+    np.testing.assert_allclose(marking.clicking.confirmed_px["WRIST"], discs_px[1])
+    marking.drag(discs_px[1], discs_px[0])
+    np.testing.assert_allclose(marking.clicking.confirmed_px["WRIST"], discs_px[0])
+    marking.screen.picture.set_cursor(discs_px[0])
+    for _ in range(3):
+        marking.press(Qt.Key.Key_Space)
+        assert (set(marking.clicking.confirmed_px), marking.clicking.current) == ({"WRIST"}, "CMC1")
+        assert marking.screen.picture.no_marker_words == "Already the wrist"
+
+
+def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, marking: Marking) -> None:
+    marking.begin()
+    marking.judge_all()
+    marking.screen.close_calibrator()
+    following = marking.begin()
+    assert marking.clicking is None or not marking.clicking.confirmed_px
+    qtbot.wait(50)
+    assert not following.judged
+
+
+def test_click_next_to_every_marker_sets_nothing_and_says_so(qtbot: QtBot, marking: Marking) -> None:
+    marking.begin()
+    screen = marking.screen
+    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))
+    assert not screen.labels.confirmed_px
+    assert "No blue marker" in screen.picture.no_marker_words
+    with painted_texts(screen) as painted:
+        screen.grab()
+    shift, loupe = screen.picture.mapTo(screen, QPoint()), screen.picture.loupe_box()
+    told = [one for one in painted if one.text in screen.picture.no_marker_words]
+    assert " ".join(one.text for one in told) == screen.picture.no_marker_words
+    assert all(loupe.translated(shift).contains(one.box) for one in told), "within the loupe"
+
+
+def test_bad_frame_is_taken_again_by_enter_and_wrong_names_are_not(marking: Marking) -> None:
+    calibrator, screen = marking.begin(TILT, is_live=True), marking.screen
+    marking.press(Qt.Key.Key_Space)
+    marking.judge_all()
+    assert screen.primary_button.text() == "New image"
+    assert screen.click_again_button.isVisible()
+    marking.enter()
+    assert screen.labels is None
+    calibrator.findings = (CalibrationFinding("misnamed", ("MCP4",)),)
+    marking.press(Qt.Key.Key_Space)
+    marking.judge_all()
+    assert screen.primary_button.text() == "Correct labels"
+    assert screen.picture.wrong_labels == {"MCP4"}
+    marking.enter()
+    assert screen.picture.hasFocus()
+    assert screen.labels.is_complete

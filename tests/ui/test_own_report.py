@@ -8,7 +8,8 @@ from datetime import date, timedelta
 from pathlib import Path
 
 import pytest
-from PySide6.QtGui import QColor, QImage
+from PySide6.QtGui import QColor, QImage, QPageSize
+from PySide6.QtPrintSupport import QPrinter
 
 from carpus.app.session_commands import read_report_form
 from carpus.core.model.errors import ConcurrentChange
@@ -21,9 +22,13 @@ from carpus.ui.report.builders import build_progress_report, build_session_repor
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pdf import write_report
+from carpus.ui.report.report import layout_pages as pages_of_report
 from carpus.ui.report.session_page import SessionReport
+from carpus.ui.screens.report.panel import fill_sentence
+from carpus.ui.screens.report.screen import PAGE_SIZES, make_printer, print_pages
 from carpus.ui.screens.settings.report_card import LogoError, logo_png
 from carpus.ui.words.patient import task_words
+from carpus.ui.words.session import warning_lines
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
@@ -220,3 +225,37 @@ def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None
     for one, printed in ((own, False), (asked, True)):
         said = words_of(write_session_report(one, tmp_path / f"{printed}.pdf"))
         assert [words in said for words in ("Wrist fracture, plate", "13 weeks before")] == [printed, printed]
+
+
+@pytest.mark.parametrize("printed", PAPERS)
+def test_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
+    made = report(form=ReportForm(paper="a4"), comment="Splint.")
+    pages = pages_of_report(made)
+    printer = make_printer(made, len(pages))
+    printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
+    printer.setOutputFileName(str(tmp_path / "p.pdf"))
+    printer.setPageSize(QPageSize(PAGE_SIZES[printed]))
+    print_pages(printer, pages)
+    assert pages_of(tmp_path / "p.pdf") == 2
+    assert reach_of(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
+    assert "as measured live" in words_of(tmp_path / "p.pdf")
+
+
+def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured() -> None:
+    made = report()
+    assert re.fullmatch(
+        r"\d+° ± \d+° and not measured, {other}",
+        fill_sentence("{flexion} and {radial}, {other}", made).replace("\u202f", " ").replace("\xa0", " "),
+    )
+    assert "13 Nov" in fill_sentence("{change}", made)
+    assert fill_sentence("{change}", replace(made, previous=None)) == "Not measured."
+
+
+def test_report_of_older_result_says_that_newer_one_counts() -> None:
+    store = FakeSessions()
+    session = store.session("session-7")
+    made = build_session_report(session).results
+    newer = replace(made, session_id="newer", created=made.when + timedelta(days=1))
+    said = "An older result: there is a newer one of the same recording."
+    for history, is_older in (((), False), ((newer,), True), ((made, replace(newer, recording_id="another")), False)):
+        assert (said in warning_lines(build_session_report(session, history=history).results)) is is_older

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import date, datetime
+from datetime import date, datetime, timedelta
 
 import pytest
 from PySide6.QtCore import Qt
@@ -27,6 +27,7 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.patients.screen import PatientsScreen
 from carpus.ui.shell.name_display import NameDisplay
+from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeStore
@@ -292,3 +293,50 @@ def test_patient_form_searched_name_becomes_the_real_name(screen: PatientsScreen
         assert names[1] == searched
     else:
         assert names == (searched.strip(), "")
+
+
+def test_patient_list_unknown_name_is_created_with_enter(
+    qtbot: QtBot, screen: PatientsScreen, store: FakeStore
+) -> None:
+    qtbot.keyClicks(screen.search, "Fir 12")
+    qtbot.keyClick(screen.search, Qt.Key.Key_Return)
+    assert screen.form.isVisible()
+    assert screen.form.fields["pseudonym"].text() == "Fir 12"
+    screen.form.fields["side"].buttons()[1].click()
+    screen.form.fields["dominance"].buttons()[0].click()
+    qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Return)
+    assert (store.added[0].pseudonym, store.added[0].side) == ("Fir 12", "left")
+    assert screen.list.patient_model.row(screen.list.currentIndex().row()).pseudonym == "Fir 12"
+    assert screen.search.text() == ""
+
+
+def test_patient_list_after_midnight_updates_the_date(theme: Theme, store: FakeStore) -> None:
+    day = [TODAY]
+    screen = PatientsScreen(theme, store, lambda: day[0], NameDisplay())
+    screen.refresh()
+    shown, row = screen.date_text.text(), screen.list.patient_model.index(0)
+    ago = row.data()
+    day[0] = TODAY + timedelta(days=1)
+    screen.refresh_date()
+    assert screen.date_text.text() != shown
+    assert row.data() != ago
+
+
+def test_patient_list_of_very_many_shows_the_first_and_finds_the_others(
+    screen: PatientsScreen, store: FakeStore
+) -> None:
+    store.rows = [
+        replace(store.rows[0], pseudonym=f"Oak {n}", patient_id=str(n)) for n in range(MAX_LISTED_PATIENTS + 200)
+    ]
+    screen.refresh()
+    assert screen.list.patient_model.rowCount() == MAX_LISTED_PATIENTS + 1
+    screen.search.setText(f"oak {MAX_LISTED_PATIENTS + 150}")
+    assert [screen.list.patient_model.row(0).pseudonym] == [f"Oak {MAX_LISTED_PATIENTS + 150}"]
+
+
+def test_patient_form_both_hands_dominant_stays_when_edited(form: PatientForm, given: Given) -> None:
+    form.edit_patient(Patient("Fir 12", "left", "both"), frozenset())
+    assert form.save_button.isEnabled()
+    form.fields["note"].setPlainText("plate out")
+    form.save_button.click()
+    assert [(one.dominance, one.note) for one in given] == [("both", "plate out")]

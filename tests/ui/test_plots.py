@@ -25,9 +25,10 @@ from carpus.core.results.valid_data import WristCurves, joint_curves, wrist_curv
 from carpus.ui.charts.axes import Panel, Scale
 from carpus.ui.charts.history import History
 from carpus.ui.charts.live_curves import LiveCurves
-from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate
+from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate, find_max_step_s
 from carpus.ui.charts.session import SessionChart, SessionPlot, move_edge
 from carpus.ui.charts.style import screen_style
+from carpus.ui.kit.numbers import format_with_sd
 from carpus.ui.kit.theme import Theme
 from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
 from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle
@@ -241,3 +242,68 @@ def test_edge_moved_beyond_a_neighbour_stops_there() -> None:
     assert move_edge(three, 1, "end", 8.5).end_s == 8.0
     assert move_edge(three, 1, "end", 1.0).end_s == pytest.approx(4.2)
     assert move_edge(three, 2, "end", 20.0).end_s == 20.0
+
+
+def test_wheel_alone_is_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
+    assert not wheel(view.mouse_target, center(view), 120), "the page that it lies on scrolls"
+    assert view.zoom_range is None
+    assert wheel(view.mouse_target, center(view), 120, Qt.KeyboardModifier.ControlModifier)
+    assert view.zoom_range is not None
+    view.show_window((20.0, 30.0))
+    wheel(view.mouse_target, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
+    assert view.zoom_range == pytest.approx((21.0, 31.0))
+
+
+def test_keys_zoom_about_the_cursor_and_show_all(view: SessionChart) -> None:
+    view.set_time(10.0)
+    view.zoom_in()
+    start_s, end_s = view.x_range()
+    whole = view.extent()
+    assert end_s - start_s == pytest.approx(whole[1] / 1.25)
+    assert (10.0 - start_s) / (end_s - start_s) == pytest.approx(10.0 / whole[1])
+    for _ in range(40):
+        view.zoom_in()
+    assert np.ptp(view.x_range()) == pytest.approx(2.0)
+    view.show_all()
+    assert view.zoom_range is None
+
+
+def test_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: SessionChart) -> None:
+    panel = view.panels()[0][0]
+    view.set_time(8.0)
+    moved: list[float] = []
+    view.cursor_moved.connect(moved.append)
+    drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
+    assert moved[-1] == pytest.approx(view.to_time(float(panel.x(8.0)) + 60), abs=0.2)
+    assert view.zoom_range is None
+    view.show_window((5.0, 15.0))
+    moved.clear()
+    panel = view.panels()[0][0]
+    drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
+    assert moved
+    assert view.zoom_range == (5.0, 15.0)
+
+
+def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None:
+    panel, column = view.panels()[0]
+    plot = view._plot
+    at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))
+    time_s, *values = view.describe_values(at)
+    shown = plot.read_values(column, view.to_time(at.x()))[0]
+    assert time_s.startswith("00:1")
+    assert values == [f"{shown.name} {format_with_sd(shown.value_deg, shown.sd_deg)}"]
+    assert "±" in values[0]
+    move(view.mouse_target, at)
+    assert view._hover_label.isVisible()
+    QApplication.sendEvent(view.mouse_target, QEvent(QEvent.Type.Leave))
+    assert not view._hover_label.isVisible()
+
+
+@pytest.mark.parametrize("fps", [1.5, 5.0, 30.0])
+def test_recording_of_few_frames_second_is_drawn_and_its_gaps_stay(fps: float) -> None:
+    time_s = np.arange(40) / fps
+    whole = Series(time_s, np.zeros(40), None, np.zeros(40, bool), find_max_step_s(time_s))
+    assert whole.gaps_s() == []
+    value = np.zeros(40)
+    value[10 : 10 + round(0.4 * fps) + 1] = math.nan
+    assert len(replace(whole, value=value).gaps_s()) == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,13 +16,15 @@ from carpus.core.results.ranges import finger_measure_keys
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import axis_top_deg, panel_keys
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import cell_text
+from carpus.ui.kit.cells import Cell, cell_text
 from carpus.ui.report.builders import build_session_report, write_session_report
 from carpus.ui.screens.progress.flow import write_table
-from carpus.ui.words.fingers import finger_table, progress_choices, progress_keys
+from carpus.ui.words.finger_angles import FingerAngle, format_spread
+from carpus.ui.words.fingers import finger_table, progress_choices, progress_keys, range_cell
 from carpus.ui.words.progress import headline
 from carpus.ui.words.session import hand_summary
 from carpus.ui.words.terms import LEGAL_SENTENCE
+from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.printed import overlapping_words, pages_of, words_of
@@ -140,3 +143,24 @@ def test_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen(
     assert not any(words.startswith(("MCP", "Palm.", "IP")) for row in fingers for words in row)
     assert "of this movement was occluded" in hand_summary(figures, None, None)
     assert "was occluded" not in hand_summary(figures_once(hand_session(hides_beyond_deg=999.0)), None, None)
+
+
+def test_hand_never_tracked_gives_honest_page(tmp_path: Path) -> None:
+    path = write_session_report(hand_session(lost=[(0.0, 99.0)]), tmp_path / "h.pdf")
+    words = plain(words_of(path))
+    assert "index not visible" in words
+    assert "0.0 % of" in words
+
+
+def test_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
+    figures = figures_once(hand_session())
+    low = ("PIP3_flexion", "extension")
+    beyond = with_ranges(figures, lambda row: {"mean": -3.2} if row.key == low else {})
+    cell = range_cell(beyond, FingerAngle(3, "middle"))
+    assert isinstance(cell, Cell)
+    assert cell.subtext.startswith("−3° to ")
+    spread = range_cell(figures, FingerAngle(4, "spread"))
+    assert isinstance(spread, Cell)
+    assert re.fullmatch(r"\d+°( add.| abd.)? to \d+°( add.| abd.)?", spread.subtext)
+    assert format_spread(-2.0) == "2° add."
+    assert format_spread(0.4) == "0°"

@@ -152,3 +152,17 @@ def test_review_hides_previous_session_while_loading(qtbot: QtBot, screen: Revie
     qtbot.waitUntil(lambda: screen.is_loaded)
     assert all(widget.isVisible() for widget in shown)
     assert all(button.isEnabled() for button in acts[:3])
+
+
+def test_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+    qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].is_session_excluded)
+    assert screen.results.is_excluded
+    assert screen.card.include_button.text() == "Include again"
+    screen.toggle_excluded()
+    screen._exclude_repetition(screen.current + 1, "pain", and_after=False)
+    assert screen.results.is_excluded, "other corrections leave it"
+    qtbot.mouseClick(screen.card.include_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not store.kept["session-7"].is_session_excluded)
+    assert not screen.results.is_excluded
+    assert screen.results.repetitions[screen.current].exclusion_reason == "pain"

@@ -9,6 +9,7 @@ from pytestqt.qtbot import QtBot
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.sessions.screen import SessionsScreen
+from carpus.ui.screens.sessions.session_list import row_cells
 from tests.ui.conftest import Show
 from tests.ui.fake_stored_sessions import FakeStoredSessions
 
@@ -46,3 +47,17 @@ def test_session_list_enter_or_double_click_opens_a_session(qtbot: QtBot, screen
     assert not screen.open_button.isEnabled()
     qtbot.keyClick(screen.list, Qt.Key.Key_Return)
     assert opened == ["s2"], "a damaged file is not opened"
+
+
+def test_session_list_session_is_excluded_with_a_reason_and_included_again(
+    qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
+) -> None:
+    screen.exclude_button.click()
+    screen.exclude_dialog.reason_field.setText("splint on")
+    qtbot.keyClick(screen.exclude_dialog.reason_field, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: sessions.done == [("aside", "s1", "splint on")])
+    qtbot.waitUntil(lambda: "splint on" in screen.remark_text.text())
+    assert row_cells(screen.list.session_model.lines[1])[4] == "excluded: splint on"
+    assert chosen(screen) == "s1"
+    screen.exclude_button.click()
+    qtbot.waitUntil(lambda: sessions.done[-1] == ("aside", "s1", ""))

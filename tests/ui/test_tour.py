@@ -8,7 +8,9 @@ from typing import get_args
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.ui.screens.tour.bubbles import PARTS, PLACES, Bubble, LabelStage, TourState, find_bubble
+from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.tour.bubble import BubbleView
+from carpus.ui.screens.tour.bubbles import PARTS, PLACES, Bubble, LabelStage, TourState, bubble_words, find_bubble
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
 PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")
@@ -73,3 +75,21 @@ def test_while_recording_nothing_speaks_of_beginning_one(moment: TourState, read
 @given(MOMENTS)
 def test_tour_leaves_marker_faults_to_screen(moment: TourState) -> None:
     assert find_bubble(replace(moment, place="markers", label_stage="doubtful")) is None
+
+
+def test_tour_buttons_stay_and_take_no_key_during_recording(theme: Theme) -> None:
+    view = BubbleView(theme)
+    assert view.isHidden()
+    for bubble in BUBBLES:
+        view.show_bubble(bubble)
+        assert not view.isHidden()
+        assert view.next_button.isEnabled()
+        assert not view.next_button.isHidden()
+        assert not view.leave_button.isHidden()
+        assert view.accessibleName() == bubble_words(bubble)
+        assert view.has_pointer is (bubble not in ("click", "results", "end")), bubble
+    view.show_bubble(None)
+    assert view.isHidden()
+    over_a_recording = BubbleView(theme, wide=True, keys=False)
+    for button in (over_a_recording.next_button, over_a_recording.leave_button):
+        assert not button.focusPolicy().value, "the space bar stays with the screen"
