@@ -144,7 +144,7 @@ def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, rat
     image.fill(QColor("white"))
     painter = QPainter(image)
     panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), start_s, end_s)
-    CurveDrawing(screen_style(theme), [(panel, [Curve(series, "curve_a")])]).paint(painter, screen_style(theme), 0)
+    CurveDrawing(screen_style(theme), [(panel, [Curve(series, "flexion")])]).paint(painter, screen_style(theme), 0)
     painter.end()
     return pixels(image)[..., :3].astype(np.float64)
 

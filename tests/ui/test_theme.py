@@ -32,8 +32,8 @@ TEXT_PAIRS = [
     ("warn", "surface"), ("warn", "warn_soft"), ("bad", "surface"), ("bad", "bad_soft"),
     ("on_band_warn", "band_warn"), ("on_band_bad", "band_bad"),
 ]  # fmt: skip
-PART_PAIRS = [("border", "surface"), ("border", "canvas"), ("curve_a", "surface"), ("curve_b", "surface"),
-              ("curve_c", "surface"), ("curve_a", "soft"), ("curve_b", "soft")]  # fmt: skip
+PART_PAIRS = [("border", "surface"), ("border", "canvas"), ("flexion", "surface"), ("deviation", "surface"),
+              ("rotation", "surface"), ("flexion", "soft"), ("deviation", "soft")]  # fmt: skip
 
 
 def linear(hex_color: str) -> np.ndarray:
@@ -66,7 +66,7 @@ def test_theme_curves_and_bands_differ_with_colour_vision_deficiency(
     tokens: Tokens, least: float, least_of_bands: float, eye: str
 ) -> None:
     curves, bands = (
-        (tokens.curve_a, tokens.curve_b, tokens.curve_c),
+        (tokens.flexion, tokens.deviation, tokens.rotation),
         (tokens.good_soft, tokens.band_warn, tokens.band_bad),
     )
     for colors, apart in ((curves, least), (bands, least_of_bands)):

@@ -240,7 +240,8 @@ class AgreementChart(Chart):
 
     def _add_curves(self, plot: Plot) -> None:
         shown, token = self._plot, angle_token(self._plot.pairs.name)
-        along, other = shown.x_values, "curve_c" if token != "curve_c" and shown.is_time_series else "border"
+        along = shown.x_values
+        other = "rotation" if token != "rotation" and shown.is_time_series else "border"
         if shown.is_time_series:
             step_s = 3.0 * float(np.median(np.diff(along))) if len(along) > 1 else 1.0
             both = ((shown.reference_deg, other, True), (shown.carpus_deg, token, False))

@@ -120,7 +120,7 @@ class ManualValueChart(Chart):
             return
         key = [("s", self.tr("manual, active") if len(measure.modes) > 1 else self.tr("manual"), "text")]
         key += [("d", self.tr("manual, passive"), "text")] if passive else []
-        key += [("O", self.tr("Carpus, mean"), "curve_a")] if ours else []
+        key += [("O", self.tr("Carpus, mean"), "flexion")] if ours else []
         pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
         scale = manual_value_scale(measure, [one.value for one in values] + [value for _, value in ours])
         left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 14 * unit
@@ -134,11 +134,11 @@ class ManualValueChart(Chart):
         self.add_axis(plot, "left", scale_labels(plot.panel), 12)
         beside = []
         if ours:
-            plot.add_line([one.timestamp() for one in when], [value for _, value in ours], "curve_a")
+            plot.add_line([one.timestamp() for one in when], [value for _, value in ours], "flexion")
             at = [plot.panel.point(one.timestamp(), value) for one, value in ours]
-            self.add_symbols("o", 8.0, pg.mkPen(look.color("curve_a"), width=look.line_width), "curve_a", at)
+            self.add_symbols("o", 8.0, pg.mkPen(look.color("flexion"), width=look.line_width), "flexion", at)
             sentence = self.tr("Carpus {value}").format(value=value_words(measure, ours[-1][1]))
-            beside.append((ours[-1][1], sentence, "curve_a"))
+            beside.append((ours[-1][1], sentence, "flexion"))
         for some in (passive, active):
             add_manual_values(plot, some, sessions=when, is_joined=not ours)
             if some:

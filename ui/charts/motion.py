@@ -88,10 +88,10 @@ class MotionPlot(SessionPlot):
         if self.kind == "zyz":
             sd = motion.zyz_sd_deg[:, key]
             own = Series(motion.time_s, motion.zyz_deg[:, key], sd, motion.is_predicted, step_s)
-            shown = [(ZYZ_NAMES[key], ("curve_b", "curve_a", "curve_b")[key], own)]
+            shown = [(ZYZ_NAMES[key], ("deviation", "flexion", "deviation")[key], own)]
             if key == 2:  # what stays known where the two are not
                 total = Series(motion.time_s, motion.zyz_sum_deg, None, motion.is_predicted, step_s)
-                shown.append((ZYZ_SUM, "curve_c", total))
+                shown.append((ZYZ_SUM, "rotation", total))
             return shown
         values = self.quantity(key)
         return [

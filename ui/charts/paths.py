@@ -37,13 +37,13 @@ AXES_COUNT = 9
 AXIS_FRACTION = 0.075
 _FINGER_JOINTS = ("MCP", "PIP", "DIP", "TIP")
 _THUMB_JOINTS = ("CMC", "MCP", "IP", "TIP")
-_JOINT_TOKENS = ("curve_a", "curve_b", "curve_c", "accent")
+_JOINT_TOKENS = ("flexion", "deviation", "rotation", "accent")
 UP = (0, 2, 2)
 ACROSS = (1, 0, 1)
 # Seen from above and from the fingers, Y of W0 points to the left on both hands.
 ACROSS_SIGN = (-1.0, 1.0, -1.0)
 # Each axis has the colour of its angle: X pronation-supination, Y flexion, Z deviation.
-AXIS_TOKENS = ("curve_c", "curve_a", "curve_b")
+AXIS_TOKENS = ("rotation", "flexion", "deviation")
 AXIS_LETTERS = ("X", "Y", "Z")
 PLANE_LETTERS = ("XY", "ZX", "ZY")
 
@@ -97,7 +97,7 @@ def finger_paths(curves: MotionCurves, finger: int) -> PathPlot:
         named = [(f"{kind}{finger}", token, kind) for kind, token in zip(kinds, _JOINT_TOKENS, strict=True)]
     else:
         named = [
-            (f"TIP{k}", "text" if k == 1 else "curve_a" if k % 2 else "curve_b", finger_name(str(k))) for k in FINGERS
+            (f"TIP{k}", "text" if k == 1 else "flexion" if k % 2 else "deviation", finger_name(str(k))) for k in FINGERS
         ]
     there = curves.joint_names
     at = [(there.index(joint), token, words) for joint, token, words in named if joint in there]

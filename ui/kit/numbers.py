@@ -57,11 +57,6 @@ def format_sd(sd_deg: float) -> str:
     return f"±{NARROW_GAP}{max(1, round_half_away(sd_deg))}°"
 
 
-def format_speed(value_deg_s: float) -> str:
-    """Return ``38°/s``."""
-    return f"{round_half_away(abs(value_deg_s))}°/s" if math.isfinite(value_deg_s) else UNKNOWN
-
-
 def format_millimetres(value_mm: float) -> str:
     """Return ``12 mm``."""
     return f"{round_half_away(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
@@ -99,11 +94,6 @@ def format_significant(value: float, digits: int) -> str:
     ('0.651', '12')
     """
     return _localise(f"{value:.{digits}g}") if math.isfinite(value) else UNKNOWN
-
-
-def format_integer(value: int) -> str:
-    """Return ``1,250`` with the language's group separator."""
-    return language.locale().toString(value)
 
 
 def _localise(plain: str) -> str:

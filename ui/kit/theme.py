@@ -40,9 +40,10 @@ class Tokens:
     on_band_warn: str
     band_bad: str
     on_band_bad: str
-    curve_a: str
-    curve_b: str
-    curve_c: str
+    # Of the wrist's curves; fingers, paths and other curves take the same three colours.
+    flexion: str
+    deviation: str
+    rotation: str
     accent_hover: str
     accent_pressed: str
 
@@ -52,18 +53,18 @@ LIGHT = Tokens(
     text="#16201E", text2="#4F5D5A", accent="#0B6B6E", on_accent="#FFFFFF", soft="#DCEEEE",
     good="#1B7340", good_soft="#E1F2E7", warn="#8A5200", warn_soft="#FBECD2", bad="#B1221A", bad_soft="#FBE5E2",
     band_warn="#F6BC46", on_band_warn="#2A1B00", band_bad="#B1221A", on_band_bad="#FFFFFF",
-    curve_a="#1560B8", curve_b="#B85300", curve_c="#3D3D46", accent_hover="#095E61", accent_pressed="#074F52",
+    flexion="#1560B8", deviation="#B85300", rotation="#3D3D46", accent_hover="#095E61", accent_pressed="#074F52",
 )  # fmt: skip
 DARK = Tokens(
     canvas="#12171A", surface="#1B2226", sunken="#252E33", norm="#2B353A", line="#333E44", border="#7F8F95",
     text="#E9EEEE", text2="#A9B6B9", accent="#57BFC1", on_accent="#062223", soft="#173A3D",
     good="#6CC992", good_soft="#173626", warn="#F0B65A", warn_soft="#3C2E14", bad="#FF8A80", bad_soft="#43201E",
     band_warn="#F0B65A", on_band_warn="#2A1B00", band_bad="#D2363A", on_band_bad="#FFFFFF",
-    curve_a="#5AA2F5", curve_b="#F59A3C", curve_c="#E6E6E6", accent_hover="#6BCACC", accent_pressed="#85D5D6",
+    flexion="#5AA2F5", deviation="#F59A3C", rotation="#E6E6E6", accent_hover="#6BCACC", accent_pressed="#85D5D6",
 )  # fmt: skip
 
-CURVE_TOKENS = ("curve_b", "curve_a", "curve_c")
-"""Colours of deviation, flexion and pronation-supination."""
+CURVE_TOKENS = ("deviation", "flexion", "rotation")
+"""Colours of the curves of deviation, flexion and pronation-supination."""
 ON_PICTURE_LINE = "#FFFFFF"
 ON_PICTURE_PARTLY = "#F0B65A"
 ON_PICTURE_WRONG = "#FF7A6E"

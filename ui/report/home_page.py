@@ -349,9 +349,9 @@ def _paint_progress_curve(progress: HomeProgress, painter: QPainter, box: QRectF
     shown = [place(day, value) for day, value in zip(progress.days, progress.values_deg, strict=True)]
     painter.setPen(QPen(PAPER.color("line"), 0.6 * UNIT))
     painter.drawLine(QLineF(area.left() - 16.0, area.bottom(), area.right() + 16.0, area.bottom()))
-    painter.setPen(QPen(PAPER.color("curve_a"), 1.8 * UNIT))
+    painter.setPen(QPen(PAPER.color("flexion"), 1.8 * UNIT))
     painter.drawPolyline(QPolygonF(shown))
-    painter.setBrush(PAPER.color("curve_a"))
+    painter.setBrush(PAPER.color("flexion"))
     for point in shown:
         painter.drawEllipse(point, 2.2 * UNIT, 2.2 * UNIT)
     aside, face = QPointF(8.0 * UNIT, 3.0 * UNIT), PAPER.font(9.0, SEMIBOLD)

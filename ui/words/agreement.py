@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.research.agreement.compare import Comparison
     from carpus.core.research.agreement.statistics import Interval
 
-TOKENS = {"deviation": "curve_b", "flexion": "curve_a", "pronosupination": "curve_c"}
+TOKENS = {"deviation": "deviation", "flexion": "flexion", "pronosupination": "rotation"}
 
 
 def angle_name(name: str) -> str:
@@ -32,7 +32,7 @@ def angle_name(name: str) -> str:
 def angle_token(name: str) -> str:
     """Return the colour of an angle."""
     return TOKENS.get(name) or (
-        find_finger_angle(name).token if any(one.joint == name for one in FINGER_ANGLES) else "curve_a"
+        find_finger_angle(name).token if any(one.joint == name for one in FINGER_ANGLES) else "flexion"
     )
 
 

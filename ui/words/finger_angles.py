@@ -19,8 +19,9 @@ from carpus.ui.words.marker_words import finger_name, long_finger_name
 AngleKind = Literal["knuckle", "middle", "end", "spread", "tam"]
 ANGLE_KINDS: tuple[AngleKind, ...] = ("knuckle", "middle", "end", "spread")
 FINGERS = (1, 2, 3, 4, 5)
+# Colours of the curves of a finger's angles.
 KIND_TOKENS: dict[AngleKind, str] = {
-    "knuckle": "curve_a", "middle": "curve_b", "end": "curve_c", "spread": "curve_a", "tam": "accent",
+    "knuckle": "flexion", "middle": "deviation", "end": "rotation", "spread": "flexion", "tam": "accent",
 }  # fmt: skip
 _JOINTS: dict[AngleKind, str] = {"knuckle": "MCP{}_flexion", "middle": "PIP{}_flexion", "end": "DIP{}_flexion"}
 _THUMB_JOINTS: dict[AngleKind, str] = {

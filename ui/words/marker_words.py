@@ -30,11 +30,6 @@ def long_finger_name(finger: str) -> str:
     return translate_phrase(_FINGERS[finger][1])
 
 
-def finger_number(marker: str) -> int:
-    """Return the finger of a marker, 1 to 5, or 0 for the wrist."""
-    return int(marker[-1]) if marker[-1:].isdigit() else 0
-
-
 def click_instruction(marker: str) -> str:
     """Return the instruction to click a marker."""
     return tr("Click the {marker}").format(marker=fault_text.marker_name(marker, translate_phrase))

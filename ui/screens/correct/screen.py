@@ -12,11 +12,9 @@ from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import ByteImage, FloatArray, TrackStatus
-from carpus.core.results.session_results import SessionResults, compute_session_results
-from carpus.core.results.valid_data import JointCurves, joint_curves, wrist_curves
+from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.label_checks import LabelDoubt
 from carpus.core.session.values import Session
-from carpus.ui.charts.session import HandPlot, SessionChart, SessionPlot
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import ENTER_KEY, Button
@@ -29,8 +27,7 @@ from carpus.ui.picture.playback_controls import PlaybackControls, TimeSlider, cl
 from carpus.ui.picture.session_frames import RowReader, blank_frame
 from carpus.ui.screens.correct.frame_view import CorrectionFrameView
 from carpus.ui.screens.correct.marker_edits import MarkerEdits
-from carpus.ui.words.finger_angles import find_finger_angle
-from carpus.ui.words.marker_words import finger_number, marker_title
+from carpus.ui.words.marker_words import marker_title
 
 if TYPE_CHECKING:
     from carpus.core.records.corrections import Corrections
@@ -58,10 +55,6 @@ class CorrectionScreen(FittedWidget):
         self._theme = theme
         self._session_id = ""
         self._session: Session | None = None
-        self._figures: SessionResults | None = None
-        self._joints: JointCurves | None = None
-        self._finger = 0
-        """Finger whose curves are shown; 0 for the wrist."""
         self.edits: MarkerEdits | None = None
         self._time_s = np.empty(0)
         self.row = 0
@@ -72,8 +65,6 @@ class CorrectionScreen(FittedWidget):
         self.transport = PlaybackControls(theme)
         self.time_text = Text(theme, "", 14, MEDIUM)
         self.scrubber = TimeSlider(theme)
-        self.curves = SessionChart(theme)
-        self.curves.show_single(True)
         self.state = StateText(theme)
         self.title = Text(theme, "", 28, SEMIBOLD, wrap=True)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -98,7 +89,7 @@ class CorrectionScreen(FittedWidget):
             self.transport, 32, STRETCH, self.time_text, 8, (self.scrubber, 6), 8, gap=4, margins=(12, 7, 16, 7)
         )
         player.body.addLayout(line)
-        fill(left, player, (self.curves, 200))
+        left.addWidget(player)
         right = column_layout(self.state, self.title, self.hint, gap=8, margins=(0, 0, 0, 0))
         card = Card(self._theme, 16)
         card.body.addWidget(
@@ -117,7 +108,6 @@ class CorrectionScreen(FittedWidget):
     def _fit(self) -> None:
         tight = is_tight(self, self._theme)
         self._column.setFixedWidth(self._theme.px(376))
-        self.curves.setVisible(not tight and self.height() >= 600 * self._theme.text_scale)
         self.next_doubtful_button.setVisible(
             bool(self._find_doubtful_rows().size) and not self.anyway_button.isVisibleTo(self)
         )
@@ -129,7 +119,6 @@ class CorrectionScreen(FittedWidget):
         self.frame_view.empty_clicked.connect(self._place_current)
         self.scrubber.time_chosen.connect(self._show_time)
         self.transport.stepped.connect(self.step_frames)
-        self.curves.cursor_moved.connect(self._show_time)
         self.primary_button.clicked.connect(self._run_primary)
         self.cancel_button.clicked.connect(self.cancel_or_return)
         self.hide_button.clicked.connect(self.hide_current)
@@ -147,9 +136,7 @@ class CorrectionScreen(FittedWidget):
     def show_session(self, session_id: str, session: Session, row: int) -> None:
         self._session_id, self._session = session_id, session
         self.edits = MarkerEdits(session)
-        self._figures = compute_session_results(session)
-        self._curves, self._joints = wrist_curves(session), joint_curves(session)
-        self._time_s = self._curves.time_s
+        self._time_s = session.timestamp_s - session.timestamp_s[:1]
         self.current_marker = ""
         clear_layout(self._rows)
         self.rows = {}
@@ -162,23 +149,11 @@ class CorrectionScreen(FittedWidget):
         self.frame_view.clear(self.tr("Reading the frame…"))
         self.frame_view.set_hand_area(session.calibration.clicks.pixel)
         self.row = -1
-        joint = self._figures.exercise.joint
-        self._show_curves(find_finger_angle(joint).finger if joint and self._joints is not None else 0)
-        self.scrubber.show_session(float(self._time_s[-1]), self._figures.repetitions, -1)
+        self.scrubber.show_session(float(self._time_s[-1]), compute_session_results(session).repetitions, -1)
         self.reader.set_session(session_id)
         self.show_row(row)
         self._fit()
         self.setFocus(Qt.FocusReason.OtherFocusReason)
-
-    def _show_curves(self, finger: int) -> None:
-        if self._session is None or self._figures is None:
-            return
-        self._finger = finger
-        shown = (self._curves, self._figures.exercise, self._figures.repetitions, -1)
-        hand = finger and self._joints is not None
-        self.curves.show_plot(HandPlot(*shown, joints=self._joints, finger=finger) if hand else SessionPlot(*shown))
-        if self.row >= 0:
-            self.curves.set_time(float(self._time_s[self.row]))
 
     def _find_doubtful_rows(self) -> np.ndarray:
         if self._session is None:
@@ -195,7 +170,6 @@ class CorrectionScreen(FittedWidget):
         if row != self.row:
             self.row = row
             self._blob_px = np.empty((0, 2))
-            self.curves.set_time(float(self._time_s[row]))
             self.time_text.setText(clock_words(float(self._time_s[row]), float(self._time_s[-1])))
             self.scrubber.show_time(float(self._time_s[row]))
             self.reader.request(row)
@@ -228,8 +202,6 @@ class CorrectionScreen(FittedWidget):
     # --- what a person says -------------------------------------------------------------------------------
     def select_marker(self, name: str) -> None:
         self.current_marker = name
-        if finger_number(name) != self._finger and self._joints is not None:
-            self._show_curves(finger_number(name))
         self._refresh()
 
     def place_marker(self, name: str, pixel: FloatArray) -> None:

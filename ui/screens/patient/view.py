@@ -185,7 +185,7 @@ class PatientView(QWidget):
         painter.setBrush(_skin_color(self._theme, self.audience))
         painter.drawPath(to.map(hand.hand_and_arm))
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(color("curve_a"))
+        painter.setBrush(color("flexion"))
         for dot in hand.dots:
             painter.drawEllipse(to.map(dot), hand.dot_radius, hand.dot_radius)
         painter.restore()
@@ -319,7 +319,7 @@ def paint_climber(painter: QPainter, theme: Theme, at: QPointF, ahead: QPointF, 
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.color("text"))
     painter.drawEllipse(QPointF(0.85 * half, 0), 0.5 * half, 0.5 * half)
-    painter.setBrush(theme.color("curve_b"))
+    painter.setBrush(theme.color("deviation"))
     painter.setPen(QPen(theme.color("text"), 5))
     painter.drawEllipse(QPointF(0, 0), half, 0.9 * half)
     painter.drawLine(QPointF(-half, 0), QPointF(0.6 * half, 0))
@@ -335,7 +335,7 @@ def paint_flower(painter: QPainter, theme: Theme, at: QPointF, half: float, *, o
     painter.save()
     painter.translate(at)
     painter.setPen(QPen(theme.color("surface"), max(2.0, 0.05 * half)))
-    painter.setBrush(theme.color("curve_b" if open_share >= 1.0 else "border"))
+    painter.setBrush(theme.color("deviation" if open_share >= 1.0 else "border"))
     reach = half * (0.3 + 0.32 * open_share)
     for number in range(PETALS):
         painter.save()

@@ -53,13 +53,13 @@ def paint_angle(painter: QPainter, angle: AngleOverlay, to_screen: ToScreen) -> 
     """Paint a dashed line at zero, a thick one at the angle, and the arc between them."""
     vertex, zero, hand = (to_screen(*map(float, point)) for point in (angle.vertex, angle.zero, angle.hand))
     draw_with_halo(painter, ON_PICTURE_LINE, 2.0, lambda: painter.drawLine(vertex, zero), dash=True)
-    draw_with_halo(painter, DARK.curve_b, 4.0, lambda: painter.drawLine(vertex, hand))
+    draw_with_halo(painter, DARK.deviation, 4.0, lambda: painter.drawLine(vertex, hand))
     lines = [point - vertex for point in (zero, hand)]
     radius = ARC_FRACTION * min(float(np.hypot(line.x(), line.y())) for line in lines)
     start, end = (float(np.degrees(np.arctan2(-line.y(), line.x()))) for line in lines)
     span = (end - start + 180.0) % 360.0 - 180.0
     box = QRectF(vertex.x() - radius, vertex.y() - radius, 2 * radius, 2 * radius)
-    draw_with_halo(painter, DARK.curve_b, 2.0, lambda: painter.drawArc(box, round(16 * start), round(16 * span)))
+    draw_with_halo(painter, DARK.deviation, 2.0, lambda: painter.drawArc(box, round(16 * start), round(16 * span)))
 
 
 def draw_hand_image(theme: Theme, hand_image: HandImage, frame: ByteImage) -> QImage | None:
