@@ -5717,7 +5717,7 @@
     </message>
     <message>
         <source>Send the patient again from the practice system, or choose the patient in Carpus.</source>
-        <translation>Übergeben Sie die Patientin oder den Patienten erneut aus der Praxissoftware, oder wählen Sie sie oder ihn in Carpus.</translation>
+        <translation>Übergeben Sie den Patienten erneut aus der Praxissoftware, oder wählen Sie ihn in Carpus.</translation>
     </message>
     <message>
         <source>The practice system’s file cannot be read: {subject} ({detail}).</source>
@@ -8765,8 +8765,8 @@ von oben</translation>
         <translation>&amp;Echter Name</translation>
     </message>
     <message>
-        <source>&amp;Born</source>
-        <translation>&amp;Geboren</translation>
+        <source>&amp;Birth date</source>
+        <translation>&amp;Geburtsdatum</translation>
     </message>
     <message>
         <source>Record nu&amp;mber</source>
@@ -8793,7 +8793,7 @@ von oben</translation>
         <translation>&amp;Diagnose oder Operation</translation>
     </message>
     <message>
-        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a session file or an export.</source>
+        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
         <translation>Der Name in Carpus ist erfunden und kann laut gesagt werden: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
     </message>
     <message>
@@ -9028,8 +9028,8 @@ von oben</translation>
 <context>
     <name>PracticeSystemCard</name>
     <message>
-        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
-        <translation>Die Praxissoftware legt eine Person als GDT-2.1-Datei in den ersten Ordner, und Carpus öffnet sie. „An Praxissoftware senden“ auf einem Bericht legt Werte und PDF in den zweiten. Diese Dateien enthalten echte Namen.</translation>
+        <source>The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to practice system” next to a report writes its values and the PDF into the second. These files contain real names.</source>
+        <translation>Die Praxissoftware schreibt einen Patienten als GDT-2.1-Datei in den ersten Ordner, und Carpus öffnet ihn. „An Praxissoftware senden“ neben einem Bericht schreibt Werte und PDF in den zweiten. Diese Dateien enthalten echte Namen.</translation>
     </message>
     <message>
         <source>Change…</source>

@@ -7985,7 +7985,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Locked automatically at {time} after {minutes} minutes without input.</source>
-        <translation>Bloccato automaticamente alle {time} dopo {minutes} minuti di inattività.</translation>
+        <translation>Blocco automatico alle {time} dopo {minutes} min di inattività.</translation>
     </message>
     <message>
         <source>Wrong PIN. 1 attempt left before a 1-minute wait.</source>
@@ -8765,7 +8765,7 @@ dall’alto</translation>
         <translation>Nome ve&amp;ro</translation>
     </message>
     <message>
-        <source>&amp;Born</source>
+        <source>&amp;Birth date</source>
         <translation>Da&amp;ta di nascita</translation>
     </message>
     <message>
@@ -8793,7 +8793,7 @@ dall’alto</translation>
         <translation>&amp;Diagnosi o intervento</translation>
     </message>
     <message>
-        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a session file or an export.</source>
+        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
         <translation>Il nome in Carpus è inventato e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
     </message>
     <message>
@@ -9028,8 +9028,8 @@ dall’alto</translation>
 <context>
     <name>PracticeSystemCard</name>
     <message>
-        <source>The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. “Send to practice system” on a report places its values and the PDF in the second. Real names are in these files.</source>
-        <translation>Il gestionale mette un paziente come file GDT 2.1 nella prima cartella e Carpus lo apre. “Invia al gestionale” accanto a una relazione mette i valori e il PDF nella seconda. Questi file contengono i nomi reali.</translation>
+        <source>The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to practice system” next to a report writes its values and the PDF into the second. These files contain real names.</source>
+        <translation>Il gestionale scrive un paziente come file GDT 2.1 nella prima cartella e Carpus lo apre. “Invia al gestionale” accanto a una relazione scrive i valori e il PDF nella seconda. Questi file contengono i nomi veri.</translation>
     </message>
     <message>
         <source>Change…</source>
@@ -9681,7 +9681,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>{pages}, readable in grey. Contains the patient’s real name: store it securely.</source>
-        <translation>{pages}, leggibile in grigio. Contiene il nome reale del paziente: conservare in luogo sicuro.</translation>
+        <translation>{pages}, leggibile in grigio. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
     </message>
     <message>
         <source>Save report</source>

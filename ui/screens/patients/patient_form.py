@@ -89,7 +89,7 @@ class PatientForm(Dialog):
                 continues_row=True,
                 stretch=1,
             ),
-            Field("birth_day", self.tr("&Born"), born, lambda _: self._date_error("birth_day"), stretch=1),
+            Field("birth_day", self.tr("&Birth date"), born, lambda _: self._date_error("birth_day"), stretch=1),
             Field(
                 "record_number",
                 self.tr("Record nu&mber"),
@@ -149,9 +149,9 @@ class PatientForm(Dialog):
         cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
         cancel.clicked.connect(self.close_dialog)
         rule = self.tr(
-            "The name in Carpus is made up and can be spoken aloud: no real name, no initials, no date of birth. "
-            "Real name, birth date, record number, sex and diagnosis are optional. They stay in this list, never in a "
-            "session file or an export."
+            "The name in Carpus is made up and can be spoken aloud: no real name, no initials, no birth "
+            "date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this "
+            "list and are never in a session file or an export."
         )
         self._form_page = QWidget()
         column_layout(*self.fields.layout_rows(), gap=14, margins=(0, 0, 0, 0), parent=self._form_page)

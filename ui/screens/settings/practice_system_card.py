@@ -24,9 +24,9 @@ class PracticeSystemCard(Card):
     def __init__(self, theme: Theme, requests: str, results: str) -> None:
         super().__init__(theme, 24)
         words = self.tr(
-            "The practice system places a patient as a GDT 2.1 file in the first folder, and Carpus opens the patient. "
-            "“Send to practice system” on a report places its values and the PDF in the second. Real names are in "
-            "these files."
+            "The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus "
+            "opens the patient. “Send to practice system” next to a report writes its values and the PDF "
+            "into the second. These files contain real names."
         )
         self._folders = [requests, results]
         self._texts = [Text(theme, "", 14, wrap=True) for _ in self._folders]
