@@ -126,13 +126,13 @@ class LockController(QObject):
             if widget is not self._shell and widget.isVisible():
                 widget.close()  # menus and dialogs name patients too
         self.privacy_changed.emit(True)
-        self._context.names.set_hidden(True)
-        self.lock_screen.show_therapists(self._therapists.list_therapists(), self._therapists.current)
         stored = self._context.current.session_id != ""
         self.lock_screen.lock(self.lock_screen.lock_reason(datetime.now(), minutes), is_session_saved=stored)
         for widget in self._hidden_widgets:
             widget.setProperty("shown_before_lock", not widget.isHidden())
             widget.hide()
+        self._context.names.set_hidden(True)
+        self.lock_screen.show_therapists(self._therapists.list_therapists(), self._therapists.current)
         self._library.audit_log.log_program("locked", idle=int(minutes > 0))
 
     def _check_pin(self, entered: str) -> None:
