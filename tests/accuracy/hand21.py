@@ -19,7 +19,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.accuracy.carpus import detected_sequence, learnt_tracker, measured_session, stepped
 from tests.accuracy.readings import Reading, reading_of
-from tests.accuracy.runs import Mode, degrees_between
+from tests.accuracy.runs import Mode, degrees_between, longest_s
 from tests.accuracy.sequences import names_taken, scored_frames, true_names
 from tests.rendered import truth_in
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
@@ -102,8 +102,8 @@ class HandRun:
     Errors and stated standard deviations of ``joint`` and ``smoothed`` (N, 21) and of the wrist (N, 3), degrees;
     ``seen`` (N, 21) the discs at and past the joint were there to be seen; ``compared`` (N, 21) where the angle means
     something; ``disc_mm`` errors of the discs that were seen, after the unit's depth scale; ``status`` (N,);
-    measurements ``taken`` and ``wrong``; ``missed`` of ``shown`` discs; what a therapist reads live off wrist and
-    joints, the latter while seen.
+    measurements ``taken`` and ``wrong``, ``longest_wrong_s`` on end; ``missed`` of ``shown`` discs; what a therapist
+    reads live off wrist and joints, the latter while seen.
     """
 
     scenario: str
@@ -120,6 +120,7 @@ class HandRun:
     status: NDArray[np.int64]
     taken: int
     wrong: int
+    longest_wrong_s: float
     missed: int
     shown: int
     wrist_reading: Reading
@@ -216,6 +217,7 @@ def _scored(
         status[kept],
         int(names.taken.sum()),
         int(names.wrong.sum()),
+        longest_s(names.wrong, truth.timestamp_s[kept]),
         names.missed,
         names.shown,
         reading_of(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, **discs),

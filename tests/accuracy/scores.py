@@ -20,7 +20,7 @@ class Score:
     ``rmse``, ``p95`` of the errors; ``inside`` share of frames with the truth within two stated sds, ``worst_inside``
     of the worst recording, all columns together, and ``worst_inside_of`` (C,) column by column; ``sd_over_rmse`` mean
     stated sd over the RMSE. ``tracked`` share of the frames, ``wrong`` share of the measurements taken,
-    ``longest_wrong_s`` of any marker, ``longest_untracked_s`` though enough discs showed.
+    ``longest_wrong_s`` of any marker, ``longest_untracked_s`` though enough discs showed, ``ends_lost`` recordings.
     """
 
     recordings: int
@@ -34,6 +34,7 @@ class Score:
     wrong: float
     longest_wrong_s: float
     longest_untracked_s: float
+    ends_lost: int
 
 
 def score(runs: Sequence[Run], columns: Sequence[str], *, smoothed: bool = False) -> Score | None:
@@ -69,6 +70,7 @@ def score(runs: Sequence[Run], columns: Sequence[str], *, smoothed: bool = False
         wrong=sum(run.wrong for run, _ in kept) / max(1, sum(run.taken for run, _ in kept)),
         longest_wrong_s=max(run.longest_wrong_s for run, _ in kept),
         longest_untracked_s=max(run.longest_untracked_s for run, _ in kept),
+        ends_lost=sum(run.ends_lost for run, _ in kept),
     )
 
 
