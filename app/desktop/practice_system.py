@@ -8,6 +8,7 @@ from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer
 
@@ -19,13 +20,13 @@ from carpus.core.model.errors import CarpusFault, GdtUnreadable
 from carpus.core.records.practice_system import save_requested_patient, set_aside
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.translate import to_mid_sentence, tr
-from carpus.ui.report.pdf import report_pdf, save_pdf
-from carpus.ui.report.session_page import SessionReport
-from carpus.ui.screens.report.screen import default_file_name
 from carpus.ui.screens.settings.practice_system_card import PracticeSystemCard
 from carpus.ui.words import terms
 from carpus.ui.words.progress import range_name
 from carpus.ui.words.ranges import neutral_zero_words
+
+if TYPE_CHECKING:  # a report loads pyqtgraph, for which the window does not wait
+    from carpus.ui.report.session_page import SessionReport
 
 POLL_MS = 2000
 """A folder in the network gives no notice of new files, so it is looked at."""
@@ -117,6 +118,9 @@ class PracticeSystemController(QObject):
 
     def _send(self, report: SessionReport) -> None:
         """Write the report and its values into the folder of results."""
+        from carpus.ui.report.pdf import report_pdf, save_pdf
+        from carpus.ui.screens.report.screen import default_file_name
+
         screen, patient = self._controller.report.screen, self._controller.current.patient
         assert patient is not None
         folder, number = Path(self._folders.results), patient.record_number

@@ -93,6 +93,7 @@ class VerdictPanel(Card):
         self._grid = grid_layout(10, 0, stretches=(0, 0, 1), margins=(0, 8, 0, 0))
         self.body.addLayout(self._grid)
         self._lines: list[tuple[StateText, Text, Text]] = []
+        self._rules: list[Separator] = []
 
     def show_rows(self, headline: str, state: State, rows: Sequence[VerdictRow]) -> None:
         self.headline.setText(headline)
@@ -109,6 +110,7 @@ class VerdictPanel(Card):
     def _add_line(self) -> None:
         place = 2 * len(self._lines)
         line = Separator(self._theme)
+        self._rules.append(line)
         self._grid.addWidget(line, place, 0, 1, 3)
         icon = StateText(self._theme, icon_px=16)
         cells = (
@@ -121,10 +123,10 @@ class VerdictPanel(Card):
 
     def show_all(self, shown: bool) -> None:
         """Show all rows, or only those that are not good."""
-        for number, cells in enumerate(self._lines):
+        for number, (rule, cells) in enumerate(zip(self._rules, self._lines, strict=True)):
             visible = shown or cells[0].state != "good"
-            for row, column in ((2 * number, 0), *((2 * number + 1, column) for column in range(3))):
-                self._grid.itemAtPosition(row, column).widget().setVisible(visible)
+            for part in (rule, *cells):
+                part.setVisible(visible)
             self._grid.setRowMinimumHeight(2 * number + 1, self._theme.px(29) if visible else 0)
 
     def states(self) -> list[State]:
