@@ -56,10 +56,8 @@ def compute_log_odds(
     out, believed = np.empty((markers, blobs)), np.empty((markers, blobs), dtype=np.uint8)
     value: double[:, ::1] = out
     with_depth: cython.uchar[:, ::1] = believed
-    prior: double = densities[0]
-    by_depth: double = densities[1]
-    by_outlier: double = densities[2]
-    cython.declare(j=Py_ssize_t, i=Py_ssize_t)
+    cython.declare(prior=double, by_depth=double, by_outlier=double)
+    prior, by_depth, by_outlier = densities
     for j in range(at.shape[0]):
         for i in range(blob.shape[0]):
             # S = L D L': innovations u, v, z and their variances, each given those before it.
@@ -76,8 +74,9 @@ def compute_log_odds(
             in_image = u * u / s_u + v * v / s_v
             in_space = in_image + z * z / s_z
             has_depth = isfinite(blob[i, 2])
-            by_pixel = prior - 0.5 * (in_image + log(s_u * s_v))
-            by_both = by_pixel + by_depth - 0.5 * (z * z / s_z + log(s_z)) if in_space <= gate_squared else impossible
+            by_pixel: double = prior - 0.5 * (in_image + log(s_u * s_v))
+            by_both: double = by_pixel + by_depth - 0.5 * (z * z / s_z + log(s_z))
+            by_both = by_both if in_space <= gate_squared else impossible
             by_pixel = impossible if in_image > gate_squared else by_pixel + by_outlier if has_depth else by_pixel
             with_depth[j, i] = has_depth and by_both >= by_pixel
             value[j, i] = by_both if by_both >= by_pixel else by_pixel  # unknown where that by the pixel is

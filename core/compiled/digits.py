@@ -16,7 +16,7 @@ import cython
 import numpy as np
 from cython import Py_ssize_t, double
 from cython.cimports.carpus.core.compiled.small_matrices import add_product, inverse_root
-from cython.cimports.libc.math import M_PI_2, cos, erfc, exp, sin, sqrt
+from cython.cimports.libc.math import M_PI_2, M_SQRT1_2, cos, erfc, exp, sin, sqrt
 from numpy.typing import NDArray
 
 from carpus.core.compiled.palm import as_array
@@ -37,7 +37,6 @@ _ROLL = cython.declare(cython.int, 9)
 _ROOT = cython.declare(cython.int, 10)
 _HEIGHT = cython.declare(cython.int, 13)
 _TO_DIP = cython.declare(double, DIP_PER_PIP)
-_ROOT_HALF = cython.declare(double, np.sqrt(0.5))
 _ROOT_PI = cython.declare(double, np.sqrt(np.pi))
 
 
@@ -272,13 +271,13 @@ def _compute_tail_ratio(z: double) -> double:
     Without underflow: Phi(z) = exp(-z^2/2) erfcx(-z / sqrt 2) / 2, with erfcx(x) = exp(x^2) erfc(x), for large x by its
     series.
     """
-    x = _ROOT_HALF * max(-z, -20.0)
+    x = M_SQRT1_2 * max(-z, -20.0)
     y = 1.0 / (x * x) if x != 0.0 else 0.0
     if x < 20.0:
         scaled = exp(x * x) * erfc(x)
     else:
         scaled = (1.0 - y * (0.5 - y * (0.75 - y * (1.875 - y * (6.5625 - y * 29.53125))))) / (x * _ROOT_PI)
-    return 2.0 * _ROOT_HALF / (_ROOT_PI * scaled)
+    return 2.0 * M_SQRT1_2 / (_ROOT_PI * scaled)
 
 
 def apply_limits(
