@@ -3,6 +3,8 @@ differences."""
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,7 @@ from carpus.core.model.hand.kinematics import DIP_PER_PIP, disc_centres, joint_c
 from carpus.core.model.hand.protocols import SITE_CHAINS, joint_angle_names
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.digits.digit_search import is_in_reach
+from carpus.core.tracking.digits.disc_visibility import compute_tilts
 from carpus.core.tracking.filter.digit_filter import (
     DIGIT_SIZE,
     OBSERVED,
@@ -161,3 +164,16 @@ def test_is_in_reach_allows_a_digits_length_and_margin(digit: int, off_m: tuple[
     state = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS))
     state[:, N_SLOTS : N_SLOTS + 3] = 0.040, 0.025, 0.020
     assert is_in_reach(roots[digit] + off_m, roots, state) == is_reached
+
+
+@pytest.mark.parametrize("slot", [1, 2, 3])
+def test_tilt_variance_of_finger_discs_is_of_the_flexions_that_turn_them(slot: int) -> None:
+    pose, roots, covariance = np.zeros((5, 16)), np.zeros((5, 3)), np.zeros((5, 21, 21))
+    pose[:, 5:8], covariance[:, slot, slot] = 0.03, 1.0
+    bent = pose.copy()
+    bent[:, slot] += 1e-4
+    normal = place_digits(pose, roots)[1]
+    is_turned = np.linalg.norm(place_digits(bent, roots)[1] - normal, axis=-1) > 1e-5
+    seen = SimpleNamespace(centre_m=np.tile([0.0, 0.0, 0.5], (5, 3, 1)), rotation=np.eye(3))
+    _, variance = compute_tilts(normal, covariance, seen, seen)
+    assert np.array_equal(variance[1:] == 1.0, is_turned[1:])
