@@ -6912,8 +6912,8 @@
         <translation>Zurück zur Auswertung (Esc)</translation>
     </message>
     <message>
-        <source>In this frame: distance to the expected position</source>
-        <translation>In diesem Bild: Abstand zur erwarteten Position</translation>
+        <source>Distance to the expected position</source>
+        <translation>Abstand zur erwarteten Position</translation>
     </message>
     <message>
         <source>Reading the frame…</source>

@@ -6912,8 +6912,8 @@
         <translation>Torna alla revisione (Esc)</translation>
     </message>
     <message>
-        <source>In this frame: distance to the expected position</source>
-        <translation>In questo fotogramma: distanza dalla posizione attesa</translation>
+        <source>Distance to the expected position</source>
+        <translation>Distanza dalla posizione attesa</translation>
     </message>
     <message>
         <source>Reading the frame…</source>

@@ -92,9 +92,7 @@ class CorrectionScreen(FittedWidget):
         left.addWidget(player)
         right = column_layout(self.state, self.title, self.hint, gap=8, margins=(0, 0, 0, 0))
         card = Card(self._theme, 16)
-        card.body.addWidget(
-            Text(self._theme, self.tr("In this frame: distance to the expected position"), 14, SEMIBOLD)
-        )
+        card.body.addWidget(Text(self._theme, self.tr("Distance to the expected position"), 14, SEMIBOLD))
         column = column_layout(self._rows, STRETCH)
         card.body.addWidget(scroll_column(column), 1)
         fill(right, (card, 1), row_layout(self.hide_button, STRETCH), self.next_doubtful_button, self.anyway_button)
