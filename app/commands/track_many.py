@@ -13,13 +13,13 @@ from pathlib import Path
 
 from carpus.app.batch.tracking_task import TrackingOutcome, TrackingTask, fault_outcome
 from carpus.app.batch.worker_pool import TIME_LIMIT_S, count_cores, run_tasks
-from carpus.app.command_line import print_message, progress_bar, report_usage_error
+from carpus.app.command_line import print_message, print_table, progress_bar, report_usage_error
 from carpus.app.manifest import read_manifest
 from carpus.app.sources import SESSION_SUFFIX, plan_inputs
 from carpus.core.formats.measures_files import check_measures_path, open_measures_file
 from carpus.core.formats.output_files import format_cell, write_new_table
 from carpus.core.model.errors import CarpusFault, OutputExists, RecordingMissing
-from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.fault_text import format_fault_line, shorten
 from carpus.core.model.rounding import format_rounded
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.platform.durable import write_fault
@@ -53,23 +53,6 @@ def write_outcomes(outcomes: Sequence[TrackingOutcome], folder: Path) -> Path:
         for each in outcomes
     )
     return write_new_table(folder / OUTCOMES_FILE, _HEAD, rows, overwrite=True)
-
-
-def message_lines(outcomes: Sequence[TrackingOutcome]) -> list[str]:
-    """Format messages about recordings as a table for the terminal, faults first."""
-    told = [
-        each for result in ("fault", "tracked", "kept") for each in outcomes if each.result == result and each.messages
-    ]
-    if not told:
-        return []
-    width = min(48, max(len(str(each.tracking_input.recording)) for each in told))
-    lines = [f"{'Recording':{width}}  Outcome  What was said"]
-    for each in told:
-        name = str(each.tracking_input.recording)
-        shown = name if len(name) <= width else f"...{name[3 - width :]}"
-        for i, sentence in enumerate(each.messages):
-            lines.append(f"{shown if not i else '':{width}}  {each.result if not i else '':7}  {sentence}")
-    return lines
 
 
 _SINGLE_OPTIONS = ("calibration", "start_angles", "recorded")
@@ -161,8 +144,10 @@ def _run_tasks(tasks: Sequence[TrackingTask], arguments: argparse.Namespace) -> 
 
 def _print_summary(done: Sequence[TrackingOutcome], tables: Sequence[Path], seconds: float) -> int:
     count = Counter(each.result for each in done)
-    for line in message_lines(done):
-        print(line)
+    told = [each for result in ("fault", "tracked", "kept") for each in done if each.result == result]
+    said = [(shorten(str(each.tracking_input.recording)), each.result, text) for each in told for text in each.messages]
+    if said:
+        print_table(("Recording", "Outcome", "What was said"), said)
     results = f"tracked {count['tracked']}, done before {count['kept']}, faults {count['fault']}"
     a_minute = f", {format_rounded(60.0 * count['tracked'] / seconds, 1)} a minute" if count["tracked"] else ""
     print(f"Recordings: {len(done)}, {results}{a_minute}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import errno
+import io
 import json
 import math
 import os
@@ -104,10 +105,9 @@ def write_new_table(
 ) -> Path:  # fmt: skip
     """Write a table as a new file; ``head`` may be empty. No cell is a formula."""
     with open_new_file(path, overwrite=overwrite) as file:
-        text = _Utf8Writer(file)
-        if dialect.has_bom:
-            text.write("\ufeff")
+        text = io.TextIOWrapper(file, "utf-8-sig" if dialect.has_bom else "utf-8", newline="")
         write_rows(text, head, rows, dialect)
+        text.detach()
     return path
 
 
@@ -152,16 +152,6 @@ def nan_to_none(value: Any) -> Any:
     if hasattr(value, "tolist"):
         return nan_to_none(value.tolist())
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-class _Utf8Writer:
-    """Text writer for :mod:`csv` over a binary file."""
-
-    def __init__(self, file: IO[bytes]) -> None:
-        self._file = file
-
-    def write(self, text: str) -> int:
-        return self._file.write(text.encode("utf-8"))
 
 
 def _publish(half: Path, path: Path) -> None:
