@@ -6239,6 +6239,10 @@
         <source>revision {digest}</source>
         <translation>Revision {digest}</translation>
     </message>
+    <message>
+        <source>Speeds or angles</source>
+        <translation>Geschwindigkeiten oder Winkel</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7784,6 +7788,14 @@ von oben</translation>
         <source>now</source>
         <translation>jetzt</translation>
     </message>
+    <message>
+        <source>Moving</source>
+        <translation>Bewegen</translation>
+    </message>
+    <message>
+        <source>Turning</source>
+        <translation>Drehen</translation>
+    </message>
 </context>
 <context>
     <name>LiveFlow</name>
@@ -7897,6 +7909,14 @@ von oben</translation>
     <message>
         <source>Open the patient’s view</source>
         <translation>Patientenansicht öffnen</translation>
+    </message>
+    <message>
+        <source>Angles</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>Speeds</source>
+        <translation>Geschwindigkeiten</translation>
     </message>
 </context>
 <context>

@@ -6239,6 +6239,10 @@
         <source>revision {digest}</source>
         <translation>revisione {digest}</translation>
     </message>
+    <message>
+        <source>Speeds or angles</source>
+        <translation>Velocità o angoli</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7784,6 +7788,14 @@ dall’alto</translation>
         <source>now</source>
         <translation>ora</translation>
     </message>
+    <message>
+        <source>Moving</source>
+        <translation>Spostamento</translation>
+    </message>
+    <message>
+        <source>Turning</source>
+        <translation>Rotazione</translation>
+    </message>
 </context>
 <context>
     <name>LiveFlow</name>
@@ -7897,6 +7909,14 @@ dall’alto</translation>
     <message>
         <source>Open the patient’s view</source>
         <translation>Apri la vista del paziente</translation>
+    </message>
+    <message>
+        <source>Angles</source>
+        <translation>Angoli</translation>
+    </message>
+    <message>
+        <source>Speeds</source>
+        <translation>Velocità</translation>
     </message>
 </context>
 <context>

@@ -44,6 +44,18 @@ def test_number_is_that_of_the_frame_shown(live: Live) -> None:
     assert tried.screen.controls.light_view.status_light.rank == "good"
 
 
+def test_f4_shows_measured_speeds_in_place_of_angles_and_back(live: Live) -> None:
+    tried = live(FakeFeed(), 5.0)
+    curves, moved = tried.screen.curves, tried.feed.current_view().tracked.kinematics
+    tried.press(Qt.Key.Key_F4)
+    assert len(curves.panels()) == 2
+    speed_mm_s, turning_deg_s = curves._history.speeds
+    assert speed_mm_s == pytest.approx(1000.0 * math.hypot(*moved.velocity_m_s))
+    assert turning_deg_s == pytest.approx(math.degrees(math.hypot(*moved.angular_velocity_rad_s)))
+    tried.press(Qt.Key.Key_F4)
+    assert (len(curves.panels()), curves.is_showing_speeds) == (3, False)
+
+
 def test_live_keys_during_recording(qtbot: QtBot, live: Live) -> None:
     tried = live(FakeFeed(), 1.0)
     tried.record()

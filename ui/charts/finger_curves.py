@@ -34,6 +34,7 @@ from carpus.ui.words.marker_words import finger_name
 LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
 BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))
 SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ())
+BENDING_TOP_DEG_S, SPREADING_TOP_DEG_S = 400.0, 200.0
 BENDING_ROWS: tuple[AngleKind, ...] = ("end", "middle", "knuckle")
 MIN_TEXT_PX = 11
 SPREADING_ROWS: tuple[AngleKind, ...] = ("spread",)
@@ -56,6 +57,7 @@ class FingerCurves(Chart):
         self._angle = FingerAngle(3, "middle")
         self._target_deg = math.nan
         self._is_waiting = False
+        self._is_showing_speeds = False
         self._cells: PaintedLayer | None = None
         self._values: dict[FingerAngle, tuple[float, float, bool]] = {}
         self.scene().sigMouseClicked.connect(lambda click: self.select_angle(click.scenePos()))
@@ -69,6 +71,11 @@ class FingerCurves(Chart):
         """Hide all values while no frames arrive, so that none looks current."""
         self._is_waiting = is_waiting
         self._update_cells()
+
+    def show_speeds(self, on: bool) -> None:
+        """Show the absolute speeds of the angles, or the angles."""
+        self._is_showing_speeds = on
+        self.refresh()
 
     def update_values(self) -> None:
         """Refresh the values below the curves; at most ten times a second."""
@@ -114,8 +121,15 @@ class FingerCurves(Chart):
         )
         bending, spreading = (
             Panel(axes.align_to_pixels(box), own, -VISIBLE_S, 0.0)
-            for box, own in zip(boxes, (BENDING, replace(SPREADING, labels=spread_labels(20.0))), strict=True)
+            for box, own in zip(boxes, self._scales(), strict=True)
         )
+        return bending, spreading
+
+    def _scales(self) -> tuple[Scale, Scale]:
+        if not self._is_showing_speeds:
+            return BENDING, replace(SPREADING, labels=spread_labels(20.0))
+        tops = (BENDING_TOP_DEG_S, 200.0), (SPREADING_TOP_DEG_S, 100.0)
+        bending, spreading = (axes.positive_scale(top, step, "°/s", "") for top, step in tops)
         return bending, spreading
 
     def cell(self, angle: FingerAngle) -> QRectF:
@@ -144,7 +158,9 @@ class FingerCurves(Chart):
                 if finger == 1:
                     self.add_axis(own, "left", scale_labels(panel), 12)
                 is_chosen = finger == self._angle.finger and (self._angle.kind == "spread") == (rows == SPREADING_ROWS)
-                has_target = math.isfinite(self._target_deg) and self._angle.kind != "tam"
+                has_target = (
+                    math.isfinite(self._target_deg) and self._angle.kind != "tam" and not self._is_showing_speeds
+                )
                 if is_chosen and has_target:
                     own.add_horizontal_line(self._target_deg, "accent", (6.0, 4.0))
                 self._curves.append((own.add_curves(is_cached=False), [FingerAngle(finger, row) for row in rows]))
@@ -156,7 +172,7 @@ class FingerCurves(Chart):
         """Redraw the curves of all panels in one pass."""
         if not self.plots or not self.isVisible():
             return
-        block = self._history.angle_block()
+        block = self._history.angle_block(speeds=self._is_showing_speeds)
         placed = [
             (curves.plot.local_panel, [Curve(block.series(_ANGLE_INDEX[one]), one.token) for one in angles])
             for curves, angles in self._curves

@@ -40,7 +40,8 @@ FIT_INTERVAL_S = 1.0
 FIT_POSES = 600
 _TIME, _ANGLES, _SDS, _STATUS, _POSITION, _AXES = 0, slice(1, 4), slice(4, 7), 7, slice(8, 11), slice(11, 20)
 _POSE = slice(8, 20)
-_COLUMNS = 20
+_SPEEDS = slice(20, 22)
+_COLUMNS = 22
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,6 +177,16 @@ class History:
         """Track status of the newest frame; lost before the first."""
         return TrackStatus(int(self._rows[-1, _STATUS])) if len(self._rows) else TrackStatus.LOST
 
+    @property
+    def speeds(self) -> FloatArray:
+        """Newest linear speed in mm/s and angular speed in degrees per second (2,)."""
+        return self._rows[-1, _SPEEDS] if len(self._rows) else np.full(2, math.nan)
+
+    def speed_series(self, column: int) -> Series:
+        """Return linear (0) or angular (1) speed over time, without standard deviation."""
+        rows = self._rows
+        return Series(rows[:, _TIME], rows[:, _SPEEDS][:, column], None, rows[:, _STATUS] == TrackStatus.PREDICTED)
+
     def angle_series(self, column: int) -> Series:
         rows = self._rows
         return Series(
@@ -183,8 +194,8 @@ class History:
         )
 
     # --- fingers ------------------------------------------------------------------------------------------
-    def angle_block(self) -> AngleBlock:
-        """Return all finger angles over the visible time."""
+    def angle_block(self, *, speeds: bool = False) -> AngleBlock:
+        """Return all finger angles over the visible time, or their absolute speeds in degrees per second."""
         rows, hand, now_s = self._rows, self._fingers, self.end_s
         if not self.has_fingers:
             none = np.empty((0, len(FINGER_ANGLES)))
@@ -194,9 +205,10 @@ class History:
         longest_s = MAX_STEP_S + 2 * (every - 1) * frame_s  # what is left out at both ends of a gap is none
         part = (rows[:, _TIME] >= now_s - VISIBLE_S) & (self._index % every == 0)
         predicted = ~hand.is_measured[part] | self._weights.is_inferred
-        return AngleBlock(
-            rows[part, _TIME] - now_s, hand.value_deg[part], hand.sd_deg[part], predicted, now_s, longest_s
-        )
+        value, sd = hand.value_deg[part], hand.sd_deg[part]
+        if speeds:
+            value, sd = np.abs(hand.speed_deg_s[part]), np.zeros_like(value)
+        return AngleBlock(rows[part, _TIME] - now_s, value, sd, predicted, now_s, longest_s)
 
     def angle_value(self, index: int) -> tuple[float, float, bool]:
         """Return the newest angle, its standard deviation, and whether its markers have been visible recently."""
@@ -259,6 +271,7 @@ class _FingerSamples:
 
     value_deg: FloatArray
     sd_deg: FloatArray
+    speed_deg_s: FloatArray
     is_measured: BoolArray
     is_visible: BoolArray
 
@@ -267,9 +280,11 @@ class _FingerSamples:
         joints = len(frames[-1].kinematics.joint_angles_rad) if frames else 0
         if not joints:
             none = np.empty((len(frames), 0))
-            return _FingerSamples(none, none, none.astype(bool), none.astype(bool))
+            return _FingerSamples(none, none, none, none.astype(bool), none.astype(bool))
         _, value, sd, measured, seen = estimate_finger_angles(protocol, frames)
-        return _FingerSamples(value, sd, measured, seen)
+        weight = angle_weights(joint_names(protocol, joints)).weight
+        speed = np.degrees(np.array([frame.kinematics.joint_velocity_rad_s for frame in frames]) @ weight.T)
+        return _FingerSamples(value, sd, np.where(np.isfinite(value), speed, math.nan), measured, seen)
 
     def append(self, more: _FingerSamples) -> _FingerSamples:
         return _FingerSamples(*(np.concatenate((getattr(self, f.name), getattr(more, f.name))) for f in fields(self)))
@@ -286,6 +301,10 @@ def _to_row(frame: TrackedFrame) -> FloatArray:
     row[_STATUS] = frame.status
     row[_POSITION] = 1000.0 * frame.kinematics.position_m
     row[_AXES] = rotation_in_w0(frame.kinematics.rotation_w2_w0, frame.kinematics.w0_turn_rad).ravel()
+    row[_SPEEDS] = (
+        1000.0 * math.hypot(*frame.kinematics.velocity_m_s),
+        math.degrees(math.hypot(*frame.kinematics.angular_velocity_rad_s)),
+    )
     if frame.status == TrackStatus.LOST:
-        row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_AXES] = math.nan
+        row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_AXES] = row[_SPEEDS] = math.nan
     return row

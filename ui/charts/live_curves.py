@@ -1,14 +1,16 @@
-"""Live chart of the three wrist angles over ten seconds."""
+"""Live chart of the three wrist angles, or of both speeds, over ten seconds."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise, get_exercise
 from carpus.core.model.hand.forearm_rotation import axis_limits_deg
+from carpus.core.model.rounding import round_half_away
 from carpus.ui.charts import axes
 from carpus.ui.charts.axes import Panel
 from carpus.ui.charts.chart import LINES, AxisLabel, Chart, Hatching, PaintedLayer, fit_font, scale_labels
@@ -26,6 +28,8 @@ LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 132, 112, 24, 28, 30
 DOT_PX = 7
 # Within this of zero the direction's name stays, so that it does not flicker.
 ZERO_BAND_DEG = 0.5
+SPEED_TOP_MM_S, SPEED_TOP_DEG_S = 400.0, 400.0
+_SPEED_TOKEN = CURVE_TOKENS[PRONOSUPINATION]
 
 
 class LiveCurves(Chart):
@@ -39,6 +43,7 @@ class LiveCurves(Chart):
         self._exercise = get_exercise("")
         self._targets_deg = (math.nan, math.nan)
         self._single = False
+        self._is_showing_speeds = False
         self._values: list[tuple[str, str, str]] = []
         self._last_values = [1.0, 1.0, 1.0]
         self._values_layer: PaintedLayer | None = None
@@ -48,6 +53,16 @@ class LiveCurves(Chart):
         """Set the trained angle, its targets and the limits of the others."""
         self._exercise = exercise
         self._targets_deg = (target_positive_deg, target_negative_deg)
+        self.refresh()
+
+    @property
+    def is_showing_speeds(self) -> bool:
+        return self._is_showing_speeds
+
+    def show_speeds(self, on: bool) -> None:
+        """Show linear and angular speed, or the angles."""
+        self._is_showing_speeds = on
+        self.update_values()
         self.refresh()
 
     def show_single(self, on: bool) -> None:
@@ -60,7 +75,14 @@ class LiveCurves(Chart):
         """Refresh the values at the right; at most ten times a second."""
         angles, sds = self._history.angles_deg, self._history.sds_deg
         self._values = []
-        for k in range(3):
+        if self._is_showing_speeds:
+            speeds = np.full(2, math.nan) if self._history.is_waiting else self._history.speeds
+            units = ((self.tr("Moving"), f"{numbers.NARROW_GAP}mm/s"), (self.tr("Turning"), "°/s"))
+            for speed, (name, unit) in zip(speeds.tolist(), units, strict=True):
+                words = f"{round_half_away(speed)}{unit}" if math.isfinite(speed) else numbers.UNKNOWN
+                self._values.append((name, words, ""))
+            angles = angles[:0]
+        for k in range(len(angles)):
             if math.isfinite(angles[k]) and abs(angles[k]) > ZERO_BAND_DEG:
                 self._last_values[k] = float(angles[k])
             known = math.isfinite(angles[k]) and not self._history.is_waiting
@@ -79,6 +101,16 @@ class LiveCurves(Chart):
         scale = self._theme.text_scale
         left, right = LEFT_PX * scale, RIGHT_PX * scale
         width = self.width() - left - right
+        if self._is_showing_speeds:
+            scales = [
+                (1, axes.positive_scale(SPEED_TOP_DEG_S, 100.0, "°/s", self.tr("Turning"))),
+                (0, axes.positive_scale(SPEED_TOP_MM_S, 100.0, " mm/s", self.tr("Moving"))),
+            ][: 1 if self._single else 2]
+            gap = BETWEEN_PX * scale
+            height = (self.height() - (TOP_PX + BOTTOM_PX) * scale + gap) / len(scales) - gap
+            tops = [TOP_PX * scale + number * (height + gap) for number in range(len(scales))]
+            boxes = [axes.align_to_pixels(QRectF(left, top, width, height)) for top in tops]
+            return [(Panel(box, one, -VISIBLE_S, 0.0), k) for box, (k, one) in zip(boxes, scales, strict=True)]
         main = FLEXION if self._exercise.angle is None else self._exercise.angle
         columns = [main, *(k for k in (FLEXION, 0, PRONOSUPINATION) if k != main)][: 1 if self._single else 3]
         between, top = BETWEEN_PX * scale, TOP_PX * scale
@@ -99,9 +131,10 @@ class LiveCurves(Chart):
         self._curves = []
         for place, (panel, column) in enumerate(placed):
             own = self.add_plot(panel)
-            add_limits(own, self._exercise, column, is_first=place == 0)
+            if not self._is_showing_speeds:
+                add_limits(own, self._exercise, column, is_first=place == 0)
             own.add_grid()
-            if place == 0:
+            if place == 0 and not self._is_showing_speeds:
                 add_targets(own, *self._targets_deg)
             self.add_axis(own, "left", scale_labels(panel), 12)
             hatching = own.add_to_layer(Hatching(own, ()), LINES)
@@ -122,8 +155,9 @@ class LiveCurves(Chart):
         if not self.plots or not self.isVisible():
             return
         for own, (curves, hatching, column) in zip(self.plots, self._curves, strict=True):
-            series = history.angle_series(column).shift_time(history.end_s)
-            curves.set_curves([Curve(series, CURVE_TOKENS[column])])
+            series = history.speed_series(column) if self._is_showing_speeds else history.angle_series(column)
+            series = series.shift_time(history.end_s)
+            curves.set_curves([Curve(series, self._curve_token(column))])
             panel = own.panel
             is_late = history.is_waiting and len(series.value) > 0
             if is_late or hatching.stretches:
@@ -134,9 +168,12 @@ class LiveCurves(Chart):
     def _paint_dots(self, painter: QPainter) -> None:
         history = self._history
         for own, (_, _, column) in zip(self.plots, self._curves, strict=True):
-            value = float(history.angles_deg[column])
+            value = float((history.speeds if self._is_showing_speeds else history.angles_deg)[column])
             if not history.is_waiting and math.isfinite(value):
-                paint_dot(painter, self.plot_style, own.panel.point(0.0, value), CURVE_TOKENS[column], 5.0)
+                paint_dot(painter, self.plot_style, own.panel.point(0.0, value), self._curve_token(column), 5.0)
+
+    def _curve_token(self, column: int) -> str:
+        return _SPEED_TOKEN if self._is_showing_speeds else CURVE_TOKENS[column]
 
     def _paint_values(self, painter: QPainter) -> None:
         for panel, column in self.panels():

@@ -103,6 +103,7 @@ class LiveScreen(FittedWidget):
         self.curves = LiveCurves(theme, self.history)
         self.finger_curves = FingerCurves(theme, self.history)
         self.controls = RecordingControls(theme, self.recording)
+        self.speeds_button = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
         self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.course_label.hide()
@@ -123,9 +124,13 @@ class LiveScreen(FittedWidget):
         columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
         columns.setSpacing(GAP_PX)
         fill(columns, (self.picture, 520), (right, 696))
-        self.patient_view_button.setProperty("floats", True)
-        on_picture = (self.patient_view_button, 0, Qt.AlignmentFlag.AlignTop)
-        row_layout(STRETCH, on_picture, margins=(0, 8, 8, 0), parent=self.picture)
+        on_picture = [
+            (button, 0, Qt.AlignmentFlag.AlignTop) for button in (self.speeds_button, self.patient_view_button)
+        ]
+        for button, *_ in on_picture:
+            button.setProperty("floats", True)
+            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        row_layout(STRETCH, *on_picture, gap=8, margins=(0, 8, 8, 0), parent=self.picture)
         whole = column_layout(
             (self.stage, 1), _with_margins(self.course_label, 8), gap=0, margins=(0, 0, 0, 0), parent=self
         )
@@ -141,7 +146,7 @@ class LiveScreen(FittedWidget):
         self.note_dialog.passive_changed.connect(lambda passive: recording.set_passive(passive=passive))
         self.pain_dialog.pain_entered.connect(self._add_pain)
         self.patient_view_button.clicked.connect(self.patient_view_requested)
-        self.patient_view_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.speeds_button.clicked.connect(self.toggle_speeds)
         recording.started.connect(lambda: self._lag.reset())
         recording.start_failed.connect(self.event_received)
         recording.stopping.connect(controls.show_storing)
@@ -155,7 +160,7 @@ class LiveScreen(FittedWidget):
             "whole_picture": lambda: picture.set_whole(not picture.is_whole),
             "next_angle": lambda: self.show_angle(number.reading.with_next_angle()),
             "next_finger": lambda: self.show_angle(number.reading.with_next_finger()),
-            "patient_view": self.patient_view_requested.emit,
+            "speeds": self.toggle_speeds, "patient_view": self.patient_view_requested.emit,
         }  # fmt: skip
         self.finger_curves.angle_chosen.connect(lambda figure: self.show_angle(Reading(figure=figure)))
         bind_screen_keys(self, actions)
@@ -204,6 +209,13 @@ class LiveScreen(FittedWidget):
         self._timer.stop()
         self.recording.measuring = None
         self.recording_changed.emit("off", 0.0)
+
+    def toggle_speeds(self) -> None:
+        """Show the curves of speeds in place of those of angles, or angles again."""
+        shows_speeds = not self.curves.is_showing_speeds
+        self.curves.show_speeds(shows_speeds)
+        self.finger_curves.show_speeds(shows_speeds)
+        self.speeds_button.set_label(self.tr("Angles") if shows_speeds else self.tr("Speeds"))
 
     def show_angle(self, reading: Reading) -> None:
         reading = self.readings.with_targets(reading)
