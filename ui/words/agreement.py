@@ -71,7 +71,7 @@ def format_interval(low_high: Interval, name: str) -> str:
 
 def format_coefficient(value: float) -> str:
     """Return a coefficient such as ``0.995``, a dash if unknown."""
-    return numbers.format_fixed(value, 3) if math.isfinite(value) else numbers.UNKNOWN
+    return numbers.format_fixed(value, 3).replace("-", "\N{MINUS SIGN}")
 
 
 def remark_words(compared: Comparison, name: str = "") -> list[str]:
