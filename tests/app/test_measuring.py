@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -13,29 +12,23 @@ import numpy as np
 import pytest
 
 from carpus.core.model.errors import RecordingEmpty
-from carpus.core.model.types import OPERATOR_LABEL, Detections, Frame, MarkerLabel, Region, TrackedFrame
+from carpus.core.model.types import Detections, Frame, Region, TrackedFrame
 from carpus.core.pipeline import smoothing
-from carpus.core.pipeline.correction import correct, load_task
-from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.measurement import LivePipeline, RecordedSession
 from carpus.core.pipeline.smoothing import CHUNK_S, SmoothingProcess, TrackedHand
 from carpus.core.pipeline.track import (
     SMOOTHING_FAILED,
     FramePipeline,
-    NeutralNoise,
-    TrackSettings,
-    format_parameters,
-    retrack_session,
 )
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_session
-from carpus.core.session.values import Session, new_header
+from carpus.core.session.values import Session
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.smoother.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
-from tests.pipeline.live_fakes import ControlledSource, wait_until
+from tests.pipeline.live_fakes import wait_until
 from tests.session.samples import make_header
-from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
+from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
 
 FRAMES = 600
 NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
@@ -149,64 +142,6 @@ def test_session_whose_looking_back_is_killed_is_whole_as_tracked(
     assert "Smoothing of this session failed" in line.getMessage()
     assert "killed.h5" in line.getMessage()
     assert line.exc_info is None
-
-
-def test_operator_label_reaches_tracker_and_file(tmp_path: Path) -> None:
-    """Said in the window's thread; tracked again from what the file holds, the session comes out as it was measured."""
-    source, path, begun_at, said_at = ControlledSource(), tmp_path / "session.h5", 10, 40
-    settings = TrackSettings(smooth=False)
-    learnt = NeutralNoise(0.15, 1.0, -np.inf)
-    right = calibration()
-    wrong_m = right.marker_position_w0_m.copy()
-    wrong_m[MCP3] += [0.0, 0.014, 0.0]
-    wrong = replace(right, marker_position_w0_m=wrong_m)
-    tracker = Tracker(wrong, CAMERA, learnt.adapt_settings(settings.tracker))
-    pipeline = LivePipeline(FramePipeline(Blobs(), tracker), -np.inf)  # type: ignore[arg-type]
-    header = new_header(
-        hand="right", protocol=right.clicks.protocol, subject_id="Linden 42",
-        exercise="WRIST_FE", parameters=format_parameters(settings, {}, learnt), dip_free=False,
-    )  # fmt: skip
-    said: list[MarkerLabel] = []
-
-    def take_up(answer: MarkerLabel, time_s: float) -> None:
-        said.append(answer)
-        live.add_event(OPERATOR_LABEL, answer.to_json(), time_s)
-
-    with LiveSession(source) as live:
-        pipeline.on_label = take_up
-        live.start_tracking(pipeline)
-        for count in range(1, 91):
-            if count == begun_at:
-                live.start_recording(
-                    lambda: RecordedSession(RecordingJournal(path.with_suffix(".journal"), header, CAMERA, wrong), None)
-                )
-            if count == said_at:
-                view = live.current_view()
-                assert not np.isfinite(view.tracked.marker_measured_px[MCP3]).any()
-                hidden = view.tracked.detections.pixel
-                taken = view.tracked.marker_measured_px
-                spare = [px for px in hidden if not (np.linalg.norm(taken - px, axis=1) < 1.0).any()]
-                assert len(spare) == 1
-                pipeline.add_label(MarkerLabel(view.tracked.index, "MCP3", (float(spare[0][0]), float(spare[0][1]))))
-            source.let(1)
-            wait_until(lambda count=count: live.counters().tracked == count)
-        assert live.stop_recording() == path
-        pipeline.repeat_labels()
-        source.let(1)
-        wait_until(lambda: live.counters().tracked == 91)
-    assert [answer.frame_index for answer in said] == [said_at - 1, 90], "told anew for a recording that begins later"
-    measured = read_session(path)
-    used = np.isfinite(measured.markers.measured_px[:, MCP3, 0])
-    assert used.tolist() == [index >= said_at - 1 for index in range(begun_at - 1, 90)]
-    (event,) = measured.events
-    assert event.kind == OPERATOR_LABEL
-    assert event.time_s == measured.timestamp_s[said_at - begun_at]
-    correct(load_task(path, tmp_path / "corrected.h5", ()))
-    retrack_session(path, tmp_path / "again.h5", TrackSettings())
-    for anew in ("corrected.h5", "again.h5"):
-        again = read_session(tmp_path / anew)
-        np.testing.assert_array_equal(np.isfinite(again.markers.measured_px[:, MCP3, 0]), used)
-        assert [event.kind for event in again.events] == [OPERATOR_LABEL]
 
 
 def test_session_without_frame_is_none(tmp_path: Path) -> None:

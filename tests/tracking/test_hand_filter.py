@@ -87,6 +87,14 @@ def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     return HandFilter(replace(known, surface=surface), seen.truth.camera, settings), seen.detections[0]
 
 
+def test_hand_filter_lost_hand_has_diffuse_fingers() -> None:
+    own, _ = with_fingers(use_surface=False)
+    assert own.fingers is not None
+    assert own.fingers.joint_speeds == (0.0, 0.0)
+    own.drop_track()
+    assert min(own.fingers.joint_speeds) > 0.5
+
+
 def test_hand_filter_skin_moves_with_the_joints_beneath() -> None:
     own, _ = with_fingers(use_surface=True)
     assert own.fingers is not None
