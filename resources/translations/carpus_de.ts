@@ -553,15 +553,15 @@
     </message>
     <message>
         <source>Flexion–extension, total arc</source>
-        <translation>Flexion–Extension, Gesamtbewegung</translation>
+        <translation>Flexion–Extension, Gesamtausmaß</translation>
     </message>
     <message>
         <source>Radial–ulnar deviation, total arc</source>
-        <translation>Radial-/Ulnarduktion, Gesamtbewegung</translation>
+        <translation>Radial-/Ulnarduktion, Gesamtausmaß</translation>
     </message>
     <message>
         <source>Pronation–supination, total arc</source>
-        <translation>Pro-/Supination, Gesamtbewegung</translation>
+        <translation>Pro-/Supination, Gesamtausmaß</translation>
     </message>
     <message>
         <source>Range of motion of a finger’s MCP, PIP or DIP</source>
@@ -845,11 +845,11 @@
     </message>
     <message>
         <source>Is it the {marker}?</source>
-        <translation>Ist hier: {marker}?</translation>
+        <translation>Ist das „{marker}“?</translation>
     </message>
     <message>
         <source>Which blue spot is the {marker}?</source>
-        <translation>Wo ist: {marker}?</translation>
+        <translation>Wo ist „{marker}“?</translation>
     </message>
     <message>
         <source>Waiting for the camera image</source>
@@ -969,7 +969,7 @@
     </message>
     <message>
         <source>Click the {marker}</source>
-        <translation>Klicken Sie: {marker}</translation>
+        <translation>Klicken Sie „{marker}“ an</translation>
     </message>
     <message>
         <source>In the middle of the back of the wrist, in the small dimple.</source>
@@ -1037,7 +1037,7 @@
     </message>
     <message>
         <source>Is this the {marker}?</source>
-        <translation>Ist hier: {marker}?</translation>
+        <translation>Ist das „{marker}“?</translation>
     </message>
     <message>
         <source>Yes, it is</source>
@@ -1449,7 +1449,7 @@
     </message>
     <message>
         <source>Total arc</source>
-        <translation>Gesamtbewegung</translation>
+        <translation>Gesamtausmaß</translation>
     </message>
     <message>
         <source>Measurement error ±{gap}{limit}</source>
@@ -1485,7 +1485,7 @@
     </message>
     <message>
         <source>Speed</source>
-        <translation>Tempo</translation>
+        <translation>Geschwindigkeit</translation>
     </message>
     <message>
         <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
@@ -1565,7 +1565,7 @@
     </message>
     <message>
         <source>TAM has improved in {count} of {all} fingers since {day}.</source>
-        <translation>TAM ist seit {day} bei {count} von {all} Fingern besser.</translation>
+        <translation>Die TAM ist seit {day} bei {count} von {all} Fingern besser.</translation>
     </message>
     <message>
         <source>{name} has improved by {size} since {day}.</source>
@@ -1593,7 +1593,7 @@
     </message>
     <message>
         <source>The total arc</source>
-        <translation>Die Gesamtbewegung</translation>
+        <translation>Das Gesamtausmaß</translation>
     </message>
     <message>
         <source>From {before} to {after}: more than the measurement error of {limit}.</source>
@@ -1829,7 +1829,7 @@
     </message>
     <message>
         <source>total arcs over the same period</source>
-        <translation>Gesamtbewegungen über dieselbe Zeit</translation>
+        <translation>Gesamtausmaße im selben Zeitraum</translation>
     </message>
     <message>
         <source>not visible</source>
@@ -1837,7 +1837,7 @@
     </message>
     <message>
         <source>dashed: occluded; hatched: lost</source>
-        <translation>gestrichelt: verdeckt; schraffiert: nicht verfolgt</translation>
+        <translation>gestrichelt: verdeckt; schraffiert: nicht erfasst</translation>
     </message>
     <message>
         <source>Finger flexion over time</source>
@@ -1925,7 +1925,7 @@
     </message>
     <message>
         <source>DIP not measured: TAM assumes two thirds of PIP.</source>
-        <translation>DIP nicht gemessen: TAM rechnet mit zwei Dritteln des PIP.</translation>
+        <translation>DIP nicht gemessen: Die TAM rechnet mit zwei Dritteln des PIP-Winkels.</translation>
     </message>
     <message>
         <source>Share of the other hand’s TAM, else of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, else poor.</source>
@@ -2037,7 +2037,7 @@
     </message>
     <message>
         <source>Therapist</source>
-        <translation>Therapie</translation>
+        <translation>Therapeut/in</translation>
     </message>
     <message>
         <source>1 session: {ids}</source>
@@ -2149,7 +2149,7 @@
     </message>
     <message>
         <source>The therapist’s comment is on the last page.</source>
-        <translation>Der Kommentar der Therapie steht auf der letzten Seite.</translation>
+        <translation>Der therapeutische Kommentar steht auf der letzten Seite.</translation>
     </message>
     <message>
         <source>Movement measured by camera: {who}</source>
@@ -2301,7 +2301,7 @@
     </message>
     <message>
         <source>total arc</source>
-        <translation>Gesamtbewegung</translation>
+        <translation>Gesamtausmaß</translation>
     </message>
     <message>
         <source>No active range was measured.</source>
@@ -2601,7 +2601,7 @@
     </message>
     <message>
         <source>Reach, take the cup, lift it a little, put it back, return.</source>
-        <translation>Zum Becher reichen, ihn nehmen, etwas anheben, abstellen, zurück.</translation>
+        <translation>Die Hand zum Becher führen, ihn nehmen, etwas anheben, abstellen, zurück.</translation>
     </message>
     <message>
         <source>Move the fingers freely. All joint angles are recorded; no repetitions are counted.</source>
@@ -2621,7 +2621,7 @@
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up.</source>
-        <translation>Hand im Blick der Kamera, Handrücken nach oben.</translation>
+        <translation>Hand im Blickfeld der Kamera, Handrücken nach oben.</translation>
     </message>
     <message>
         <source>Forearm on the wedge, back of the hand towards the camera, fingers straight.</source>
@@ -2641,7 +2641,7 @@
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
-        <translation>Hand im Blick der Kamera, Handrücken nach oben, Finger gestreckt.</translation>
+        <translation>Hand im Blickfeld der Kamera, Handrücken nach oben, Finger gestreckt.</translation>
     </message>
     <message>
         <source>At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these ranges are minimum values (≥). To see more, turn the thumb side up.</source>
@@ -2773,7 +2773,7 @@
     </message>
     <message>
         <source>Let the hand move a few times. Then the space bar saves everything.</source>
-        <translation>Lassen Sie die Hand einige Male bewegen. Dann speichert die Leertaste alles.</translation>
+        <translation>Lassen Sie den Patienten die Hand einige Male bewegen. Dann speichert die Leertaste alles.</translation>
     </message>
     <message>
         <source>These are the results. The key X excludes the current repetition.</source>
@@ -2925,7 +2925,7 @@
     </message>
     <message>
         <source>Click each of the two on its own marker.</source>
-        <translation>Klicken Sie jeden der beiden auf seinem eigenen Marker an.</translation>
+        <translation>Klicken Sie für jede der beiden Bezeichnungen den eigenen Marker an.</translation>
     </message>
     <message>
         <source>Click it again in its centre, and keep the hand still.</source>
@@ -3109,7 +3109,7 @@
     </message>
     <message>
         <source>Start the window from a desktop. The commands for files work without a screen.</source>
-        <translation>Starten Sie das Fenster aus einem Desktop. Die Befehle für Dateien gehen ohne Bildschirm.</translation>
+        <translation>Starten Sie das Fenster auf einem Desktop. Die Befehle für Dateien funktionieren ohne Bildschirm.</translation>
     </message>
     <message>
         <source>Swap the two labels, or click both markers again.</source>
@@ -3285,7 +3285,7 @@
     </message>
     <message>
         <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
-        <translation>Diese Kamera richtet die Tiefe nicht an der Farbe aus. Tiefen werden neben den Markern gelesen.</translation>
+        <translation>Bei dieser Kamera sind Tiefe und Farbe nicht deckungsgleich. Tiefen werden neben den Markern gelesen.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
@@ -3329,7 +3329,7 @@
     </message>
     <message>
         <source>Use another USB port, without a hub or other cameras. Close other demanding programs.</source>
-        <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Hub und ohne andere Kameras. Schließen Sie andere aufwendige Programme.</translation>
+        <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Hub und ohne andere Kameras. Schließen Sie andere rechenintensive Programme.</translation>
     </message>
     <message>
         <source>Use wrist6 or hand21.</source>
@@ -3493,11 +3493,11 @@
     </message>
     <message>
         <source>format version {version}, this Carpus reads up to {format_version}</source>
-        <translation>Formatversion {version}, dieses Carpus liest bis {format_version}</translation>
+        <translation>Formatversion {version}, diese Version von Carpus liest bis {format_version}</translation>
     </message>
     <message>
         <source>format version {version}, this Carpus reads {newest}</source>
-        <translation>Formatversion {version}, dieses Carpus liest {newest}</translation>
+        <translation>Formatversion {version}, diese Version von Carpus liest {newest}</translation>
     </message>
     <message>
         <source>over weeks, compared with the measurement error (MDC95)</source>
@@ -4009,7 +4009,7 @@
     </message>
     <message>
         <source>version {version}, this Carpus reads up to {count}</source>
-        <translation>Version {version}, dieses Carpus liest bis {count}</translation>
+        <translation>Version {version}, diese Version von Carpus liest bis {count}</translation>
     </message>
     <message>
         <source>wrist</source>
@@ -4149,7 +4149,7 @@
     </message>
     <message>
         <source>The total arc is {arc}. {change}</source>
-        <translation>Die Gesamtbewegung ist {arc}. {change}</translation>
+        <translation>Das Gesamtausmaß ist {arc}. {change}</translation>
     </message>
     <message>
         <source>Splint as before; exercises at home three times a day.</source>
@@ -4265,7 +4265,7 @@
     </message>
     <message>
         <source>The packaged program does not include {packages}. Carpus installed from source can use it.</source>
-        <translation>Das gepackte Programm enthält {packages} nicht. Carpus aus den Quellen kann es verwenden.</translation>
+        <translation>Das gepackte Programm enthält {packages} nicht. Eine Installation von Carpus aus dem Quelltext kann es verwenden.</translation>
     </message>
     <message>
         <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
@@ -4749,7 +4749,7 @@
     </message>
     <message>
         <source>Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation.</source>
-        <translation>Pronation und Supination des Unterarms zählen ab Daumen oben (0°); die Handfläche flach auf dem Tisch ist 90° Pronation.</translation>
+        <translation>Pronation und Supination des Unterarms werden ab Daumen oben (0°) gemessen; die Handfläche flach auf dem Tisch ist 90° Pronation.</translation>
     </message>
     <message>
         <source>Thumb up</source>
@@ -4945,7 +4945,7 @@
     </message>
     <message>
         <source>Another Carpus is using this data folder: {subject}.</source>
-        <translation>Ein anderes Carpus benutzt diesen Datenordner: {subject}.</translation>
+        <translation>Carpus läuft schon einmal mit diesem Datenordner: {subject}.</translation>
     </message>
     <message>
         <source>Another program is using the camera ({detail}).</source>
@@ -4977,7 +4977,7 @@
     </message>
     <message>
         <source>Back up to another disk now, and replace this one.</source>
-        <translation>Sichern Sie jetzt auf einen anderen Datenträger, und ersetzen Sie diesen.</translation>
+        <translation>Sichern Sie die Daten jetzt auf einem anderen Datenträger, und ersetzen Sie diesen.</translation>
     </message>
     <message>
         <source>Backup</source>
@@ -5245,7 +5245,7 @@
     </message>
     <message>
         <source>On the command line, --camera names it.</source>
-        <translation>Auf der Kommandozeile nennt sie --camera.</translation>
+        <translation>In der Befehlszeile wird sie mit --camera angegeben.</translation>
     </message>
     <message>
         <source>Open it again and enter your change once more.</source>
@@ -5269,7 +5269,7 @@
     </message>
     <message>
         <source>Reconnect the session folder or its disk, then back up again.</source>
-        <translation>Verbinden Sie den Sitzungsordner oder seinen Datenträger wieder, und sichern Sie dann noch einmal.</translation>
+        <translation>Verbinden Sie den Sitzungsordner oder seinen Datenträger wieder, und erstellen Sie dann eine neue Sicherung.</translation>
     </message>
     <message>
         <source>Record again with colour and depth of the same size.</source>
@@ -5797,7 +5797,7 @@
     </message>
     <message>
         <source>Check the {marker}</source>
-        <translation>Prüfen Sie: {marker}</translation>
+        <translation>Prüfen Sie „{marker}“</translation>
     </message>
     <message>
         <source>Hand tracked well</source>
@@ -5857,7 +5857,7 @@
     </message>
     <message>
         <source>Therapist’s comment</source>
-        <translation>Kommentar der Therapie</translation>
+        <translation>Therapeutischer Kommentar</translation>
     </message>
     <message>
         <source>Markers were corrected manually. The original result is kept.</source>
@@ -5913,7 +5913,7 @@
     </message>
     <message>
         <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
-        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für eine Gesamtbewegung mit ihren zwei Enden ist sie √2-mal so groß. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für ein Gesamtausmaß mit seinen zwei Enden ist sie √2-mal so groß. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -6217,7 +6217,7 @@
     </message>
     <message>
         <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A supination goal before thumb up is negative, such as −25°.</source>
-        <translation>0° ist Daumen oben, die Handfläche flach auf dem Tisch ist 90° Pronation. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Supinationsziel vor Daumen oben ist negativ, zum Beispiel −25°.</translation>
+        <translation>0° heißt Daumen oben, 90° Pronation heißt Handfläche flach auf dem Tisch. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Supinationsziel, das Daumen oben nicht erreicht, ist negativ, zum Beispiel −25°.</translation>
     </message>
     <message>
         <source>Backups cannot be saved there: {subject} ({detail}).</source>
@@ -6334,7 +6334,7 @@
     <name>BackupController</name>
     <message>
         <source>Connect the backup disk and back up.</source>
-        <translation>Schließen Sie den Sicherungsdatenträger an, und sichern Sie.</translation>
+        <translation>Schließen Sie den Sicherungsdatenträger an, und erstellen Sie eine Sicherung.</translation>
     </message>
     <message>
         <source>Open settings</source>
@@ -6374,7 +6374,7 @@
     </message>
     <message>
         <source>Carpus closes afterwards. Start it again then.</source>
-        <translation>Carpus schließt sich danach. Starten Sie es dann neu.</translation>
+        <translation>Carpus wird danach geschlossen. Starten Sie es dann neu.</translation>
     </message>
     <message>
         <source>Restore</source>
@@ -6677,7 +6677,7 @@
     </message>
     <message>
         <source>Camera above the hand, 60 cm or more away, looking straight down. No sun on the markers.</source>
-        <translation>Kamera über der Hand, 60 cm oder mehr entfernt, senkrecht nach unten. Keine Sonne auf den Markern.</translation>
+        <translation>Kamera über der Hand, 60 cm oder mehr entfernt, Blick senkrecht nach unten. Keine Sonne auf den Markern.</translation>
     </message>
     <message>
         <source>The depth camera over the hand.</source>
@@ -7202,7 +7202,7 @@
     </message>
     <message>
         <source>markers lost</source>
-        <translation>Marker verloren</translation>
+        <translation>Marker nicht erfasst</translation>
     </message>
     <message>
         <source>Another reason</source>
@@ -7217,7 +7217,7 @@
     </message>
     <message>
         <source>Passive (moved by the therapist): analysed separately from active repetitions.</source>
-        <translation>Passiv (vom Therapeuten bewegt): getrennt von den aktiven Wiederholungen ausgewertet.</translation>
+        <translation>Passiv (von Therapeutin oder Therapeut bewegt): getrennt von den aktiven Wiederholungen ausgewertet.</translation>
     </message>
     <message>
         <source>Passive</source>
@@ -7853,7 +7853,7 @@ von oben</translation>
     </message>
     <message>
         <source>Continue measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
+        <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus wird geschlossen.</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are saved.</source>
@@ -7868,7 +7868,7 @@ von oben</translation>
     </message>
     <message>
         <source>Catching up</source>
-        <translation>Aufholen</translation>
+        <translation>Rückstand wird aufgeholt</translation>
     </message>
     <message>
         <source>The recording plays from its first frame</source>
@@ -8114,7 +8114,7 @@ von oben</translation>
     </message>
     <message>
         <source>Check the unusual values, or save them as entered</source>
-        <translation>Ungewöhnliche Werte prüfen oder so speichern</translation>
+        <translation>Ungewöhnliche Werte prüfen oder wie eingegeben speichern</translation>
     </message>
     <message>
         <source>Check the values before you save them.</source>
@@ -8122,7 +8122,7 @@ von oben</translation>
     </message>
     <message>
         <source>Save as entered</source>
-        <translation>So speichern</translation>
+        <translation>Wie eingegeben speichern</translation>
     </message>
     <message>
         <source>Back to the form</source>
@@ -8169,7 +8169,7 @@ von oben</translation>
     </message>
     <message>
         <source>Not saved yet, including values of the other hand or another day.</source>
-        <translation>Noch nicht gespeichert, auch Werte der anderen Hand oder eines anderen Tages.</translation>
+        <translation>Noch nicht gespeichert, einschließlich der Werte der anderen Hand oder eines anderen Tages.</translation>
     </message>
     <message>
         <source>Values are saved with initials and time. Later changes stay visible.</source>
@@ -8289,11 +8289,11 @@ von oben</translation>
     </message>
     <message>
         <source>The recording is not changed. It does not state that depth and colour were aligned.</source>
-        <translation>Die Aufnahme wird nicht verändert. Sie gibt nicht an, dass Tiefe und Farbe ausgerichtet wurden.</translation>
+        <translation>Die Aufnahme wird nicht verändert. Sie gibt nicht an, ob Tiefe und Farbe deckungsgleich sind.</translation>
     </message>
     <message>
         <source>Open it again with depth aligned to colour, then click the markers again.</source>
-        <translation>Öffnen Sie sie erneut mit an der Farbe ausgerichteter Tiefe, und klicken Sie die Marker dann neu an.</translation>
+        <translation>Öffnen Sie sie erneut mit deckungsgleicher Tiefe und Farbe, und klicken Sie die Marker dann neu an.</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
@@ -8336,7 +8336,7 @@ von oben</translation>
     </message>
     <message>
         <source>This marker is already the {name}. Click another one.</source>
-        <translation>Dieser Marker heißt schon: {name}. Klicken Sie einen anderen an.</translation>
+        <translation>Dieser Marker ist schon „{name}“. Klicken Sie einen anderen an.</translation>
     </message>
     <message>
         <source>Start position {angles} (entered)</source>
@@ -9527,7 +9527,7 @@ von oben</translation>
     </message>
     <message>
         <source>Name, address and logo of the clinic appear at the top of every page. Empty fields are not printed.</source>
-        <translation>Name, Anschrift und Logo der Einrichtung stehen über jeder Seite. Leere Felder werden nicht gedruckt.</translation>
+        <translation>Name, Anschrift und Logo der Einrichtung stehen oben auf jeder Seite. Leere Felder werden nicht gedruckt.</translation>
     </message>
     <message>
         <source>Clinic name</source>
@@ -10206,7 +10206,7 @@ von oben</translation>
     </message>
     <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
-        <translation>Carpus sucht nie online nach Aktualisierungen. Vergleichen Sie diese Version mit der neuesten dort, woher Sie Carpus haben. Sichern Sie, und installieren Sie sie über diese. Patienten, Sitzungen und Einstellungen bleiben.</translation>
+        <translation>Carpus sucht nie online nach Aktualisierungen. Ob es eine neuere Version gibt, sehen Sie dort, wo Sie Carpus erhalten haben. Erstellen Sie eine Sicherung, und installieren Sie die neue Version über die vorhandene. Patienten, Sitzungen und Einstellungen bleiben.</translation>
     </message>
     <message>
         <source>Components and licences</source>
@@ -10222,7 +10222,7 @@ von oben</translation>
     </message>
     <message>
         <source>Version {newest} is available in {folder}. Back up, then install it over this one. Patients, sessions and settings stay.</source>
-        <translation>Version {newest} liegt in {folder} bereit. Sichern Sie, und installieren Sie sie über diese. Patienten, Sitzungen und Einstellungen bleiben.</translation>
+        <translation>Version {newest} liegt in {folder} bereit. Erstellen Sie eine Sicherung, und installieren Sie die neue Version über die vorhandene. Patienten, Sitzungen und Einstellungen bleiben.</translation>
     </message>
     <message>
         <source>There is no newer version in {folder}.</source>
@@ -10702,11 +10702,11 @@ von oben</translation>
     </message>
     <message>
         <source>One thing needs your attention. The practice patient works without it.</source>
-        <translation>Eines ist zu tun. Der Probepatient braucht es nicht.</translation>
+        <translation>Ein Punkt ist noch offen. Der Probepatient läuft auch ohne ihn.</translation>
     </message>
     <message>
         <source>{count} things need your attention. The practice patient works without them.</source>
-        <translation>{count} Dinge sind zu tun. Der Probepatient braucht nichts davon.</translation>
+        <translation>{count} Punkte sind noch offen. Der Probepatient läuft auch ohne sie.</translation>
     </message>
     <message>
         <source>The new folder is used from the next start. Close Carpus and open it again before you measure.</source>
