@@ -177,11 +177,11 @@
     </message>
     <message>
         <source>lower is better</source>
-        <translation>più basso è meglio</translation>
+        <translation>meglio se più basso</translation>
     </message>
     <message>
         <source>higher is better</source>
-        <translation>più alto è meglio</translation>
+        <translation>meglio se più alto</translation>
     </message>
     <message>
         <source>{side}, {day}</source>
@@ -269,7 +269,7 @@
     </message>
     <message>
         <source>{before} → {after} since {day}</source>
-        <translation>{before} → {after} rispetto a {day}</translation>
+        <translation>{before} → {after} rispetto al {day}</translation>
     </message>
     <message>
         <source>(MDC {size})</source>
@@ -469,7 +469,7 @@
     </message>
     <message>
         <source>Check it again: it was calibrated since.</source>
-        <translation>Ripetere il controllo: dopo è stata calibrata.</translation>
+        <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
     </message>
     <message>
         <source>today</source>
@@ -1433,7 +1433,7 @@
     </message>
     <message>
         <source>hatched: within the limit you set</source>
-        <translation>righe: entro il limite fissato</translation>
+        <translation>area a righe: entro il limite fissato</translation>
     </message>
     <message>
         <source>seconds after the first frame</source>
@@ -1565,15 +1565,15 @@
     </message>
     <message>
         <source>TAM has improved in {count} of {all} fingers since {day}.</source>
-        <translation>TAM migliorato rispetto a {day}: dita {count} su {all}.</translation>
+        <translation>TAM migliorato in {count} dita su {all} rispetto al {day}.</translation>
     </message>
     <message>
         <source>{name} has improved by {size} since {day}.</source>
-        <translation>{name}: miglioramento di {size} rispetto a {day}.</translation>
+        <translation>{name}: miglioramento di {size} rispetto al {day}.</translation>
     </message>
     <message>
         <source>{name} has decreased by {size} since {day}.</source>
-        <translation>{name}: diminuzione di {size} rispetto a {day}.</translation>
+        <translation>{name}: diminuzione di {size} rispetto al {day}.</translation>
     </message>
     <message>
         <source>Not assessed: the joints were partly occluded.</source>
@@ -1837,7 +1837,7 @@
     </message>
     <message>
         <source>dashed: occluded; hatched: lost</source>
-        <translation>tratteggio: nascosto; righe: perso</translation>
+        <translation>tratteggio: nascosto; area a righe: perso</translation>
     </message>
     <message>
         <source>Finger flexion over time</source>
@@ -1885,7 +1885,7 @@
     </message>
     <message>
         <source>Change since {day}</source>
-        <translation>Rispetto a {day}</translation>
+        <translation>Rispetto al {day}</translation>
     </message>
     <message>
         <source>palmar abduction of the thumb</source>
@@ -1945,11 +1945,11 @@
     </message>
     <message>
         <source>the first session on {day}</source>
-        <translation>la prima seduta ({day})</translation>
+        <translation>giorno della prima seduta ({day})</translation>
     </message>
     <message>
         <source>Change since {when} is not assessed: {why}.</source>
-        <translation>Confronto con {when} non valutato: {why}.</translation>
+        <translation>Cambiamento rispetto al {when} non valutato: {why}.</translation>
     </message>
     <message>
         <source>Partly occluded joints are not assessed.</source>
@@ -1957,7 +1957,7 @@
     </message>
     <message>
         <source>Since {when}: {changes} (MDC {limit}).</source>
-        <translation>Confronto con {when}: {changes} (MDC {limit}).</translation>
+        <translation>Rispetto al {when}: {changes} (MDC {limit}).</translation>
     </message>
     <message>
         <source>IP</source>
@@ -2197,7 +2197,7 @@
     </message>
     <message>
         <source>as measured live</source>
-        <translation>come misurata dal vivo</translation>
+        <translation>valori misurati dal vivo</translation>
     </message>
     <message>
         <source>Movement</source>
@@ -2241,7 +2241,7 @@
     </message>
     <message>
         <source>the hand left the camera’s view</source>
-        <translation>la mano è uscita dalla visuale</translation>
+        <translation>la mano è uscita dall’inquadratura</translation>
     </message>
     <message>
         <source>cut off at the end of the recording</source>
@@ -2321,7 +2321,7 @@
     </message>
     <message>
         <source>Since {when}: {changes}.</source>
-        <translation>Confronto con {when}: {changes}.</translation>
+        <translation>Rispetto al {when}: {changes}.</translation>
     </message>
     <message>
         <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
@@ -2573,7 +2573,7 @@
     </message>
     <message>
         <source>operated on {day}</source>
-        <translation>operato il {day}</translation>
+        <translation>operazione del {day}</translation>
     </message>
     <message>
         <source>injured on {day}</source>
@@ -2785,7 +2785,7 @@
     </message>
     <message>
         <source>Save the report as a PDF. It contains only the made-up name.</source>
-        <translation>Salvare la relazione in PDF. Contiene solo il nome inventato.</translation>
+        <translation>Salvare la relazione in PDF. Contiene solo lo pseudonimo.</translation>
     </message>
     <message>
         <source>That was a whole session. The arrow at the top left leads back to the patients.</source>
@@ -2929,7 +2929,7 @@
     </message>
     <message>
         <source>Click each of the two on its own marker.</source>
-        <translation>Fare clic su ognuno dei due nel suo marcatore.</translation>
+        <translation>Rifare i due clic, ognuno sul proprio marcatore.</translation>
     </message>
     <message>
         <source>Click it again in its centre, and keep the hand still.</source>
@@ -3293,7 +3293,7 @@
     </message>
     <message>
         <source>This line is 100 mm long. If it is not,</source>
-        <translation>Questa linea è lunga 100 mm. Se no,</translation>
+        <translation>Questa linea è lunga 100 mm. Se non lo è,</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
@@ -3517,7 +3517,7 @@
     </message>
     <message>
         <source>grey, a colour image is expected</source>
-        <translation>grigio, attesa un’immagine a colori</translation>
+        <translation>in grigio, ma serve un’immagine a colori</translation>
     </message>
     <message>
         <source>hand</source>
@@ -3533,7 +3533,7 @@
     </message>
     <message>
         <source>in colour, a 16-bit depth image is expected</source>
-        <translation>a colori, attesa un’immagine di profondità a 16 bit</translation>
+        <translation>a colori, ma serve un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>in none of the images</source>
@@ -4017,7 +4017,7 @@
     </message>
     <message>
         <source>{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle</source>
-        <translation>{angle}: il riferimento si muove del {percent} % rispetto a Carpus. Forse ha un’altra unità o è un altro angolo</translation>
+        <translation>{angle}: il riferimento compie il {percent} % del movimento misurato da Carpus. Forse ha un’altra unità o è un altro angolo</translation>
     </message>
     <message>
         <source>{bits} bits per colour, 8 are expected</source>
@@ -4109,7 +4109,7 @@
     </message>
     <message>
         <source>{value} bits, a 16-bit depth image is expected</source>
-        <translation>{value} bit, attesa un’immagine di profondità a 16 bit</translation>
+        <translation>{value} bit, ma serve un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>{value} is not a possible number, in {file}</source>
@@ -4305,7 +4305,7 @@
     </message>
     <message>
         <source>There is no backup yet.</source>
-        <translation>Non c’è ancora nessuna copia.</translation>
+        <translation>Non c’è ancora nessuna copia di sicurezza.</translation>
     </message>
     <message>
         <source>It contains every session.</source>
@@ -4321,7 +4321,7 @@
     </message>
     <message>
         <source>The last backup is {days} days old.</source>
-        <translation>L’ultima copia è di {days} giorni fa.</translation>
+        <translation>L’ultima copia di sicurezza è di {days} giorni fa.</translation>
     </message>
     <message>
         <source>{when} · {n} session files, {size} GB · verified</source>
@@ -4389,7 +4389,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {day}.</source>
-        <translation>Nessun cambiamento oltre l’errore di misura rispetto a {day}.</translation>
+        <translation>Nessun cambiamento oltre l’errore di misura rispetto al {day}.</translation>
     </message>
     <message>
         <source>{name}: no change beyond measurement error.</source>
@@ -4397,7 +4397,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {when}.</source>
-        <translation>Confronto con {when}: nessun cambiamento oltre l’errore di misura.</translation>
+        <translation>Nessun cambiamento oltre l’errore di misura rispetto al {when}.</translation>
     </message>
     <message>
         <source>no change beyond MDC</source>
@@ -4457,7 +4457,7 @@
     </message>
     <message>
         <source>You can move further than when you started.</source>
-        <translation>Lei riesce a muovere più di quando ha iniziato.</translation>
+        <translation>Lei riesce a muovere la mano più di quando ha iniziato.</translation>
     </message>
     <message>
         <source>Your hand at home</source>
@@ -4533,11 +4533,11 @@
     </message>
     <message>
         <source>Catching up…</source>
-        <translation>Recupero…</translation>
+        <translation>Analisi in corso…</translation>
     </message>
     <message>
         <source>Catching up: {seconds} s left</source>
-        <translation>Recupero: ancora {seconds} s</translation>
+        <translation>Analisi: ancora {seconds} s</translation>
     </message>
     <message>
         <source>{time} of {whole}</source>
@@ -4877,7 +4877,7 @@
     </message>
     <message>
         <source>the hand left the camera’s view during the movement</source>
-        <translation>la mano è uscita dalla visuale durante il movimento</translation>
+        <translation>la mano è uscita dall’inquadratura durante il movimento</translation>
     </message>
     <message>
         <source>Compiled parts</source>
@@ -4977,7 +4977,7 @@
     </message>
     <message>
         <source>Back up to another disk now, and replace this one.</source>
-        <translation>Eseguire subito la copia su un altro disco, e sostituire questo.</translation>
+        <translation>Eseguire subito una copia di sicurezza su un altro disco, e sostituire questo disco.</translation>
     </message>
     <message>
         <source>Backup</source>
@@ -5245,7 +5245,7 @@
     </message>
     <message>
         <source>On the command line, --camera names it.</source>
-        <translation>Dalla riga di comando la indica --camera.</translation>
+        <translation>Da riga di comando si indica con --camera.</translation>
     </message>
     <message>
         <source>Open it again and enter your change once more.</source>
@@ -5269,7 +5269,7 @@
     </message>
     <message>
         <source>Reconnect the session folder or its disk, then back up again.</source>
-        <translation>Ricollegare la cartella delle sedute o il suo disco, poi ripetere la copia.</translation>
+        <translation>Ricollegare la cartella delle sedute o il suo disco, poi ripetere la copia di sicurezza.</translation>
     </message>
     <message>
         <source>Record again with colour and depth of the same size.</source>
@@ -5641,7 +5641,7 @@
     </message>
     <message>
         <source>Last backup: {day}.</source>
-        <translation>Ultima copia: {day}.</translation>
+        <translation>Ultima copia di sicurezza: {day}.</translation>
     </message>
     <message>
         <source>An unexpected error occurred.</source>
@@ -6303,7 +6303,7 @@
     </message>
     <message>
         <source>Backup folder</source>
-        <translation>Cartella delle copie</translation>
+        <translation>Cartella delle copie di sicurezza</translation>
     </message>
     <message>
         <source>Automatic</source>
@@ -6334,7 +6334,7 @@
     <name>BackupController</name>
     <message>
         <source>Connect the backup disk and back up.</source>
-        <translation>Collegare il disco delle copie e fare la copia.</translation>
+        <translation>Collegare il disco delle copie di sicurezza ed eseguirne una.</translation>
     </message>
     <message>
         <source>Open settings</source>
@@ -6362,7 +6362,7 @@
     </message>
     <message>
         <source>Restore the backup of {when}? Session files added: {come}, changed: {change}, removed: {go}.</source>
-        <translation>Ripristinare la copia del {when}? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
+        <translation>Ripristinare la copia di sicurezza del {when}? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
     </message>
     <message>
         <source>Patients and sessions deleted since then stay deleted: {n}.</source>
@@ -6791,7 +6791,7 @@
     </message>
     <message>
         <source>Check again</source>
-        <translation>Controllare di nuovo</translation>
+        <translation>Controlla di nuovo</translation>
     </message>
     <message>
         <source>Out of tolerance</source>
@@ -7260,7 +7260,7 @@
     <name>ExerciseScreen</name>
     <message>
         <source>none</source>
-        <translation>senza</translation>
+        <translation>nessuna</translation>
     </message>
     <message>
         <source>no goal</source>
@@ -7805,7 +7805,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Interrompi e rivedi</translation>
+        <translation>Termina e rivedi</translation>
     </message>
     <message>
         <source>Choose another source</source>
@@ -7829,19 +7829,19 @@ dall’alto</translation>
     </message>
     <message>
         <source>Continue measuring or stop now?</source>
-        <translation>Continuare a misurare o interrompere ora?</translation>
+        <translation>Continuare a misurare o terminare ora?</translation>
     </message>
     <message>
         <source>Stop recording?</source>
-        <translation>Interrompere la registrazione?</translation>
+        <translation>Terminare la registrazione?</translation>
     </message>
     <message>
         <source>Continue measuring, or stop: the session is saved and opens in the review.</source>
-        <translation>Continuare a misurare o interrompere: la seduta viene salvata e si apre nella revisione.</translation>
+        <translation>Continuare a misurare o terminare: la seduta viene salvata e si apre nella revisione.</translation>
     </message>
     <message>
         <source>Stop, save and close</source>
-        <translation>Interrompi, salva e chiudi</translation>
+        <translation>Termina, salva e chiudi</translation>
     </message>
     <message>
         <source>A recording is running.</source>
@@ -7853,7 +7853,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Continue measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation>Continuare a misurare o interrompere: la seduta viene salvata e Carpus si chiude.</translation>
+        <translation>Continuare a misurare o terminare: la seduta viene salvata e Carpus si chiude.</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are saved.</source>
@@ -7868,7 +7868,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Catching up</source>
-        <translation>Recupero</translation>
+        <translation>Analisi in corso</translation>
     </message>
     <message>
         <source>The recording plays from its first frame</source>
@@ -7888,7 +7888,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Movement is being drawn</source>
-        <translation>Movimento in disegno</translation>
+        <translation>Disegno del movimento in corso</translation>
     </message>
     <message>
         <source>Recording can start in a moment</source>
@@ -8040,7 +8040,7 @@ dall’alto</translation>
     <name>LogDialog</name>
     <message>
         <source>Append-only log. It protects against mistakes, not against someone with full access to this computer. Names appear only here, while they are in the patient list.</source>
-        <translation>Il registro si può solo estendere. Protegge dagli errori, non da chi ha pieno accesso a questo computer. I nomi compaiono solo qui, finché sono nell’elenco dei pazienti.</translation>
+        <translation>Nel registro si possono solo aggiungere voci. Protegge dagli errori, non da chi ha pieno accesso a questo computer. I nomi compaiono solo qui, finché sono nell’elenco dei pazienti.</translation>
     </message>
     <message>
         <source>Log</source>
@@ -8814,7 +8814,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
-        <translation>Il nome in Carpus è inventato e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
+        <translation>Il nome in Carpus è uno pseudonimo e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
     </message>
     <message>
         <source>Other</source>
@@ -8902,7 +8902,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Made-up name</source>
-        <translation>Nome inventato</translation>
+        <translation>Pseudonimo</translation>
     </message>
     <message>
         <source>found by name</source>
@@ -9077,7 +9077,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Choose a folder</source>
-        <translation>Scegli una cartella</translation>
+        <translation>Scegliere una cartella</translation>
     </message>
     <message>
         <source>No folder chosen</source>
@@ -9095,7 +9095,7 @@ dall’alto</translation>
     <name>ProgressChart</name>
     <message>
         <source>Range of motion over the sessions</source>
-        <translation>Escursione nelle sedute</translation>
+        <translation>Escursione articolare nelle sedute</translation>
     </message>
     <message>
         <source>{name} {value}, {count} repetitions</source>
@@ -9328,7 +9328,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>restored from archive</source>
-        <translation>ripreso dall’archivio</translation>
+        <translation>ripristinato dall’archivio</translation>
     </message>
     <message>
         <source>deletion started</source>
@@ -9340,11 +9340,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>backup verified</source>
-        <translation>copia verificata</translation>
+        <translation>copia di sicurezza verificata</translation>
     </message>
     <message>
         <source>backup restored</source>
-        <translation>copia ripristinata</translation>
+        <translation>copia di sicurezza ripristinata</translation>
     </message>
     <message>
         <source>wrong PIN</source>
@@ -9380,7 +9380,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>backed up</source>
-        <translation>copia eseguita</translation>
+        <translation>copia di sicurezza eseguita</translation>
     </message>
     <message>
         <source>locked</source>
@@ -9439,11 +9439,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Stop and next exercise</source>
-        <translation>Interrompi e passa al prossimo</translation>
+        <translation>Termina e prossimo esercizio</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Interrompi e rivedi</translation>
+        <translation>Termina e rivedi</translation>
     </message>
     <message>
         <source>Starting in {seconds} (cancel)</source>
@@ -10206,7 +10206,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
-        <translation>Carpus non cerca mai aggiornamenti in rete. Confrontare questa versione con l’ultima nel luogo da cui proviene Carpus. Fare una copia di sicurezza, poi installarla sopra questa. Pazienti, sedute e impostazioni restano.</translation>
+        <translation>Carpus non cerca mai aggiornamenti in rete. Confrontare questa versione con l’ultima disponibile dove è stato ottenuto Carpus. Eseguire una copia di sicurezza, poi installare la nuova versione sopra questa. Pazienti, sedute e impostazioni restano.</translation>
     </message>
     <message>
         <source>Components and licences</source>
@@ -10222,7 +10222,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Version {newest} is available in {folder}. Back up, then install it over this one. Patients, sessions and settings stay.</source>
-        <translation>La versione {newest} è disponibile in {folder}. Fare una copia di sicurezza, poi installarla sopra questa. Pazienti, sedute e impostazioni restano.</translation>
+        <translation>La versione {newest} è disponibile in {folder}. Eseguire una copia di sicurezza, poi installare la nuova versione sopra questa. Pazienti, sedute e impostazioni restano.</translation>
     </message>
     <message>
         <source>There is no newer version in {folder}.</source>
@@ -10751,15 +10751,15 @@ dall’alto</translation>
     <name>_OfflineView</name>
     <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s made-up name above. The session is saved and appears in the list later.</source>
-        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra il nome inventato. La seduta viene salvata e compare più tardi nell’elenco.</translation>
+        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
     </message>
     <message>
         <source>Measure “{name}”</source>
-        <translation>Misurare “{name}”</translation>
+        <translation>Misura “{name}”</translation>
     </message>
     <message>
         <source>Measure without the list</source>
-        <translation>Misurare senza l’elenco</translation>
+        <translation>Misura senza l’elenco</translation>
     </message>
 </context>
 </TS>
