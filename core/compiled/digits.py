@@ -36,7 +36,7 @@ _FAN = cython.declare(cython.int, 8)
 _ROLL = cython.declare(cython.int, 9)
 _ROOT = cython.declare(cython.int, 10)
 _HEIGHT = cython.declare(cython.int, 13)
-_TO_DIP = cython.declare(double, DIP_PER_PIP)
+_DIP_PER_PIP = cython.declare(double, DIP_PER_PIP)
 _ROOT_PI = cython.declare(double, np.sqrt(np.pi))
 
 
@@ -101,7 +101,7 @@ def _place_chain(
         # A finger bends in the plane of its azimuth. Discs over PIP and DIP stand square to the middle of two bones.
         proximal = s[1]
         middle = proximal + s[2]
-        distal = middle + _TO_DIP * s[2] + s[3]
+        distal = middle + _DIP_PER_PIP * s[2] + s[3]
         _place_bone(proximal, azimuth, bone[0])
         _place_bone(middle, azimuth, bone[1])
         _place_bone(distal, azimuth, bone[2])

@@ -39,7 +39,7 @@ from carpus.core.pipeline.recording import LiveRecording, QueuedEvent, SessionSi
 log = logging.getLogger(__name__)
 
 _POLL_S = 0.005
-_FRAME_TIMEOUT_S = 0.25
+_STOP_GRACE_S = 0.25
 """A stop waits this long for a frame before it closes the source under the capture thread."""
 
 
@@ -116,7 +116,7 @@ class LiveSession:
         """
         self._stopping.set()
         if self._capture_thread.is_alive():
-            self._capture_thread.join(timeout=_FRAME_TIMEOUT_S)
+            self._capture_thread.join(timeout=_STOP_GRACE_S)
             if self._capture_thread.is_alive():
                 self._source.close()  # a source that waits for a camera or for its next frame ends now
                 self._capture_thread.join(timeout=STOP_TIMEOUT_S)

@@ -136,7 +136,7 @@ def _erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
     except ConcurrentChange:
         if store.row(select(of.c.id).where(of.c.id == plan.subject_id)):
             raise  # else another program has erased it meanwhile, which is what was asked for
-    remaining = finish_pending(store)
+    remaining = delete_marked(store)
     if remaining:
         log.write_entry("erase_begun", plan.kind, plan.subject_id, left=len(remaining))
         raise ErasureUnfinished(remaining[0].name, f"{len(remaining)}")
@@ -149,7 +149,7 @@ def resume_erasures(store: Store, log: AuditLogWriter) -> frozenset[str]:
     people = frozenset(str(row[0]) for row in store.rows(select(PATIENT.c.pseudonym_key).where(PATIENT.c.erasing == 1)))
     remaining: list[Path] = []
     if people or store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)):
-        remaining = finish_pending(store)
+        remaining = delete_marked(store)
         log.write_entry("erase_begun" if remaining else "erased", "everything", late=1, left=len(remaining))
     store.purge_deleted()  # of a program that was killed before it did so
     return frozenset() if remaining else people
@@ -172,7 +172,7 @@ def delete_orphan_folders(store: Store) -> int:
     return len(remaining)
 
 
-def finish_pending(store: Store) -> list[Path]:
+def delete_marked(store: Store) -> list[Path]:
     """Delete the files of marked rows, then the rows; return files that could not be deleted."""
     people = store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
     patients = [str(row.id) for row in people]

@@ -14,6 +14,6 @@ def told() -> list[CarpusFault]:
 
 
 @pytest.fixture
-def soon_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def short_retry(monkeypatch: pytest.MonkeyPatch) -> None:
     """A camera that was lost is looked for at once."""
     monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)

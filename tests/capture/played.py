@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.devices.capture_child import CaptureOutlet, DeviceOpened
+from carpus.core.capture.devices.capture_child import CaptureChannel, DeviceOpened
 from carpus.core.capture.devices.capture_process import CaptureProcess
 from carpus.core.capture.files.realsense_recording import SLOTS, RealSenseRecording
 from carpus.core.capture.source import SourceInfo
@@ -18,17 +18,17 @@ MODES = {Sensor.COLOR: VideoMode(PixelFormat.RGB888, WIDTH, HEIGHT, 30)}
 PERIOD_US = 33_333
 
 
-def serve(outlet: CaptureOutlet, count: int) -> None:
+def serve(channel: CaptureChannel, count: int) -> None:
     """So many pictures, the next only when there is room for it."""
-    outlet.send(DeviceOpened(MODES, {}))
+    channel.send(DeviceOpened(MODES, {}))
     for number in range(1, count + 1):
-        while not outlet.has_free_slot:
-            outlet.handle_commands(block=True)
-            outlet.send_heartbeat()
-        if outlet.is_stopping:
+        while not channel.has_free_slot:
+            channel.handle_commands(block=True)
+            channel.send_heartbeat()
+        if channel.is_stopping:
             return
         picture = memoryview(np.ascontiguousarray(color_picture(number)).tobytes())
-        outlet.publish(Sensor.COLOR, number, number * PERIOD_US, picture)
+        channel.publish(Sensor.COLOR, number, number * PERIOD_US, picture)
 
 
 class PlayedSource(RealSenseRecording):

@@ -149,7 +149,7 @@ def test_openni2_camera_lost_before_reading_reconnects(camera: ProcessCamera, to
     assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
 
 
-@pytest.mark.usefixtures("soon_tried_again")
+@pytest.mark.usefixtures("short_retry")
 def test_openni2_camera_absent_too_long_raises(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     camera._patience_s = 0.1
     frames = camera.frames()

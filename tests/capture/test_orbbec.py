@@ -62,7 +62,7 @@ def camera(
     assert not (tmp_path / "Log").exists(), "the library keeps logs where the program was started"
 
 
-@pytest.mark.usefixtures("soon_tried_again")
+@pytest.mark.usefixtures("short_retry")
 def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path) -> None:
     info = camera.info
     lens = info.camera

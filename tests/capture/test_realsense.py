@@ -116,7 +116,7 @@ def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[ProcessCamera]:
     source.close()
 
 
-@pytest.mark.usefixtures("soon_tried_again")
+@pytest.mark.usefixtures("short_retry")
 def test_realsense_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path) -> None:
     info = camera.info
     assert (info.name, info.settings["preset"], info.settings["emitter"]) == (
@@ -136,7 +136,7 @@ def test_realsense_camera_lost_reconnects(camera: ProcessCamera, told: list[Carp
     assert_comes_back(camera, frames, first, told, tmp_path / "unplugged", tmp_path / "crash")
 
 
-@pytest.mark.usefixtures("soon_tried_again")
+@pytest.mark.usefixtures("short_retry")
 def test_realsense_camera_mismatch_is_notified_and_waits(
     camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
 ) -> None:

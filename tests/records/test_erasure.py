@@ -285,7 +285,7 @@ def test_erase_interrupted_is_finished_at_next_start(folder: Path, monkeypatch: 
             raise KeyboardInterrupt
 
         with monkeypatch.context() as broken:
-            broken.setattr(erasure, "finish_pending" if after == "mark" else "delete_row", cut)
+            broken.setattr(erasure, "delete_marked" if after == "mark" else "delete_row", cut)
             with pytest.raises(KeyboardInterrupt):
                 erasure.erase(house.store, plan, house.log)
         assert any(path.exists() for path in plan.files) == (after == "mark")

@@ -77,7 +77,7 @@ class DepthCheck:
         return f"Depth reads {format_rounded(abs(share), 1)} % too {'long' if share > 0 else 'short'}{shift}."
 
 
-def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
+def estimate_depth_error(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
     """Compare depth with the board's plane over all used views; None if too few have depth."""
     poses = zip(intrinsics.board_rotation_vector, intrinsics.board_translation_m, strict=True)
     blocks = [
@@ -275,7 +275,7 @@ def calibrate_camera(views: Sequence[BoardView], previous_camera: Camera, subjec
     """Calibrate from the collected views. Raises as :func:`solve_intrinsics`."""
     intrinsics = solve_intrinsics(views, previous_camera.width_px, previous_camera.height_px, subject)
     coverage = assess_views(views, previous_camera.width_px, previous_camera.height_px)
-    depth = check_depth(views, intrinsics, previous_camera.sensor)
+    depth = estimate_depth_error(views, intrinsics, previous_camera.sensor)
     return CameraCalibration(previous_camera, intrinsics, depth, coverage, views[0].detected.board.name())
 
 

@@ -1,10 +1,10 @@
 """The capture process: runs a camera's driver, so that a crash or a hang there does not affect Carpus.
 
 One thread makes every call of the driver. A second one listens to the owner; when the owner is gone the process ends
-at once, even from within a call. Images are copied once into a shared ring buffer and announced through the pipe;
+at once, even from within a call. Images are copied once into a shared pool of slots and announced through the pipe;
 all other messages go through the pipe.
 
-The ring buffer is bounded. A recording waits for a free slot, so nothing is lost. A camera does not wait: without a
+The pool is bounded. A recording waits for a free slot, so nothing is lost. A camera does not wait: without a
 free slot the image is dropped, which shows as a gap in the image numbers.
 """
 
@@ -63,7 +63,7 @@ class CameraConfig:
 
 
 @dataclass(frozen=True, slots=True)
-class RingBuffer:
+class SharedSlotPool:
     """Shared memory of ``slots`` images of at most ``slot_bytes``."""
 
     name: str
@@ -134,7 +134,7 @@ CaptureCommand = ReleaseSlot | Signal
 
 POLL_MS = 200
 HEARTBEAT_S = 1.0
-MAX_SILENCE_S = 3.0
+STREAM_TIMEOUT_S = 3.0
 WARM_UP_S = 6.0
 """Time to the first image after opening."""
 
@@ -143,7 +143,7 @@ class StreamWatchdog:
     """Fails if a sensor stops delivering images after its warm-up."""
 
     def __init__(self, sensors: Iterable[Sensor]) -> None:
-        self._last_s = dict.fromkeys(sensors, time.monotonic() + WARM_UP_S - MAX_SILENCE_S)
+        self._last_s = dict.fromkeys(sensors, time.monotonic() + WARM_UP_S - STREAM_TIMEOUT_S)
 
     def reset(self, sensor: Sensor) -> None:
         self._last_s[sensor] = time.monotonic()
@@ -151,25 +151,25 @@ class StreamWatchdog:
     def check(self) -> None:
         """Raise a :class:`CarpusFault` if a sensor has been silent for too long."""
         for last_s in self._last_s.values():
-            if time.monotonic() - last_s > MAX_SILENCE_S:
-                raise CameraLost("", phrase("no frames for {seconds} s", seconds=f"{MAX_SILENCE_S:g}"))
+            if time.monotonic() - last_s > STREAM_TIMEOUT_S:
+                raise CameraLost("", phrase("no frames for {seconds} s", seconds=f"{STREAM_TIMEOUT_S:g}"))
 
 
-class CaptureOutlet:
+class CaptureChannel:
     """The driver's connection to the owner: publishes images and reports, receives commands.
 
     ``lock_exposure`` is called to lock exposure and white balance. It returns whether the camera can, or None if that
     is reported later.
     """
 
-    def __init__(self, link: Connection, commands: queue.SimpleQueue[CaptureCommand], ring: RingBuffer) -> None:
+    def __init__(self, link: Connection, commands: queue.SimpleQueue[CaptureCommand], pool: SharedSlotPool) -> None:
         self._link = link
         self._commands = commands
-        self._ring = ring
-        self._memory = SharedMemory(ring.name)
+        self._pool = pool
+        self._memory = SharedMemory(pool.name)
         assert self._memory.buf is not None
         self._pixels = self._memory.buf
-        self._free = list(reversed(range(ring.slots)))
+        self._free = list(reversed(range(pool.slots)))
         self._last_sent = time.monotonic()
         self._retained: list[object] = []
         self.is_stopping = False
@@ -217,9 +217,9 @@ class CaptureOutlet:
 
     def publish(self, sensor: Sensor, number: int, timestamp_us: int, image: memoryview) -> None:
         """Copy one image (contiguous bytes) and announce it; dropped if no slot is free or it is too large."""
-        if self._free and image.nbytes <= self._ring.slot_bytes:
+        if self._free and image.nbytes <= self._pool.slot_bytes:
             slot = self._free.pop()  # the one freed last: what is never needed takes no memory
-            start = slot * self._ring.slot_bytes
+            start = slot * self._pool.slot_bytes
             self._pixels[start : start + image.nbytes] = image
             self.send(ImageArrived(sensor, slot, number, timestamp_us))
 
@@ -241,20 +241,20 @@ class CaptureOutlet:
                 self.is_stopping = True
 
 
-ServeFunction = Callable[[CaptureOutlet, Any], None]
-"""A driver's code: serves a camera until ``outlet.is_stopping``; raises a :class:`CarpusFault` or DriverMissing."""
+ServeFunction = Callable[[CaptureChannel, Any], None]
+"""A driver's code: serves a camera until ``channel.is_stopping``; raises a :class:`CarpusFault` or DriverMissing."""
 
 
-def run(link: Connection, serve: ServeFunction, plan: object, ring: RingBuffer) -> None:
+def run(link: Connection, serve: ServeFunction, plan: object, pool: SharedSlotPool) -> None:
     """Serve a camera until it ends, :attr:`Signal.STOP` comes, or the owner dies (entry point of the process)."""
     end_with_owner()
     commands: queue.SimpleQueue[CaptureCommand] = queue.SimpleQueue()
     threading.Thread(target=_receive_commands, args=(link, commands), name="commands", daemon=True).start()
     link.send(Signal.HEARTBEAT)
     report: CaptureReport = Signal.ENDED
-    outlet = CaptureOutlet(link, commands, ring)
+    channel = CaptureChannel(link, commands, pool)
     try:
-        serve(outlet, plan)
+        serve(channel, plan)
     except CarpusFault as fault:
         report = FaultReport(type(fault), fault.detail)
     except (BrokenPipeError, ConnectionResetError):

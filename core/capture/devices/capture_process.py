@@ -18,8 +18,8 @@ from carpus.core.capture.devices.capture_child import (
     FaultReport,
     ImageArrived,
     ReleaseSlot,
-    RingBuffer,
     ServeFunction,
+    SharedSlotPool,
     Signal,
     run,
 )
@@ -48,9 +48,9 @@ class CaptureProcess:
         self._slot_bytes = slot_bytes
         self._deferred_reports: deque[CaptureReport] = deque()
         self._closed = False
-        ring = RingBuffer(self._memory.name, slots, slot_bytes)
+        pool = SharedSlotPool(self._memory.name, slots, slot_bytes)
         try:
-            self._child = ChildProcess(run, serve, plan, ring, name="capture")
+            self._child = ChildProcess(run, serve, plan, pool, name="capture")
         except BaseException:
             self._release_memory()
             raise
@@ -90,7 +90,7 @@ class CaptureProcess:
         return None
 
     def view_image(self, arrived: ImageArrived, mode: VideoMode) -> NDArray[Any]:
-        """Return a view of the image in the ring buffer, valid until :meth:`release_slot`.
+        """Return a view of the image in the pool buffer, valid until :meth:`release_slot`.
 
         Returns
         -------

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from carpus.core.capture.devices.capture_child import CaptureOutlet, ExposureLocked
+from carpus.core.capture.devices.capture_child import CaptureChannel, ExposureLocked
 
 EXPOSURE_SHARE = 0.9
 """Longest exposure as a share of the frame period: a longer one would slow the camera down."""
@@ -138,9 +138,9 @@ class ColorOptions(ABC):
 class ColorLock:
     """Lock of exposure and white balance; its success is reported to the owner of the process."""
 
-    def __init__(self, outlet: CaptureOutlet, options: ColorOptions) -> None:
-        self._outlet, self._options = outlet, options
-        outlet.lock_exposure = self.start
+    def __init__(self, channel: CaptureChannel, options: ColorOptions) -> None:
+        self._channel, self._options = channel, options
+        channel.lock_exposure = self.start
         self._controller: ColorController | None = None
         self._last_image: bytes | None = None
 
@@ -178,4 +178,4 @@ class ColorLock:
         if self._controller.is_done:
             done = self._controller.has_converged
             self._controller = None
-            self._outlet.send(ExposureLocked(done))
+            self._channel.send(ExposureLocked(done))

@@ -13,7 +13,7 @@ from carpus.core.capture.devices.capture_child import (
     POLL_MS,
     SIZE_PX,
     CameraConfig,
-    CaptureOutlet,
+    CaptureChannel,
     DeviceOpened,
     StreamWatchdog,
     camera_unlisted_error,
@@ -159,17 +159,17 @@ def _open_error(failure: OpenNI2Error, seen: Sequence[UsbCamera]) -> CarpusFault
 BYTES_PER_PIXEL: dict[int, int] = {PixelFormat.RGB888: 3, PixelFormat.DEPTH_1_MM: 2, PixelFormat.DEPTH_100_UM: 2}
 
 
-def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
+def serve(channel: CaptureChannel, plan: CameraConfig) -> None:
     """Serve a camera in the capture process."""
     try:
-        _serve(outlet, plan)
+        _serve(channel, plan)
     except OpenNI2Error as failure:
         raise DriverFailed("", f"{failure.call}: {failure.reason}") from failure
 
 
-def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
+def _serve(channel: CaptureChannel, plan: CameraConfig) -> None:
     library, unplugged = Context(), _UnplugEvent()
-    outlet.retain(library, unplugged)
+    channel.retain(library, unplugged)
     library.register_disconnect_handler(unplugged.handle_disconnect)
     device, opened = open_camera(library, plan)
     unplugged.uri = device.read_info().uri
@@ -185,15 +185,15 @@ def _serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
                     size = None if frame is None else frame_size_bytes(frame, opened.modes[stream.sensor])
                     if frame is not None and size is not None:
                         pixels = memoryview((ctypes.c_ubyte * size).from_address(frame.address)).cast("B")
-                        outlet.publish(stream.sensor, frame.index, frame.timestamp_us, pixels)
+                        channel.publish(stream.sensor, frame.index, frame.timestamp_us, pixels)
                 watchdog.reset(stream.sensor)
 
     color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
     automatic = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
-    outlet.lock_exposure = lambda: sum(color.set_int(key, 0) for key in automatic) == len(automatic)
-    outlet.send(opened)
+    channel.lock_exposure = lambda: sum(color.set_int(key, 0) for key in automatic) == len(automatic)
+    channel.send(opened)
     try:
-        outlet.run(opened.modes, unplugged, forward_images)
+        channel.run(opened.modes, unplugged, forward_images)
     finally:
         device.close()
 

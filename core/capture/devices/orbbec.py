@@ -20,7 +20,7 @@ from carpus.core.capture.devices.capture_child import (
     POLL_MS,
     SIZE_PX,
     CameraConfig,
-    CaptureOutlet,
+    CaptureChannel,
     DeviceOpened,
     StreamWatchdog,
     camera_open_error,
@@ -230,16 +230,16 @@ def _format_mode(profile: Any) -> str:
 UNIT_DIGITS = 7
 
 
-def serve(outlet: CaptureOutlet, plan: CameraConfig) -> None:
+def serve(channel: CaptureChannel, plan: CameraConfig) -> None:
     """Serve a camera in the capture process."""
     ob = import_sdk()
     try:
-        _serve_camera(ob, outlet, plan)
+        _serve_camera(ob, channel, plan)
     except (RuntimeError, ob.OBError) as failure:  # all that the library raises
         raise camera_open_error(" ".join(str(failure).split()), find_usb_cameras(plan.models)) from failure
 
 
-def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
+def _serve_camera(ob: Any, channel: CaptureChannel, plan: CameraConfig) -> None:
     context = plan.make_context() if plan.make_context is not None else ob.Context()
     device = find_device(ob, context, plan)
     serial = device.get_device_info().get_serial_number()
@@ -258,10 +258,10 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
     config.enable_stream(streams.depth)
     # each picture as it comes: Carpus pairs them by their times, and counts what is missing
     config.set_frame_aggregate_output_mode(ob.OBFrameAggregateOutputMode.ANY_SITUATION)
-    outlet.retain(context, device, pipeline, streams, config, handle_change)
+    channel.retain(context, device, pipeline, streams, config, handle_change)
     pipeline.start(config)
-    pictures = _OrbbecImages(ob, outlet, streams)
-    lock = ColorLock(outlet, _OrbbecOptions(ob, device, streams.color.get_fps()))
+    pictures = _OrbbecImages(ob, channel, streams)
+    lock = ColorLock(channel, _OrbbecOptions(ob, device, streams.color.get_fps()))
     is_reported = False
 
     def forward_images(watchdog: StreamWatchdog) -> None:
@@ -272,7 +272,7 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
             watchdog.reset(Sensor.DEPTH)
             if not is_reported:  # the unit comes with a depth image, in millimetres
                 unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
-                outlet.send(DeviceOpened(streams.modes, settings, read_lens(ob, streams), unit_m))
+                channel.send(DeviceOpened(streams.modes, settings, read_lens(ob, streams), unit_m))
                 is_reported = True
             pictures.forward_depth(depth)
         if color is not None:
@@ -281,15 +281,15 @@ def _serve_camera(ob: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
             if picture is not None:
                 lock.add_frame(picture)
 
-    outlet.run(streams.modes, unplugged, forward_images)
+    channel.run(streams.modes, unplugged, forward_images)
     pipeline.stop()
 
 
 class _OrbbecImages:
     """Publisher of colour and of depth registered to it, both with the camera's times."""
 
-    def __init__(self, ob: Any, outlet: CaptureOutlet, streams: OrbbecStreams) -> None:
-        self._outlet, self._shrink = outlet, streams.downscale
+    def __init__(self, ob: Any, channel: CaptureChannel, streams: OrbbecStreams) -> None:
+        self._channel, self._shrink = channel, streams.downscale
         self._is_jpeg = streams.color.get_format() == ob.OBFormat.MJPG
         self._align = ob.AlignFilter(align_to_stream=ob.OBStreamType.COLOR_STREAM)
         self._align.set_align_to_stream_profile(streams.color)
@@ -297,7 +297,7 @@ class _OrbbecImages:
         # beside missing ones, or all of them, by the model of the lens
         self._align.set_config_value("TargetDistortion", 0.0)
         self._bending = DepthDistorter(camera_from_lens(*read_full_size_lens(ob, streams.color)), streams.downscale)
-        outlet.retain(self)
+        channel.retain(self)
 
     def forward_color(self, frame: Any) -> memoryview | None:
         """Publish a colour image; return its bytes, or None if it arrived damaged and is skipped."""
@@ -324,7 +324,7 @@ class _OrbbecImages:
 
     def _publish(self, sensor: Sensor, frame: Any, picture: Any) -> memoryview:
         pixels = memoryview(picture.tobytes())
-        self._outlet.publish(sensor, int(frame.get_index()), int(frame.get_timestamp_us()), pixels)
+        self._channel.publish(sensor, int(frame.get_index()), int(frame.get_timestamp_us()), pixels)
         return pixels
 
 

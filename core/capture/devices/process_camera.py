@@ -42,7 +42,7 @@ from carpus.core.model.errors import (
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import Frame
 
-RING_SLOTS = 60
+POOL_SLOTS = 60
 """Slots for a camera, which does not wait: two seconds of images for a busy computer (55 MB, used only then)."""
 OPEN_TIMEOUT_S = 15.0
 MAX_WAITING_IMAGES = 3
@@ -156,7 +156,7 @@ class ProcessCamera:
 
     def _start_process(self) -> CaptureProcess:
         width, height = SIZE_PX
-        return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3, RING_SLOTS)
+        return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3, POOL_SLOTS)
 
     def _read_frames(self) -> Iterator[Frame]:
         """Yield the frames of the running process."""

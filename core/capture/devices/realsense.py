@@ -21,7 +21,7 @@ from carpus.core.capture.devices.capture_child import (
     POLL_MS,
     SIZE_PX,
     CameraConfig,
-    CaptureOutlet,
+    CaptureChannel,
     DeviceOpened,
     StreamWatchdog,
     camera_open_error,
@@ -267,14 +267,14 @@ JOIN_MS = 1000
 FILE_SILENCE_S = 5.0
 
 
-def serve(outlet: CaptureOutlet, plan: CameraConfig | Path) -> None:
+def serve(channel: CaptureChannel, plan: CameraConfig | Path) -> None:
     """Serve a camera or a recording in the capture process."""
     rs = import_sdk()
     try:
         if isinstance(plan, Path):
-            _serve_recording(rs, outlet, plan)
+            _serve_recording(rs, channel, plan)
         else:
-            _serve_camera(rs, outlet, plan)
+            _serve_camera(rs, channel, plan)
     except RuntimeError as failure:  # all that the library raises
         reason = " ".join(str(failure).split())
         if isinstance(plan, Path):
@@ -282,16 +282,16 @@ def serve(outlet: CaptureOutlet, plan: CameraConfig | Path) -> None:
         raise camera_open_error(reason, find_usb_cameras(plan.models)) from failure
 
 
-def _serve_camera(rs: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
+def _serve_camera(rs: Any, channel: CaptureChannel, plan: CameraConfig) -> None:
     context = plan.make_context() if plan.make_context is not None else rs.context()
     device = find_device(rs, context, plan)
     unplugged = threading.Event()
     context.set_devices_changed_callback(lambda change: unplugged.set() if change.was_removed(device) else None)
     streams = choose_streams(rs, device)
     settings = describe_device(rs, device, streams) | configure(rs, streams)
-    outlet.retain(context, device)
-    images = _RealSenseImages(rs, outlet, streams, settings, drops_oldest=True)
-    lock = ColorLock(outlet, _RealSenseOptions(rs, streams))
+    channel.retain(context, device)
+    images = _RealSenseImages(rs, channel, streams, settings, drops_oldest=True)
+    lock = ColorLock(channel, _RealSenseOptions(rs, streams))
 
     def forward_images(watchdog: StreamWatchdog) -> None:
         frame = images.forward()
@@ -301,28 +301,28 @@ def _serve_camera(rs: Any, outlet: CaptureOutlet, plan: CameraConfig) -> None:
             if sensor == Sensor.COLOR:
                 lock.add_frame(memoryview(frame.get_data()).cast("B"))
 
-    outlet.run(streams.modes, unplugged, forward_images)
+    channel.run(streams.modes, unplugged, forward_images)
     for sensor, _ in streams.opening:
         sensor.stop()
         sensor.close()
 
 
-def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
+def _serve_recording(rs: Any, channel: CaptureChannel, path: Path) -> None:
     try:
         playback = rs.context().load_device(str(path))
         playback.set_real_time(False)
         streams = choose_recording_streams(rs, playback)
     except RuntimeError as failure:
         raise RecordingDamaged("", " ".join(str(failure).split())) from failure
-    outlet.retain(playback)
+    channel.retain(playback)
     playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
-    images = _RealSenseImages(rs, outlet, streams, describe_device(rs, playback, streams), drops_oldest=False)
+    images = _RealSenseImages(rs, channel, streams, describe_device(rs, playback, streams), drops_oldest=False)
     playback.resume()
     last_s = time.monotonic()
-    while not outlet.is_stopping:
-        outlet.handle_commands(block=not outlet.has_free_slot)
+    while not channel.is_stopping:
+        channel.handle_commands(block=not channel.has_free_slot)
         is_stopped = playback.current_status() == rs.playback_status.stopped
-        if not outlet.has_free_slot or images.forward() is not None:
+        if not channel.has_free_slot or images.forward() is not None:
             last_s = time.monotonic()
         elif is_stopped:
             if not images.has_reported:
@@ -330,7 +330,7 @@ def _serve_recording(rs: Any, outlet: CaptureOutlet, path: Path) -> None:
             return
         elif time.monotonic() - last_s > FILE_SILENCE_S:
             raise RecordingDamaged("", phrase("no frames for {seconds} s", seconds=f"{FILE_SILENCE_S:g}"))
-        outlet.send_heartbeat()
+        channel.send_heartbeat()
 
 
 def _is_color(rs: Any, frame: Any) -> bool:
@@ -343,13 +343,13 @@ class _RealSenseImages:
     def __init__(
         self,
         rs: Any,
-        outlet: CaptureOutlet,
+        channel: CaptureChannel,
         streams: RealsenseStreams,
         settings: dict[str, str],
         *,
         drops_oldest: bool,
     ) -> None:
-        self._rs, self._outlet, self._streams, self._settings = rs, outlet, streams, settings
+        self._rs, self._channel, self._streams, self._settings = rs, channel, streams, settings
         self._drops_oldest = drops_oldest
         self.has_reported = False
         self._is_registered = is_depth_registered(streams)
@@ -362,7 +362,7 @@ class _RealSenseImages:
         )
         self._join.start(self._joined)
         self._frames: queue.Queue[Any] = queue.Queue(WAITING_FRAMES)
-        outlet.retain(self)
+        channel.retain(self)
         for sensor, profiles in streams.opening:
             sensor.open(list(profiles))
         for sensor, _ in streams.opening:
@@ -393,7 +393,7 @@ class _RealSenseImages:
             is_arrival = frame.get_frame_timestamp_domain() == rs.timestamp_domain.system_time
             settings = self._settings | {"clock": "computer" if is_arrival else "camera"}
             lens, unit_m = read_lens(rs, self._streams.color), read_depth_unit_m(rs, self._streams)
-            self._outlet.send(DeviceOpened(self._streams.modes, settings, lens, unit_m))
+            self._channel.send(DeviceOpened(self._streams.modes, settings, lens, unit_m))
             self.has_reported = True
         if not is_color:
             if self._is_registered:
@@ -421,7 +421,7 @@ class _RealSenseImages:
         if frame.profile.format() == self._rs.format.bgr8:
             image = np.ascontiguousarray(image[..., ::-1])
         time_us = round(frame.get_timestamp() * 1000.0)
-        self._outlet.publish(sensor, frame.get_frame_number(), time_us, memoryview(image).cast("B"))
+        self._channel.publish(sensor, frame.get_frame_number(), time_us, memoryview(image).cast("B"))
 
 
 MODELS = {

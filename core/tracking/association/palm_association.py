@@ -70,18 +70,18 @@ def measurements_from_blobs(
     noise = settings.noise
     depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
     shown = blobs.area_px / (np.pi * radius_px**2)
-    wander_px = CENTRE_SHIFT_SHARE * radius_px * np.maximum(MIN_WHOLE_AREA_SHARE - shown, 0.0)
+    occlusion_sd_px = CENTRE_SHIFT_SHARE * radius_px * np.maximum(MIN_WHOLE_AREA_SHARE - shown, 0.0)
     value = np.empty((len(blobs), 3))
     value[:, :2], value[:, 2] = blobs.pixel, depth
     known = np.isfinite(depth)
     at_m, sd_m = depth, blobs.depth_sd_m
     if not known.all():
         at_m, sd_m = np.where(known, depth, 1.0), np.where(known, sd_m, 1.0)
-    book2 = sensor.disc_sd_m(at_m, blobs.area_px) ** 2
-    beyond2 = np.maximum(sd_m**2 - book2, 0.0)
+    model_variance = sensor.disc_sd_m(at_m, blobs.area_px) ** 2
+    excess_variance = np.maximum(sd_m**2 - model_variance, 0.0)
     variance = np.empty((len(blobs), 3))
-    variance[:, :2] = (noise.pixel_sd_px**2 + wander_px**2)[:, None]
-    variance[:, 2] = noise.depth_ratio**2 * book2 + beyond2 + sensor.bias_sd_m(at_m) ** 2
+    variance[:, :2] = (noise.pixel_sd_px**2 + occlusion_sd_px**2)[:, None]
+    variance[:, 2] = noise.depth_ratio**2 * model_variance + excess_variance + sensor.bias_sd_m(at_m) ** 2
     return Measurements(value, variance)
 
 

@@ -75,9 +75,12 @@ def compute_fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camer
     return 1.0 - math.exp(-2.0 * windows - along_m / float(camera.sensor.reading_sd_m(np.array(depth_m))))
 
 
-def shape_partial_update(excess: float) -> FloatArray:
-    """Return shares (n,) of an update that the mean takes: the calibration error only ``news`` (0 to 1)."""
-    return partial_update_shares(SIZE, CALIBRATION_ERROR, 1.0 - math.sqrt(1.0 - excess))
+def shape_partial_update(new_share: float) -> FloatArray:
+    """Return shares (n,) of an update that the mean takes; ``new_share`` (0 to 1) of the information is new.
+
+    The calibration error takes only as much as is new; everything else takes the whole update.
+    """
+    return partial_update_shares(SIZE, CALIBRATION_ERROR, 1.0 - math.sqrt(1.0 - new_share))
 
 
 def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: MeasurementNoise) -> FloatArray:
