@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import math
+import re
 from pathlib import Path
 from typing import Any
 from uuid import NAMESPACE_URL, uuid5
@@ -26,6 +27,8 @@ RANGE_OF_MOTION = ("364564000", "Range of joint movement (observable entity)")
 SIDES = {"left": ("7771000", "Left (qualifier value)"), "right": ("24028007", "Right (qualifier value)")}
 WRIST = ("74670003", "Wrist joint structure (body structure)")
 MCP = ("70420003", "Metacarpophalangeal joint structure (body structure)")
+HAND = ("85562004", "Hand structure (body structure)")
+_JOINT = re.compile(r"(MCP|PIP|DIP|CMC|IP)\d")
 UNITS = {"deg": "deg", "deg/s": "deg/s", "mm": "mm", "s": "s", "1": "1", "%": "%"}
 """Units of measures that UCUM has a code for."""
 
@@ -128,7 +131,8 @@ def _build_observation(row: Measure, results: SessionResults) -> dict[str, Any]:
 def _locate(bundle: _Bundle, row: Measure, results: SessionResults, subject: dict[str, str]) -> dict[str, Any]:
     """Return the body site of an observation, with its side in a BodyStructure."""
     joint = "wrist" if row.wrist_angle >= 0 else row.subject.partition("_")[0]
-    code = WRIST if joint == "wrist" else MCP if joint.startswith("MCP") else None
+    joint = joint if joint == "wrist" or (_JOINT.fullmatch(joint) and "," not in row.subject) else "hand"
+    code = {"wrist": WRIST, "hand": HAND}.get(joint) or (MCP if joint.startswith("MCP") else None)
     location: dict[str, Any] = {"text": joint} | ({"coding": [_code(code)]} if code else {})
     structure = {
         "resourceType": "BodyStructure",

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import base64
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from fhirclient.models.bundle import Bundle
 
 from carpus.core.formats import fhir
+from carpus.core.results.measure import summarise_values
 from tests.formats.takes import hand_take, take_of, wrist_take
 from tests.ui.fakes import session as flexing
 
@@ -37,10 +39,23 @@ def test_bundle_of_a_session_holds_each_measure_once(tmp_path: Path, protocol: s
             assert (observation.valueQuantity.comparator == ">=") == row.is_lower_bound
         else:
             assert observation.dataAbsentReason.coding[0].code == "unknown"
+        joint = observation.bodySite.text.partition(" ")[2]
+        assert joint in ("wrist", "hand") or joint == row.subject.partition("_")[0]
     references = {entry["reference"] for entry in (item.as_json() for item in resources["DiagnosticReport"][0].result)}
     assert len(references) == len(rows)
     side = resources["BodyStructure"][0].locationQualifier[0].coding[0].display
     assert side.lower().startswith(take.results.side)
+
+
+def test_measure_of_no_single_joint_is_of_the_hand(tmp_path: Path) -> None:
+    take = wrist_take(tmp_path)
+    subjects = ("rms", "reach", "TAM3", "PIP2_flexion, PIP3_flexion", "MCP3_flexion")
+    rows = tuple(summarise_values("task", subject, "lag", "s", (1.0,)) for subject in subjects)
+    take = replace(take, results=replace(take.results, measures=rows))
+    found = [entry.bodySite.text for entry in read_bundle(fhir.write(take, tmp_path / "out")[0])["Observation"]]
+
+    side = take.results.side
+    assert found == [f"{side} hand"] * 4 + [f"{side} MCP3"]
 
 
 def test_bundle_names_nobody_but_the_pseudonym(tmp_path: Path) -> None:
