@@ -183,8 +183,8 @@ def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:
 def compute_wrist_angles(rotation_w2_w0: FloatArray, side: Side) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return clinical angles (3,), their derivatives (3, 3) by a small turn, and ZYZ angles (3,).
 
-    As :func:`angles_from_rotation` and :func:`zyz_from_rotation` for one rotation (3, 3) in plain numbers: arrays of one
-    number cost ten times as much.
+    As :func:`angles_from_rotation` and :func:`zyz_from_rotation` for one rotation (3, 3) in plain numbers: arrays of
+    one number cost ten times as much.
     """
     (r00, _, r02), (r10, _, r12), (r20, r21, r22) = rotation_w2_w0.tolist()
     s = side_sign(side)
