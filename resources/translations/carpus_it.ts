@@ -6303,7 +6303,7 @@
     </message>
     <message>
         <source>Backup folder</source>
-        <translation>Cartella delle copie di sicurezza</translation>
+        <translation>Cartella</translation>
     </message>
     <message>
         <source>Automatic</source>
@@ -6791,7 +6791,7 @@
     </message>
     <message>
         <source>Check again</source>
-        <translation>Controlla di nuovo</translation>
+        <translation>Controllare di nuovo</translation>
     </message>
     <message>
         <source>Out of tolerance</source>
@@ -7888,7 +7888,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Movement is being drawn</source>
-        <translation>Disegno del movimento in corso</translation>
+        <translation>Disegno del movimento</translation>
     </message>
     <message>
         <source>Recording can start in a moment</source>
