@@ -152,7 +152,9 @@ class OpenedSession(Session):
         named = [angles] if isinstance(angles, str) else list(angles) or ([trained] if trained else [*WRIST_ANGLES])
         for name in named:
             if name not in self.angle_names:
-                raise SettingsInvalid("carpus", f"no angle is called {name!r}; there are {', '.join(self.angle_names)}")
+                raise SettingsInvalid(
+                    "carpus", f"there is no angle called {name!r}; there are {', '.join(self.angle_names)}"
+                )
         axes: Axes = _import_extra("matplotlib.pyplot").subplots(layout="constrained")[1] if ax is None else ax
         time_s, (values, sds) = self._elapsed_s(), self.angles_deg()
         for name in named:

@@ -58,7 +58,7 @@ def open_recording(
         from carpus.core.capture.files.raw import RawRecording, is_raw_recording
 
         if not is_raw_recording(path):
-            raise RecordingUnreadable(path, phrase("no recording of a form that Carpus knows"))
+            raise RecordingUnreadable(path, phrase("not in a recording format that Carpus can read"))
         source = RawRecording(path, notice=notice)
     if data_folder is None:
         return source

@@ -162,7 +162,7 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
         phrase("Choose the other side, or click the markers again."),
     ),
     "no_depth": (
-        phrase("The camera measures no depth at the {markers}."),
+        phrase("The camera cannot measure the depth at the {markers}."),
         phrase("Move the hand a little, and keep sunlight and reflections off the marker."),
     ),
     "residual": (

@@ -19,7 +19,7 @@ _RECORDING_UNCHANGED = phrase("The recording was not changed.")
 _GOES_ON = phrase("The measurement continues.")
 _NOTHING_YET = phrase("Nothing has been recorded yet.")
 _STORED = phrase("Everything recorded so far is saved on this computer.")
-_SESSION_REFERENCE = phrase("Session and reference were not changed.")
+_SESSION_REFERENCE = phrase("The session and the reference were not changed.")
 _CALIBRATION = phrase("The camera’s calibration was not changed.")
 _ASK_INSTALL = phrase("Ask your IT support to install it.")
 _COPY_AGAIN = phrase("Copy the recording again from its source.")
@@ -151,7 +151,7 @@ class ClickOnNoMarker(CarpusFault, code="C-304"):
 
 
 class MarkerWithoutDepth(CarpusFault, code="C-305"):
-    summary = phrase("The camera measures no depth at a marker: {subject}.")
+    summary = phrase("The camera cannot measure the depth at a marker: {subject}.")
     data_safety = _NOTHING_YET
     remedy = phrase("Move the hand a little. Keep sunlight and reflections off the markers.")
 
@@ -177,7 +177,7 @@ class GdtUnreadable(CarpusFault, code="C-413"):
 class ExtraMissing(CarpusFault, code="C-001"):
     """``subject`` is the name of an optional Python package."""
 
-    summary = phrase("A Python package that this needs is not installed: {subject}.")
+    summary = phrase("A required Python package is not installed: {subject}.")
     data_safety = _UNCHANGED
     remedy = _ASK_INSTALL
 
@@ -258,7 +258,7 @@ class ReferenceUnsuited(CarpusFault, code="C-602"):
 
 
 class StudyUnsuited(CarpusFault, code="C-603"):
-    summary = phrase("These sessions are not a test-retest study: {subject} ({detail}).")
+    summary = phrase("These sessions are not a test–retest study: {subject} ({detail}).")
     data_safety = phrase("The MDC values stay as they are.")
     remedy = phrase("Measure at least 10 people twice within 14 days, and replace the markers each time.")
 
@@ -317,7 +317,7 @@ class CameraUnknown(CarpusFault, code="C-204"):
     summary = phrase("There is no camera type called {subject} ({detail}).")
     data_safety = _NOTHING_YET
     remedy = phrase("Choose the camera in the settings.")
-    support = phrase("On the command line, --camera names it.")
+    support = phrase("On the command line, set it with --camera.")
 
 
 class CameraMissing(CarpusFault, code="C-205"):
@@ -476,7 +476,7 @@ class ReanalysisFailed(CarpusFault, code="C-507"):
 
 class PatientListUnreadable(CarpusFault, code="C-705"):
     summary = phrase("The patient list cannot be opened: {subject} ({detail}).")
-    data_safety = phrase("Session files are safe. Keep this file: names and notes are stored in it alone.")
+    data_safety = phrase("Session files are safe. Keep this file: it is the only one with the names and notes.")
     remedy = phrase("Restart Carpus. If that does not help, ask your IT support.")
 
 
@@ -555,7 +555,7 @@ class RecordingTooShort(Notice, code="C-117"):
 
 
 class SpooledSessionErased(Notice, code="C-713"):
-    summary = phrase("A recording that waited on this computer belonged to a deleted patient and was deleted as well.")
+    summary = phrase("A recording still on this computer belonged to a deleted patient and was deleted as well.")
     data_safety = phrase("Nothing else was changed.")
     remedy = phrase("No action is needed.")
 
@@ -594,7 +594,7 @@ class DataFolderChanged(CarpusFault, code="C-411"):
 
 
 class FolderInUse(CarpusFault, code="C-412"):
-    summary = phrase("Another Carpus is using this data folder: {subject}.")
+    summary = phrase("Another Carpus program is using this data folder: {subject}.")
     data_safety = _UNCHANGED
     remedy = phrase("Use the window that is already open, or choose another folder.")
 
@@ -630,7 +630,7 @@ class ErasureBlockedByLink(CarpusFault, code="C-717"):
 
     summary = phrase("Nothing was deleted: {subject} is a link to another place.")
     data_safety = phrase("Everything is as it was.")
-    remedy = phrase("Ask your IT support to replace the link by its target, then delete again.")
+    remedy = phrase("Ask your IT support to replace the link with its target, then delete again.")
 
 
 class BackupFolderUnsuited(CarpusFault, code="C-801"):

@@ -63,7 +63,7 @@ def load_task(origin: Path, output: Path, corrections: Sequence[Correction], ini
     if not len(table.frame):
         raise MarkersNotCorrectable(origin, phrase("no saved blue spots"))
     if is_of_other_filter(session.header.parameters):
-        raise MarkersNotCorrectable(origin, phrase("tracked with another filter than that of Carpus"))
+        raise MarkersNotCorrectable(origin, phrase("not tracked with the Carpus filter"))
     return CorrectionTask(session, table, output, tuple(corrections), initials)
 
 

@@ -117,7 +117,9 @@ class Recorder(Generic[SinkT, Item]):
             return False
         except QueueFullError:
             self._queue.close()
-            self._fail(DiskTooSlow(self._path or "", phrase("{capacity} rows waiting", capacity=self._queue.capacity)))
+            self._fail(
+                DiskTooSlow(self._path or "", phrase("{capacity} rows not yet written", capacity=self._queue.capacity))
+            )
             return False
         return True
 

@@ -244,7 +244,7 @@ def backup_from_json(name: str, text: str) -> Backup:
     if content["format"] != FORMAT:
         raise BackupUnreadable(name, phrase("not a backup"))
     if _parse_count(content["format_version"]) > FORMAT_VERSION:
-        newer = "version {version}, this Carpus reads up to {format_version}"
+        newer = "version {version}, but this version of Carpus reads up to {format_version}"
         raise BackupUnreadable(name, phrase(newer, version=content["format_version"], format_version=FORMAT_VERSION))
     files = tuple(
         BackupFile(str(p), str(h), _parse_count(size), _parse_count(ns)) for p, h, size, ns in content["files"]

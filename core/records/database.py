@@ -214,7 +214,11 @@ def migrate(connection: Connection, name: Path | str) -> bool:
     if found is None and tables:
         raise PatientListDamaged(name, phrase("damaged"))
     if found is not None and found not in map(str, range(1, int(VERSION))):
-        error = phrase("version {version}, this Carpus reads up to {count}", version=str(found) or "?", count=VERSION)
+        error = phrase(
+            "version {version}, but this version of Carpus reads up to {count}",
+            version=str(found) or "?",
+            count=VERSION,
+        )
         raise PatientListVersionUnknown(name, error)
     from alembic.command import upgrade
     from alembic.config import Config

@@ -172,7 +172,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
             version = _format_version(file)
             if not 1 <= version <= schema.NEWEST_VERSION:
                 text = phrase(
-                    "format version {version}, this Carpus reads up to {format_version}",
+                    "format version {version}, but this version of Carpus reads up to {format_version}",
                     version=version,
                     format_version=schema.NEWEST_VERSION,
                 )

@@ -468,10 +468,6 @@
         <translation>Noch nicht kalibriert und nicht geprüft.</translation>
     </message>
     <message>
-        <source>Check it again: it was calibrated since.</source>
-        <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
-    </message>
-    <message>
         <source>today</source>
         <translation>heute</translation>
     </message>
@@ -534,10 +530,6 @@
     <message>
         <source>Measurement error (MDC95)</source>
         <translation>Messfehler (MDC95)</translation>
-    </message>
-    <message>
-        <source>On {date} with {count} people in {sessions} sessions, 95 % intervals in brackets.</source>
-        <translation>Am {date} mit {count} Personen in {sessions} Sitzungen, 95-%-Intervalle in Klammern.</translation>
     </message>
     <message>
         <source>Used in progress and reports instead of the values above.</source>
@@ -994,10 +986,6 @@
     <message>
         <source>Centred on the creases over the IP joint.</source>
         <translation>Mitten auf den Falten über dem IP-Gelenk.</translation>
-    </message>
-    <message>
-        <source>On the nail, in its middle.</source>
-        <translation>Mitten auf dem Nagel.</translation>
     </message>
     <message>
         <source>Clear the view of the wrist</source>
@@ -1676,14 +1664,6 @@
         <translation>Maximalgeschwindigkeit</translation>
     </message>
     <message>
-        <source>{name}, out</source>
-        <translation>{name}, hin</translation>
-    </message>
-    <message>
-        <source>{name}, back</source>
-        <translation>{name}, zurück</translation>
-    </message>
-    <message>
         <source>{name}, across</source>
         <translation>{name}, quer</translation>
     </message>
@@ -1926,10 +1906,6 @@
     <message>
         <source>DIP not measured: TAM assumes two thirds of PIP.</source>
         <translation>DIP nicht gemessen: Die TAM rechnet mit zwei Dritteln des PIP-Winkels.</translation>
-    </message>
-    <message>
-        <source>Share of the other hand’s TAM, else of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, else poor.</source>
-        <translation>Anteil an der TAM der anderen Hand, sonst am Referenzwert von 260° (Daumen 140°). ASSH: sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht.</translation>
     </message>
     <message>
         <source>PIP joints</source>
@@ -2408,10 +2384,6 @@
         <translation>{share} % der Zeit</translation>
     </message>
     <message>
-        <source>{share} % of the repetitions</source>
-        <translation>{share} % der Wiederholungen</translation>
-    </message>
-    <message>
         <source>Frames measured</source>
         <translation>Gemessene Bilder</translation>
     </message>
@@ -2782,10 +2754,6 @@
     <message>
         <source>Make the report of this session here.</source>
         <translation>Erstellen Sie hier den Bericht dieser Sitzung.</translation>
-    </message>
-    <message>
-        <source>Save the report as a PDF. It contains only the made-up name.</source>
-        <translation>Speichern Sie den Bericht als PDF. Er enthält nur den erfundenen Namen.</translation>
     </message>
     <message>
         <source>That was a whole session. The arrow at the top left leads back to the patients.</source>
@@ -3184,14 +3152,6 @@
         <translation>Kamera außerhalb der Toleranz: {what} (Grenzen: {most_angle}°, {most_length} mm, alle Längen {most_share} %).</translation>
     </message>
     <message>
-        <source>The camera measures no depth at a marker: {subject}.</source>
-        <translation>Die Kamera misst an einem Marker keine Tiefe: {subject}.</translation>
-    </message>
-    <message>
-        <source>The camera measures no depth at the {markers}.</source>
-        <translation>Die Kamera misst hier keine Tiefe: {markers}.</translation>
-    </message>
-    <message>
         <source>Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and {most_length} mm).</source>
         <translation>Kamera innerhalb der Toleranz: höchstens {angle}° und {length} mm Abweichung (Grenzen: {most_angle}° und {most_length} mm).</translation>
     </message>
@@ -3290,10 +3250,6 @@
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
         <translation>Diese Kamera sendet keine Zeitstempel. Es gelten die Zeiten der Ankunft, daher sind Geschwindigkeiten ungenau.</translation>
-    </message>
-    <message>
-        <source>This line is 100 mm long. If it is not,</source>
-        <translation>Diese Linie ist 100 mm lang. Wenn nicht,</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
@@ -3492,14 +3448,6 @@
         <translation>für {width_px} x {height_px} Pixel, die Bilder haben {size}</translation>
     </message>
     <message>
-        <source>format version {version}, this Carpus reads up to {format_version}</source>
-        <translation>Formatversion {version}, diese Version von Carpus liest bis {format_version}</translation>
-    </message>
-    <message>
-        <source>format version {version}, this Carpus reads {newest}</source>
-        <translation>Formatversion {version}, diese Version von Carpus liest {newest}</translation>
-    </message>
-    <message>
         <source>over weeks, compared with the measurement error (MDC95)</source>
         <translation>über Wochen, verglichen mit dem Messfehler (MDC95)</translation>
     </message>
@@ -3516,10 +3464,6 @@
         <translation>Goniometer-Liste</translation>
     </message>
     <message>
-        <source>grey, a colour image is expected</source>
-        <translation>grau, erwartet ist ein Farbbild</translation>
-    </message>
-    <message>
         <source>hand</source>
         <translation>Hand</translation>
     </message>
@@ -3530,10 +3474,6 @@
     <message>
         <source>hand {hand}</source>
         <translation>Hand {hand}</translation>
-    </message>
-    <message>
-        <source>in colour, a 16-bit depth image is expected</source>
-        <translation>farbig, erwartet ist ein Tiefenbild mit 16 Bit</translation>
     </message>
     <message>
         <source>in none of the images</source>
@@ -3754,10 +3694,6 @@
     <message>
         <source>no usable reading</source>
         <translation>keine Ablesung ist verwendbar</translation>
-    </message>
-    <message>
-        <source>no recording of a form that Carpus knows</source>
-        <translation>keine Aufnahme in einer Form, die Carpus kennt</translation>
     </message>
     <message>
         <source>no space for another {length} MB</source>
@@ -4008,10 +3944,6 @@
         <translation>Daumenspitze</translation>
     </message>
     <message>
-        <source>version {version}, this Carpus reads up to {count}</source>
-        <translation>Version {version}, diese Version von Carpus liest bis {count}</translation>
-    </message>
-    <message>
         <source>wrist</source>
         <translation>Handgelenk</translation>
     </message>
@@ -4020,20 +3952,12 @@
         <translation>{angle}: die Referenz bewegt sich {percent} % so weit wie Carpus. Vielleicht hat sie eine andere Einheit oder ist ein anderer Winkel</translation>
     </message>
     <message>
-        <source>{bits} bits per colour, 8 are expected</source>
-        <translation>{bits} Bit je Farbe, erwartet sind 8</translation>
-    </message>
-    <message>
         <source>{calibration} has an impossible depth</source>
         <translation>{calibration} hat eine unmögliche Tiefe</translation>
     </message>
     <message>
         <source>{calibration} is not in the format of Carpus</source>
         <translation>{calibration} hat nicht das Format von Carpus</translation>
-    </message>
-    <message>
-        <source>{capacity} rows waiting</source>
-        <translation>{capacity} Zeilen warten</translation>
     </message>
     <message>
         <source>{cause} appears twice</source>
@@ -4106,10 +4030,6 @@
     <message>
         <source>{u}, {v} in a frame of {width_px} x {height_px} pixels</source>
         <translation>{u}, {v} in einem Bild mit {width_px} x {height_px} Pixeln</translation>
-    </message>
-    <message>
-        <source>{value} bits, a 16-bit depth image is expected</source>
-        <translation>{value} Bit, erwartet ist ein Tiefenbild mit 16 Bit</translation>
     </message>
     <message>
         <source>{value} is not a possible number, in {file}</source>
@@ -4644,10 +4564,6 @@
         <translation>für {wanted} gibt es {several}: geben Sie an, welches gilt</translation>
     </message>
     <message>
-        <source>line {line}: no angle is called {said}</source>
-        <translation>Zeile {line}: kein Winkel heißt {said}</translation>
-    </message>
-    <message>
         <source>line {line}: “{cell}” is not a reading</source>
         <translation>Zeile {line}: „{cell}“ ist kein Messwert</translation>
     </message>
@@ -4690,10 +4606,6 @@
     <message>
         <source>no angle of the session, only {there}</source>
         <translation>kein Winkel der Sitzung, nur {there}</translation>
-    </message>
-    <message>
-        <source>no angles by their names, or of the other hand</source>
-        <translation>dem Namen nach keine Winkel oder von der anderen Hand</translation>
     </message>
     <message>
         <source>no palm marker and no angle of the wrist or fingers, only {there}</source>
@@ -4746,10 +4658,6 @@
     <message>
         <source>Rotation −</source>
         <translation>Rotation −</translation>
-    </message>
-    <message>
-        <source>Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation.</source>
-        <translation>Pronation und Supination des Unterarms werden ab Daumen oben (0°) gemessen; die Handfläche flach auf dem Tisch ist 90° Pronation.</translation>
     </message>
     <message>
         <source>Thumb up</source>
@@ -4872,10 +4780,6 @@
         <translation>keine Antwort</translation>
     </message>
     <message>
-        <source>no markers by their names, of the other hand, or never visible</source>
-        <translation>dem Namen nach keine Marker, von der anderen Hand oder nie sichtbar</translation>
-    </message>
-    <message>
         <source>the hand left the camera’s view during the movement</source>
         <translation>die Hand verließ während der Bewegung das Kamerabild</translation>
     </message>
@@ -4886,10 +4790,6 @@
     <message>
         <source>complete</source>
         <translation>vollständig</translation>
-    </message>
-    <message>
-        <source>A Python package that this needs is not installed: {subject}.</source>
-        <translation>Ein dafür benötigtes Python-Paket ist nicht installiert: {subject}.</translation>
     </message>
     <message>
         <source>A click lies outside the image: {subject} ({detail}).</source>
@@ -4910,10 +4810,6 @@
     <message>
         <source>A recording ended before its first second was saved: {subject}. There is nothing to recover.</source>
         <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war: {subject}. Es gibt nichts wiederherzustellen.</translation>
-    </message>
-    <message>
-        <source>A recording that waited on this computer belonged to a deleted patient and was deleted as well.</source>
-        <translation>Eine Aufnahme, die auf diesem Computer wartete, gehörte zu einem gelöschten Patienten und wurde ebenfalls gelöscht.</translation>
     </message>
     <message>
         <source>A session that was kept on this computer is now in the session folder: {subject}.</source>
@@ -4944,10 +4840,6 @@
         <translation>Alle Sitzungen sind sicher. Was gerade eingegeben wurde, ist vielleicht nicht gespeichert.</translation>
     </message>
     <message>
-        <source>Another Carpus is using this data folder: {subject}.</source>
-        <translation>Carpus läuft schon einmal mit diesem Datenordner: {subject}.</translation>
-    </message>
-    <message>
         <source>Another program is using the camera ({detail}).</source>
         <translation>Ein anderes Programm benutzt die Kamera ({detail}).</translation>
     </message>
@@ -4970,10 +4862,6 @@
     <message>
         <source>Ask your IT support to reinstall Carpus.</source>
         <translation>Bitten Sie Ihre IT-Betreuung, Carpus neu zu installieren.</translation>
-    </message>
-    <message>
-        <source>Ask your IT support to replace the link by its target, then delete again.</source>
-        <translation>Bitten Sie Ihre IT-Betreuung, die Verknüpfung durch ihr Ziel zu ersetzen, und löschen Sie dann noch einmal.</translation>
     </message>
     <message>
         <source>Back up to another disk now, and replace this one.</source>
@@ -5244,10 +5132,6 @@
         <translation>Es wurde nichts gelöscht: {subject} ist eine Verknüpfung an einen anderen Ort.</translation>
     </message>
     <message>
-        <source>On the command line, --camera names it.</source>
-        <translation>In der Befehlszeile wird sie mit --camera angegeben.</translation>
-    </message>
-    <message>
         <source>Open it again and enter your change once more.</source>
         <translation>Öffnen Sie ihn noch einmal, und geben Sie Ihre Änderung erneut ein.</translation>
     </message>
@@ -5310,14 +5194,6 @@
     <message>
         <source>Review it like any other session.</source>
         <translation>Sehen Sie sie wie jede andere Sitzung durch.</translation>
-    </message>
-    <message>
-        <source>Session and reference were not changed.</source>
-        <translation>Sitzung und Referenz wurden nicht verändert.</translation>
-    </message>
-    <message>
-        <source>Session files are safe. Keep this file: names and notes are stored in it alone.</source>
-        <translation>Die Sitzungsdateien sind sicher. Behalten Sie diese Datei: Nur in ihr stehen Namen und Notizen.</translation>
     </message>
     <message>
         <source>Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.</source>
@@ -5522,10 +5398,6 @@
     <message>
         <source>There is no patient called {subject} ({detail}).</source>
         <translation>Es gibt keinen Patienten namens {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>These sessions are not a test-retest study: {subject} ({detail}).</source>
-        <translation>Diese Sitzungen sind keine Test-Retest-Studie: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>They are no longer listed. Carpus tries again at each start.</source>
@@ -6020,10 +5892,6 @@
         <translation>Neutral</translation>
     </message>
     <message>
-        <source>tracked with another filter than that of Carpus</source>
-        <translation>mit einem anderen Filter als dem von Carpus ausgewertet</translation>
-    </message>
-    <message>
         <source>Or analyse the recording again with “carpus track”.</source>
         <translation>Oder werten Sie die Aufnahme mit „carpus track“ neu aus.</translation>
     </message>
@@ -6242,6 +6110,138 @@
     <message>
         <source>Speeds or angles</source>
         <translation>Geschwindigkeiten oder Winkel</translation>
+    </message>
+    <message>
+        <source>Percentage of the other hand’s TAM, or of the reference value of 260° (thumb 140°) if that is not known. ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
+        <translation>Prozent der TAM der anderen Hand oder, wenn sie nicht bekannt ist, des Referenzwerts von 260° (Daumen 140°). ASSH: sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht.</translation>
+    </message>
+    <message>
+        <source>In the middle of the nail.</source>
+        <translation>In der Mitte des Nagels.</translation>
+    </message>
+    <message>
+        <source>{share} % of the repetition time</source>
+        <translation>{share} % der Zeit der Wiederholungen</translation>
+    </message>
+    <message>
+        <source>Measured on {date} with {count} people in {sessions} sessions. 95 % confidence intervals are in brackets.</source>
+        <translation>Gemessen am {date} mit {count} Personen in {sessions} Sitzungen. In Klammern stehen 95-%-Konfidenzintervalle.</translation>
+    </message>
+    <message>
+        <source>Forearm pronation and supination are measured from thumb up (0°). Palm flat on the table is 90° pronation.</source>
+        <translation>Pronation und Supination des Unterarms werden ab Daumen oben (0°) gemessen. Die Handfläche flach auf dem Tisch ist 90° Pronation.</translation>
+    </message>
+    <message>
+        <source>Save the report as a PDF. It contains only the pseudonym.</source>
+        <translation>Speichern Sie den Bericht als PDF. Er enthält nur das Pseudonym.</translation>
+    </message>
+    <message>
+        <source>A recording still on this computer belonged to a deleted patient and was deleted as well.</source>
+        <translation>Eine Aufnahme, die noch auf diesem Computer lag, gehörte zu einem gelöschten Patienten und wurde ebenfalls gelöscht.</translation>
+    </message>
+    <message>
+        <source>A required Python package is not installed: {subject}.</source>
+        <translation>Ein benötigtes Python-Paket ist nicht installiert: {subject}.</translation>
+    </message>
+    <message>
+        <source>Another Carpus program is using this data folder: {subject}.</source>
+        <translation>Ein anderes Carpus-Programm benutzt diesen Datenordner: {subject}.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to replace the link with its target, then delete again.</source>
+        <translation>Bitten Sie Ihre IT-Betreuung, die Verknüpfung durch ihr Ziel zu ersetzen, und löschen Sie dann noch einmal.</translation>
+    </message>
+    <message>
+        <source>On the command line, set it with --camera.</source>
+        <translation>Auf der Kommandozeile wählen Sie sie mit --camera.</translation>
+    </message>
+    <message>
+        <source>Session files are safe. Keep this file: it is the only one with the names and notes.</source>
+        <translation>Die Sitzungsdateien sind sicher. Behalten Sie diese Datei: Namen und Notizen stehen nur hier.</translation>
+    </message>
+    <message>
+        <source>These sessions are not a test–retest study: {subject} ({detail}).</source>
+        <translation>Diese Sitzungen sind keine Test-Retest-Studie: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This line must be 100 mm long. If it is not,</source>
+        <translation>Diese Linie muss 100 mm lang sein. Wenn nicht,</translation>
+    </message>
+    <message>
+        <source>The camera cannot measure the depth at a marker: {subject}.</source>
+        <translation>Die Kamera kann an einem Marker keine Tiefe messen: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera cannot measure the depth at the {markers}.</source>
+        <translation>Die Kamera kann hier keine Tiefe messen: {markers}.</translation>
+    </message>
+    <message>
+        <source>The session and the reference were not changed.</source>
+        <translation>Die Sitzung und die Referenz wurden nicht verändert.</translation>
+    </message>
+    <message>
+        <source>a colour image instead of a 16-bit depth image</source>
+        <translation>ein Farbbild statt eines Tiefenbilds mit 16 Bit</translation>
+    </message>
+    <message>
+        <source>a depth image of {value} bits instead of 16</source>
+        <translation>ein Tiefenbild mit {value} Bit statt 16</translation>
+    </message>
+    <message>
+        <source>a grey image instead of a colour image</source>
+        <translation>ein Graubild statt eines Farbbilds</translation>
+    </message>
+    <message>
+        <source>format version {version}, but this version of Carpus reads up to {format_version}</source>
+        <translation>Formatversion {version}, diese Carpus-Version liest aber nur bis {format_version}</translation>
+    </message>
+    <message>
+        <source>format version {version}, but this version of Carpus reads {newest}</source>
+        <translation>Formatversion {version}, diese Carpus-Version liest aber {newest}</translation>
+    </message>
+    <message>
+        <source>line {line}: there is no angle called {said}</source>
+        <translation>Zeile {line}: kein Winkel heißt {said}</translation>
+    </message>
+    <message>
+        <source>not in a recording format that Carpus can read</source>
+        <translation>kein Aufnahmeformat, das Carpus lesen kann</translation>
+    </message>
+    <message>
+        <source>not tracked with the Carpus filter</source>
+        <translation>nicht mit dem Filter von Carpus ausgewertet</translation>
+    </message>
+    <message>
+        <source>unknown angle name, or angle of the other hand</source>
+        <translation>unbekannter Winkelname oder Winkel der anderen Hand</translation>
+    </message>
+    <message>
+        <source>unknown marker name, marker of the other hand, or never visible</source>
+        <translation>unbekannter Markername, Marker der anderen Hand oder nie sichtbar</translation>
+    </message>
+    <message>
+        <source>version {version}, but this version of Carpus reads up to {count}</source>
+        <translation>Version {version}, diese Carpus-Version liest aber nur bis {count}</translation>
+    </message>
+    <message>
+        <source>{bits} bits per colour instead of 8</source>
+        <translation>{bits} Bit je Farbe statt 8</translation>
+    </message>
+    <message>
+        <source>{capacity} rows not yet written</source>
+        <translation>{capacity} Zeilen noch nicht geschrieben</translation>
+    </message>
+    <message>
+        <source>{name}, outward</source>
+        <translation>{name}, hin</translation>
+    </message>
+    <message>
+        <source>{name}, return</source>
+        <translation>{name}, zurück</translation>
+    </message>
+    <message>
+        <source>Check it again: it has been calibrated since.</source>
+        <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
     </message>
 </context>
 <context>
@@ -7824,10 +7824,6 @@ von oben</translation>
         <translation>Die Aufnahme hat gerade erst begonnen.</translation>
     </message>
     <message>
-        <source>It continues while you choose. Everything is saved.</source>
-        <translation>Sie läuft weiter, während Sie wählen. Alles wird gespeichert.</translation>
-    </message>
-    <message>
         <source>Continue measuring or stop now?</source>
         <translation>Weiter messen oder jetzt beenden?</translation>
     </message>
@@ -7858,6 +7854,10 @@ von oben</translation>
     <message>
         <source>{time} and {count} full repetitions are saved.</source>
         <translation>{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
+    </message>
+    <message>
+        <source>Recording continues while you choose. Everything is saved.</source>
+        <translation>Die Aufnahme läuft weiter, während Sie wählen. Alles wird gespeichert.</translation>
     </message>
 </context>
 <context>
@@ -8039,10 +8039,6 @@ von oben</translation>
 <context>
     <name>LogDialog</name>
     <message>
-        <source>Append-only log. It protects against mistakes, not against someone with full access to this computer. Names appear only here, while they are in the patient list.</source>
-        <translation>Das Protokoll wird nur ergänzt. Es schützt vor Versehen, nicht vor jemandem mit vollem Zugriff auf diesen Computer. Namen erscheinen nur hier, solange sie in der Patientenliste stehen.</translation>
-    </message>
-    <message>
         <source>Log</source>
         <translation>Protokoll</translation>
     </message>
@@ -8073,6 +8069,10 @@ von oben</translation>
     <message>
         <source>Done</source>
         <translation>Fertig</translation>
+    </message>
+    <message>
+        <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names. They are shown from the patient list.</source>
+        <translation>Einträge kommen nur hinzu und werden nie geändert. Das Protokoll schützt vor Versehen, nicht vor jemandem mit vollem Zugriff auf diesen Computer. Es speichert keine Namen. Sie werden aus der Patientenliste angezeigt.</translation>
     </message>
 </context>
 <context>
@@ -8288,10 +8288,6 @@ von oben</translation>
         <translation>Tiefe und Farbe von {name} sind um {px} Pixel gegeneinander verschoben.</translation>
     </message>
     <message>
-        <source>The recording is not changed. It does not state that depth and colour were aligned.</source>
-        <translation>Die Aufnahme wird nicht verändert. Sie gibt nicht an, ob Tiefe und Farbe deckungsgleich sind.</translation>
-    </message>
-    <message>
         <source>Open it again with depth aligned to colour, then click the markers again.</source>
         <translation>Öffnen Sie sie erneut mit deckungsgleicher Tiefe und Farbe, und klicken Sie die Marker dann neu an.</translation>
     </message>
@@ -8306,6 +8302,10 @@ von oben</translation>
     <message>
         <source>Leave this screen?</source>
         <translation>Diese Seite verlassen?</translation>
+    </message>
+    <message>
+        <source>The recording was not changed. It does not say whether depth and colour are aligned.</source>
+        <translation>Die Aufnahme wurde nicht verändert. Sie gibt nicht an, ob Tiefe und Farbe ausgerichtet sind.</translation>
     </message>
 </context>
 <context>
@@ -8813,10 +8813,6 @@ von oben</translation>
         <translation>&amp;Diagnose oder Operation</translation>
     </message>
     <message>
-        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
-        <translation>Der Name in Carpus ist erfunden und kann laut gesagt werden: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
-    </message>
-    <message>
         <source>Other</source>
         <translation>Divers</translation>
     </message>
@@ -8827,6 +8823,10 @@ von oben</translation>
     <message>
         <source>Since: {problem}</source>
         <translation>Seit: {problem}</translation>
+    </message>
+    <message>
+        <source>The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
+        <translation>Der Name in Carpus ist ein Pseudonym, das laut gesagt werden kann: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
     </message>
 </context>
 <context>
@@ -8901,10 +8901,6 @@ von oben</translation>
         <translation>Im Archi&amp;v: {names}</translation>
     </message>
     <message>
-        <source>Made-up name</source>
-        <translation>Erfundener Name</translation>
-    </message>
-    <message>
         <source>found by name</source>
         <translation>gefunden über den Namen</translation>
     </message>
@@ -8919,6 +8915,10 @@ von oben</translation>
     <message>
         <source>Name, number, birth date</source>
         <translation>Name, Nummer, Geburtsdatum</translation>
+    </message>
+    <message>
+        <source>Pseudonym</source>
+        <translation>Pseudonym</translation>
     </message>
 </context>
 <context>
@@ -9271,10 +9271,6 @@ von oben</translation>
         <translation>Von allen Listen und Ergebnissen ausgeschlossen. Alles lässt sich wiederherstellen.</translation>
     </message>
     <message>
-        <source>by command line</source>
-        <translation>über Befehlszeile</translation>
-    </message>
-    <message>
         <source>1 remaining</source>
         <translation>noch 1 übrig</translation>
     </message>
@@ -9401,6 +9397,10 @@ von oben</translation>
     <message>
         <source>1 session</source>
         <translation>1 Sitzung</translation>
+    </message>
+    <message>
+        <source>from the command line</source>
+        <translation>von der Kommandozeile</translation>
     </message>
 </context>
 <context>
@@ -9781,10 +9781,6 @@ von oben</translation>
 <context>
     <name>RetestDialog</name>
     <message>
-        <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % intervals.</source>
-        <translation>Von mehrfach gemessenen Personen, deren Marker dazwischen alle entfernt und neu geklebt wurden. Zeigt den Standardmessfehler (SEM) und MDC95 mit 95-%-Intervallen.</translation>
-    </message>
-    <message>
         <source>MDC95 from test–retest sessions</source>
         <translation>MDC95 aus Test-Retest-Sitzungen</translation>
     </message>
@@ -9799,6 +9795,10 @@ von oben</translation>
     <message>
         <source>Unreadable sessions: {count}</source>
         <translation>Nicht lesbare Sitzungen: {count}</translation>
+    </message>
+    <message>
+        <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % confidence intervals.</source>
+        <translation>Von mehrfach gemessenen Personen, deren Marker dazwischen alle entfernt und neu geklebt wurden. Zeigt den Standardmessfehler (SEM) und MDC95 mit 95-%-Konfidenzintervallen.</translation>
     </message>
 </context>
 <context>
@@ -10750,16 +10750,16 @@ von oben</translation>
 <context>
     <name>_OfflineView</name>
     <message>
-        <source>The patient list returns when the server answers. To measure now, enter the patient’s made-up name above. The session is saved and appears in the list later.</source>
-        <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben den erfundenen Namen ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
-    </message>
-    <message>
         <source>Measure “{name}”</source>
         <translation>„{name}“ messen</translation>
     </message>
     <message>
         <source>Measure without the list</source>
         <translation>Ohne die Liste messen</translation>
+    </message>
+    <message>
+        <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
+        <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben das Pseudonym ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
     </message>
 </context>
 </TS>

@@ -468,10 +468,6 @@
         <translation>Non ancora calibrata né controllata.</translation>
     </message>
     <message>
-        <source>Check it again: it was calibrated since.</source>
-        <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
-    </message>
-    <message>
         <source>today</source>
         <translation>oggi</translation>
     </message>
@@ -534,10 +530,6 @@
     <message>
         <source>Measurement error (MDC95)</source>
         <translation>Errore di misura (MDC95)</translation>
-    </message>
-    <message>
-        <source>On {date} with {count} people in {sessions} sessions, 95 % intervals in brackets.</source>
-        <translation>In data {date} con {count} persone in {sessions} sedute, fra parentesi gli intervalli al 95 %.</translation>
     </message>
     <message>
         <source>Used in progress and reports instead of the values above.</source>
@@ -994,10 +986,6 @@
     <message>
         <source>Centred on the creases over the IP joint.</source>
         <translation>Al centro delle pieghe sopra l’articolazione IF.</translation>
-    </message>
-    <message>
-        <source>On the nail, in its middle.</source>
-        <translation>Sull’unghia, al centro.</translation>
     </message>
     <message>
         <source>Clear the view of the wrist</source>
@@ -1676,14 +1664,6 @@
         <translation>Velocità massima</translation>
     </message>
     <message>
-        <source>{name}, out</source>
-        <translation>{name}, andata</translation>
-    </message>
-    <message>
-        <source>{name}, back</source>
-        <translation>{name}, ritorno</translation>
-    </message>
-    <message>
         <source>{name}, across</source>
         <translation>{name}, attraverso</translation>
     </message>
@@ -1926,10 +1906,6 @@
     <message>
         <source>DIP not measured: TAM assumes two thirds of PIP.</source>
         <translation>IFD non misurata: il TAM assume due terzi della IFP.</translation>
-    </message>
-    <message>
-        <source>Share of the other hand’s TAM, else of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, else poor.</source>
-        <translation>Quota del TAM dell’altra mano, altrimenti del valore di riferimento di 260° (pollice 140°). ASSH: ottimo da 100 %, buono oltre 75 %, discreto oltre 50 %, altrimenti scarso.</translation>
     </message>
     <message>
         <source>PIP joints</source>
@@ -2408,10 +2384,6 @@
         <translation>{share} % del tempo</translation>
     </message>
     <message>
-        <source>{share} % of the repetitions</source>
-        <translation>{share} % delle ripetizioni</translation>
-    </message>
-    <message>
         <source>Frames measured</source>
         <translation>Fotogrammi misurati</translation>
     </message>
@@ -2782,10 +2754,6 @@
     <message>
         <source>Make the report of this session here.</source>
         <translation>Qui si crea la relazione di questa seduta.</translation>
-    </message>
-    <message>
-        <source>Save the report as a PDF. It contains only the made-up name.</source>
-        <translation>Salvare la relazione in PDF. Contiene solo lo pseudonimo.</translation>
     </message>
     <message>
         <source>That was a whole session. The arrow at the top left leads back to the patients.</source>
@@ -3184,14 +3152,6 @@
         <translation>Telecamera fuori tolleranza: {what} (limiti: {most_angle}°, {most_length} mm, tutte le lunghezze {most_share} %).</translation>
     </message>
     <message>
-        <source>The camera measures no depth at a marker: {subject}.</source>
-        <translation>La telecamera non misura la profondità di un marcatore: {subject}.</translation>
-    </message>
-    <message>
-        <source>The camera measures no depth at the {markers}.</source>
-        <translation>La telecamera non misura la profondità di: {markers}.</translation>
-    </message>
-    <message>
         <source>Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and {most_length} mm).</source>
         <translation>Telecamera entro la tolleranza: scarto massimo {angle}° e {length} mm (limiti: {most_angle}° e {most_length} mm).</translation>
     </message>
@@ -3290,10 +3250,6 @@
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
         <translation>Questa telecamera non invia i tempi di ripresa. Valgono i tempi d’arrivo, quindi le velocità sono approssimative.</translation>
-    </message>
-    <message>
-        <source>This line is 100 mm long. If it is not,</source>
-        <translation>Questa linea è lunga 100 mm. Se non lo è,</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
@@ -3492,14 +3448,6 @@
         <translation>per {width_px} x {height_px} pixel, i fotogrammi hanno {size}</translation>
     </message>
     <message>
-        <source>format version {version}, this Carpus reads up to {format_version}</source>
-        <translation>versione del formato {version}, questo Carpus legge fino a {format_version}</translation>
-    </message>
-    <message>
-        <source>format version {version}, this Carpus reads {newest}</source>
-        <translation>versione del formato {version}, questo Carpus legge {newest}</translation>
-    </message>
-    <message>
         <source>over weeks, compared with the measurement error (MDC95)</source>
         <translation>nel corso delle settimane, a confronto con l’errore di misura (MDC95)</translation>
     </message>
@@ -3516,10 +3464,6 @@
         <translation>elenco del goniometro</translation>
     </message>
     <message>
-        <source>grey, a colour image is expected</source>
-        <translation>in grigio, ma serve un’immagine a colori</translation>
-    </message>
-    <message>
         <source>hand</source>
         <translation>mano</translation>
     </message>
@@ -3530,10 +3474,6 @@
     <message>
         <source>hand {hand}</source>
         <translation>hand {hand}</translation>
-    </message>
-    <message>
-        <source>in colour, a 16-bit depth image is expected</source>
-        <translation>a colori, ma serve un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>in none of the images</source>
@@ -3754,10 +3694,6 @@
     <message>
         <source>no usable reading</source>
         <translation>nessuna lettura utilizzabile</translation>
-    </message>
-    <message>
-        <source>no recording of a form that Carpus knows</source>
-        <translation>nessuna registrazione in un formato noto a Carpus</translation>
     </message>
     <message>
         <source>no space for another {length} MB</source>
@@ -4008,10 +3944,6 @@
         <translation>punta del pollice</translation>
     </message>
     <message>
-        <source>version {version}, this Carpus reads up to {count}</source>
-        <translation>versione {version}, questo Carpus legge fino a {count}</translation>
-    </message>
-    <message>
         <source>wrist</source>
         <translation>polso</translation>
     </message>
@@ -4020,20 +3952,12 @@
         <translation>{angle}: il riferimento compie il {percent} % del movimento misurato da Carpus. Forse ha un’altra unità o è un altro angolo</translation>
     </message>
     <message>
-        <source>{bits} bits per colour, 8 are expected</source>
-        <translation>{bits} bit per colore, attesi 8</translation>
-    </message>
-    <message>
         <source>{calibration} has an impossible depth</source>
         <translation>{calibration} ha una profondità impossibile</translation>
     </message>
     <message>
         <source>{calibration} is not in the format of Carpus</source>
         <translation>{calibration} non è nel formato di Carpus</translation>
-    </message>
-    <message>
-        <source>{capacity} rows waiting</source>
-        <translation>{capacity} righe in attesa</translation>
     </message>
     <message>
         <source>{cause} appears twice</source>
@@ -4106,10 +4030,6 @@
     <message>
         <source>{u}, {v} in a frame of {width_px} x {height_px} pixels</source>
         <translation>{u}, {v} in un fotogramma di {width_px} x {height_px} pixel</translation>
-    </message>
-    <message>
-        <source>{value} bits, a 16-bit depth image is expected</source>
-        <translation>{value} bit, ma serve un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>{value} is not a possible number, in {file}</source>
@@ -4644,10 +4564,6 @@
         <translation>per {wanted} ci sono {several}: indicare quale vale</translation>
     </message>
     <message>
-        <source>line {line}: no angle is called {said}</source>
-        <translation>riga {line}: nessun angolo si chiama {said}</translation>
-    </message>
-    <message>
         <source>line {line}: “{cell}” is not a reading</source>
         <translation>riga {line}: “{cell}” non è una misura</translation>
     </message>
@@ -4690,10 +4606,6 @@
     <message>
         <source>no angle of the session, only {there}</source>
         <translation>nessun angolo della seduta, solo {there}</translation>
-    </message>
-    <message>
-        <source>no angles by their names, or of the other hand</source>
-        <translation>dal nome non sono angoli, o sono dell’altra mano</translation>
     </message>
     <message>
         <source>no palm marker and no angle of the wrist or fingers, only {there}</source>
@@ -4746,10 +4658,6 @@
     <message>
         <source>Rotation −</source>
         <translation>Rotazione −</translation>
-    </message>
-    <message>
-        <source>Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation.</source>
-        <translation>Pronazione e supinazione dell’avambraccio si contano dal pollice in alto (0°); palmo piatto sul tavolo è 90° di pronazione.</translation>
     </message>
     <message>
         <source>Thumb up</source>
@@ -4872,10 +4780,6 @@
         <translation>nessuna risposta</translation>
     </message>
     <message>
-        <source>no markers by their names, of the other hand, or never visible</source>
-        <translation>dal nome non sono marcatori, sono dell’altra mano o non sono mai visibili</translation>
-    </message>
-    <message>
         <source>the hand left the camera’s view during the movement</source>
         <translation>la mano è uscita dall’inquadratura durante il movimento</translation>
     </message>
@@ -4886,10 +4790,6 @@
     <message>
         <source>complete</source>
         <translation>complete</translation>
-    </message>
-    <message>
-        <source>A Python package that this needs is not installed: {subject}.</source>
-        <translation>Un pacchetto Python necessario non è installato: {subject}.</translation>
     </message>
     <message>
         <source>A click lies outside the image: {subject} ({detail}).</source>
@@ -4910,10 +4810,6 @@
     <message>
         <source>A recording ended before its first second was saved: {subject}. There is nothing to recover.</source>
         <translation>Una registrazione è terminata prima che il primo secondo fosse salvato: {subject}. Non c’è nulla da recuperare.</translation>
-    </message>
-    <message>
-        <source>A recording that waited on this computer belonged to a deleted patient and was deleted as well.</source>
-        <translation>Una registrazione in attesa su questo computer era di un paziente eliminato ed è stata eliminata anch’essa.</translation>
     </message>
     <message>
         <source>A session that was kept on this computer is now in the session folder: {subject}.</source>
@@ -4944,10 +4840,6 @@
         <translation>Tutte le sedute sono al sicuro. Ciò che si stava inserendo potrebbe non essere salvato.</translation>
     </message>
     <message>
-        <source>Another Carpus is using this data folder: {subject}.</source>
-        <translation>Un altro Carpus sta usando questa cartella dei dati: {subject}.</translation>
-    </message>
-    <message>
         <source>Another program is using the camera ({detail}).</source>
         <translation>Un altro programma sta usando la telecamera ({detail}).</translation>
     </message>
@@ -4970,10 +4862,6 @@
     <message>
         <source>Ask your IT support to reinstall Carpus.</source>
         <translation>Chiedere al supporto informatico di reinstallare Carpus.</translation>
-    </message>
-    <message>
-        <source>Ask your IT support to replace the link by its target, then delete again.</source>
-        <translation>Chiedere al supporto informatico di sostituire il collegamento con ciò a cui porta, poi eliminare di nuovo.</translation>
     </message>
     <message>
         <source>Back up to another disk now, and replace this one.</source>
@@ -5244,10 +5132,6 @@
         <translation>Non è stato eliminato nulla: {subject} è un collegamento a un altro luogo.</translation>
     </message>
     <message>
-        <source>On the command line, --camera names it.</source>
-        <translation>Da riga di comando si indica con --camera.</translation>
-    </message>
-    <message>
         <source>Open it again and enter your change once more.</source>
         <translation>Riaprirla e inserire di nuovo la modifica.</translation>
     </message>
@@ -5310,14 +5194,6 @@
     <message>
         <source>Review it like any other session.</source>
         <translation>Rivederla come ogni altra seduta.</translation>
-    </message>
-    <message>
-        <source>Session and reference were not changed.</source>
-        <translation>La seduta e il riferimento non sono stati modificati.</translation>
-    </message>
-    <message>
-        <source>Session files are safe. Keep this file: names and notes are stored in it alone.</source>
-        <translation>I file delle sedute sono al sicuro. Conservare questo file: nomi e note si trovano solo qui.</translation>
     </message>
     <message>
         <source>Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.</source>
@@ -5522,10 +5398,6 @@
     <message>
         <source>There is no patient called {subject} ({detail}).</source>
         <translation>Non esiste un paziente chiamato {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>These sessions are not a test-retest study: {subject} ({detail}).</source>
-        <translation>Queste sedute non sono uno studio test-retest: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>They are no longer listed. Carpus tries again at each start.</source>
@@ -6020,10 +5892,6 @@
         <translation>Neutro</translation>
     </message>
     <message>
-        <source>tracked with another filter than that of Carpus</source>
-        <translation>analizzata con un filtro diverso da quello di Carpus</translation>
-    </message>
-    <message>
         <source>Or analyse the recording again with “carpus track”.</source>
         <translation>Oppure rianalizzare la registrazione con “carpus track”.</translation>
     </message>
@@ -6242,6 +6110,138 @@
     <message>
         <source>Speeds or angles</source>
         <translation>Velocità o angoli</translation>
+    </message>
+    <message>
+        <source>Percentage of the other hand’s TAM, or of the reference value of 260° (thumb 140°) if that is not known. ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
+        <translation>Percentuale del TAM dell’altra mano o, se non è noto, del valore di riferimento di 260° (pollice 140°). ASSH: ottimo da 100 %, buono oltre 75 %, discreto oltre 50 %, altrimenti scarso.</translation>
+    </message>
+    <message>
+        <source>In the middle of the nail.</source>
+        <translation>Al centro dell’unghia.</translation>
+    </message>
+    <message>
+        <source>{share} % of the repetition time</source>
+        <translation>{share} % del tempo delle ripetizioni</translation>
+    </message>
+    <message>
+        <source>Measured on {date} with {count} people in {sessions} sessions. 95 % confidence intervals are in brackets.</source>
+        <translation>Misurato in data {date} con {count} persone in {sessions} sedute. Fra parentesi gli intervalli di confidenza al 95 %.</translation>
+    </message>
+    <message>
+        <source>Forearm pronation and supination are measured from thumb up (0°). Palm flat on the table is 90° pronation.</source>
+        <translation>Pronazione e supinazione dell’avambraccio si misurano dal pollice in alto (0°). Palmo piatto sul tavolo è 90° di pronazione.</translation>
+    </message>
+    <message>
+        <source>Save the report as a PDF. It contains only the pseudonym.</source>
+        <translation>Salvare la relazione in PDF. Contiene solo lo pseudonimo.</translation>
+    </message>
+    <message>
+        <source>A recording still on this computer belonged to a deleted patient and was deleted as well.</source>
+        <translation>Una registrazione ancora su questo computer era di un paziente eliminato ed è stata eliminata anch’essa.</translation>
+    </message>
+    <message>
+        <source>A required Python package is not installed: {subject}.</source>
+        <translation>Un pacchetto Python necessario non è installato: {subject}.</translation>
+    </message>
+    <message>
+        <source>Another Carpus program is using this data folder: {subject}.</source>
+        <translation>Un altro programma Carpus sta usando questa cartella dei dati: {subject}.</translation>
+    </message>
+    <message>
+        <source>Ask your IT support to replace the link with its target, then delete again.</source>
+        <translation>Chiedere al supporto informatico di sostituire il collegamento con ciò a cui porta, poi eliminare di nuovo.</translation>
+    </message>
+    <message>
+        <source>On the command line, set it with --camera.</source>
+        <translation>Dalla riga di comando si imposta con --camera.</translation>
+    </message>
+    <message>
+        <source>Session files are safe. Keep this file: it is the only one with the names and notes.</source>
+        <translation>I file delle sedute sono al sicuro. Conservare questo file: nomi e note si trovano solo qui.</translation>
+    </message>
+    <message>
+        <source>These sessions are not a test–retest study: {subject} ({detail}).</source>
+        <translation>Queste sedute non sono uno studio test-retest: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>This line must be 100 mm long. If it is not,</source>
+        <translation>Questa linea deve essere lunga 100 mm. Se no,</translation>
+    </message>
+    <message>
+        <source>The camera cannot measure the depth at a marker: {subject}.</source>
+        <translation>La telecamera non riesce a misurare la profondità di un marcatore: {subject}.</translation>
+    </message>
+    <message>
+        <source>The camera cannot measure the depth at the {markers}.</source>
+        <translation>La telecamera non riesce a misurare la profondità di: {markers}.</translation>
+    </message>
+    <message>
+        <source>The session and the reference were not changed.</source>
+        <translation>La seduta e il riferimento non sono stati modificati.</translation>
+    </message>
+    <message>
+        <source>a colour image instead of a 16-bit depth image</source>
+        <translation>un’immagine a colori invece che di profondità a 16 bit</translation>
+    </message>
+    <message>
+        <source>a depth image of {value} bits instead of 16</source>
+        <translation>un’immagine di profondità a {value} bit invece di 16</translation>
+    </message>
+    <message>
+        <source>a grey image instead of a colour image</source>
+        <translation>un’immagine in grigio invece che a colori</translation>
+    </message>
+    <message>
+        <source>format version {version}, but this version of Carpus reads up to {format_version}</source>
+        <translation>versione del formato {version}, ma questa versione di Carpus legge fino a {format_version}</translation>
+    </message>
+    <message>
+        <source>format version {version}, but this version of Carpus reads {newest}</source>
+        <translation>versione del formato {version}, ma questa versione di Carpus legge {newest}</translation>
+    </message>
+    <message>
+        <source>line {line}: there is no angle called {said}</source>
+        <translation>riga {line}: nessun angolo si chiama {said}</translation>
+    </message>
+    <message>
+        <source>not in a recording format that Carpus can read</source>
+        <translation>non in un formato di registrazione leggibile da Carpus</translation>
+    </message>
+    <message>
+        <source>not tracked with the Carpus filter</source>
+        <translation>non analizzata con il filtro di Carpus</translation>
+    </message>
+    <message>
+        <source>unknown angle name, or angle of the other hand</source>
+        <translation>nome di angolo sconosciuto o angolo dell’altra mano</translation>
+    </message>
+    <message>
+        <source>unknown marker name, marker of the other hand, or never visible</source>
+        <translation>nome di marcatore sconosciuto, marcatore dell’altra mano o mai visibile</translation>
+    </message>
+    <message>
+        <source>version {version}, but this version of Carpus reads up to {count}</source>
+        <translation>versione {version}, ma questa versione di Carpus legge fino a {count}</translation>
+    </message>
+    <message>
+        <source>{bits} bits per colour instead of 8</source>
+        <translation>{bits} bit per colore invece di 8</translation>
+    </message>
+    <message>
+        <source>{capacity} rows not yet written</source>
+        <translation>{capacity} righe non ancora scritte</translation>
+    </message>
+    <message>
+        <source>{name}, outward</source>
+        <translation>{name}, andata</translation>
+    </message>
+    <message>
+        <source>{name}, return</source>
+        <translation>{name}, ritorno</translation>
+    </message>
+    <message>
+        <source>Check it again: it has been calibrated since.</source>
+        <translation>Ripetere il controllo: dopo è stata calibrata.</translation>
     </message>
 </context>
 <context>
@@ -7824,10 +7824,6 @@ dall’alto</translation>
         <translation>La registrazione è appena iniziata.</translation>
     </message>
     <message>
-        <source>It continues while you choose. Everything is saved.</source>
-        <translation>Prosegue durante la scelta. Tutto viene salvato.</translation>
-    </message>
-    <message>
         <source>Continue measuring or stop now?</source>
         <translation>Continuare a misurare o terminare ora?</translation>
     </message>
@@ -7858,6 +7854,10 @@ dall’alto</translation>
     <message>
         <source>{time} and {count} full repetitions are saved.</source>
         <translation>Sono salvati {time} e {count} ripetizioni complete.</translation>
+    </message>
+    <message>
+        <source>Recording continues while you choose. Everything is saved.</source>
+        <translation>La registrazione prosegue durante la scelta. Tutto viene salvato.</translation>
     </message>
 </context>
 <context>
@@ -8039,10 +8039,6 @@ dall’alto</translation>
 <context>
     <name>LogDialog</name>
     <message>
-        <source>Append-only log. It protects against mistakes, not against someone with full access to this computer. Names appear only here, while they are in the patient list.</source>
-        <translation>Nel registro si possono solo aggiungere voci. Protegge dagli errori, non da chi ha pieno accesso a questo computer. I nomi compaiono solo qui, finché sono nell’elenco dei pazienti.</translation>
-    </message>
-    <message>
         <source>Log</source>
         <translation>Registro</translation>
     </message>
@@ -8073,6 +8069,10 @@ dall’alto</translation>
     <message>
         <source>Done</source>
         <translation>Fine</translation>
+    </message>
+    <message>
+        <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names. They are shown from the patient list.</source>
+        <translation>Le voci vengono solo aggiunte, mai modificate. Il registro protegge dagli errori, non da chi ha pieno accesso a questo computer. Non contiene nomi. Quelli mostrati vengono dall’elenco dei pazienti.</translation>
     </message>
 </context>
 <context>
@@ -8288,10 +8288,6 @@ dall’alto</translation>
         <translation>Profondità e colore di {name} sono sfasati di {px} pixel.</translation>
     </message>
     <message>
-        <source>The recording is not changed. It does not state that depth and colour were aligned.</source>
-        <translation>La registrazione non viene modificata. Non indica che profondità e colore siano stati allineati.</translation>
-    </message>
-    <message>
         <source>Open it again with depth aligned to colour, then click the markers again.</source>
         <translation>Riaprirla con la profondità allineata al colore, poi rifare i clic sui marcatori.</translation>
     </message>
@@ -8306,6 +8302,10 @@ dall’alto</translation>
     <message>
         <source>Leave this screen?</source>
         <translation>Uscire da questa schermata?</translation>
+    </message>
+    <message>
+        <source>The recording was not changed. It does not say whether depth and colour are aligned.</source>
+        <translation>La registrazione non è stata modificata. Non indica se profondità e colore sono allineati.</translation>
     </message>
 </context>
 <context>
@@ -8813,10 +8813,6 @@ dall’alto</translation>
         <translation>&amp;Diagnosi o intervento</translation>
     </message>
     <message>
-        <source>The name in Carpus is made up and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
-        <translation>Il nome in Carpus è uno pseudonimo e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
-    </message>
-    <message>
         <source>Other</source>
         <translation>Altro</translation>
     </message>
@@ -8827,6 +8823,10 @@ dall’alto</translation>
     <message>
         <source>Since: {problem}</source>
         <translation>Da: {problem}</translation>
+    </message>
+    <message>
+        <source>The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
+        <translation>Il nome in Carpus è uno pseudonimo che si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
     </message>
 </context>
 <context>
@@ -8901,10 +8901,6 @@ dall’alto</translation>
         <translation>Nell’archi&amp;vio: {names}</translation>
     </message>
     <message>
-        <source>Made-up name</source>
-        <translation>Pseudonimo</translation>
-    </message>
-    <message>
         <source>found by name</source>
         <translation>trovato per nome</translation>
     </message>
@@ -8919,6 +8915,10 @@ dall’alto</translation>
     <message>
         <source>Name, number, birth date</source>
         <translation>Nome, numero, data di nascita</translation>
+    </message>
+    <message>
+        <source>Pseudonym</source>
+        <translation>Pseudonimo</translation>
     </message>
 </context>
 <context>
@@ -9271,10 +9271,6 @@ dall’alto</translation>
         <translation>Escluso da elenchi e risultati. Tutto si può ripristinare.</translation>
     </message>
     <message>
-        <source>by command line</source>
-        <translation>da riga di comando</translation>
-    </message>
-    <message>
         <source>1 remaining</source>
         <translation>1 rimasto</translation>
     </message>
@@ -9401,6 +9397,10 @@ dall’alto</translation>
     <message>
         <source>1 session</source>
         <translation>1 seduta</translation>
+    </message>
+    <message>
+        <source>from the command line</source>
+        <translation>dalla riga di comando</translation>
     </message>
 </context>
 <context>
@@ -9781,10 +9781,6 @@ dall’alto</translation>
 <context>
     <name>RetestDialog</name>
     <message>
-        <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % intervals.</source>
-        <translation>Da persone misurate più di una volta, con tutti i marcatori tolti e riapplicati nel frattempo. Mostra l’errore standard di misura (SEM) e l’MDC95 con intervalli al 95 %.</translation>
-    </message>
-    <message>
         <source>MDC95 from test–retest sessions</source>
         <translation>MDC95 da sedute di test e retest</translation>
     </message>
@@ -9799,6 +9795,10 @@ dall’alto</translation>
     <message>
         <source>Unreadable sessions: {count}</source>
         <translation>Sedute non leggibili: {count}</translation>
+    </message>
+    <message>
+        <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % confidence intervals.</source>
+        <translation>Da persone misurate più di una volta, con tutti i marcatori tolti e riapplicati nel frattempo. Mostra l’errore standard di misura (SEM) e l’MDC95 con intervalli di confidenza al 95 %.</translation>
     </message>
 </context>
 <context>
@@ -10750,16 +10750,16 @@ dall’alto</translation>
 <context>
     <name>_OfflineView</name>
     <message>
-        <source>The patient list returns when the server answers. To measure now, enter the patient’s made-up name above. The session is saved and appears in the list later.</source>
-        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
-    </message>
-    <message>
         <source>Measure “{name}”</source>
         <translation>Misura “{name}”</translation>
     </message>
     <message>
         <source>Measure without the list</source>
         <translation>Misura senza l’elenco</translation>
+    </message>
+    <message>
+        <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
+        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo. La seduta viene salvata e compare più tardi nell’elenco.</translation>
     </message>
 </context>
 </TS>

@@ -248,7 +248,7 @@ def test_plot_has_a_line_and_a_band_for_each_angle(folder: Path) -> None:
     assert len(axes.collections) == 3
     (line,) = session.plot(["flexion"], ax=axes.figure.add_subplot()).lines
     assert np.array_equal(line.get_ydata(), np.degrees(session.motion.angles_rad[:, 1]))
-    with pytest.raises(SettingsInvalid, match="no angle is called 'flexoin'"):
+    with pytest.raises(SettingsInvalid, match="there is no angle called 'flexoin'"):
         session.plot(["flexoin"])
 
 
@@ -269,7 +269,7 @@ def test_missing_pandas_is_said_in_a_sentence(folder: Path, monkeypatch: pytest.
     with pytest.raises(ExtraMissing) as raised:
         carpus.open_session(folder / "truth.h5").tables()
     said = "\n".join(raised.value.__notes__)
-    assert "A Python package that this needs is not installed: pandas." in said
+    assert "A required Python package is not installed: pandas." in said
     assert "pip install 'carpus[research]'" in said
 
 

@@ -353,7 +353,7 @@ def test_store_unknown_version_is_reported_and_unchanged(tmp_path: Path, version
         database.execute("UPDATE alembic_version SET version_num = ?", (version,))
         database.commit()
     with pytest.raises(
-        PatientListVersionUnknown, match=re.escape(f"version {version or '?'}, this Carpus reads up to")
+        PatientListVersionUnknown, match=re.escape(f"version {version or '?'}, but this version of Carpus reads up to")
     ):
         Store(tmp_path)
     assert not list(tmp_path.glob("*damaged*"))

@@ -135,7 +135,7 @@ def test_speed_hidden_by_noise_is_too_slow() -> None:
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     figures = replace(figures, measures=(lost, gone))
     (row,) = task_table(figures).rows
-    assert row[:2] == ("Smoothness (SPARC), out", "too slow to assess")
+    assert row[:2] == ("Smoothness (SPARC), outward", "too slow to assess")
     assert not any(row[2:])
     row = next(row for row in build_measure_rows(figures, "s") if (row.measure, row.of) == ("smoothness", "reach"))
     assert row.count == 0

@@ -98,7 +98,8 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
     "cut off": (cut, ""),
     "other HDF5": (lambda path: (path.unlink(), h5py.File(path, "w").close()), "not a session"),
     "newer": (
-        edit(lambda file: file.attrs.modify("format_version", 4)), "format version 4, this Carpus reads up to 3",
+        edit(lambda file: file.attrs.modify("format_version", 4)),
+        "format version 4, but this version of Carpus reads up to 3",
     ),
     "no hand": (edit(lambda file: file.attrs.__delitem__("hand")), "hand"),
     "third hand": (edit(lambda file: file.attrs.__setitem__("hand", "middle")), "middle"),

@@ -61,9 +61,9 @@ def test_review_of_reach_has_its_values_and_ways_of_joints(review: Reviewing) ->
     screen = review(store, "hand-7")
     names = {cell.text for row in screen.card.tables.task_table.rows for cell in row}
     for name in (
-        "Movement time, out",
-        "Peak speed, back",
-        "Path length ratio, out",
+        "Movement time, outward",
+        "Peak speed, return",
+        "Path length ratio, outward",
         "Maximum grip aperture, thumb–index",
     ):
         assert name in names
@@ -76,7 +76,7 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     rows = task_table(figures, before).rows
     assert [row[::3] for row in rows[:2]] == [
-        ("Movement time, out", "Movement time, back"), ("Peak speed, out", "Peak speed, back"),
+        ("Movement time, outward", "Movement time, return"), ("Peak speed, outward", "Peak speed, return"),
     ]  # fmt: skip
     assert all(all(row) for row in rows[:2])
     assert str(rows[0][1]).endswith("s")
@@ -114,7 +114,7 @@ def test_second_page_has_papers_values(tmp_path: Path) -> None:
     first, second = (words_of(path, page) for page in (1, 2))
     for words in (
         "page 2", "Path of the wrist", "Fingertip paths", "Position, speed, rotation", "ZYZ angles", "XY", "ZX",
-        "ZY", "Movement time, out", "mm/s", "Number of speed peaks, back", "Not a medical device",
+        "ZY", "Movement time, outward", "mm/s", "Number of speed peaks, return", "Not a medical device",
     ):  # fmt: skip
         assert words in second, words
     assert "Reach 1." in first

@@ -25,7 +25,7 @@ def check_words(status: CheckStatus) -> tuple[State, str]:
     day = numbers.format_date_time(datetime.fromisoformat(check.checked_at))
     words = tr("{verdict} Checked {day}.").format(verdict=translate_phrase(verdict_sentence(check.reading)), day=day)
     if status.is_recalibrated:
-        return "warn", f"{words} {tr('Check it again: it was calibrated since.')}"
+        return "warn", f"{words} {tr('Check it again: it has been calibrated since.')}"
     if status.is_out_of_tolerance:
         next_step = tr(
             "Check once more, then calibrate the camera. If it is still out of tolerance, do not measure with it."

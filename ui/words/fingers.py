@@ -186,8 +186,8 @@ def total_words(results: SessionResults) -> list[str]:
     if any(row.count for row in totals) and norm is not None:
         words.append(
             tr(
-                "Share of the other hand’s TAM, else of the reference value of 260° (thumb 140°). ASSH: excellent "
-                "from 100 %, good above 75 %, fair above 50 %, else poor."
+                "Percentage of the other hand’s TAM, or of the reference value of 260° (thumb 140°) if that is not "
+                "known. ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor."
             )
         )
         words.append(translate_phrase(norm.sentence()))

@@ -47,7 +47,7 @@ def marker_placement(marker: str) -> str:
         "PIP": tr("Centred on the creases over the PIP joint."),
         "DIP": tr("Centred on the creases over the DIP joint."),
         "IP": tr("Centred on the creases over the IP joint."),
-        "TIP": tr("On the nail, in its middle."),
+        "TIP": tr("In the middle of the nail."),
     }.get(joint, "")
 
 

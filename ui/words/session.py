@@ -238,7 +238,7 @@ def quality_lines(results: SessionResults) -> list[tuple[str, str, bool]]:
     )
     pattern = tr("{share} % of the time")
     if results.joint_ranges and results.repetition_count:
-        pattern = tr("{share} % of the repetitions")
+        pattern = tr("{share} % of the repetition time")
     hidden = pattern.format(share=numbers.format_fixed(100 * quality.hidden_share, 1))
     lines = [
         (tr("Frames measured"), missed, quality.measured_share > 0.9),

@@ -19,8 +19,8 @@ from carpus.ui.kit.translate import tr, translate_phrase
 # The return stroke beside each outward one.
 _RETURN_STROKES = {"reach": "return", "thumb across": "thumb back"}
 _STROKE_NAMES = {
-    "reach": phrase("{name}, out"), "return": phrase("{name}, back"),
-    "thumb across": phrase("{name}, across"), "thumb back": phrase("{name}, back"),
+    "reach": phrase("{name}, outward"), "return": phrase("{name}, return"),
+    "thumb across": phrase("{name}, across"), "thumb back": phrase("{name}, return"),
 }  # fmt: skip
 _DIGITS = {
     "1": phrase("thumb"), "2": phrase("index"), "3": phrase("middle"), "4": phrase("ring"), "5": phrase("little"),
@@ -78,7 +78,7 @@ def _last_value(item: Measure, previous: SessionResults | None) -> str:
 
 
 def measure_name(item: Measure) -> str:
-    """Return the name of a measure, such as ``Path length, out``."""
+    """Return the name of a measure, such as ``Path length, outward``."""
     name = translate_phrase(QUANTITIES[item.quantity].name)
     if item.subject in _STROKE_NAMES:
         return translate_phrase(_STROKE_NAMES[item.subject]).format(name=name)

@@ -120,7 +120,7 @@ def direction_name(angle: int, value_deg: float, exercise: Exercise) -> str:
 def thumb_up_words() -> str:
     """Say where pronation and supination are counted from."""
     return tr(
-        "Forearm pronation and supination are counted from thumb up (0°); palm flat on the table is 90° pronation."
+        "Forearm pronation and supination are measured from thumb up (0°). Palm flat on the table is 90° pronation."
     )
 
 

@@ -73,6 +73,6 @@ def ruler_items(left_mm: float, top_mm: float) -> tuple[SheetItem, ...]:
     for k in range(11):
         x = left_mm + 10.0 * k
         marks.append(SheetLine((x, top_mm), (x, top_mm + (4.0 if k % 5 == 0 else 2.5))))
-    words = (phrase("This line is 100 mm long. If it is not,"), phrase("print again at 100 % (“actual size”)."))
+    words = (phrase("This line must be 100 mm long. If it is not,"), phrase("print again at 100 % (“actual size”)."))
     texts = [SheetText(line, left_mm + RULER_MM + 4.0, top_mm + 1.4 + 3.6 * k, 8.0) for k, line in enumerate(words)]
     return (*marks, *texts)

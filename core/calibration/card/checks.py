@@ -154,7 +154,7 @@ def _examine_camera(status: CheckStatus) -> Finding:
             remedies.append("It measured wrong at the last check: check once more, then calibrate it again.")
         elif status.is_due:
             is_old = f"the check is older than {MAX_CHECK_AGE_DAYS:g} days"
-            reason = "it was calibrated since" if status.is_recalibrated else is_old
+            reason = "it has been calibrated since" if status.is_recalibrated else is_old
             remedies.append(f"Run: carpus check-card: {reason}.")
     state: State = "bad" if status.is_out_of_tolerance else "warning" if remedies else "good"
     return Finding(f"Camera {status.serial}", state, text, " ".join(remedies))

@@ -160,9 +160,9 @@ def read_color(path: Path) -> ByteImage:
     if data.startswith(_PNG_START):
         bits, color_type = data[24], data[25]
         if color_type in _GREY_TYPES:
-            raise FrameDamaged(path, phrase("grey, a colour image is expected"))
+            raise FrameDamaged(path, phrase("a grey image instead of a colour image"))
         if bits > 8:
-            raise FrameDamaged(path, phrase("{bits} bits per colour, 8 are expected", bits=bits))
+            raise FrameDamaged(path, phrase("{bits} bits per colour instead of 8", bits=bits))
     return _decode_or_raise(path, data, cv2.IMREAD_COLOR_RGB)
 
 
@@ -170,11 +170,9 @@ def read_depth(path: Path) -> DepthImage:
     """Read a depth image (H, W) uint16, read-only."""
     depth = _decode_or_raise(path, _read_checked_bytes(path), cv2.IMREAD_UNCHANGED)
     if depth.ndim != 2:
-        raise FrameDamaged(path, phrase("in colour, a 16-bit depth image is expected"))
+        raise FrameDamaged(path, phrase("a colour image instead of a 16-bit depth image"))
     if depth.dtype != np.uint16:
-        raise FrameDamaged(
-            path, phrase("{value} bits, a 16-bit depth image is expected", value=8 * depth.dtype.itemsize)
-        )
+        raise FrameDamaged(path, phrase("a depth image of {value} bits instead of 16", value=8 * depth.dtype.itemsize))
     return depth
 
 

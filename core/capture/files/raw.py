@@ -344,7 +344,10 @@ def _build_index(
     version = _START.unpack(start)[1]
     if version != VERSION:
         raise RecordingUnreadable(
-            path, phrase("format version {version}, this Carpus reads {newest}", version=version, newest=VERSION)
+            path,
+            phrase(
+                "format version {version}, but this version of Carpus reads {newest}", version=version, newest=VERSION
+            ),
         )
     head: _RecordEntry | None = None
     entries: list[_RecordEntry] = []

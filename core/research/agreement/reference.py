@@ -151,7 +151,7 @@ def _from_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side
             raise ReferenceUnreadable(path, phrase("no marker {wanted}, only {names}", **facts))
     taken = {name: k for name, k in taken.items() if np.isfinite(track.position_m[:, k]).any()}
     others = [name for k, name in enumerate(track.names) if k not in taken.values()]
-    reason = phrase("no markers by their names, of the other hand, or never visible")
+    reason = phrase("unknown marker name, marker of the other hand, or never visible")
     unused = _list_unused(phrase("markers"), others, reason)
     return Reference(
         path, phrase("points from {format}", format=suffix[1:].upper()), track.time_s,
@@ -220,7 +220,7 @@ def _from_angles(
             values = sign * table.values[column]
             found[name] = values if in_radians else np.radians(values)
     others = [name for name in names if name not in taken]
-    unused = _list_unused(phrase("columns"), others, phrase("no angles by their names, or of the other hand"))
+    unused = _list_unused(phrase("columns"), others, phrase("unknown angle name, or angle of the other hand"))
     given = {column.removeprefix("-") for column in columns.values()}
     remarks = _hand_remarks([column for column in names if column in taken and column not in given], names, hand)
     return Reference(path, kind, table.time_s, found, unused=unused, names=tuple(names), remarks=remarks)
@@ -343,7 +343,7 @@ def _from_readings(path: Path, table: TextTable) -> Reference:
             unused.append(
                 phrase("line {line}: “{cell}” is not a reading", line=line, cell=row[value_name])
                 if name
-                else phrase("line {line}: no angle is called {said}", line=line, said=text or phrase("nothing"))
+                else phrase("line {line}: there is no angle called {said}", line=line, said=text or phrase("nothing"))
             )
             continue
         value_rad = sign * math.radians(value)

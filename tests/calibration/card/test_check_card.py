@@ -179,7 +179,7 @@ def test_examine_cameras_names_age_of_calibration_and_check(tmp_path: Path) -> N
     made = StoredCalibration("77", since.isoformat(), 1.0, 0.0, 0.2, 20)
     write_camera_info(new_calibration_path(tmp_path, "77", since), LENS, calibration=made)
     (later,) = examine_cameras(tmp_path, since)
-    assert (later.state, later.remedy) == ("warning", "Run: carpus check-card: it was calibrated since.")
+    assert (later.state, later.remedy) == ("warning", "Run: carpus check-card: it has been calibrated since.")
 
 
 @pytest.mark.usefixtures("qapp")

@@ -149,14 +149,14 @@ class LiveFlow(Flow):
     def _early_stop_question(self) -> MessageText:
         return MessageText(
             self.tr("The recording has only just begun."),
-            self.tr("It continues while you choose. Everything is saved."),
+            self.tr("Recording continues while you choose. Everything is saved."),
             self.tr("Continue measuring or stop now?"),
         )
 
     def _stop_question(self) -> MessageText:
         return MessageText(
             self.tr("Stop recording?"),
-            self.tr("It continues while you choose. Everything is saved."),
+            self.tr("Recording continues while you choose. Everything is saved."),
             self.tr("Continue measuring, or stop: the session is saved and opens in the review."),
         )
 

@@ -86,7 +86,7 @@ class MarkersFlow(Flow):
                 self.tr("Depth and colour of {name} are misaligned by {px} pixels.").format(
                     name=name, px=format_rounded(off.value)
                 ),
-                self.tr("The recording is not changed. It does not state that depth and colour were aligned."),
+                self.tr("The recording was not changed. It does not say whether depth and colour are aligned."),
                 self.tr("Open it again with depth aligned to colour, then click the markers again."),
             ),
             (

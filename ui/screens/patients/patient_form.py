@@ -149,7 +149,7 @@ class PatientForm(Dialog):
         cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
         cancel.clicked.connect(self.close_dialog)
         rule = self.tr(
-            "The name in Carpus is made up and can be spoken aloud: no real name, no initials, no birth "
+            "The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth "
             "date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this "
             "list and are never in a session file or an export."
         )

@@ -173,7 +173,7 @@ class PatientsScreen(QWidget):
             name = self._last_selected.pseudonym if self._last_selected is not None else ""
             self._offline_view.show()
             self.new_button.setEnabled(False)
-            self.search.setPlaceholderText(self.tr("Made-up name"))
+            self.search.setPlaceholderText(self.tr("Pseudonym"))
             self.search.setText(name)
         self._apply_filter("")
 
@@ -346,7 +346,7 @@ class _OfflineView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         words = self.tr(
-            "The patient list returns when the server answers. To measure now, enter the patient’s made-up name "
+            "The patient list returns when the server answers. To measure now, enter the patient’s pseudonym "
             "above. The session is saved and appears in the list later."
         )
         self.button = Button(theme, "", "primary")

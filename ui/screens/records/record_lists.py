@@ -160,7 +160,7 @@ class RecordListsController(QObject):
     def _format_log_entry(self, entry: AuditEntry, names: dict[str, str]) -> tuple[str, ...]:
         """Return time, user, action, patient and details."""
         of_whom = names.get(entry.subject, entry.subject[:8])
-        by = self.tr("by command line") if entry.source == "command" else ""
+        by = self.tr("from the command line") if entry.source == "command" else ""
         facts = ", ".join(filter(None, (self._format_fact(name, value) for name, value in entry.facts.items())))
         detail = " · ".join(part for part in (facts, by) if part)
         when = numbers.format_date_time(entry.when.astimezone())
@@ -278,8 +278,8 @@ class LogDialog(Dialog):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 1080)
         words = self.tr(
-            "Append-only log. It protects against mistakes, not against someone with full access to this computer. "
-            "Names appear only here, while they are in the patient list."
+            "Entries are added and never changed. The log protects against mistakes, not against someone with full "
+            "access to this computer. It stores no names. They are shown from the patient list."
         )
         self.add_heading(self.tr("Log"), words, gap=10)
         self.table = QTableWidget(0, 5)

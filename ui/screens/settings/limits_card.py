@@ -65,9 +65,9 @@ def study_view(theme: Theme, study: RetestStudy, words: str) -> QWidget:
 
 def study_words(study: RetestStudy) -> str:
     """Return when and with how many people a study was made, and whether it is used."""
-    summary = tr("On {date} with {count} people in {sessions} sessions, 95 % intervals in brackets.").format(
-        date=numbers.format_date(date.fromisoformat(study.made)), count=study.people, sessions=study.sessions
-    )
+    summary = tr(
+        "Measured on {date} with {count} people in {sessions} sessions. 95 % confidence intervals are in brackets."
+    ).format(date=numbers.format_date(date.fromisoformat(study.made)), count=study.people, sessions=study.sessions)
     if study.is_in_force:
         return summary + " " + tr("Used in progress and reports instead of the values above.")
     return summary + " " + tr("Not used: at least {count} people are needed.").format(count=MIN_PEOPLE)

@@ -37,7 +37,7 @@ class RetestDialog(Dialog):
         super().__init__(host, theme, 760)
         words = self.tr(
             "Based on people measured more than once, with all markers removed and replaced in between. Shows the "
-            "standard error of measurement (SEM) and MDC95 with 95 % intervals."
+            "standard error of measurement (SEM) and MDC95 with 95 % confidence intervals."
         )
         self.add_heading(self.tr("MDC95 from test–retest sessions"), words)
         self._column = column_layout(gap=16)

@@ -83,7 +83,7 @@ def bubble_words(bubble: Bubble) -> str:
         "stop": tr("Let the hand move a few times. Then the space bar saves everything."),
         "results": tr("These are the results. The key X excludes the current repetition."),
         "report": tr("Make the report of this session here."),
-        "save": tr("Save the report as a PDF. It contains only the made-up name."),
+        "save": tr("Save the report as a PDF. It contains only the pseudonym."),
         "end": tr("That was a whole session. The arrow at the top left leads back to the patients."),
     }
     return words[bubble]
