@@ -6145,7 +6145,7 @@
     </message>
     <message>
         <source>Another Carpus program is using this data folder: {subject}.</source>
-        <translation>Ein anderes Carpus-Programm benutzt diesen Datenordner: {subject}.</translation>
+        <translation>Carpus läuft schon einmal mit diesem Datenordner: {subject}.</translation>
     </message>
     <message>
         <source>Ask your IT support to replace the link with its target, then delete again.</source>
@@ -6153,7 +6153,7 @@
     </message>
     <message>
         <source>On the command line, set it with --camera.</source>
-        <translation>Auf der Kommandozeile wählen Sie sie mit --camera.</translation>
+        <translation>In der Befehlszeile wird sie mit --camera angegeben.</translation>
     </message>
     <message>
         <source>Session files are safe. Keep this file: it is the only one with the names and notes.</source>
@@ -6193,11 +6193,11 @@
     </message>
     <message>
         <source>format version {version}, but this version of Carpus reads up to {format_version}</source>
-        <translation>Formatversion {version}, diese Carpus-Version liest aber nur bis {format_version}</translation>
+        <translation>Formatversion {version}, diese Version von Carpus liest aber nur bis {format_version}</translation>
     </message>
     <message>
         <source>format version {version}, but this version of Carpus reads {newest}</source>
-        <translation>Formatversion {version}, diese Carpus-Version liest aber {newest}</translation>
+        <translation>Formatversion {version}, diese Version von Carpus liest aber {newest}</translation>
     </message>
     <message>
         <source>line {line}: there is no angle called {said}</source>
@@ -6221,7 +6221,7 @@
     </message>
     <message>
         <source>version {version}, but this version of Carpus reads up to {count}</source>
-        <translation>Version {version}, diese Carpus-Version liest aber nur bis {count}</translation>
+        <translation>Version {version}, diese Version von Carpus liest aber nur bis {count}</translation>
     </message>
     <message>
         <source>{bits} bits per colour instead of 8</source>
@@ -8305,7 +8305,7 @@ von oben</translation>
     </message>
     <message>
         <source>The recording was not changed. It does not say whether depth and colour are aligned.</source>
-        <translation>Die Aufnahme wurde nicht verändert. Sie gibt nicht an, ob Tiefe und Farbe ausgerichtet sind.</translation>
+        <translation>Die Aufnahme wurde nicht verändert. Sie gibt nicht an, ob Tiefe und Farbe deckungsgleich sind.</translation>
     </message>
 </context>
 <context>
@@ -9400,7 +9400,7 @@ von oben</translation>
     </message>
     <message>
         <source>from the command line</source>
-        <translation>von der Kommandozeile</translation>
+        <translation>über Befehlszeile</translation>
     </message>
 </context>
 <context>

@@ -6153,7 +6153,7 @@
     </message>
     <message>
         <source>On the command line, set it with --camera.</source>
-        <translation>Dalla riga di comando si imposta con --camera.</translation>
+        <translation>Da riga di comando si indica con --camera.</translation>
     </message>
     <message>
         <source>Session files are safe. Keep this file: it is the only one with the names and notes.</source>
@@ -6165,7 +6165,7 @@
     </message>
     <message>
         <source>This line must be 100 mm long. If it is not,</source>
-        <translation>Questa linea deve essere lunga 100 mm. Se no,</translation>
+        <translation>Questa linea deve essere lunga 100 mm. Se non lo è,</translation>
     </message>
     <message>
         <source>The camera cannot measure the depth at a marker: {subject}.</source>
@@ -6181,15 +6181,15 @@
     </message>
     <message>
         <source>a colour image instead of a 16-bit depth image</source>
-        <translation>un’immagine a colori invece che di profondità a 16 bit</translation>
+        <translation>a colori, ma serve un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>a depth image of {value} bits instead of 16</source>
-        <translation>un’immagine di profondità a {value} bit invece di 16</translation>
+        <translation>{value} bit, ma serve un’immagine di profondità a 16 bit</translation>
     </message>
     <message>
         <source>a grey image instead of a colour image</source>
-        <translation>un’immagine in grigio invece che a colori</translation>
+        <translation>in grigio, ma serve un’immagine a colori</translation>
     </message>
     <message>
         <source>format version {version}, but this version of Carpus reads up to {format_version}</source>
@@ -6241,7 +6241,7 @@
     </message>
     <message>
         <source>Check it again: it has been calibrated since.</source>
-        <translation>Ripetere il controllo: dopo è stata calibrata.</translation>
+        <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
     </message>
 </context>
 <context>
@@ -8072,7 +8072,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names. They are shown from the patient list.</source>
-        <translation>Le voci vengono solo aggiunte, mai modificate. Il registro protegge dagli errori, non da chi ha pieno accesso a questo computer. Non contiene nomi. Quelli mostrati vengono dall’elenco dei pazienti.</translation>
+        <translation>Nel registro si possono solo aggiungere voci. Protegge dagli errori, non da chi ha pieno accesso a questo computer. Non contiene nomi. Quelli mostrati vengono dall’elenco dei pazienti.</translation>
     </message>
 </context>
 <context>
@@ -8826,7 +8826,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
-        <translation>Il nome in Carpus è uno pseudonimo che si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
+        <translation>Il nome in Carpus è uno pseudonimo e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
     </message>
 </context>
 <context>
@@ -10759,7 +10759,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
-        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo. La seduta viene salvata e compare più tardi nell’elenco.</translation>
+        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
     </message>
 </context>
 </TS>
