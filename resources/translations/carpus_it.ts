@@ -2545,7 +2545,7 @@
     </message>
     <message>
         <source>operated on {day}</source>
-        <translation>operazione del {day}</translation>
+        <translation>intervento del {day}</translation>
     </message>
     <message>
         <source>injured on {day}</source>
