@@ -961,7 +961,7 @@
     </message>
     <message>
         <source>Click the {marker}</source>
-        <translation>Klicken Sie „{marker}“ an</translation>
+        <translation>Anklicken: {marker}</translation>
     </message>
     <message>
         <source>In the middle of the back of the wrist, in the small dimple.</source>
@@ -1473,7 +1473,7 @@
     </message>
     <message>
         <source>Speed</source>
-        <translation>Geschwindigkeit</translation>
+        <translation>Geschw.</translation>
     </message>
     <message>
         <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
@@ -10702,11 +10702,11 @@ von oben</translation>
     </message>
     <message>
         <source>One thing needs your attention. The practice patient works without it.</source>
-        <translation>Ein Punkt ist noch offen. Der Probepatient läuft auch ohne ihn.</translation>
+        <translation>Ein Punkt ist noch offen. Für den Probepatienten ist das nicht nötig.</translation>
     </message>
     <message>
         <source>{count} things need your attention. The practice patient works without them.</source>
-        <translation>{count} Punkte sind noch offen. Der Probepatient läuft auch ohne sie.</translation>
+        <translation>{count} Punkte sind noch offen. Für den Probepatienten ist das nicht nötig.</translation>
     </message>
     <message>
         <source>The new folder is used from the next start. Close Carpus and open it again before you measure.</source>
