@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -16,9 +17,12 @@ from carpus.app.desktop.main_controller import MainController
 from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.settings import PracticeSystemSettings
 from carpus.core.formats import gdt
-from carpus.core.model.errors import CarpusFault, GdtUnreadable
+from carpus.core.model.errors import CarpusFault, GdtUnreadable, NameUnsuited
+from carpus.core.platform.durable import write_fault
 from carpus.core.records.practice_system import save_requested_patient, set_aside
+from carpus.core.results.measure import Measure
 from carpus.ui.kit.background import Background
+from carpus.ui.kit.dialog import has_open_dialog
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.screens.settings.practice_system_card import PracticeSystemCard
 from carpus.ui.words import terms
@@ -42,6 +46,10 @@ class PracticeSystemController(QObject):
         self._controller, self._preferences = controller, preferences
         self._requests: dict[str, gdt.GdtRequest] = {}
         """The last request of each record number: its addresses stand in the result."""
+        self._left_files: set[tuple[Path, int]] = set()
+        """Files that could be neither deleted nor renamed, with the time of their change; not to be read again."""
+        self._waiting_file: Path | None = None
+        """File that was named while no patient could be opened."""
         self._background = Background()
         self.can_open: Callable[[], bool] = lambda: True
         """Returns whether a patient may be opened now; set where the lock is known."""
@@ -64,15 +72,21 @@ class PracticeSystemController(QObject):
     # --- requests ---------------------------------------------------------------------------------------------
     def _check_folder(self) -> None:
         """Read the folder in the background unless a patient cannot be opened now."""
-        folder = self._folders.requests
-        if folder and self._is_free() and not self._background.is_busy:
-            self._background.run(lambda: _read_oldest(Path(folder)), self._open_found, lambda _: None, self)
+        if not self._is_free():
+            return
+        if self._waiting_file is not None:
+            waiting, self._waiting_file = self._waiting_file, None
+            self.open_file(waiting)
+        elif (folder := self._folders.requests) and not self._background.is_busy:
+            left = frozenset(self._left_files)
+            self._background.run(lambda: _read_oldest(Path(folder), left), self._open_found, lambda _: None, self)
 
     def _is_free(self) -> bool:
         controller = self._controller
         return (
             self.can_open()
             and not controller.messages.is_busy
+            and not has_open_dialog(controller.patients.screen.window())  # of a form that is filled in
             and not controller.navigator.is_recording()
             and controller.current.source is None
         )
@@ -83,15 +97,17 @@ class PracticeSystemController(QObject):
         path, request = found
         try:
             if isinstance(request, GdtUnreadable):
-                set_aside(path)
                 raise request
             self._open_patient(path, request)
         except CarpusFault as fault:
             self._controller.messages.show_fault(fault)
+            if isinstance(fault, GdtUnreadable | NameUnsuited):
+                self._remove_file(path, set_aside)
 
     def open_file(self, path: Path) -> None:
         """Open the patient of a GDT file that a practice system names when it starts Carpus."""
         if not self._is_free():
+            self._waiting_file = path
             return
         try:
             self._open_patient(path, gdt.read_request(path))
@@ -103,8 +119,20 @@ class PracticeSystemController(QObject):
         controller = self._controller
         patient = save_requested_patient(controller.context.library.patients, request)
         self._requests[request.number] = request
-        path.unlink(missing_ok=True)
+        self._remove_file(path, Path.unlink)
         controller.patients.open(patient.patient_id)
+        controller.patients.screen.show_patient(patient)
+
+    def _remove_file(self, path: Path, remove: Callable[[Path], object]) -> None:
+        """Delete or rename a file that was read; one that stays is not read again."""
+        try:
+            remove(path)
+        except FileNotFoundError:
+            pass  # the practice system was quicker
+        except OSError as cause:
+            with suppress(OSError):
+                self._left_files.add((path, path.stat().st_mtime_ns))
+            self._controller.messages.show_fault(write_fault(path, cause))
 
     # --- results ----------------------------------------------------------------------------------------------
     def _connect_report(self) -> None:
@@ -127,7 +155,7 @@ class PracticeSystemController(QObject):
         request = self._requests.get(number, gdt.GdtRequest(number, birth_date=patient.birth_day))
         request = replace(request, sex=patient.sex if patient.sex in ("male", "female") else "")
         content, name = report_pdf(screen.preview.pages), default_file_name(report)
-        tests = gdt.build_tests(report.results.measures, lambda row: range_name(row, names_arc=True))
+        tests = gdt.build_tests(report.results.measures, _name_test)
         findings = _describe_findings(report)
 
         def work() -> str:
@@ -177,15 +205,25 @@ class PracticeSystemController(QObject):
         self._background.run(work, card.show_test, show_failure, card)
 
 
-def _read_oldest(folder: Path) -> tuple[Path, gdt.GdtRequest | GdtUnreadable] | None:
+def _read_oldest(
+    folder: Path, left: Collection[tuple[Path, int]]
+) -> tuple[Path, gdt.GdtRequest | GdtUnreadable] | None:
     """Return the oldest request of a folder, or why it cannot be read; None if there is none or it is being written."""
     for path in gdt.find_requests(folder):
+        if left and (path, path.stat().st_mtime_ns) in left:
+            continue
         try:
             return path, gdt.read_request(path)
         except GdtUnreadable as fault:
             if time.time() - path.stat().st_mtime > SETTLED_S:
                 return path, fault
     return None
+
+
+def _name_test(row: Measure) -> str:
+    """Return the name of a range, of a joint with the end that it is."""
+    end = "" if row.wrist_angle >= 0 else {"flexion": " max.", "extension": " min."}.get(row.quantity, "")
+    return f"{range_name(row, names_arc=True)}{end}"
 
 
 def _describe_findings(report: SessionReport) -> list[str]:

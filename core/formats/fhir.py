@@ -118,8 +118,8 @@ def _build_observation(row: Measure, results: SessionResults) -> dict[str, Any]:
     quantity: dict[str, Any] = {"value": round(value, 3), "unit": row.unit}
     if row.unit in UNITS:
         quantity |= {"system": UCUM, "code": UNITS[row.unit]}
-    if row.is_lower_bound:
-        quantity["comparator"] = ">="
+    if row.comparator:
+        quantity["comparator"] = row.comparator
     if math.isfinite(row.measurement_sd):
         quantity["extension"] = [
             {"url": f"{EXTENSIONS}/iso21090-uncertainty", "valueDecimal": round(row.measurement_sd, 3)},

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime
 from pathlib import Path
@@ -18,7 +19,7 @@ from typing import Literal
 from carpus.core.formats.output_files import open_new_file
 from carpus.core.model.errors import GdtUnreadable
 from carpus.core.model.phrase import phrase
-from carpus.core.results.measure import Measure
+from carpus.core.results.measure import Comparator, Measure
 
 RECORD_TYPE, RECORD_LENGTH, CHARACTER_SET, VERSION = "8000", "8100", "9206", "9218"
 RECEIVER, SENDER, DEVICE_FIELD = "8315", "8316", "8402"
@@ -28,14 +29,17 @@ REQUEST_TYPES = ("6302", "6301")
 """“Request a new examination” and “transfer patient data”, which some systems send for both."""
 RESULT_TYPE = "6310"
 DEFAULT_CHARACTER_SET = "2"
-ENCODINGS = {"1": "iso646-de", "2": "cp437", "3": "iso8859-1"}
-"""Python's encoding of each character set; without a field 9206 it is that of the IBM PC."""
+ENCODINGS = {"1": "iso646-de", "2": "cp437", "3": "cp1252"}
+"""Python's encoding of each character set; without a field 9206 it is that of the IBM PC. Systems on Windows write its
+letters, such as the apostrophe of O’Neill, where the specification has ISO 8859-1."""
 _ISO646_DE = str.maketrans("[\\]{|}~@", "ÄÖÜäöüß§")
 _FILE_NAME = re.compile(r"[^.].*\.(gdt|\d{3})", re.IGNORECASE)
 _LINE_OVERHEAD = 9
 _MAX_TEXT = 60
 """Characters of a field of text; longer ones are continued in another field of the same identifier."""
-_MAX_LENGTHS = {PATIENT_NUMBER: 10, LAST_NAME: 28, FIRST_NAME: 28, RECEIVER: 8, SENDER: 8, DEVICE_FIELD: 6, TEST: 20}
+_MAX_LENGTHS = {LAST_NAME: 28, FIRST_NAME: 28, TEST: 20}
+"""Not of numbers and addresses, which go back as they came: a shorter number may be another patient's."""
+_PADDING = b"\x1a\x00"
 _SHORT_QUANTITIES = {"flexion": "max", "extension": "min"}
 
 Sex = Literal["", "male", "female"]
@@ -68,7 +72,7 @@ class GdtTest:
     name: str
     value: float
     unit: str
-    is_lower_bound: bool = False
+    comparator: Comparator = ""
 
 
 def parse_fields(content: bytes, name: str = "") -> tuple[list[tuple[str, str]], str]:
@@ -77,7 +81,9 @@ def parse_fields(content: bytes, name: str = "") -> tuple[list[tuple[str, str]],
     Raises :class:`GdtUnreadable` for lines that are not of the format, of another length than they state, or fewer
     than the record states; ``name`` of the file is for its sentence.
     """
-    lines = content.rstrip(b"\x1a\x00 \r\n").replace(b"\r\n", b"\n").split(b"\n")
+    lines = content.rstrip(_PADDING).replace(b"\r\n", b"\n").split(b"\n")
+    while len(lines) > 1 and not lines[-1].strip(_PADDING + b" "):
+        lines.pop()
     raw: list[tuple[str, bytes]] = []
     for number, line in enumerate(lines, 1):
         length, identifier = line[:3], line[3:7]
@@ -106,7 +112,7 @@ def parse_fields(content: bytes, name: str = "") -> tuple[list[tuple[str, str]],
 def _decode(text: bytes, character_set: str) -> str:
     if character_set == "1":
         return text.decode("ascii", "replace").translate(_ISO646_DE)
-    return text.decode(ENCODINGS[character_set])
+    return text.decode(ENCODINGS[character_set], "replace")
 
 
 def read_request(path: Path) -> GdtRequest:
@@ -146,16 +152,16 @@ def parse_request(content: bytes, name: str = "") -> GdtRequest:
 def _parse_date(text: str, name: str) -> date | None:
     if not text.strip("0"):
         return None
-    try:
-        return datetime.strptime(text, "%d%m%Y").date()
-    except ValueError as cause:
-        raise GdtUnreadable(name, phrase("invalid birth date ({text})").format(text=text)) from cause
+    if len(text) == 8:  # of seven digits it is not known where the month begins
+        with suppress(ValueError):
+            return datetime.strptime(text, "%d%m%Y").date()
+    raise GdtUnreadable(name, phrase("invalid birth date"))  # which is not for the log
 
 
 def build_tests(measures: Iterable[Measure], describe: Callable[[Measure], str]) -> list[GdtTest]:
     """Return ranges of motion (means) as results; ``describe`` names a measure in the clinic's language."""
     return [
-        GdtTest(_identify(row), describe(row), row.mean, row.unit.replace("deg", "°"), row.is_lower_bound)
+        GdtTest(_identify(row), describe(row), row.mean, row.unit.replace("deg", "°"), row.comparator)
         for row in measures
         if row.group == "range" and math.isfinite(row.mean)
     ]
@@ -210,7 +216,7 @@ def format_result(
         if math.isfinite(test.value):
             fields += [(TEST, test.identifier), (TEST_NAME, test.name[:_MAX_TEXT]), (VALUE, f"{test.value:.1f}")]
             fields += [(UNIT, test.unit), (TEST_DATE, day), (TEST_TIME, time)]
-            fields += [(TEST_NOTE, f">= {test.value:.1f} {test.unit}")] if test.is_lower_bound else []
+            fields += [(TEST_NOTE, f"{test.comparator} {test.value:.1f} {test.unit}")] if test.comparator else []
     lines = [
         (identifier, _encode(text[: _MAX_LENGTHS.get(identifier, 990)], request.character_set))
         for identifier, text in fields
@@ -223,9 +229,18 @@ def format_result(
 
 
 def find_requests(folder: Path) -> list[Path]:
-    """Return the GDT files in a folder, oldest first: ``NAME.gdt``, or numbered ``NAME.001``."""
+    """Return the GDT files in a folder but results, oldest first: ``NAME.gdt``, or numbered ``NAME.001``.
+
+    Results for the practice system may lie in the same folder.
+    """
     found = [path for path in folder.iterdir() if _FILE_NAME.fullmatch(path.name)]
-    return sorted(found, key=lambda path: path.stat().st_mtime)
+    return sorted((path for path in found if not _is_result(path)), key=lambda path: path.stat().st_mtime)
+
+
+def _is_result(path: Path) -> bool:
+    with suppress(OSError), path.open("rb") as file:
+        return file.read(11)[3:] == f"{RECORD_TYPE}{RESULT_TYPE}".encode()
+    return False
 
 
 def write_result(folder: Path, request: GdtRequest, record: bytes) -> Path:
@@ -235,6 +250,7 @@ def write_result(folder: Path, request: GdtRequest, record: bytes) -> Path:
     :class:`OutputExists` if all numbers are taken, :class:`OutputNotWritable` or :class:`DiskFull`.
     """
     stem = f"{(request.sender or 'PVS')[:4]:_<4}{(request.receiver or 'CARPUS')[:4]:_<4}".upper()
+    stem = re.sub(r"\W", "_", stem)  # an address may have a slash
     numbered = (folder / f"{stem}.{number:03d}" for number in range(1, 1000))
     path = next((path for path in numbered if not path.exists()), folder / f"{stem}.999")
     with open_new_file(path) as file:

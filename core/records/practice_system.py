@@ -6,7 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.core.formats.gdt import GdtRequest
-from carpus.core.platform.durable import write_fault
 from carpus.core.records.patients import Patients
 from carpus.core.records.values import Patient
 
@@ -32,10 +31,6 @@ def save_requested_patient(patients: Patients, request: GdtRequest) -> Patient:
     return patients.get(patients.save(stated)) if stated != patient else patient
 
 
-def set_aside(path: Path) -> Path:
-    """Rename a file that cannot be read, so that it is not read again; return its new path."""
-    aside = path.with_name(path.name + UNREADABLE_SUFFIX)
-    try:
-        return path.replace(aside)
-    except OSError as cause:
-        raise write_fault(path, cause) from cause
+def set_aside(path: Path) -> None:
+    """Rename a file that cannot be read, so that it is not read again. Raises OSError."""
+    path.replace(path.with_name(path.name + UNREADABLE_SUFFIX))

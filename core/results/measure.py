@@ -23,6 +23,7 @@ should stay still."""
 UnknownReason = Literal["", "too_slow", "hidden", "few_frames", "failed"]
 """Why a value is unknown: slower than the tracker's noise shows, hidden from the camera, too few frames a second, or
 the computation failed."""
+Comparator = Literal["", ">=", "<="]
 MeasureKey = tuple[str, str]
 
 
@@ -59,6 +60,13 @@ class Measure:
     @property
     def key(self) -> MeasureKey:
         return self.subject, self.quantity
+
+    @property
+    def comparator(self) -> Comparator:
+        """Sign before a value that the view limits: a joint's smallest angle is at most so large, others at least."""
+        if not self.is_lower_bound:
+            return ""
+        return "<=" if self.wrist_angle < 0 and self.quantity == "extension" else ">="
 
     @property
     def count(self) -> int:

@@ -6028,10 +6028,6 @@
         <translation>Patientennummer fehlt</translation>
     </message>
     <message>
-        <source>invalid birth date ({text})</source>
-        <translation>ungültiges Geburtsdatum ({text})</translation>
-    </message>
-    <message>
         <source>end missing</source>
         <translation>Ende fehlt</translation>
     </message>
@@ -6242,6 +6238,10 @@
     <message>
         <source>Check it again: it has been calibrated since.</source>
         <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
+    </message>
+    <message>
+        <source>invalid birth date</source>
+        <translation>ungültiges Geburtsdatum</translation>
     </message>
 </context>
 <context>

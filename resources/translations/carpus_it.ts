@@ -6028,10 +6028,6 @@
         <translation>manca il numero del paziente</translation>
     </message>
     <message>
-        <source>invalid birth date ({text})</source>
-        <translation>data di nascita non valida ({text})</translation>
-    </message>
-    <message>
         <source>end missing</source>
         <translation>manca la fine</translation>
     </message>
@@ -6242,6 +6238,10 @@
     <message>
         <source>Check it again: it has been calibrated since.</source>
         <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
+    </message>
+    <message>
+        <source>invalid birth date</source>
+        <translation>data di nascita non valida</translation>
     </message>
 </context>
 <context>

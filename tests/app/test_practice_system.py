@@ -70,6 +70,70 @@ def test_request_of_a_known_number_opens_that_patient(
     assert len(desktop.library.patients.search()) == 1
 
 
+def test_request_while_another_is_searched_selects_the_one_sent(
+    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
+) -> None:
+    desktop = opened()
+    desktop.library.patients.add(Patient("Heron 17", "left"))
+    desktop.controller.patients.open()
+    desktop.controller.patients.screen.search.setText("Heron")
+    desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1")))
+
+    assert desktop.library.patients.get(selected(desktop)).record_number == "12345"
+
+
+def test_request_of_an_archived_patient_selects_nobody_else(
+    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
+) -> None:
+    desktop = opened()
+    patients = desktop.library.patients
+    patients.add(Patient("Linden 42", "left"))
+    patients.archive(patients.add(Patient("Heron 17", "left", record_number="12345")))
+    desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1")))
+
+    screen = desktop.controller.patients.screen
+    assert not screen.list.currentIndex().isValid()
+    assert not screen.archive_button.isHidden()
+
+
+def test_request_that_cannot_be_deleted_is_read_once(
+    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = opened()
+    path = lay(folders, encode(MUSTERMANN, "iso8859-1"))
+    delete = Path.unlink
+
+    def refuse(file: Path, missing_ok: bool = False) -> None:
+        if file == path:
+            raise PermissionError(13, "in use")
+        delete(file, missing_ok=missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", refuse)
+    messages, faults = desktop.controller.messages, []
+    messages.fault_shown.connect(faults.append)
+    qtbot.waitUntil(lambda: messages.is_busy, timeout=20_000)
+    messages.dialog.close_dialog()
+    with qtbot.waitSignal(messages.fault_shown, timeout=5_000, raising=False):
+        pass
+
+    assert len(faults) == 1
+    assert len(desktop.library.patients.search("12345")) == 1
+
+
+def test_request_named_while_a_form_is_filled_in_waits_for_it(
+    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
+) -> None:
+    desktop = opened()
+    form = desktop.controller.patients.screen
+    form.new_patient()
+    path = lay(folders, encode(MUSTERMANN, "iso8859-1"), "from the menu.txt")
+    desktop.on_second_instance(path)
+
+    assert path.exists()
+    form.form.close_dialog()
+    qtbot.waitUntil(lambda: not path.exists(), timeout=20_000)
+
+
 def test_request_unreadable_is_set_aside_and_said(qtbot: QtBot, opened: Open, folders: PracticeSystemSettings) -> None:
     desktop = opened()
     path = lay(folders, b"not a request")

@@ -36,7 +36,9 @@ def test_bundle_of_a_session_holds_each_measure_once(tmp_path: Path, protocol: s
         known = row.mean
         if known == known:
             assert observation.valueQuantity.value == pytest.approx(known, abs=5e-4)
-            assert (observation.valueQuantity.comparator == ">=") == row.is_lower_bound
+            is_smallest = row.wrist_angle < 0 and row.quantity == "extension"
+            limit = ("<=" if is_smallest else ">=") if row.is_lower_bound else None
+            assert observation.valueQuantity.comparator == limit
         else:
             assert observation.dataAbsentReason.coding[0].code == "unknown"
         joint = observation.bodySite.text.partition(" ")[2]

@@ -164,6 +164,14 @@ class PatientsScreen(QWidget):
         self._rows, self._archived_names = rows, archived
         self._apply_filter(selected_id or self._current_patient_id())
 
+    def show_patient(self, patient: Patient) -> None:
+        """Select a patient; one whom the list does not show, of very many or archived, is searched for."""
+        self.search.clear()
+        self.refresh(patient.patient_id)
+        if self._current_patient_id() != patient.patient_id:
+            self.search.setText(patient.pseudonym)
+            self._apply_filter(patient.patient_id)
+
     def _show_offline(self, selected_id: str) -> None:
         """Hide the list, which may be outdated; the last or a typed patient can be measured."""
         rows = [row for row in self._rows if row.patient_id == selected_id]

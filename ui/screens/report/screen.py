@@ -120,7 +120,8 @@ class ReportScreen(QWidget):
         self.panel.setVisible(isinstance(report, SessionReport))
         self.letter_button.setVisible(isinstance(report, SessionReport))
         self.home_button.setVisible(isinstance(report, SessionReport))
-        self.send_button.setVisible(isinstance(report, SessionReport) and self.can_send())
+        is_measured = isinstance(report, SessionReport) and not report.results.is_simulated
+        self.send_button.setVisible(is_measured and self.can_send())
         self.back_button.setVisible(isinstance(report, LetterReport | HomeReport))
         if isinstance(report, SessionReport):
             self.panel.show_report(report)
