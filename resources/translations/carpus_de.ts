@@ -4632,16 +4632,8 @@
         <translation>Rotation seit dem Start</translation>
     </message>
     <message>
-        <source>rotation from the start; {within}</source>
-        <translation>Rotation seit dem Start; {within}</translation>
-    </message>
-    <message>
         <source>0° = thumb up</source>
         <translation>0° = Daumen oben</translation>
-    </message>
-    <message>
-        <source>rotation from the start</source>
-        <translation>Rotation seit dem Start</translation>
     </message>
     <message>
         <source>Forearm supination</source>
@@ -6242,6 +6234,14 @@
     <message>
         <source>invalid birth date</source>
         <translation>ungültiges Geburtsdatum</translation>
+    </message>
+    <message>
+        <source>rotation from the start, + = thumb side up</source>
+        <translation>Rotation ab dem Start, + = Daumenseite hoch</translation>
+    </message>
+    <message>
+        <source>from the start, + = thumb side up; {within}</source>
+        <translation>ab dem Start, + = Daumenseite hoch; {within}</translation>
     </message>
 </context>
 <context>

@@ -4632,16 +4632,8 @@
         <translation>Rotazione dall’inizio</translation>
     </message>
     <message>
-        <source>rotation from the start; {within}</source>
-        <translation>rotazione dall’inizio; {within}</translation>
-    </message>
-    <message>
         <source>0° = thumb up</source>
         <translation>0° = pollice in alto</translation>
-    </message>
-    <message>
-        <source>rotation from the start</source>
-        <translation>rotazione dall’inizio</translation>
     </message>
     <message>
         <source>Forearm supination</source>
@@ -6242,6 +6234,14 @@
     <message>
         <source>invalid birth date</source>
         <translation>data di nascita non valida</translation>
+    </message>
+    <message>
+        <source>rotation from the start, + = thumb side up</source>
+        <translation>rotazione dall’inizio, + = lato del pollice in alto</translation>
+    </message>
+    <message>
+        <source>from the start, + = thumb side up; {within}</source>
+        <translation>dall’inizio, + = pollice in alto; {within}</translation>
     </message>
 </context>
 <context>

@@ -81,7 +81,8 @@ def add_limits(plot: Plot, exercise: Exercise, key: int, *, is_first: bool) -> N
         if room >= QFontMetricsF(plot.plot_style.end_label_font).height():  # a low panel has the band alone
             plot.add_label(limit, tolerance_words(limit, key))
     elif key == PRONOSUPINATION:
-        words = tr("0° = thumb up") if is_counted_from_thumb_up(exercise) else tr("rotation from the start")
+        is_from_thumb_up = is_counted_from_thumb_up(exercise)
+        words = tr("0° = thumb up") if is_from_thumb_up else tr("rotation from the start, + = thumb side up")
         plot.add_label(0.0, words, small=True)
 
 
@@ -98,7 +99,7 @@ def angle_group_names() -> tuple[str, str]:
 def tolerance_words(limit_deg: float, key: int) -> str:
     """Say that an angle should hardly move."""
     within = tr("should stay within {angle}").format(angle=numbers.format_degrees(limit_deg))
-    return within if key != PRONOSUPINATION else tr("rotation from the start; {within}").format(within=within)
+    return within if key != PRONOSUPINATION else tr("from the start, + = thumb side up; {within}").format(within=within)
 
 
 @dataclass(frozen=True, slots=True)
