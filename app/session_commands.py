@@ -160,7 +160,7 @@ def find_session_files(places: Sequence[Path]) -> list[Path]:
         some = sorted(place.rglob("*.h5")) if place.is_dir() else [place]
         found |= dict.fromkeys(path for path in some if path.name != TRUTH_FILE or path == place)
     if not found:
-        raise SessionsMissing(places[0])
+        raise SessionsMissing(next(iter(places), ""))
     return list(found)
 
 

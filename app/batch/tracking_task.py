@@ -107,6 +107,10 @@ def _track_and_measure(task: TrackingTask) -> TrackingOutcome:
     told = settings_from_json(session.header.parameters)
     if result == "kept" and (told is None or list_differences(told.settings, task.settings)):
         said.append("tracked before with other settings, left as it is")
+    header = session.header
+    told_again = (task.subject_id or header.subject_id, task.exercise or header.exercise)
+    if result == "kept" and told_again != (header.subject_id, header.exercise):
+        said.append("tracked before of another patient or exercise, left as it is")
     results = compute_session_results(session)
     if place.clicks is not None:
         said += exercise_warnings(session, results)

@@ -16,7 +16,7 @@ import pytest
 
 import carpus
 from carpus.app.python_api import HandFrame, ProposedClicks
-from carpus.core.model.errors import CalibrationImpossible, ExtraMissing, SettingsInvalid
+from carpus.core.model.errors import CalibrationImpossible, ExtraMissing, SessionsMissing, SettingsInvalid
 from carpus.core.model.hand.protocols import get_protocol
 from carpus.core.session.reader import read_session
 from tests.rendered import FLEXION, REPEATED_FLEXION, Rendered
@@ -257,6 +257,8 @@ def test_study_is_one_tidy_table_and_unreadable_file_is_warned_of(folder: Path, 
     (tmp_path / "bad.h5").write_bytes(b"no session")
     with pytest.warns(UserWarning, match="bad.h5"):
         study = carpus.open_sessions(tmp_path)
+    with pytest.raises(SessionsMissing):
+        carpus.open_sessions([])
     assert set(study["session"]) == {"good"}
     assert study["key"].is_unique
     assert all(re.fullmatch(r"[a-z0-9_]+", key) for key in study["key"])

@@ -37,7 +37,7 @@ def test_manifest_faults_are_told_together_and_nothing_is_tracked(
         "gone,P-1,,WRIST_FE,a,1",
         "first,P-1,left,WRIST_FF,b,2",
         "first,P-1,,,c,3",
-        "second,P-2,,,c,4",
+        "second,P-2,,,C,4",
         "second,P-2,,,../d,5",
     )
     done = command("track", "--manifest", study, "--output", tmp_path / "out")
@@ -47,7 +47,7 @@ def test_manifest_faults_are_told_together_and_nothing_is_tracked(
         "line 2: recording not found",
         "line 3: hand is “left”, and the clicks are of the right one",
         "line 3: Unknown exercise “WRIST_FF”; did you mean “WRIST_FE”",
-        "line 5: “c” is there twice",
+        "line 5: “C” is there twice",
         "line 6: the label “../d” is not the name of a file",
         "6 faults in the list; nothing was tracked",
     ):
@@ -84,6 +84,11 @@ def test_manifest_gives_each_recording_its_subject_exercise_and_columns(
         ("P-1", "north", "1"), ("P-2", "'=south", "2"),
     }  # fmt: skip
     assert "no repetition of WRIST_RU is counted" in done.out
+
+    changed = study.read_text(encoding="utf-8").replace("P-1", "P-3")
+    study.write_text(changed, encoding="utf-8")
+    again = command("track", "--manifest", study, "--output", out, "--no-smooth")
+    assert again.out.count("tracked before of another patient or exercise") == 1
 
     table = command("results", out)
     assert [line.split()[:2] for line in table.out.splitlines()[1:]] == [["two", "P-2"], ["one", "P-1"]] or [
