@@ -199,7 +199,7 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
     ),
     "distance": (
         phrase("The hand is {value} m from the camera ({limit} m or more is good)."),
-        phrase("Move the camera farther from the hand."),
+        phrase("Move the camera further from the hand."),
     ),
     "moved": (
         phrase("The hand moved in the first half second."),

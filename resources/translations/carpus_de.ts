@@ -344,16 +344,8 @@
         <translation>Tafel näher heran</translation>
     </message>
     <message>
-        <source>Move the board farther away</source>
-        <translation>Tafel weiter weg</translation>
-    </message>
-    <message>
         <source>More light: the image is too dark.</source>
         <translation>Mehr Licht: Das Bild ist zu dunkel.</translation>
-    </message>
-    <message>
-        <source>No board seen: show all of it, flat, in even light.</source>
-        <translation>Keine Tafel zu sehen: Zeigen Sie sie ganz und flach, in gleichmäßigem Licht.</translation>
     </message>
     <message>
         <source>Turn it less: it is nearly edge-on.</source>
@@ -408,8 +400,20 @@
         <translation>Die Kamera ist kalibriert. {depth}</translation>
     </message>
     <message>
+        <source>Board not visible: show all of it, flat, in even light.</source>
+        <translation>Keine Tafel zu sehen: Zeigen Sie sie ganz und flach, in gleichmäßigem Licht.</translation>
+    </message>
+    <message>
         <source>Depth is correct.</source>
         <translation>Die Tiefe stimmt.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too large.</source>
+        <translation>Die Tiefe war {share} % zu groß.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too small.</source>
+        <translation>Die Tiefe war {share} % zu klein.</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -2992,10 +2996,6 @@
         <translation>Spiegelung</translation>
     </message>
     <message>
-        <source>Move the camera farther from the hand.</source>
-        <translation>Rücken Sie die Kamera weiter von der Hand weg.</translation>
-    </message>
-    <message>
         <source>Move the hand a little, and keep sunlight and reflections off the marker.</source>
         <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonnenlicht und Reflexe vom Marker fern.</translation>
     </message>
@@ -5080,6 +5080,14 @@
         <translation>Messen Sie eine, oder wählen Sie den Ordner mit den Sitzungen.</translation>
     </message>
     <message>
+        <source>Move the board further away</source>
+        <translation>Tafel weiter weg</translation>
+    </message>
+    <message>
+        <source>Move the camera further from the hand.</source>
+        <translation>Rücken Sie die Kamera weiter von der Hand weg.</translation>
+    </message>
+    <message>
         <source>Move the hand a little. Keep sunlight and reflections off the markers.</source>
         <translation>Bewegen Sie die Hand ein wenig. Halten Sie Sonne und Spiegelungen von den Markern fern.</translation>
     </message>
@@ -5610,14 +5618,6 @@
     <message>
         <source>Depth was not checked.</source>
         <translation>Die Tiefe wurde nicht geprüft.</translation>
-    </message>
-    <message>
-        <source>Depth was {share} % too long.</source>
-        <translation>Die Tiefe war {share} % zu groß.</translation>
-    </message>
-    <message>
-        <source>Depth was {share} % too short.</source>
-        <translation>Die Tiefe war {share} % zu klein.</translation>
     </message>
     <message>
         <source>too few images with depth on the board</source>
@@ -6684,10 +6684,6 @@
         <translation>Die Tiefenkamera über der Hand.</translation>
     </message>
     <message>
-        <source>Plug it straight into the computer.</source>
-        <translation>Schließen Sie sie direkt am Computer an.</translation>
-    </message>
-    <message>
         <source>Camera ready</source>
         <translation>Kamera bereit</translation>
     </message>
@@ -6730,6 +6726,10 @@
     <message>
         <source>A saved recording: a file of Carpus or of the camera (.oni, .db3), or an image folder.</source>
         <translation>Eine gespeicherte Aufnahme: eine Datei von Carpus oder der Kamera (.oni, .db3) oder ein Bilderordner.</translation>
+    </message>
+    <message>
+        <source>Plug it directly into the computer.</source>
+        <translation>Schließen Sie sie direkt am Computer an.</translation>
     </message>
     <message>
         <source>Choose an image folder</source>

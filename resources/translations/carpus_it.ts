@@ -344,16 +344,8 @@
         <translation>Avvicinare la tavola</translation>
     </message>
     <message>
-        <source>Move the board farther away</source>
-        <translation>Allontanare la tavola</translation>
-    </message>
-    <message>
         <source>More light: the image is too dark.</source>
         <translation>Più luce: l’immagine è troppo scura.</translation>
-    </message>
-    <message>
-        <source>No board seen: show all of it, flat, in even light.</source>
-        <translation>Tavola non vista: mostrarla tutta, piatta, con luce uniforme.</translation>
     </message>
     <message>
         <source>Turn it less: it is nearly edge-on.</source>
@@ -408,8 +400,20 @@
         <translation>La telecamera è calibrata. {depth}</translation>
     </message>
     <message>
+        <source>Board not visible: show all of it, flat, in even light.</source>
+        <translation>Tavola non vista: mostrarla tutta, piatta, con luce uniforme.</translation>
+    </message>
+    <message>
         <source>Depth is correct.</source>
         <translation>La profondità è corretta.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too large.</source>
+        <translation>La profondità risultava maggiore del {share} %.</translation>
+    </message>
+    <message>
+        <source>Depth was {share} % too small.</source>
+        <translation>La profondità risultava minore del {share} %.</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -2996,10 +3000,6 @@
         <translation>Specchio</translation>
     </message>
     <message>
-        <source>Move the camera farther from the hand.</source>
-        <translation>Allontanare la telecamera dalla mano.</translation>
-    </message>
-    <message>
         <source>Move the hand a little, and keep sunlight and reflections off the marker.</source>
         <translation>Spostare un poco la mano, e tenere sole e riflessi lontani dal marcatore.</translation>
     </message>
@@ -5080,6 +5080,14 @@
         <translation>Misurarne una, o scegliere la cartella che contiene le sedute.</translation>
     </message>
     <message>
+        <source>Move the board further away</source>
+        <translation>Allontanare la tavola</translation>
+    </message>
+    <message>
+        <source>Move the camera further from the hand.</source>
+        <translation>Allontanare la telecamera dalla mano.</translation>
+    </message>
+    <message>
         <source>Move the hand a little. Keep sunlight and reflections off the markers.</source>
         <translation>Spostare un poco la mano. Evitare sole e riflessi sui marcatori.</translation>
     </message>
@@ -5610,14 +5618,6 @@
     <message>
         <source>Depth was not checked.</source>
         <translation>La profondità non è stata controllata.</translation>
-    </message>
-    <message>
-        <source>Depth was {share} % too long.</source>
-        <translation>La profondità risultava maggiore del {share} %.</translation>
-    </message>
-    <message>
-        <source>Depth was {share} % too short.</source>
-        <translation>La profondità risultava minore del {share} %.</translation>
     </message>
     <message>
         <source>too few images with depth on the board</source>
@@ -6684,10 +6684,6 @@
         <translation>La telecamera di profondità sopra la mano.</translation>
     </message>
     <message>
-        <source>Plug it straight into the computer.</source>
-        <translation>Collegarla direttamente al computer.</translation>
-    </message>
-    <message>
         <source>Camera ready</source>
         <translation>Telecamera pronta</translation>
     </message>
@@ -6730,6 +6726,10 @@
     <message>
         <source>A saved recording: a file of Carpus or of the camera (.oni, .db3), or an image folder.</source>
         <translation>Una registrazione salvata: un file di Carpus o della telecamera (.oni, .db3), o una cartella di immagini.</translation>
+    </message>
+    <message>
+        <source>Plug it directly into the computer.</source>
+        <translation>Collegarla direttamente al computer.</translation>
     </message>
     <message>
         <source>Choose an image folder</source>

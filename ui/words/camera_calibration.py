@@ -35,7 +35,7 @@ def view_fault_words(lack: RejectReason) -> str:
     return {
         "": "",
         "dark": tr("More light: the image is too dark."),
-        "no_board": tr("No board seen: show all of it, flat, in even light."),
+        "no_board": tr("Board not visible: show all of it, flat, in even light."),
         "too_tilted": tr("Turn it less: it is nearly edge-on."),
         "moving": tr("Hold still."),
         "blurred": tr("Not sharp: hold still, or give it more light."),
@@ -104,7 +104,7 @@ def depth_words(depth: DepthCheck | None) -> str:
     share, shift = 100.0 * (depth.scale - 1.0), 1e3 * depth.offset_m
     if abs(share) < 0.05 and abs(shift) < 0.5:
         return tr("Depth is correct.")
-    pattern = tr("Depth was {share} % too long.") if share > 0 else tr("Depth was {share} % too short.")
+    pattern = tr("Depth was {share} % too large.") if share > 0 else tr("Depth was {share} % too small.")
     return pattern.format(share=numbers.format_fixed(abs(share), 1))
 
 

@@ -100,7 +100,7 @@ class ViewCoverage:
             return phrase("Tilt the board: {side} nearer", side=side_name(side))
         if not self.is_near_and_far:
             near = self.nearest_m <= NEAR_BOARD_M or self.nearest_m * MIN_DISTANCE_RATIO < FAR_BOARD_M
-            return phrase("Move the board farther away") if near else phrase("Move the board nearer")
+            return phrase("Move the board further away") if near else phrase("Move the board nearer")
         return phrase("Show the board in other places, at other tilts") if self.missing_view_count else None
 
 

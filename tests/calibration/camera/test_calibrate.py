@@ -140,7 +140,7 @@ def test_next_instruction_names_what_is_missing(gathered: ViewCollector) -> None
         replace(whole, sides=assess_views(upright, 640, 480).sides).next_instruction()
         == "Tilt the board: left edge nearer"
     )
-    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_instruction() == "Move the board farther away"
+    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_instruction() == "Move the board further away"
     assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_instruction() == "Move the board nearer"
     assert (
         replace(whole, view_count=WANTED_VIEWS - 1).next_instruction()

@@ -150,7 +150,7 @@ class CameraScreen(QWidget):
             self.sources.option("camera").show_sentence(
                 (self._camera_name or self.tr("The depth camera over the hand."))
                 if there
-                else self.tr("Plug it straight into the computer."),
+                else self.tr("Plug it directly into the computer."),
                 "good" if there else "bad",
                 self.tr("Camera ready") if there else self.tr("No camera"),
             )
