@@ -29,6 +29,8 @@ WRIST = ("74670003", "Wrist joint structure (body structure)")
 MCP = ("70420003", "Metacarpophalangeal joint structure (body structure)")
 HAND = ("85562004", "Hand structure (body structure)")
 _JOINT = re.compile(r"(MCP|PIP|DIP|CMC|IP)\d")
+TEST_DATA = {"system": f"{TERMINOLOGY}/v3-ActReason", "code": "HTEST", "display": "test health data"}
+"""Tag of every resource of a simulated session, in which nobody was measured."""
 UNITS = {"deg": "deg", "deg/s": "deg/s", "mm": "mm", "s": "s", "1": "1", "%": "%"}
 """Units of measures that UCUM has a code for."""
 
@@ -56,7 +58,7 @@ def build_bundle(take: ExportItem, pdf: bytes = b"") -> dict[str, Any]:
         "deviceName": [{"name": "Carpus", "type": "user-friendly-name"}],
         "version": [{"value": __version__}],
     }
-    bundle = _Bundle(header.session_id)
+    bundle = _Bundle(header.session_id, is_simulated=header.is_simulated)
     subject, measuring = bundle.add("patient", patient), bundle.add("device", device)
     common = {"subject": subject, "effectiveDateTime": when, "device": measuring}
     observations = [
@@ -85,15 +87,16 @@ def build_bundle(take: ExportItem, pdf: bytes = b"") -> dict[str, Any]:
 class _Bundle:
     """Entries of a bundle that refer to one another by addresses made from the session's id."""
 
-    def __init__(self, session_id: str) -> None:
+    def __init__(self, session_id: str, *, is_simulated: bool) -> None:
         self._session_id = session_id
+        self._tags = {"meta": {"tag": [TEST_DATA]}} if is_simulated else {}
         self.entries: list[dict[str, Any]] = []
 
     def add(self, name: str, resource: dict[str, Any]) -> dict[str, str]:
         """Add a resource once and return a reference to it."""
         address = f"urn:uuid:{uuid5(NAMESPACE_URL, f'carpus/{self._session_id}/{name}')}"
         if all(entry["fullUrl"] != address for entry in self.entries):
-            self.entries.append({"fullUrl": address, "resource": resource})
+            self.entries.append({"fullUrl": address, "resource": resource | self._tags})
         return {"reference": address}
 
 

@@ -11,6 +11,7 @@ import pytest
 from fhirclient.models.bundle import Bundle
 
 from carpus.core.formats import fhir
+from carpus.core.model.types import SIMULATED
 from carpus.core.results.measure import summarise_values
 from tests.formats.takes import hand_take, take_of, wrist_take
 from tests.ui.fakes import session as flexing
@@ -66,6 +67,17 @@ def test_bundle_names_nobody_but_the_pseudonym(tmp_path: Path) -> None:
 
     assert set(patient) == {"resourceType", "identifier"}
     assert patient["identifier"][0]["value"] == take.session.header.subject_id
+
+
+def test_bundle_of_a_simulated_session_is_tagged_as_test_data(tmp_path: Path) -> None:
+    take = wrist_take(tmp_path)
+    assert not take.session.header.is_simulated
+    assert all("meta" not in entry["resource"] for entry in fhir.build_bundle(take)["entry"])
+
+    header = replace(take.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
+    simulated = replace(take, session=replace(take.session, header=header))
+    resources = read_bundle(fhir.write(simulated, tmp_path / "simulated")[0])
+    assert {one.meta.tag[0].code for found in resources.values() for one in found} == {"HTEST"}
 
 
 def test_report_in_the_folder_is_attached(tmp_path: Path) -> None:
