@@ -4141,7 +4141,7 @@
     </message>
     <message>
         <source>Labels are correct</source>
-        <translation>Bezeichnungen stimmen</translation>
+        <translation>Ja, sie stimmen</translation>
     </message>
     <message>
         <source>Drag a label to another marker to change it.</source>
@@ -7938,10 +7938,6 @@ von oben</translation>
         <translation>Nach 10 min</translation>
     </message>
     <message>
-        <source>30 min</source>
-        <translation>30 min</translation>
-    </message>
-    <message>
         <source>Never</source>
         <translation>Nie</translation>
     </message>
@@ -7964,6 +7960,10 @@ von oben</translation>
     <message>
         <source>Set a PIN…</source>
         <translation>PIN festlegen…</translation>
+    </message>
+    <message>
+        <source>After 30 min</source>
+        <translation>Nach 30 min</translation>
     </message>
 </context>
 <context>

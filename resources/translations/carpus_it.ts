@@ -7938,10 +7938,6 @@ dall’alto</translation>
         <translation>Dopo 10 min</translation>
     </message>
     <message>
-        <source>30 min</source>
-        <translation>30 min</translation>
-    </message>
-    <message>
         <source>Never</source>
         <translation>Mai</translation>
     </message>
@@ -7964,6 +7960,10 @@ dall’alto</translation>
     <message>
         <source>Set a PIN…</source>
         <translation>Imposta un PIN…</translation>
+    </message>
+    <message>
+        <source>After 30 min</source>
+        <translation>Dopo 30 min</translation>
     </message>
 </context>
 <context>

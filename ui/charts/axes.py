@@ -39,12 +39,11 @@ def angle_scale(tick_deg: float, limit_deg: float, upper: str, lower: str, *, is
     return Scale(-limit_deg, limit_deg, (tick_deg, *inner[:1], 0.0, *inner[1:], -tick_deg), tuple(labels))
 
 
-def positive_scale(top: float, step: float, unit: str, name: str) -> Scale:
-    """Return the scale of a quantity that starts at zero, its name at the upper end."""
+def positive_scale(top: float, step: float, unit: str) -> Scale:
+    """Return the scale of a quantity that starts at zero, its unit at the upper end."""
     ticks = tuple(np.arange(0.0, top + step / 2, step).tolist())
     labels = tuple(
-        (value, f"{name} {format_rounded(value)}{unit}" if value == ticks[-1] else format_rounded(value))
-        for value in ticks
+        (value, f"{format_rounded(value)}{unit}" if value == ticks[-1] else format_rounded(value)) for value in ticks
     )
     return Scale(-0.04 * top, 1.08 * top, ticks, labels)
 

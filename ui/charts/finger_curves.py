@@ -129,7 +129,7 @@ class FingerCurves(Chart):
         if not self._is_showing_speeds:
             return BENDING, replace(SPREADING, labels=spread_labels(20.0))
         tops = (BENDING_TOP_DEG_S, 200.0), (SPREADING_TOP_DEG_S, 100.0)
-        bending, spreading = (axes.positive_scale(top, step, "°/s", "") for top, step in tops)
+        bending, spreading = (axes.positive_scale(top, step, "°/s") for top, step in tops)
         return bending, spreading
 
     def cell(self, angle: FingerAngle) -> QRectF:

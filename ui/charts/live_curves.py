@@ -103,8 +103,8 @@ class LiveCurves(Chart):
         width = self.width() - left - right
         if self._is_showing_speeds:
             scales = [
-                (1, axes.positive_scale(SPEED_TOP_DEG_S, 100.0, "°/s", self.tr("Turning"))),
-                (0, axes.positive_scale(SPEED_TOP_MM_S, 100.0, " mm/s", self.tr("Moving"))),
+                (1, axes.positive_scale(SPEED_TOP_DEG_S, 100.0, "°/s")),
+                (0, axes.positive_scale(SPEED_TOP_MM_S, 100.0, f"{numbers.NARROW_GAP}mm/s")),
             ][: 1 if self._single else 2]
             gap = BETWEEN_PX * scale
             height = (self.height() - (TOP_PX + BOTTOM_PX) * scale + gap) / len(scales) - gap

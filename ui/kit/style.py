@@ -32,6 +32,8 @@ QComboBox QAbstractItemView::item {{ min-height: {row}px; padding: 0 8px; }}
 QSpinBox::up-button, QSpinBox::down-button {{ width: 0; border: 0; }}
 QAbstractSpinBox QLineEdit, QComboBox QLineEdit {{ border: 0; background: transparent; min-height: 0; padding: 0; }}
 QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ width: 0; border: 0; }}
+QHeaderView::section {{ background: {canvas}; color: {text2}; border: 0; border-bottom: 1px solid {line};
+  padding: 4px; }}
 QScrollArea {{ border: 0; background: transparent; }}
 QScrollArea > QWidget > QWidget {{ background: transparent; }}
 QScrollBar:vertical {{ background: transparent; width: 12px; margin: 2px; }}

@@ -103,7 +103,7 @@ class LiveScreen(FittedWidget):
         self.curves = LiveCurves(theme, self.history)
         self.finger_curves = FingerCurves(theme, self.history)
         self.controls = RecordingControls(theme, self.recording)
-        self.speeds_button = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
+        self.speeds_button = Button(theme, self.tr("Speeds"), hint="F4", height_px=32)
         self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.course_label.hide()

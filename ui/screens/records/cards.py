@@ -113,7 +113,7 @@ class LockCard(Card):
             [
                 (5, self.tr("After 5 min")),
                 (10, self.tr("After 10 min")),
-                (30, self.tr("30 min")),
+                (30, self.tr("After 30 min")),
                 (0, self.tr("Never")),
             ],
             minutes,

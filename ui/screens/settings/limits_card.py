@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from datetime import date
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.measures.change_limits import (
@@ -38,7 +39,7 @@ def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
     for place, (name, limit) in enumerate(lines):
         column = 2 * (place // half)
         grid.addWidget(Text(theme, name, 14, wrap=True), place % half, column)
-        grid.addWidget(Text(theme, limit, 14, MEDIUM), place % half, column + 1)
+        grid.addWidget(Text(theme, limit, 14, MEDIUM), place % half, column + 1, Qt.AlignmentFlag.AlignRight)
     grid.setColumnStretch(0, 1)
     grid.setColumnStretch(2, 1)
     card.body.addLayout(grid)
