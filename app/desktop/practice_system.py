@@ -231,10 +231,7 @@ def _describe_findings(report: SessionReport) -> list[str]:
     results = report.results
     ranges = [words for angle in range(3) if (words := neutral_zero_words(results, angle))]
     heading = f"{terms.exercise_name(results.exercise.id)}, {to_mid_sentence(terms.hand_name(results.side))}"
-    return [
-        heading,
-        *(
-            words.replace("\N{NON-BREAKING HYPHEN}", "-").replace("\N{GREATER-THAN OR EQUAL TO}", ">=")
-            for words in ranges
-        ),
-    ]
+    plain = str.maketrans(
+        {"\N{NON-BREAKING HYPHEN}": "-", "\N{GREATER-THAN OR EQUAL TO}": ">=", "\N{LESS-THAN OR EQUAL TO}": "<="}
+    )
+    return [heading, *(words.translate(plain) for words in ranges)]

@@ -141,8 +141,7 @@ def neutral_zero_words(results: SessionResults, angle: int) -> str:
     first, second = (math.nan if end is None else end.mean for end in ends)
     if not math.isfinite(first + second):
         return ""
-    signs = ["\N{GREATER-THAN OR EQUAL TO}" if end is not None and end.is_lower_bound else "" for end in ends]
-    texts = [f"{sign}{format_rounded(abs(value))}" for sign, value in zip(signs, (first, second), strict=True)]
+    texts = [_neutral_zero_end(end) for end in ends if end is not None]
     if first < 0.0:
         texts = ["0", *texts]
     elif second < 0.0:
@@ -150,6 +149,12 @@ def neutral_zero_words(results: SessionResults, angle: int) -> str:
     else:
         texts.insert(1, "0")
     return f"{plane} {_HYPHEN.join(texts)}"
+
+
+def _neutral_zero_end(end: Measure) -> str:
+    """Return an end without its sign; of a hidden one that lacks degrees to neutral it is known how many at most."""
+    sign = "\N{LESS-THAN OR EQUAL TO}" if end.mean < 0.0 else "\N{GREATER-THAN OR EQUAL TO}"
+    return f"{sign if end.is_lower_bound else ''}{format_rounded(abs(end.mean))}"
 
 
 def has_sd(row: Measure) -> bool:
