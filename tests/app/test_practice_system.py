@@ -162,3 +162,4 @@ def test_report_sent_writes_pdf_and_values(qtbot: QtBot, opened: Open, folders: 
     assert (fields["8000"], fields["3000"], fields["8315"]) == ("6310", "12345", "PRAX_AIS")
     assert Path(fields["6305"]).read_bytes().startswith(b"%PDF")
     assert Path(fields["6305"]).parent == out
+    assert controller.context.recent_locations.folder("reports") != str(out), "what is saved next is not sent"

@@ -54,6 +54,8 @@ class ReportFlow(Flow):
             lambda session_id, text: self._run_or_report(lambda: context.library.save_comment(session_id, text))
         )
         screen.saved.connect(self._register_file)
+        screen.saved.connect(lambda path: context.recent_locations.save_folder("reports", str(Path(path).parent)))
+        screen.sent.connect(self._register_file)
 
     def open(self, report: str | ProgressReport, sessions: Sequence[str] = ()) -> None:
         """Show the report of a session id, or one that was made of ``sessions``."""
@@ -126,7 +128,6 @@ class ReportFlow(Flow):
 
     def _register_file(self, path: str) -> None:
         self.context.library.register_output_files([Path(path)], "report", self._sessions)
-        self.context.recent_locations.save_folder("reports", str(Path(path).parent))
 
     def _run_or_report(self, action: Callable[[], T]) -> T | None:
         """Return the action's result, or report its fault and return None."""

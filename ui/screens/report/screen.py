@@ -36,11 +36,12 @@ MAX_PAGE_PX = 980
 class ReportScreen(QWidget):
     """Preview of a report.
 
-    Emits ``saved`` (path), ``letter_requested`` and ``home_sheet_requested`` (report), ``send_requested``
+    Emits ``saved`` and ``sent`` (path), ``letter_requested`` and ``home_sheet_requested`` (report), ``send_requested``
     (session report, for the practice system), ``fault_raised``.
     """
 
     saved = Signal(str)
+    sent = Signal(str)
     letter_requested = Signal(object)
     home_sheet_requested = Signal(object)
     fault_raised = Signal(object)
@@ -185,7 +186,9 @@ class ReportScreen(QWidget):
         """Show that the practice system has the report; an empty path that it could not be sent."""
         self.send_button.setEnabled(True)
         if path:
-            self._finish_saving(report, path)
+            self._saved_report = report, path
+            self._show_saved()
+            self.sent.emit(path)
 
     def show_parent_report(self) -> bool:
         """Return from a letter or home sheet to its report; False if there is none."""
