@@ -164,7 +164,9 @@ class PracticeSystemController(QObject):
                 target = target.with_stem(f"{target.stem}_{datetime.now():%H%M%S}")
             save_pdf(target, content)
             record = gdt.format_result(request, report.results.when, tests, findings=findings, report=target)
-            gdt.write_result(folder, request, record)
+            written = gdt.write_result(folder, request, record)
+            for file in (target, written):  # the practice system may run under another account
+                file.chmod(0o660)
             return str(target)
 
         def show_failure(fault: Exception) -> None:

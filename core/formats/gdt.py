@@ -76,7 +76,7 @@ class GdtTest:
 
 
 def parse_fields(content: bytes, name: str = "") -> tuple[list[tuple[str, str]], str]:
-    """Return the fields (identifier, content) of the first record in a file, and its character set.
+    """Return the fields (identifier, content) of the record in a file, and its character set.
 
     Raises :class:`GdtUnreadable` for lines that are not of the format, of another length than they state, or fewer
     than the record states; ``name`` of the file is for its sentence.
@@ -92,7 +92,7 @@ def parse_fields(content: bytes, name: str = "") -> tuple[list[tuple[str, str]],
         if int(length) != len(line) + 2:
             raise GdtUnreadable(name, phrase("line {number}: length differs from the stated one").format(number=number))
         if identifier == RECORD_TYPE.encode() and raw:
-            break
+            raise GdtUnreadable(name, phrase("it contains more than one record"))
         raw.append((identifier.decode(), line[7:]))
     if raw[0][0] != RECORD_TYPE:
         raise GdtUnreadable(name, phrase("no record type at the start"))

@@ -5496,6 +5496,10 @@
         <translation>In camera_info.yaml steht sie als depth_unit_m.</translation>
     </message>
     <message>
+        <source>it contains more than one record</source>
+        <translation>sie enthält mehr als einen Datensatz</translation>
+    </message>
+    <message>
         <source>“carpus calibrate-camera --board” prints it.</source>
         <translation>„carpus calibrate-camera --board“ druckt sie.</translation>
     </message>

@@ -5496,6 +5496,10 @@
         <translation>In camera_info.yaml è indicata come depth_unit_m.</translation>
     </message>
     <message>
+        <source>it contains more than one record</source>
+        <translation>contiene più di un record</translation>
+    </message>
+    <message>
         <source>“carpus calibrate-camera --board” prints it.</source>
         <translation>“carpus calibrate-camera --board” la stampa.</translation>
     </message>

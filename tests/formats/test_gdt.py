@@ -104,6 +104,7 @@ DAMAGED = {
     "cut in a line": encode(MUSTERMANN, "cp1252")[:-20],
     "cut between lines": b"".join(encode(MUSTERMANN, "cp1252").splitlines(keepends=True)[:-1]),
     "a line's length": encode(MUSTERMANN, "cp1252").replace(b"0193101", b"0203101"),
+    "two records": encode(MUSTERMANN, "cp1252") * 2,
     "no number": encode(tuple(line for line in MUSTERMANN if line[3:7] != "3000"), "cp1252"),
     "a day that is none": encode(MUSTERMANN, "cp1252").replace(b"310330101945", b"310331131945"),
     "a character set of another age": encode(tuple(line.replace("92063", "92069") for line in MUSTERMANN), "cp1252"),
