@@ -198,7 +198,7 @@ BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
     "picture is text": (lambda f: sorted((f / "rgb").iterdir())[1].write_text("a"), FrameDamaged, "not an image"),
     "one bit altered": (flip_a_bit, FrameDamaged, "altered"),
     "depth of 8 bits": (picture("depth", 2, GREY), FrameDamaged, "8 bits"),
-    "depth in colour": (picture("depth", 2, color_picture(0)), FrameDamaged, "in colour"),
+    "depth in colour": (picture("depth", 2, color_picture(0)), FrameDamaged, "colour image"),
     "colour of 16 bits": (picture("rgb", 2, np.zeros((HEIGHT, WIDTH, 3), np.uint16)), FrameDamaged, "16 bits"),
     "colour is grey": (picture("rgb", 0, GREY), InitialFrameDamaged, "grey"),
     "colour size changes": (picture("rgb", 2, SMALL), FrameSizeChanged, "32 x 24"),

@@ -265,7 +265,7 @@ def test_settings_compute_and_store_error_limits(
     qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies))
     (stored,) = read_limits(tmp_path / "data").studies
     assert (stored.people, stored.made) == (10, "2026-11-27")
-    qtbot.waitUntil(lambda: "On 27 Nov 2026 with 10 people in 20 sessions" in collect_texts(settings.screen))
+    qtbot.waitUntil(lambda: "Measured on 27 Nov 2026 with 10 people in 20 sessions" in collect_texts(settings.screen))
 
 
 def test_retest_few_or_simulated_people_are_not_usable(measured: list[SessionResults]) -> None:
