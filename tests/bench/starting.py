@@ -21,22 +21,22 @@ import gc
 gc.disable()  # as the command does
 from pathlib import Path
 from carpus.app import compose
-from carpus.app.desktop.single_instance import Alone
-from carpus.app.desktop.appearance import application
-from carpus.app.settings import load_sound_settings, with_data_folder
-loaded, told = load_sound_settings()
+from carpus.app.desktop.single_instance import SingleInstance
+from carpus.app.desktop.appearance import create_application
+from carpus.app.settings import load_valid_settings, with_data_folder
+loaded, told = load_valid_settings()
 settings = with_data_folder(loaded, Path(sys.argv[1]))
-qt = application(["carpus"])
-alone = Alone(settings.data_folder)
-alone.take()
-desktop = compose.compose(qt, settings, told=told)
+qt = create_application(["carpus"])
+alone = SingleInstance(settings.data_folder)
+alone.acquire()
+desktop = compose.compose(qt, settings, startup_faults=told)
 desktop.show()
 while not desktop.shell.isVisible() or desktop.shell.focusWidget() is None:
     qt.processEvents()
 qt.processEvents()
 print(time.perf_counter() - begun, time.process_time(), flush=True)
 desktop.close()
-alone.let_go()
+alone.release()
 """
 
 
