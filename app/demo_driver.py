@@ -157,6 +157,7 @@ class DemoDriver:
     def record(self, repetitions: int, progress: Callable[[int], None] = lambda _: None) -> str:
         """Record so many repetitions and return the id of the session."""
         live = self.controller.live.screen
+        self.run_until(lambda: not live.recording.is_hand_resting())  # before, Space would be ignored
         self.press_key(Qt.Key.Key_Space, live)
         self.run_until(lambda: live.recording.state == "recording")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import os
 import shutil
 import sys
@@ -36,6 +37,8 @@ def main() -> int:
         os.environ.setdefault(name, "1")  # before anything loads NumPy
     from tests.ui.gallery import render_all_screens
 
+    gc.disable()  # as the command does: a collection while pyqtgraph builds an item ends the process
+
     if arguments.readme:
         return write_readme_picture()
     if arguments.guide:
@@ -54,6 +57,8 @@ def write_readme_picture() -> int:
 
     from tests.ui.gallery import render_all_screens
 
+    gc.disable()  # as the command does: a collection while pyqtgraph builds an item ends the process
+
     with tempfile.TemporaryDirectory() as folder:
         written = render_all_screens(Path(folder), sizes=(README_SIZE,), only="live")
         picture = QImage(str(next(path for path in written if "-live-light-" in path.name)))
@@ -70,6 +75,8 @@ def write_guide() -> int:
 
     from carpus.ui.screens.help.cards import FILE_NAME, write_cards
     from tests.ui.gallery import render_all_screens
+
+    gc.disable()  # as the command does: a collection while pyqtgraph builds an item ends the process
     from tests.ui.guide_drawings import paint_camera_setup, paint_marker_map
 
     folder = GUIDE / "pictures"
