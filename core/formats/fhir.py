@@ -101,20 +101,16 @@ class _Bundle:
 
 
 def _build_observation(row: Measure, results: SessionResults) -> dict[str, Any]:
-    angular = row.group == "range"
     value = row.mean
     observation: dict[str, Any] = {
         "resourceType": "Observation",
         "status": "final",
         "category": [{"coding": [{"system": f"{TERMINOLOGY}/observation-category", "code": "exam"}]}],
-        "code": {
-            "coding": [_code(RANGE_OF_MOTION)] if angular else [],
-            "text": f"{row.subject} {row.quantity}, {'passive' if row.is_passive else 'active'}",
-        },
+        "code": {"text": f"{row.subject} {row.quantity}, {'passive' if row.is_passive else 'active'}"},
         "method": {"text": f"Optical tracking of skin markers, {'smoother' if results.is_smoothed else 'filter'}"},
     }
-    if not angular:
-        del observation["code"]["coding"]
+    if row.group == "range":
+        observation["code"]["coding"] = [_code(RANGE_OF_MOTION)]
     if not math.isfinite(value):
         absent = {"system": f"{TERMINOLOGY}/data-absent-reason", "code": "unknown"}
         return observation | {"dataAbsentReason": {"coding": [absent], "text": row.unknown_reason or "not measured"}}
