@@ -162,11 +162,9 @@ class PracticeSystemController(QObject):
             target = folder / name
             if target.exists():  # sent before, and this report may say something else
                 target = target.with_stem(f"{target.stem}_{datetime.now():%H%M%S}")
-            save_pdf(target, content)
+            _share_file(save_pdf(target, content))
             record = gdt.format_result(request, report.results.when, tests, findings=findings, report=target)
-            written = gdt.write_result(folder, request, record)
-            for file in (target, written):  # the practice system may run under another account
-                file.chmod(0o660)
+            _share_file(gdt.write_result(folder, request, record))
             return str(target)
 
         def show_failure(fault: Exception) -> None:
@@ -220,6 +218,15 @@ def _read_oldest(
             if time.time() - path.stat().st_mtime > SETTLED_S:
                 return path, fault
     return None
+
+
+def _share_file(path: Path) -> None:
+    """Let the practice system read a file, which may run under another account of the group.
+
+    A share may know no such rights, and the practice system may have taken the file already: it is written in any case.
+    """
+    with suppress(OSError):
+        path.chmod(0o660)
 
 
 def _name_test(row: Measure) -> str:

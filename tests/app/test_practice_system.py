@@ -144,7 +144,11 @@ def test_request_unreadable_is_set_aside_and_said(qtbot: QtBot, opened: Open, fo
     assert path.with_name(path.name + ".unreadable").read_bytes() == b"not a request"
 
 
-def test_report_sent_writes_pdf_and_values(qtbot: QtBot, opened: Open, folders: PracticeSystemSettings) -> None:
+@pytest.mark.parametrize("has_rights", [True, False])
+def test_report_sent_writes_pdf_and_values(
+    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings, monkeypatch: pytest.MonkeyPatch, has_rights: bool
+) -> None:
+    """Also into a share that knows no rights of files: what was written has been sent."""
     desktop = opened()
     controller, library = desktop.controller, desktop.library
     desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1")))
@@ -154,6 +158,12 @@ def test_report_sent_writes_pdf_and_values(qtbot: QtBot, opened: Open, folders: 
     controller.report.open(stored)
     screen = controller.report.screen
     qtbot.waitUntil(lambda: screen.report is not None, timeout=30_000)
+    if not has_rights:
+
+        def refuse(*_: object) -> None:
+            raise PermissionError
+
+        monkeypatch.setattr(Path, "chmod", refuse)
     screen.send_button.click()
 
     out = Path(folders.results)
@@ -162,4 +172,6 @@ def test_report_sent_writes_pdf_and_values(qtbot: QtBot, opened: Open, folders: 
     assert (fields["8000"], fields["3000"], fields["8315"]) == ("6310", "12345", "PRAX_AIS")
     assert Path(fields["6305"]).read_bytes().startswith(b"%PDF")
     assert Path(fields["6305"]).parent == out
+    qtbot.waitUntil(screen.send_button.isEnabled, timeout=30_000)
+    assert not controller.messages.is_busy
     assert controller.context.recent_locations.folder("reports") != str(out), "what is saved next is not sent"
