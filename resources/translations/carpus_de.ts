@@ -213,7 +213,7 @@
     </message>
     <message>
         <source>No difference beyond measurement error between right and left.</source>
-        <translation>Kein Unterschied zwischen rechts und links über den Messfehler hinaus.</translation>
+        <translation>Rechts und links unterscheiden sich nicht um mehr als den Messfehler.</translation>
     </message>
     <message>
         <source>{movement}: {size} less on the right than on the left.</source>
@@ -265,7 +265,7 @@
     </message>
     <message>
         <source>worse</source>
-        <translation>schlechter</translation>
+        <translation>verschlechtert</translation>
     </message>
     <message>
         <source>{before} → {after} since {day}</source>
@@ -325,7 +325,7 @@
     </message>
     <message>
         <source>middle</source>
-        <translation>Mittel</translation>
+        <translation>Mittelf.</translation>
     </message>
     <message>
         <source>centre</source>
@@ -357,7 +357,7 @@
     </message>
     <message>
         <source>Not sharp: hold still, or give it more light.</source>
-        <translation>Nicht scharf: stillhalten, oder mehr Licht.</translation>
+        <translation>Nicht scharf: Stillhalten oder mehr Licht geben.</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -377,7 +377,7 @@
     </message>
     <message>
         <source>Calculate · more places and tilts</source>
-        <translation>Berechnen · mehr Stellen und Neigungen</translation>
+        <translation>Berechnen · mehr Positionen und Neigungen</translation>
     </message>
     <message>
         <source>Calculate</source>
@@ -401,7 +401,7 @@
     </message>
     <message>
         <source>Board not visible: show all of it, flat, in even light.</source>
-        <translation>Keine Tafel zu sehen: Zeigen Sie sie ganz und flach, in gleichmäßigem Licht.</translation>
+        <translation>Tafel nicht sichtbar: Zeigen Sie sie ganz und flach, bei gleichmäßigem Licht.</translation>
     </message>
     <message>
         <source>Depth is correct.</source>
@@ -449,11 +449,11 @@
     </message>
     <message>
         <source>Colour on depth</source>
-        <translation>Farbe auf Tiefe</translation>
+        <translation>Ausrichtung von Farbe und Tiefe</translation>
     </message>
     <message>
         <source>{apart} px apart</source>
-        <translation>{apart} px auseinander</translation>
+        <translation>Versatz {apart} px</translation>
     </message>
     <message>
         <source>good: below {most} px</source>
@@ -461,7 +461,7 @@
     </message>
     <message>
         <source>registration is off</source>
-        <translation>Registrierung ist aus</translation>
+        <translation>Ausrichtung ist aus</translation>
     </message>
     <message>
         <source>This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
@@ -701,7 +701,7 @@
     </message>
     <message>
         <source>Show whole curves</source>
-        <translation>Kurven ganz zeigen</translation>
+        <translation>Kurven ganz anzeigen</translation>
     </message>
     <message>
         <source>Select previous session</source>
@@ -1137,7 +1137,7 @@
     </message>
     <message>
         <source>ddd d MMM</source>
-        <translation>ddd d. MMM</translation>
+        <translation>ddd, d. MMM</translation>
     </message>
     <message>
         <source>d MMM</source>
@@ -1453,7 +1453,7 @@
     </message>
     <message>
         <source>mean, ± sd between repetitions</source>
-        <translation>Mittel, ± SD zwischen Wiederholungen</translation>
+        <translation>Mittelwert, ± SD zwischen den Wiederholungen</translation>
     </message>
     <message>
         <source>not compared</source>
@@ -1461,7 +1461,7 @@
     </message>
     <message>
         <source>≥: partly occluded</source>
-        <translation>≥: zum Teil verdeckt</translation>
+        <translation>≥: teilweise verdeckt</translation>
     </message>
     <message>
         <source>palm. abd.</source>
@@ -1481,7 +1481,7 @@
     </message>
     <message>
         <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
-        <translation>α und γ stehen da, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Nullstellung sind nur β und α + γ bekannt.</translation>
+        <translation>α und γ sind nur dort angegeben, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Neutralstellung sind nur β und α + γ bestimmbar.</translation>
     </message>
     <message>
         <source>no value</source>
@@ -1493,7 +1493,7 @@
     </message>
     <message>
         <source>should stay within {angle}</source>
-        <translation>soll in {angle} bleiben</translation>
+        <translation>soll innerhalb {angle} bleiben</translation>
     </message>
     <message>
         <source>thumb ←</source>
@@ -1545,7 +1545,7 @@
     </message>
     <message>
         <source>At least two sessions are needed to show progress.</source>
-        <translation>Für einen Verlauf braucht es mindestens zwei Sitzungen.</translation>
+        <translation>Für einen Verlauf sind mindestens zwei Sitzungen nötig.</translation>
     </message>
     <message>
         <source>Compare after the next session of the same kind.</source>
@@ -1569,7 +1569,7 @@
     </message>
     <message>
         <source>Not assessed: the joints were partly occluded.</source>
-        <translation>Nicht beurteilt: Die Gelenke waren zum Teil verdeckt.</translation>
+        <translation>Nicht beurteilt: Die Gelenke waren teilweise verdeckt.</translation>
     </message>
     <message>
         <source>Not assessed: {why}.</source>
@@ -1593,7 +1593,7 @@
     </message>
     <message>
         <source>From {before} to {after}: within the measurement error of {limit}.</source>
-        <translation>Von {before} auf {after}: im Messfehler von {limit}.</translation>
+        <translation>Von {before} auf {after}: innerhalb des Messfehlers von {limit}.</translation>
     </message>
     <message>
         <source>at least {change}</source>
@@ -1609,7 +1609,7 @@
     </message>
     <message>
         <source>partly occluded, or too few</source>
-        <translation>zum Teil verdeckt oder zu wenige</translation>
+        <translation>teilweise verdeckt oder zu wenige</translation>
     </message>
     <message>
         <source>at least {change}, MDC {limit}</source>
@@ -1633,7 +1633,7 @@
     </message>
     <message>
         <source>the forearm moved {distance}</source>
-        <translation>der Unterarm bewegte sich {distance}</translation>
+        <translation>Unterarm um {distance} verschoben</translation>
     </message>
     <message>
         <source>{day}: {reasons}. Excluded (shown as an open circle).</source>
@@ -1669,7 +1669,7 @@
     </message>
     <message>
         <source>{name}, across</source>
-        <translation>{name}, quer</translation>
+        <translation>{name}, hin</translation>
     </message>
     <message>
         <source>Time to peak</source>
@@ -1681,7 +1681,7 @@
     </message>
     <message>
         <source>Path length ratio</source>
-        <translation>Wegverhältnis</translation>
+        <translation>Verhältnis Weg/Gerade</translation>
     </message>
     <message>
         <source>Number of speed peaks</source>
@@ -1693,7 +1693,7 @@
     </message>
     <message>
         <source>Maximum grip aperture, thumb–index</source>
-        <translation>Größte Öffnung, Daumen–Zeigefinger</translation>
+        <translation>Größte Greiföffnung, Daumen–Zeigefinger</translation>
     </message>
     <message>
         <source>Wrist angle at grasp</source>
@@ -1705,11 +1705,11 @@
     </message>
     <message>
         <source>Pose plausible while occluded</source>
-        <translation>Haltung plausibel, während verdeckt</translation>
+        <translation>Handstellung bei Verdeckung plausibel</translation>
     </message>
     <message>
         <source>Pose within 15° while occluded</source>
-        <translation>Haltung auf 15° genau, während verdeckt</translation>
+        <translation>Handstellung bei Verdeckung auf 15° genau</translation>
     </message>
     <message>
         <source>Jump on reappearance</source>
@@ -1725,19 +1725,19 @@
     </message>
     <message>
         <source>index</source>
-        <translation>Zeige</translation>
+        <translation>Zeigef.</translation>
     </message>
     <message>
         <source>ring</source>
-        <translation>Ring</translation>
+        <translation>Ringf.</translation>
     </message>
     <message>
         <source>little</source>
-        <translation>Klein</translation>
+        <translation>Kleinf.</translation>
     </message>
     <message>
         <source>Lag of {other} after {one}</source>
-        <translation>{other} später als {one}</translation>
+        <translation>Verzögerung: {other} nach {one}</translation>
     </message>
     <message>
         <source>Enslaving of {other} by {one}</source>
@@ -1761,7 +1761,7 @@
     </message>
     <message>
         <source>Reach {time}, peak speed {speed}, path ratio {straight}, grip aperture {opening}, wrist {wrist}</source>
-        <translation>Reichbewegung {time}, Maximalgeschwindigkeit {speed}, Wegverhältnis {straight}, Greiföffnung {opening}, Handgelenk {wrist}</translation>
+        <translation>Reichbewegung {time}, Maximalgeschwindigkeit {speed}, Verhältnis Weg/Gerade {straight}, Greiföffnung {opening}, Handgelenk {wrist}</translation>
     </message>
     <message>
         <source>The thumb touched {met} of {all} fingertips</source>
@@ -1769,7 +1769,7 @@
     </message>
     <message>
         <source>Thumb contact was occluded</source>
-        <translation>Daumenkontakt war verdeckt</translation>
+        <translation>Der Daumenkontakt war verdeckt</translation>
     </message>
     <message>
         <source>{words}; {hidden} occluded</source>
@@ -1897,7 +1897,7 @@
     </message>
     <message>
         <source>Total active motion (TAM): largest sum of a finger’s flexion at one moment with all joints visible.</source>
-        <translation>Aktive Gesamtbeweglichkeit (TAM): größte Summe der Flexion eines Fingers in einem Moment, alle Gelenke sichtbar.</translation>
+        <translation>Aktive Gesamtbeweglichkeit (TAM): größte Flexionssumme eines Fingers in einem Moment, in dem alle Gelenke sichtbar sind.</translation>
     </message>
     <message>
         <source>No total active motion (TAM): no finger had all joints visible at once.</source>
@@ -1933,7 +1933,7 @@
     </message>
     <message>
         <source>Partly occluded joints are not assessed.</source>
-        <translation>Zum Teil verdeckte Gelenke werden nicht beurteilt.</translation>
+        <translation>Teilweise verdeckte Gelenke werden nicht beurteilt.</translation>
     </message>
     <message>
         <source>Since {when}: {changes} (MDC {limit}).</source>
@@ -2089,7 +2089,7 @@
     </message>
     <message>
         <source>Length</source>
-        <translation>Länge</translation>
+        <translation>Dauer</translation>
     </message>
     <message>
         <source>{weeks} before</source>
@@ -2293,7 +2293,7 @@
     </message>
     <message>
         <source>{name} decreased by {size}</source>
-        <translation>{name} um {size} vermindert</translation>
+        <translation>{name} um {size} verringert</translation>
     </message>
     <message>
         <source>(MDC {limit})</source>
@@ -2321,7 +2321,7 @@
     </message>
     <message>
         <source>0° set by goniometer, start position {angles}</source>
-        <translation>0° mit dem Goniometer bestimmt, Startstellung {angles}</translation>
+        <translation>0° mit dem Goniometer bestimmt, Ausgangsstellung {angles}</translation>
     </message>
     <message>
         <source>Method: {markers} markers, colour and depth camera, {distance} away.</source>
@@ -2333,7 +2333,7 @@
     </message>
     <message>
         <source>Angles are relative to the room. They equal wrist angles only while the forearm is still.</source>
-        <translation>Winkel gelten relativ zum Raum. Handgelenkwinkel sind sie nur, solange der Unterarm ruht.</translation>
+        <translation>Die Winkel gelten relativ zum Raum. Sie entsprechen den Handgelenkwinkeln nur, solange der Unterarm ruht.</translation>
     </message>
     <message>
         <source>Camera not calibrated with a board.</source>
@@ -2349,7 +2349,7 @@
     </message>
     <message>
         <source>Simulated data: no patient was measured.</source>
-        <translation>Simulierte Daten: Es wurde kein Patient gemessen.</translation>
+        <translation>Simulierte Daten: keine Messung an einem Patienten.</translation>
     </message>
     <message>
         <source>Measured although uncertain: {findings}</source>
@@ -2361,11 +2361,11 @@
     </message>
     <message>
         <source>An older result: there is a newer one of the same recording.</source>
-        <translation>Ein älteres Ergebnis: Es gibt ein neueres derselben Aufnahme.</translation>
+        <translation>Älteres Ergebnis: Von derselben Aufnahme gibt es ein neueres.</translation>
     </message>
     <message>
         <source>This recording was cut short and recovered.</source>
-        <translation>Diese Aufnahme brach ab und wurde wiederhergestellt.</translation>
+        <translation>Diese Aufnahme wurde unterbrochen und wiederhergestellt.</translation>
     </message>
     <message>
         <source>Warning</source>
@@ -2433,7 +2433,7 @@
     </message>
     <message>
         <source>Pain first / last (0–10)</source>
-        <translation>Schmerz zuerst / zuletzt (0–10)</translation>
+        <translation>Schmerz Beginn / Ende (0–10)</translation>
     </message>
     <message>
         <source>Pain (0–10)</source>
@@ -2557,7 +2557,7 @@
     </message>
     <message>
         <source>Turn the palm up as far as the markers stay visible, then back.</source>
-        <translation>Die Handfläche nach oben drehen, solange die Marker zu sehen sind, dann zurück.</translation>
+        <translation>Die Handfläche nach oben drehen, soweit die Marker sichtbar bleiben, dann zurück.</translation>
     </message>
     <message>
         <source>Move the wrist freely. All three angles are recorded; no repetitions are counted.</source>
@@ -2613,7 +2613,7 @@
     </message>
     <message>
         <source>Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
-        <translation>Hand an ihrem Platz an der Tischkante. Becher mit 5 bis 7 cm Durchmesser in 20 bis 30 cm Abstand.</translation>
+        <translation>Hand auf ihrem Platz an der Tischkante. Becher mit 5 bis 7 cm Durchmesser in 20 bis 30 cm Abstand.</translation>
     </message>
     <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
@@ -2681,7 +2681,7 @@
     </message>
     <message>
         <source>{angle} deficit</source>
-        <translation>{angle} Defizit</translation>
+        <translation>Defizit {angle}</translation>
     </message>
     <message>
         <source>Radial deviation</source>
@@ -2729,7 +2729,7 @@
     </message>
     <message>
         <source>Choose the patient in the list and start here. The practice patient is simulated.</source>
-        <translation>Wählen Sie den Patienten in der Liste und beginnen Sie hier. Der Probepatient ist simuliert.</translation>
+        <translation>Wählen Sie den Patienten in der Liste und beginnen Sie hier. Der Testpatient ist simuliert.</translation>
     </message>
     <message>
         <source>Choose the image source, then continue here.</source>
@@ -2793,11 +2793,11 @@
     </message>
     <message>
         <source>the camera was at another distance</source>
-        <translation>die Kamera war in anderem Abstand</translation>
+        <translation>die Kamera hatte einen anderen Abstand</translation>
     </message>
     <message>
         <source>another start angle was given</source>
-        <translation>ein anderer Anfangswinkel war angegeben</translation>
+        <translation>eine andere Ausgangsstellung war angegeben</translation>
     </message>
     <message>
         <source>the forearm moved</source>
@@ -2829,19 +2829,19 @@
     </message>
     <message>
         <source>{difference}, within MDC ({limit})</source>
-        <translation>{difference}, innerhalb MDC ({limit})</translation>
+        <translation>{difference}, innerhalb der MDC ({limit})</translation>
     </message>
     <message>
         <source>{difference}, beyond MDC ({limit})</source>
-        <translation>{difference}, über MDC ({limit})</translation>
+        <translation>{difference}, über der MDC ({limit})</translation>
     </message>
     <message>
         <source>{difference}: within MDC ({limit})</source>
-        <translation>{difference}: innerhalb MDC ({limit})</translation>
+        <translation>{difference}: innerhalb der MDC ({limit})</translation>
     </message>
     <message>
         <source>{difference}: beyond MDC ({limit})</source>
-        <translation>{difference}: über MDC ({limit})</translation>
+        <translation>{difference}: über der MDC ({limit})</translation>
     </message>
     <message>
         <source>Another blue spot fits the {markers} better.</source>
@@ -2857,7 +2857,7 @@
     </message>
     <message>
         <source>Carpus cannot write to {subject} ({detail}).</source>
-        <translation>Carpus kann nicht nach {subject} schreiben ({detail}).</translation>
+        <translation>Carpus kann in {subject} nicht schreiben ({detail}).</translation>
     </message>
     <message>
         <source>Check that a marker was clicked there, and not another blue spot.</source>
@@ -2869,7 +2869,7 @@
     </message>
     <message>
         <source>Check the name and the folder.</source>
-        <translation>Prüfen Sie Namen und Ordner.</translation>
+        <translation>Prüfen Sie den Namen und den Ordner.</translation>
     </message>
     <message>
         <source>Check the patient, the side, and that every marker is clicked under its own label.</source>
@@ -2885,7 +2885,7 @@
     </message>
     <message>
         <source>Choose another recording, or record again.</source>
-        <translation>Wählen Sie eine andere Aufnahme, oder nehmen Sie neu auf.</translation>
+        <translation>Wählen Sie eine andere Aufnahme, oder machen Sie eine neue.</translation>
     </message>
     <message>
         <source>Choose the other side, or click the markers again.</source>
@@ -2961,7 +2961,7 @@
     </message>
     <message>
         <source>Allow writing there, or choose another folder in the settings.</source>
-        <translation>Erlauben Sie das Schreiben dort, oder wählen Sie in den Einstellungen einen anderen Ordner.</translation>
+        <translation>Erlauben Sie dort das Schreiben, oder wählen Sie in den Einstellungen einen anderen Ordner.</translation>
     </message>
     <message>
         <source>Install Carpus again: part of it is missing.</source>
@@ -3001,7 +3001,7 @@
     </message>
     <message>
         <source>Needed for live cameras. {remedy}</source>
-        <translation>Nötig für Live-Kameras. {remedy}</translation>
+        <translation>Nötig für die Live-Messung mit Kameras. {remedy}</translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
@@ -3009,7 +3009,7 @@
     </message>
     <message>
         <source>No hand has this shape: the {markers} does not fit the other markers.</source>
-        <translation>Keine Hand hat diese Form, der Marker passt nicht zu den anderen: {markers}.</translation>
+        <translation>Keine Hand hat diese Form: Ein Marker passt nicht zu den anderen ({markers}).</translation>
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
@@ -3029,7 +3029,7 @@
     </message>
     <message>
         <source>Others on this computer can read it. In its properties, remove all rights of the group and of others, or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Andere an diesem Computer können ihn lesen. Entziehen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder: chmod 700 &apos;{folder}&apos;</translation>
+        <translation>Andere an diesem Computer können ihn lesen. Entziehen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder führen Sie aus: chmod 700 &apos;{folder}&apos;</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -3057,7 +3057,7 @@
     </message>
     <message>
         <source>Qt {qt}, which stops the program on Python 3.11</source>
-        <translation>Qt {qt}, das das Programm mit Python 3.11 beendet</translation>
+        <translation>Qt {qt}, das mit Python 3.11 das Programm zum Absturz bringt</translation>
     </message>
     <message>
         <source>Qt {qt}; no screen</source>
@@ -3085,7 +3085,7 @@
     </message>
     <message>
         <source>Turn on depth registration in the camera settings, or track without depth.</source>
-        <translation>Schalten Sie die Registrierung von Tiefe und Farbe in den Kameraeinstellungen ein, oder werten Sie ohne Tiefe aus.</translation>
+        <translation>Schalten Sie die Ausrichtung von Tiefe und Farbe in den Kameraeinstellungen ein, oder werten Sie ohne Tiefe aus.</translation>
     </message>
     <message>
         <source>Choose the spot with the question mark, if it is the marker.</source>
@@ -3233,7 +3233,7 @@
     </message>
     <message>
         <source>The {markers} does not lie on the line of its finger.</source>
-        <translation>{markers}: nicht auf der Linie des Fingers.</translation>
+        <translation>{markers}: Der Marker liegt nicht auf der Linie seines Fingers.</translation>
     </message>
     <message>
         <source>There is no folder {subject}.</source>
@@ -3245,11 +3245,11 @@
     </message>
     <message>
         <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
-        <translation>Bei dieser Kamera sind Tiefe und Farbe nicht deckungsgleich. Tiefen werden neben den Markern gelesen.</translation>
+        <translation>Bei dieser Kamera sind Tiefe und Farbe nicht deckungsgleich. Die Tiefe wird daher neben den Markern gemessen.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
-        <translation>Diese Kamera sendet keine Zeitstempel. Es gelten die Zeiten der Ankunft, daher sind Geschwindigkeiten ungenau.</translation>
+        <translation>Diese Kamera sendet keine Zeitstempel. Es gilt die Ankunftszeit der Bilder, daher sind Geschwindigkeiten nur Näherungen.</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
@@ -3257,7 +3257,7 @@
     </message>
     <message>
         <source>This port is slow for this camera. {port}</source>
-        <translation>Dieser Anschluss ist für diese Kamera langsam. {port}</translation>
+        <translation>Dieser Anschluss ist für diese Kamera zu langsam. {port}</translation>
     </message>
     <message>
         <source>This port is too slow. {port}</source>
@@ -3293,7 +3293,7 @@
     </message>
     <message>
         <source>Wedge: cut along the lines, fold back along the dashes</source>
-        <translation>Keil: an den Linien schneiden, an den Strichen nach hinten falten</translation>
+        <translation>Keil: an den Linien schneiden, an den gestrichelten nach hinten falten</translation>
     </message>
     <message>
         <source>Window</source>
@@ -3481,7 +3481,7 @@
     </message>
     <message>
         <source>inside the data folder, or containing it</source>
-        <translation>im Datenordner, oder er enthält ihn</translation>
+        <translation>liegt im Datenordner oder enthält ihn</translation>
     </message>
     <message>
         <source>index finger</source>
@@ -3533,7 +3533,7 @@
     </message>
     <message>
         <source>its side with one marker here</source>
-        <translation>Seite mit einem Marker hier</translation>
+        <translation>Keilseite mit einem Marker hier</translation>
     </message>
     <message>
         <source>times out of order</source>
@@ -3541,7 +3541,7 @@
     </message>
     <message>
         <source>times span more than a day: damaged, or a clock jumped</source>
-        <translation>Zeiten umfassen mehr als einen Tag: beschädigt, oder eine Uhr ist gesprungen</translation>
+        <translation>Zeiten umfassen mehr als einen Tag: beschädigt, oder die Uhr ist gesprungen</translation>
     </message>
     <message>
         <source>unit {unit}</source>
@@ -3561,7 +3561,7 @@
     </message>
     <message>
         <source>line {number} is not a time and a file name: {content}</source>
-        <translation>Zeile {number} ist nicht Zeit und Dateiname: {content}</translation>
+        <translation>Zeile {number} enthält nicht Zeit und Dateiname: {content}</translation>
     </message>
     <message>
         <source>line {number} leads out of the folder: {content}</source>
@@ -3673,7 +3673,7 @@
     </message>
     <message>
         <source>no intrinsics for frames of {size}</source>
-        <translation>keine Kamerawerte für Bilder mit {size}</translation>
+        <translation>keine Kameraparameter für Bilder mit {size}</translation>
     </message>
     <message>
         <source>no markers</source>
@@ -3689,11 +3689,11 @@
     </message>
     <message>
         <source>no reader for {value}</source>
-        <translation>kein Leser für {value}</translation>
+        <translation>{value} kann nicht gelesen werden</translation>
     </message>
     <message>
         <source>no usable reading</source>
-        <translation>keine Ablesung ist verwendbar</translation>
+        <translation>keine verwendbare Ablesung</translation>
     </message>
     <message>
         <source>no space for another {length} MB</source>
@@ -3821,7 +3821,7 @@
     </message>
     <message>
         <source>the curves are opposite, or the time shift is more than {most} s. With the same sign they match best at {later} s ({match})</source>
-        <translation>die Kurven sind gegenläufig, oder der Zeitversatz ist größer als {most} s. Mit gleichem Vorzeichen passen sie am besten bei {later} s ({match})</translation>
+        <translation>die Kurven sind gegenläufig, oder der Zeitversatz ist größer als {most} s. Mit gleichem Vorzeichen passen sie am besten zusammen bei {later} s ({match})</translation>
     </message>
     <message>
         <source>the file changes while it is read</source>
@@ -3849,7 +3849,7 @@
     </message>
     <message>
         <source>there is no such setting, in {file}</source>
-        <translation>diese Einstellung gibt es nicht, in {file}</translation>
+        <translation>diese Einstellung gibt es nicht (in {file})</translation>
     </message>
     <message>
         <source>to CSV, JSON, C3D, TRC, MOT and BIDS</source>
@@ -3949,7 +3949,7 @@
     </message>
     <message>
         <source>{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle</source>
-        <translation>{angle}: die Referenz bewegt sich {percent} % so weit wie Carpus. Vielleicht hat sie eine andere Einheit oder ist ein anderer Winkel</translation>
+        <translation>{angle}: Die Referenz zeigt {percent} % der Bewegung, die Carpus misst. Vielleicht hat sie eine andere Einheit oder gibt einen anderen Winkel an</translation>
     </message>
     <message>
         <source>{calibration} has an impossible depth</source>
@@ -3989,7 +3989,7 @@
     </message>
     <message>
         <source>{key} is not a number of pixels</source>
-        <translation>{key} ist keine Zahl von Pixeln</translation>
+        <translation>{key} ist keine Pixelzahl</translation>
     </message>
     <message>
         <source>{lost} of {count} frames</source>
@@ -4033,11 +4033,11 @@
     </message>
     <message>
         <source>{value} is not a possible number, in {file}</source>
-        <translation>{value} ist keine mögliche Zahl, in {file}</translation>
+        <translation>{value} ist kein zulässiger Wert (in {file})</translation>
     </message>
     <message>
         <source>{value} is not {wanted_words}, in {file}</source>
-        <translation>{value} ist nicht {wanted_words}, in {file}</translation>
+        <translation>{value} ist nicht {wanted_words} (in {file})</translation>
     </message>
     <message>
         <source>{value} frame {number}</source>
@@ -4081,7 +4081,7 @@
     </message>
     <message>
         <source>Practice patient</source>
-        <translation>Probepatient</translation>
+        <translation>Testpatient</translation>
     </message>
     <message>
         <source>There is no session in {subject}.</source>
@@ -4117,7 +4117,7 @@
     </message>
     <message>
         <source>Linux encrypts a disk when it is set up (LUKS). Choose this when the system is installed, or move the data folder to an encrypted disk. Do not keep the passphrase with this computer.</source>
-        <translation>Linux verschlüsselt einen Datenträger beim Einrichten (LUKS). Wählen Sie es bei der Installation des Systems, oder legen Sie den Datenordner auf einen verschlüsselten Datenträger. Bewahren Sie die Passphrase nicht an diesem Computer auf.</translation>
+        <translation>Linux verschlüsselt einen Datenträger beim Einrichten (LUKS). Wählen Sie das bei der Installation des Systems, oder legen Sie den Datenordner auf einen verschlüsselten Datenträger. Bewahren Sie die Passphrase nicht an diesem Computer auf.</translation>
     </message>
     <message>
         <source>Turn it on in Windows: Settings → Privacy and security → Device encryption, or BitLocker in the Control Panel. Do not keep the recovery key with this computer.</source>
@@ -4185,11 +4185,11 @@
     </message>
     <message>
         <source>The packaged program does not include {packages}. Carpus installed from source can use it.</source>
-        <translation>Das gepackte Programm enthält {packages} nicht. Eine Installation von Carpus aus dem Quelltext kann es verwenden.</translation>
+        <translation>Das Programmpaket enthält {packages} nicht. Ein aus dem Quelltext installiertes Carpus kann es verwenden.</translation>
     </message>
     <message>
         <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
-        <translation>Referenz: {source}; {ages}, {sexes}; nicht für Kinder und hohes Alter.</translation>
+        <translation>Referenz: {source}; {ages}, {sexes}; nicht für Kinder und alte Menschen.</translation>
     </message>
     <message>
         <source>a study&apos;s table has the columns person, session and reference</source>
@@ -4229,7 +4229,7 @@
     </message>
     <message>
         <source>It contains every session.</source>
-        <translation>Sie enthält jede Sitzung.</translation>
+        <translation>Sie enthält alle Sitzungen.</translation>
     </message>
     <message>
         <source>1 session file is missing from it.</source>
@@ -4321,7 +4321,7 @@
     </message>
     <message>
         <source>no change beyond MDC</source>
-        <translation>keine Änderung über MDC</translation>
+        <translation>keine Änderung über der MDC</translation>
     </message>
     <message>
         <source>Each joint at its largest flexion; ± is the SD between repetitions.</source>
@@ -4349,7 +4349,7 @@
     </message>
     <message>
         <source>within MDC</source>
-        <translation>innerhalb MDC</translation>
+        <translation>innerhalb der MDC</translation>
     </message>
     <message>
         <source>{gap} (MDC {limit})</source>
@@ -4373,7 +4373,7 @@
     </message>
     <message>
         <source>You are more than halfway to our goal.</source>
-        <translation>Sie haben mehr als die Hälfte bis zu unserem Ziel geschafft.</translation>
+        <translation>Sie haben mehr als die Hälfte des Weges zu unserem Ziel geschafft.</translation>
     </message>
     <message>
         <source>You can move further than when you started.</source>
@@ -4385,7 +4385,7 @@
     </message>
     <message>
         <source>Tick a box when all rounds of the day are done.</source>
-        <translation>Ein Kästchen ankreuzen, wenn alle Runden des Tages geschafft sind.</translation>
+        <translation>Kreuzen Sie ein Kästchen an, wenn alle Runden des Tages geschafft sind.</translation>
     </message>
     <message>
         <source>Turn the palm up, then down. The elbow stays at your side.</source>
@@ -4545,11 +4545,11 @@
     </message>
     <message>
         <source>Check it again: once a week.</source>
-        <translation>Erneut prüfen: einmal in der Woche.</translation>
+        <translation>Erneut prüfen (einmal in der Woche).</translation>
     </message>
     <message>
         <source>the reference contains both hands: {names} are used</source>
-        <translation>In der Referenz sind beide Hände; genommen werden {names}</translation>
+        <translation>In der Referenz sind beide Hände; verwendet werden {names}</translation>
     </message>
     <message>
         <source>the markers of the two are {apart} mm apart, up to {most} mm is expected: other markers, another hand, or jumps</source>
@@ -4621,7 +4621,7 @@
     </message>
     <message>
         <source>depth_unit_m is not metres per count, as 0.001 or 0.0002</source>
-        <translation>depth_unit_m sind keine Meter pro Zähler, wie 0.001 oder 0.0002</translation>
+        <translation>depth_unit_m gibt keine Meter pro Zählwert an, wie 0.001 oder 0.0002</translation>
     </message>
     <message>
         <source>times in {unit}, not in seconds</source>
@@ -4637,11 +4637,11 @@
     </message>
     <message>
         <source>Forearm supination</source>
-        <translation>Unterarm-Supination</translation>
+        <translation>Supination des Unterarms</translation>
     </message>
     <message>
         <source>Forearm pronation</source>
-        <translation>Unterarm-Pronation</translation>
+        <translation>Pronation des Unterarms</translation>
     </message>
     <message>
         <source>Rotation +</source>
@@ -4685,7 +4685,7 @@
     </message>
     <message>
         <source>Places: {count} of {all} fields, {least} or more</source>
-        <translation>Orte: {count} von {all} Feldern, mindestens {least}</translation>
+        <translation>Positionen: {count} von {all} Feldern, mindestens {least}</translation>
     </message>
     <message>
         <source>Tilts: {side} missing</source>
@@ -4705,7 +4705,7 @@
     </message>
     <message>
         <source>Show the board in other places, at other tilts</source>
-        <translation>Zeigen Sie die Tafel an anderen Orten, anders geneigt</translation>
+        <translation>Zeigen Sie die Tafel an anderen Positionen, mit anderer Neigung</translation>
     </message>
     <message>
         <source>Hand not visible</source>
@@ -4825,7 +4825,7 @@
     </message>
     <message>
         <source>All sessions are safe. Names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
-        <translation>Alle Sitzungen sind sicher. Namen, Notizen und Kommentare können fehlen. Die beschädigte Liste ist als {subject} aufgehoben.</translation>
+        <translation>Alle Sitzungen sind sicher. Namen, Notizen und Kommentare können fehlen. Die beschädigte Liste bleibt als {subject} erhalten.</translation>
     </message>
     <message>
         <source>All sessions are safe. What was being entered may not be saved.</source>
@@ -4877,7 +4877,7 @@
     </message>
     <message>
         <source>Check that it is the same movement, and state which column or marker is which.</source>
-        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und geben Sie an, welche Spalte oder welcher Marker was ist.</translation>
+        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und geben Sie an, wofür jede Spalte und jeder Marker steht.</translation>
     </message>
     <message>
         <source>Check that the folder exists and that you may write there, or choose another folder.</source>
@@ -4957,7 +4957,7 @@
     </message>
     <message>
         <source>Continue. When the disk or network is back, Carpus moves the session automatically.</source>
-        <translation>Fahren Sie fort. Wenn Datenträger oder Netz wieder da sind, verschiebt Carpus die Sitzung automatisch.</translation>
+        <translation>Fahren Sie fort. Wenn Datenträger oder Netz wieder verfügbar sind, verschiebt Carpus die Sitzung automatisch.</translation>
     </message>
     <message>
         <source>Copy the recording again from its source.</source>
@@ -5013,7 +5013,7 @@
     </message>
     <message>
         <source>Glue the board to something stiff and flat, light it well, and hold it still.</source>
-        <translation>Kleben Sie die Tafel auf etwas Steifes, Ebenes, beleuchten Sie sie gut und halten Sie sie ruhig.</translation>
+        <translation>Kleben Sie die Tafel auf etwas Steifes und Ebenes, beleuchten Sie sie gut, und halten Sie sie ruhig.</translation>
     </message>
     <message>
         <source>Hold the whole printed board in the camera image, in good light.</source>
@@ -5105,7 +5105,7 @@
     </message>
     <message>
         <source>No separate blue marker was found at a click: {subject}.</source>
-        <translation>An einem Klick wurde kein eigener blauer Marker gefunden: {subject}.</translation>
+        <translation>An einer angeklickten Stelle wurde kein eigener blauer Marker gefunden: {subject}.</translation>
     </message>
     <message>
         <source>Nothing else was changed.</source>
@@ -5165,7 +5165,7 @@
     </message>
     <message>
         <source>Record to a disk in this computer, and close other programs.</source>
-        <translation>Nehmen Sie auf einen Datenträger in diesem Computer auf, und schließen Sie andere Programme.</translation>
+        <translation>Speichern Sie die Aufnahme auf einem Datenträger in diesem Computer, und schließen Sie andere Programme.</translation>
     </message>
     <message>
         <source>Recording</source>
@@ -5233,7 +5233,7 @@
     </message>
     <message>
         <source>The calibration board is not visible: {subject} ({detail}).</source>
-        <translation>Die Kalibriertafel ist nicht zu sehen: {subject} ({detail}).</translation>
+        <translation>Die Kalibriertafel ist nicht sichtbar: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The camera cannot keep its exposure constant: {subject}.</source>
@@ -5241,7 +5241,7 @@
     </message>
     <message>
         <source>The camera driver has stopped: {subject} ({detail}).</source>
-        <translation>Der Kameratreiber hat aufgehört zu arbeiten: {subject} ({detail}).</translation>
+        <translation>Der Kameratreiber läuft nicht mehr: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The camera driver is not installed or cannot be loaded ({detail}).</source>
@@ -5261,7 +5261,7 @@
     </message>
     <message>
         <source>The check card is not visible: {subject} ({detail}).</source>
-        <translation>Die Prüfkarte ist nicht zu sehen: {subject} ({detail}).</translation>
+        <translation>Die Prüfkarte ist nicht sichtbar: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The clicked markers cannot be read: {subject} ({detail}).</source>
@@ -5301,7 +5301,7 @@
     </message>
     <message>
         <source>The frame times are out of order: {subject} ({detail}).</source>
-        <translation>Die Bildzeiten sind nicht aufsteigend: {subject} ({detail}).</translation>
+        <translation>Die Bildzeiten sind nicht in aufsteigender Reihenfolge: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The frames of the recording differ in size: {subject} ({detail}).</source>
@@ -5313,7 +5313,7 @@
     </message>
     <message>
         <source>The images of the board are too few or too similar: {subject} ({detail}).</source>
-        <translation>Die Bilder der Tafel sind zu wenige oder zu ähnlich: {subject} ({detail}).</translation>
+        <translation>Es gibt zu wenige Bilder der Tafel, oder sie sind einander zu ähnlich: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The live measurement is saved.</source>
@@ -5341,7 +5341,7 @@
     </message>
     <message>
         <source>The patient list was damaged. It was rebuilt from the sessions and what could be read ({detail}).</source>
-        <translation>Die Patientenliste war beschädigt. Sie wurde aus den Sitzungen und dem Lesbaren neu erstellt ({detail}).</translation>
+        <translation>Die Patientenliste war beschädigt. Sie wurde aus den Sitzungen und allem, was lesbar war, neu erstellt ({detail}).</translation>
     </message>
     <message>
         <source>The patient list was made by another version of Carpus: {subject} ({detail}).</source>
@@ -5401,7 +5401,7 @@
     </message>
     <message>
         <source>They are no longer listed. Carpus tries again at each start.</source>
-        <translation>Sie sind nicht mehr aufgelistet. Carpus versucht es bei jedem Start noch einmal.</translation>
+        <translation>Sie erscheinen in keiner Liste mehr. Carpus versucht es bei jedem Start noch einmal.</translation>
     </message>
     <message>
         <source>They were not changed. All other sessions are safe.</source>
@@ -5429,7 +5429,7 @@
     </message>
     <message>
         <source>Turn on depth registration in the camera settings next time.</source>
-        <translation>Schalten Sie beim nächsten Mal die Registrierung von Tiefe und Farbe in den Kameraeinstellungen ein.</translation>
+        <translation>Schalten Sie beim nächsten Mal die Ausrichtung von Tiefe und Farbe in den Kameraeinstellungen ein.</translation>
     </message>
     <message>
         <source>Two patients had the name {subject}: the second one now has ({detail}) after it.</source>
@@ -5497,7 +5497,7 @@
     </message>
     <message>
         <source>it contains more than one record</source>
-        <translation>sie enthält mehr als einen Datensatz</translation>
+        <translation>enthält mehr als einen Datensatz</translation>
     </message>
     <message>
         <source>“carpus calibrate-camera --board” prints it.</source>
@@ -5509,7 +5509,7 @@
     </message>
     <message>
         <source>“carpus track --leave-out-damaged” continues without it.</source>
-        <translation>„carpus track --leave-out-damaged“ fährt ohne es fort.</translation>
+        <translation>„carpus track --leave-out-damaged“ arbeitet ohne dieses Bild weiter.</translation>
     </message>
     <message>
         <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
@@ -5609,7 +5609,7 @@
     </message>
     <message>
         <source>Image taken. Now another place.</source>
-        <translation>Bild aufgenommen. Jetzt eine andere Stelle.</translation>
+        <translation>Bild aufgenommen. Jetzt eine andere Position.</translation>
     </message>
     <message>
         <source>Nothing was changed. Glue the board onto something flat and stiff. Take the images again in good light.</source>
@@ -5617,7 +5617,7 @@
     </message>
     <message>
         <source>Nothing was changed. Turn on depth registration in the camera: “carpus doctor” shows how.</source>
-        <translation>Es wurde nichts geändert. Schalten Sie in der Kamera die Registrierung von Tiefe und Farbe ein: „carpus doctor“ zeigt, wie.</translation>
+        <translation>Es wurde nichts geändert. Schalten Sie in der Kamera die Ausrichtung von Tiefe und Farbe ein: „carpus doctor“ zeigt, wie.</translation>
     </message>
     <message>
         <source>Depth was not checked.</source>
@@ -5625,7 +5625,7 @@
     </message>
     <message>
         <source>too few images with depth on the board</source>
-        <translation>zu wenige Bilder mit Tiefe auf der Tafel</translation>
+        <translation>zu wenige Bilder mit Tiefenwerten auf der Tafel</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, fully in view, about 60 cm away.</source>
@@ -5697,7 +5697,7 @@
     </message>
     <message>
         <source>too slow to assess</source>
-        <translation>zu langsam zum Beurteilen</translation>
+        <translation>zu langsam für eine Beurteilung</translation>
     </message>
     <message>
         <source>abduction</source>
@@ -5709,7 +5709,7 @@
     </message>
     <message>
         <source>Partly occluded ({sign} = minimum): {parts}. Frames with occluded joints are not analysed.</source>
-        <translation>Zum Teil verdeckt ({sign} = Mindestwert): {parts}. Bilder mit verdeckten Gelenken werden nicht ausgewertet.</translation>
+        <translation>Teilweise verdeckt ({sign} = Mindestwert): {parts}. Bilder mit verdeckten Gelenken werden nicht ausgewertet.</translation>
     </message>
     <message>
         <source>Abduction of all fingers</source>
@@ -5777,11 +5777,11 @@
     </message>
     <message>
         <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people. Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up.</source>
-        <translation>MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen. Sonst gilt die Expertenvorgabe von Carpus. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+        <translation>Die MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen. Sonst gilt die Expertenschätzung von Carpus. Beides gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
     </message>
     <message>
         <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
-        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für ein Gesamtausmaß mit seinen zwei Enden ist sie √2-mal so groß. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+        <translation>Die MDC (Messfehler) ist eine Expertenschätzung von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für ein Gesamtausmaß mit seinen zwei Endpunkten ist sie √2-mal so groß. Sie gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -5801,7 +5801,7 @@
     </message>
     <message>
         <source>Depth registration</source>
-        <translation>Registrierung von Tiefe und Farbe</translation>
+        <translation>Ausrichtung von Tiefe und Farbe</translation>
     </message>
     <message>
         <source>You have no permission to open {node}. Install the camera permissions named above, then plug the camera in again.</source>
@@ -5889,7 +5889,7 @@
     </message>
     <message>
         <source>Or analyse the recording again with “carpus track”.</source>
-        <translation>Oder werten Sie die Aufnahme mit „carpus track“ neu aus.</translation>
+        <translation>Oder analysieren Sie die Aufnahme mit „carpus track“ neu.</translation>
     </message>
     <message>
         <source>Ab-/adduction</source>
@@ -6053,7 +6053,7 @@
     </message>
     <message>
         <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
-        <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {limit} erkennbar)</translation>
+        <translation>{movement} {goal} (Mittelwert {mean}; eine Änderung ist ab {limit} nachweisbar)</translation>
     </message>
     <message>
         <source>{count} pairs of one session, compared with {kind}</source>
@@ -6077,7 +6077,7 @@
     </message>
     <message>
         <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A supination goal before thumb up is negative, such as −25°.</source>
-        <translation>0° heißt Daumen oben, 90° Pronation heißt Handfläche flach auf dem Tisch. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Supinationsziel, das Daumen oben nicht erreicht, ist negativ, zum Beispiel −25°.</translation>
+        <translation>0° entspricht der Stellung „Daumen oben“, 90° Pronation der flach auf dem Tisch liegenden Handfläche. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Supinationsziel, das „Daumen oben“ nicht erreicht, ist negativ, zum Beispiel −25°.</translation>
     </message>
     <message>
         <source>Backups cannot be saved there: {subject} ({detail}).</source>
@@ -6113,7 +6113,7 @@
     </message>
     <message>
         <source>{share} % of the repetition time</source>
-        <translation>{share} % der Zeit der Wiederholungen</translation>
+        <translation>{share} % der Wiederholungszeit</translation>
     </message>
     <message>
         <source>Measured on {date} with {count} people in {sessions} sessions. 95 % confidence intervals are in brackets.</source>
@@ -6121,7 +6121,7 @@
     </message>
     <message>
         <source>Forearm pronation and supination are measured from thumb up (0°). Palm flat on the table is 90° pronation.</source>
-        <translation>Pronation und Supination des Unterarms werden ab Daumen oben (0°) gemessen. Die Handfläche flach auf dem Tisch ist 90° Pronation.</translation>
+        <translation>Pronation und Supination des Unterarms werden ab „Daumen oben“ (0°) gemessen. Die Handfläche flach auf dem Tisch entspricht 90° Pronation.</translation>
     </message>
     <message>
         <source>Save the report as a PDF. It contains only the pseudonym.</source>
@@ -6303,7 +6303,7 @@
     </message>
     <message>
         <source>the last 14, plus one per month for 2 years</source>
-        <translation>die letzten 14, dazu eine pro Monat für 2 Jahre</translation>
+        <translation>die letzten 14, dazu 2 Jahre lang eine pro Monat</translation>
     </message>
     <message>
         <source>Backup folder</source>
@@ -6315,7 +6315,7 @@
     </message>
     <message>
         <source>Keep</source>
-        <translation>Behalten</translation>
+        <translation>Aufbewahren</translation>
     </message>
     <message>
         <source>Anyone with the backup disk can read it. Use an encrypted disk.</source>
@@ -6409,7 +6409,7 @@
     </message>
     <message>
         <source>Images are taken automatically when the board is still, sharp and in a new position.</source>
-        <translation>Bilder werden automatisch aufgenommen, wenn die Tafel ruhig, scharf und an einer neuen Stelle ist.</translation>
+        <translation>Bilder werden automatisch aufgenommen, wenn die Tafel ruhig, scharf und an einer neuen Position ist.</translation>
     </message>
     <message>
         <source>Opening the camera…</source>
@@ -6491,7 +6491,7 @@
     </message>
     <message>
         <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again after a knock or when the check card asks for it.</source>
-        <translation>Die Kalibrierung dauert fünf Minuten. Sie misst das Objektiv, den Tiefenfehler und die Ausrichtung von Tiefe und Farbe. Führen Sie sie einmal je Kamera durch, und erneut nach einem Stoß oder wenn die Prüfkarte es verlangt.</translation>
+        <translation>Die Kalibrierung dauert fünf Minuten. Sie vermisst das Objektiv, den Tiefenfehler und die Ausrichtung von Tiefe und Farbe. Führen Sie sie einmal je Kamera durch, und erneut nach einem Stoß oder wenn die Prüfkarte es verlangt.</translation>
     </message>
     <message>
         <source>Calibrate the camera</source>
@@ -6507,7 +6507,7 @@
     </message>
     <message>
         <source>Use even light without reflections. The screen shows where to hold the board. Images are taken automatically when it is still, sharp and in a new position. No image is saved, and nothing changes until you confirm.</source>
-        <translation>Sorgen Sie für gleichmäßiges Licht ohne Spiegelungen. Der Bildschirm zeigt, wohin die Tafel gehört. Bilder werden automatisch aufgenommen, wenn sie ruhig, scharf und an einer neuen Stelle ist. Kein Bild wird gespeichert, und nichts ändert sich, bevor Sie bestätigen.</translation>
+        <translation>Sorgen Sie für gleichmäßiges Licht ohne Spiegelungen. Der Bildschirm zeigt, wohin die Tafel gehört. Bilder werden automatisch aufgenommen, wenn sie ruhig, scharf und an einer neuen Position ist. Es wird kein Bild gespeichert, und nichts ändert sich, bevor Sie bestätigen.</translation>
     </message>
     <message>
         <source>The camera is connected.</source>
@@ -6657,7 +6657,7 @@
     </message>
     <message>
         <source>A simulated hand does the exercise, to try things out. It is marked as simulated.</source>
-        <translation>Eine simulierte Hand macht die Übung, zum Ausprobieren. Sie ist als simuliert gekennzeichnet.</translation>
+        <translation>Zum Ausprobieren führt eine simulierte Hand die Übung aus. Sie ist als simuliert gekennzeichnet.</translation>
     </message>
     <message>
         <source>Choose a &amp;file…</source>
@@ -6779,7 +6779,7 @@
     </message>
     <message>
         <source>A check is valid for one week. If all lengths deviate by the same share, the depth or the print size is wrong.</source>
-        <translation>Eine Prüfung gilt eine Woche. Weichen alle Längen um denselben Anteil ab, stimmt die Tiefe oder die Druckgröße nicht.</translation>
+        <translation>Eine Prüfung gilt eine Woche. Weichen alle Längen um denselben Prozentsatz ab, stimmt die Tiefe oder die Druckgröße nicht.</translation>
     </message>
     <message>
         <source>Check now, 30 seconds</source>
@@ -6844,7 +6844,7 @@
     <name>ComparisonFlow</name>
     <message>
         <source>Simulated data: no patient was measured. Excluded from analysis.</source>
-        <translation>Simulierte Daten: Es wurde kein Patient gemessen. Von der Auswertung ausgeschlossen.</translation>
+        <translation>Simulierte Daten: keine Messung an einem Patienten. Von der Auswertung ausgeschlossen.</translation>
     </message>
 </context>
 <context>
@@ -6985,7 +6985,7 @@
     </message>
     <message>
         <source>Show that frame</source>
-        <translation>Dieses Bild zeigen</translation>
+        <translation>Dieses Bild anzeigen</translation>
     </message>
     <message>
         <source>Changed here: {markers}</source>
@@ -7061,7 +7061,7 @@
     </message>
     <message>
         <source>Removes it from all lists and results. Everything can be restored.</source>
-        <translation>Entfernt alles aus Listen und Ergebnissen. Alles lässt sich wiederherstellen.</translation>
+        <translation>Entfernt alles aus allen Listen und Ergebnissen. Alles lässt sich wiederherstellen.</translation>
     </message>
     <message>
         <source>Delete this session permanently?</source>
@@ -7190,7 +7190,7 @@
     </message>
     <message>
         <source>trial</source>
-        <translation>Probe</translation>
+        <translation>Probedurchgang</translation>
     </message>
     <message>
         <source>Exclude</source>
@@ -7229,7 +7229,7 @@
     </message>
     <message>
         <source>Passive, and all after it</source>
-        <translation>Passiv, und alle danach</translation>
+        <translation>Passiv, auch alle danach</translation>
     </message>
     <message>
         <source>Excluded from the results; still shown on the curves and mentioned in the report.</source>
@@ -7241,7 +7241,7 @@
     </message>
     <message>
         <source>trial</source>
-        <translation>Probe</translation>
+        <translation>Probedurchgang</translation>
     </message>
     <message>
         <source>Another reason</source>
@@ -7292,7 +7292,7 @@
     </message>
     <message>
         <source>Child</source>
-        <translation>Kind</translation>
+        <translation>Kinder</translation>
     </message>
     <message>
         <source>No</source>
@@ -7414,7 +7414,7 @@
     </message>
     <message>
         <source>De-identified: random name, relative days, no notes</source>
-        <translation>De-identifiziert: Zufallsname, relative Tage, keine Notizen</translation>
+        <translation>De-identifiziert: Zufallsname, Tageszählung statt Datum, keine Notizen</translation>
     </message>
     <message>
         <source>Progress of the export</source>
@@ -7430,7 +7430,7 @@
     </message>
     <message>
         <source>For JSON, C3D, TRC, MOT and BIDS, turn on “For research” in the settings.</source>
-        <translation>Für JSON, C3D, TRC, MOT und BIDS schalten Sie „Für Forschung“ in den Einstellungen ein.</translation>
+        <translation>Für JSON, C3D, TRC, MOT und BIDS schalten Sie „Für die Forschung“ in den Einstellungen ein.</translation>
     </message>
     <message>
         <source>other programs: 1.5, separated by commas</source>
@@ -7464,7 +7464,7 @@
     </message>
     <message>
         <source>coupled to the PIP</source>
-        <translation>an PIP gekoppelt</translation>
+        <translation>ans PIP gekoppelt</translation>
     </message>
     <message>
         <source>coupled</source>
@@ -7562,7 +7562,7 @@
     </message>
     <message>
         <source>Palm down, fingers as straight as possible, forearm in line. Then take the image.</source>
-        <translation>Handfläche nach unten, Finger so gestreckt wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
+        <translation>Handfläche nach unten, Finger möglichst gestreckt, Unterarm in einer Linie mit der Hand. Nehmen Sie dann das Bild auf.</translation>
     </message>
     <message>
         <source>Take the image</source>
@@ -7570,7 +7570,7 @@
     </message>
     <message>
         <source>Hold the hand in this position until measuring begins.</source>
-        <translation>Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
+        <translation>Halten Sie die Hand in dieser Stellung, bis die Messung beginnt.</translation>
     </message>
     <message>
         <source>Click the markers</source>
@@ -7612,7 +7612,7 @@ von oben</translation>
     </message>
     <message>
         <source>The hand is not visible here, or its marker labels are uncertain. Choose another moment.</source>
-        <translation>Die Hand ist hier nicht sichtbar oder ihre Markerbezeichnungen sind unsicher. Wählen Sie einen anderen Moment.</translation>
+        <translation>Die Hand ist hier nicht sichtbar, oder die Bezeichnungen ihrer Marker sind unsicher. Wählen Sie einen anderen Moment.</translation>
     </message>
     <message>
         <source>The patient has agreed</source>
@@ -7690,7 +7690,7 @@ von oben</translation>
     </message>
     <message>
         <source>Show the sheet</source>
-        <translation>Das Blatt zeigen</translation>
+        <translation>Blatt anzeigen</translation>
     </message>
     <message>
         <source>Time: {count} characters too long</source>
@@ -7725,7 +7725,7 @@ von oben</translation>
     </message>
     <message>
         <source>Show the letter</source>
-        <translation>Brief zeigen</translation>
+        <translation>Brief anzeigen</translation>
     </message>
     <message>
         <source>Previous recipients</source>
@@ -7857,7 +7857,7 @@ von oben</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are saved.</source>
-        <translation>{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
+        <translation>{time} und {count} vollständige Wiederholungen sind gespeichert.</translation>
     </message>
     <message>
         <source>Recording continues while you choose. Everything is saved.</source>
@@ -8013,11 +8013,11 @@ von oben</translation>
     </message>
     <message>
         <source>Wrong PIN. 1 attempt left before a 1-minute wait.</source>
-        <translation>Falsche PIN. Noch 1 Versuch vor 1 Minute Wartezeit.</translation>
+        <translation>Falsche PIN. Noch 1 Versuch, dann 1 Minute Wartezeit.</translation>
     </message>
     <message>
         <source>Wrong PIN. {left} attempts left before a 1-minute wait.</source>
-        <translation>Falsche PIN. Noch {left} Versuche vor 1 Minute Wartezeit.</translation>
+        <translation>Falsche PIN. Noch {left} Versuche, dann 1 Minute Wartezeit.</translation>
     </message>
     <message>
         <source>Too many attempts. Try again in {seconds} s.</source>
@@ -8165,7 +8165,7 @@ von oben</translation>
     </message>
     <message>
         <source>Manual and Carpus values stay separate</source>
-        <translation>Manuelle und Carpus-Werte bleiben getrennt</translation>
+        <translation>Manuelle Werte und Carpus-Werte bleiben getrennt</translation>
     </message>
     <message>
         <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
@@ -8196,7 +8196,7 @@ von oben</translation>
     <name>ManualValueChart</name>
     <message>
         <source>{name} over the days</source>
-        <translation>{name} über die Tage</translation>
+        <translation>{name} im Verlauf der Tage</translation>
     </message>
     <message>
         <source>Carpus, mean</source>
@@ -8266,7 +8266,7 @@ von oben</translation>
     </message>
     <message>
         <source>{now}, was {size} mm</source>
-        <translation>{now}, war {size} mm</translation>
+        <translation>{now}, zuvor {size} mm</translation>
     </message>
 </context>
 <context>
@@ -8344,7 +8344,7 @@ von oben</translation>
     </message>
     <message>
         <source>Start position {angles} (entered)</source>
-        <translation>Startstellung {angles} (eingetragen)</translation>
+        <translation>Ausgangsstellung {angles} (eingetragen)</translation>
     </message>
     <message>
         <source>Drag a label to its marker. Two labels can be swapped.</source>
@@ -8352,7 +8352,7 @@ von oben</translation>
     </message>
     <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
-        <translation>Hand flach und ruhig, Handfläche unten. Gebeugte Finger sind in Ordnung.</translation>
+        <translation>Hand flach und ruhig, Handfläche nach unten. Gebeugte Finger sind in Ordnung.</translation>
     </message>
     <message>
         <source>Click these again</source>
@@ -8522,7 +8522,7 @@ von oben</translation>
     </message>
     <message>
         <source>coupled to the PIP</source>
-        <translation>an PIP gekoppelt</translation>
+        <translation>ans PIP gekoppelt</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -8530,7 +8530,7 @@ von oben</translation>
     </message>
     <message>
         <source>Best today</source>
-        <translation>Bester heute</translation>
+        <translation>Bestwert heute</translation>
     </message>
     <message>
         <source>Best {movement}</source>
@@ -8655,7 +8655,7 @@ von oben</translation>
     </message>
     <message>
         <source>Start practice</source>
-        <translation>Probe starten</translation>
+        <translation>Testsitzung starten</translation>
     </message>
     <message>
         <source>Start from a file · no camera</source>
@@ -8698,15 +8698,15 @@ von oben</translation>
     </message>
     <message>
         <source>Name: {count} characters too long</source>
-        <translation>Name: {count} Zeichen zu lang</translation>
+        <translation>Name: {count} Zeichen zu viel</translation>
     </message>
     <message>
         <source>Real name: {count} characters too long</source>
-        <translation>Echter Name: {count} Zeichen zu lang</translation>
+        <translation>Echter Name: {count} Zeichen zu viel</translation>
     </message>
     <message>
         <source>Diagnosis: {count} characters too long</source>
-        <translation>Diagnose: {count} Zeichen zu lang</translation>
+        <translation>Diagnose: {count} Zeichen zu viel</translation>
     </message>
     <message>
         <source>Operation</source>
@@ -8778,7 +8778,7 @@ von oben</translation>
     </message>
     <message>
         <source>Which hand writes?</source>
-        <translation>Welche Hand schreibt?</translation>
+        <translation>Mit welcher Hand wird geschrieben?</translation>
     </message>
     <message>
         <source>Operation or injury?</source>
@@ -8798,7 +8798,7 @@ von oben</translation>
     </message>
     <message>
         <source>Record number: {count} characters too long</source>
-        <translation>Aktennummer: {count} Zeichen zu lang</translation>
+        <translation>Aktennummer: {count} Zeichen zu viel</translation>
     </message>
     <message>
         <source>Sex</source>
@@ -8830,7 +8830,7 @@ von oben</translation>
     </message>
     <message>
         <source>The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
-        <translation>Der Name in Carpus ist ein Pseudonym, das laut gesagt werden kann: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
+        <translation>Der Name in Carpus ist ein Pseudonym, das laut genannt werden kann: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
     </message>
 </context>
 <context>
@@ -8898,7 +8898,7 @@ von oben</translation>
     </message>
     <message>
         <source>Practice patient</source>
-        <translation>Probepatient</translation>
+        <translation>Testpatient</translation>
     </message>
     <message>
         <source>In the archi&amp;ve: {names}</source>
@@ -8949,7 +8949,7 @@ von oben</translation>
     </message>
     <message>
         <source>Set PIN</source>
-        <translation>PIN setzen</translation>
+        <translation>PIN festlegen</translation>
     </message>
     <message>
         <source>&amp;Remove PIN</source>
@@ -8984,7 +8984,7 @@ von oben</translation>
     </message>
     <message>
         <source>{factor}× speed</source>
-        <translation>{factor}× Tempo</translation>
+        <translation>Tempo {factor}×</translation>
     </message>
     <message>
         <source>Previous frame (←)</source>
@@ -9053,7 +9053,7 @@ von oben</translation>
     <name>PracticeSystemCard</name>
     <message>
         <source>The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to practice system” next to a report writes its values and the PDF into the second. These files contain real names.</source>
-        <translation>Die Praxissoftware schreibt einen Patienten als GDT-2.1-Datei in den ersten Ordner, und Carpus öffnet ihn. „An Praxissoftware senden“ neben einem Bericht schreibt Werte und PDF in den zweiten. Diese Dateien enthalten echte Namen.</translation>
+        <translation>Die Praxissoftware legt die Daten eines Patienten als GDT-2.1-Datei im ersten Ordner ab, und Carpus öffnet den Patienten. „An Praxissoftware senden“ neben einem Bericht legt Werte und PDF im zweiten ab. Diese Dateien enthalten echte Namen.</translation>
     </message>
     <message>
         <source>Change…</source>
@@ -9099,7 +9099,7 @@ von oben</translation>
     <name>ProgressChart</name>
     <message>
         <source>Range of motion over the sessions</source>
-        <translation>Bewegungsausmaß über die Sitzungen</translation>
+        <translation>Bewegungsausmaß im Verlauf der Sitzungen</translation>
     </message>
     <message>
         <source>{name} {value}, {count} repetitions</source>
@@ -9248,7 +9248,7 @@ von oben</translation>
     </message>
     <message>
         <source>No record is past its retention period.</source>
-        <translation>Keine Unterlagen sind fällig.</translation>
+        <translation>Bei keinen Unterlagen ist die Aufbewahrungsfrist abgelaufen.</translation>
     </message>
     <message>
         <source>Set the retention period first.</source>
@@ -9268,7 +9268,7 @@ von oben</translation>
     </message>
     <message>
         <source>Records past retention</source>
-        <translation>Fällige Unterlagen</translation>
+        <translation>Abgelaufene Aufbewahrung</translation>
     </message>
     <message>
         <source>Excluded from all lists and results. Everything can be restored.</source>
@@ -9328,7 +9328,7 @@ von oben</translation>
     </message>
     <message>
         <source>restored from archive</source>
-        <translation>aus dem Archiv geholt</translation>
+        <translation>aus dem Archiv wiederhergestellt</translation>
     </message>
     <message>
         <source>deletion started</source>
@@ -9344,7 +9344,7 @@ von oben</translation>
     </message>
     <message>
         <source>backup restored</source>
-        <translation>Sicherung eingespielt</translation>
+        <translation>Sicherung wiederhergestellt</translation>
     </message>
     <message>
         <source>wrong PIN</source>
@@ -9396,7 +9396,7 @@ von oben</translation>
     </message>
     <message>
         <source>log read</source>
-        <translation>Protokoll gelesen</translation>
+        <translation>Protokoll eingesehen</translation>
     </message>
     <message>
         <source>1 session</source>
@@ -9404,7 +9404,7 @@ von oben</translation>
     </message>
     <message>
         <source>from the command line</source>
-        <translation>über Befehlszeile</translation>
+        <translation>über die Befehlszeile</translation>
     </message>
 </context>
 <context>
@@ -9493,7 +9493,7 @@ von oben</translation>
     </message>
     <message>
         <source>Records past r&amp;etention…</source>
-        <translation>&amp;Fällige Unterlagen…</translation>
+        <translation>Abgelau&amp;fene Aufbewahrung…</translation>
     </message>
     <message>
         <source>&amp;Archive…</source>
@@ -9598,7 +9598,7 @@ von oben</translation>
     </message>
     <message>
         <source>These placeholders take the session’s values: {places}</source>
-        <translation>Diese Platzhalter nehmen die Werte der Sitzung auf: {places}</translation>
+        <translation>Diese Platzhalter werden durch Werte der Sitzung ersetzt: {places}</translation>
     </message>
     <message>
         <source>Insert</source>
@@ -9638,7 +9638,7 @@ von oben</translation>
     </message>
     <message>
         <source>Warnings, method and the legal sentence always stay.</source>
-        <translation>Warnungen, Verfahren und der rechtliche Satz bleiben immer.</translation>
+        <translation>Warnungen, Verfahren und der rechtliche Hinweis bleiben immer.</translation>
     </message>
     <message>
         <source>Use these parts for all reports</source>
@@ -9705,7 +9705,7 @@ von oben</translation>
     </message>
     <message>
         <source>{pages}, readable in grey. Contains the patient’s real name: store it securely.</source>
-        <translation>{pages}, in Grau lesbar. Enthält den echten Namen: sicher aufbewahren.</translation>
+        <translation>{pages}, auch in Grau lesbar. Enthält den echten Namen des Patienten: sicher aufbewahren.</translation>
     </message>
     <message>
         <source>Save report</source>
@@ -9763,7 +9763,7 @@ von oben</translation>
     </message>
     <message>
         <source>You can continue working. The old result stays until you choose the new one. Stop keeps the old result.</source>
-        <translation>Sie können weiterarbeiten. Das alte Ergebnis bleibt, bis Sie das neue wählen. Stopp behält das alte Ergebnis.</translation>
+        <translation>Sie können weiterarbeiten. Das alte Ergebnis bleibt, bis Sie das neue wählen. „Stopp“ behält das alte Ergebnis.</translation>
     </message>
     <message>
         <source>Continue working</source>
@@ -9802,7 +9802,7 @@ von oben</translation>
     </message>
     <message>
         <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % confidence intervals.</source>
-        <translation>Von mehrfach gemessenen Personen, deren Marker dazwischen alle entfernt und neu geklebt wurden. Zeigt den Standardmessfehler (SEM) und MDC95 mit 95-%-Konfidenzintervallen.</translation>
+        <translation>Grundlage sind mehrfach gemessene Personen, deren Marker dazwischen alle entfernt und neu geklebt wurden. Gezeigt werden der Standardmessfehler (SEM) und die MDC95 mit 95-%-Konfidenzintervallen.</translation>
     </message>
 </context>
 <context>
@@ -9956,7 +9956,7 @@ von oben</translation>
     </message>
     <message>
         <source>Ctrl+wheel: zoom</source>
-        <translation>Strg+Rad: Zoom</translation>
+        <translation>Strg+Mausrad: Zoom</translation>
     </message>
     <message>
         <source>occluded</source>
@@ -10088,7 +10088,7 @@ von oben</translation>
     </message>
     <message>
         <source>Exercises that run one after the other with the same markers. Each becomes a session of its own.</source>
-        <translation>Übungen, die mit denselben Markern nacheinander laufen. Jede wird eine eigene Sitzung.</translation>
+        <translation>Übungen, die mit denselben Markern nacheinander ausgeführt werden. Jede wird zu einer eigenen Sitzung.</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -10154,11 +10154,11 @@ von oben</translation>
     </message>
     <message>
         <source>Hands-free start: use a pedal or a presentation remote (Page Down). An automatic start is counted down, and Space cancels it.</source>
-        <translation>Start ohne Hände: Verwenden Sie ein Pedal oder einen Presenter (Bild ab). Ein automatischer Start wird heruntergezählt, und die Leertaste bricht ihn ab.</translation>
+        <translation>Start mit freien Händen: Verwenden Sie ein Pedal oder einen Presenter (Bild ab). Vor einem automatischen Start läuft ein Countdown. Die Leertaste bricht ihn ab.</translation>
     </message>
     <message>
         <source>A second screen or window shows the patient what to do. Open it while measuring. Choose with the exercise whether it addresses a child or an adult.</source>
-        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
+        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt dem Patienten, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
     </message>
     <message>
         <source>As in the papers: deviation first</source>
@@ -10206,7 +10206,7 @@ von oben</translation>
     </message>
     <message>
         <source>Demo: settings apply until it is closed.</source>
-        <translation>Demo: Einstellungen gelten, bis sie geschlossen wird.</translation>
+        <translation>Demo: Die Einstellungen gelten nur bis zum Schließen.</translation>
     </message>
     <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
@@ -10218,7 +10218,7 @@ von oben</translation>
     </message>
     <message>
         <source>Appearance and language</source>
-        <translation>Darstellung, Sprache</translation>
+        <translation>Darstellung und Sprache</translation>
     </message>
     <message>
         <source>The update folder cannot be read: {folder}.</source>
@@ -10238,7 +10238,7 @@ von oben</translation>
     </message>
     <message>
         <source>For research</source>
-        <translation>Für Forschung</translation>
+        <translation>Für die Forschung</translation>
     </message>
     <message>
         <source>Done</source>
@@ -10278,7 +10278,7 @@ von oben</translation>
     </message>
     <message>
         <source>Sessions and patient list. Private to your user account. Nothing leaves this computer.</source>
-        <translation>Sitzungen und Patientenliste. Nur für Ihr Benutzerkonto. Nichts verlässt diesen Computer.</translation>
+        <translation>Sitzungen und Patientenliste. Nur Ihrem Benutzerkonto zugänglich. Nichts verlässt diesen Computer.</translation>
     </message>
     <message>
         <source>Data</source>
@@ -10349,7 +10349,7 @@ von oben</translation>
     </message>
     <message>
         <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
-        <translation>Messen Sie jetzt die Winkel von Handgelenk und Unterarm mit dem Goniometer und tragen Sie sie ein. Handfläche flach auf dem Tisch ist 90° Pronation. Carpus rechnet sie in alle Handgelenkwinkel ein und vermerkt es im Bericht. Gebeugte Finger brauchen keinen Eintrag.</translation>
+        <translation>Messen Sie jetzt die Winkel von Handgelenk und Unterarm mit dem Goniometer und tragen Sie sie ein. Die Handfläche flach auf dem Tisch entspricht 90° Pronation. Carpus rechnet sie in alle Handgelenkwinkel ein und vermerkt es im Bericht. Gebeugte Finger brauchen keinen Eintrag.</translation>
     </message>
     <message>
         <source>Wrist is in neutral</source>
@@ -10391,7 +10391,7 @@ von oben</translation>
     </message>
     <message>
         <source>Sessions, reports, letters and the log carry the therapist’s initials. Choose the therapist in the top bar. Clear the initials to remove a therapist.</source>
-        <translation>Sitzungen, Berichte, Briefe und Protokoll tragen das Kürzel der Therapeutin oder des Therapeuten. Die Auswahl steht in der Leiste oben. Zum Entfernen einer Person das Kürzel leeren.</translation>
+        <translation>Sitzungen, Berichte, Briefe und Protokoll tragen das Kürzel der Therapeutin oder des Therapeuten. Ausgewählt wird in der oberen Leiste. Um eine Person zu entfernen, löschen Sie ihr Kürzel.</translation>
     </message>
 </context>
 <context>
@@ -10674,7 +10674,7 @@ von oben</translation>
     </message>
     <message>
         <source>&amp;Details</source>
-        <translation>Ein&amp;zelheiten</translation>
+        <translation>&amp;Details</translation>
     </message>
     <message>
         <source>&amp;Guide me through a first session</source>
@@ -10706,11 +10706,11 @@ von oben</translation>
     </message>
     <message>
         <source>One thing needs your attention. The practice patient works without it.</source>
-        <translation>Ein Punkt ist noch offen. Für den Probepatienten ist das nicht nötig.</translation>
+        <translation>Ein Punkt ist noch offen. Für den Testpatienten ist das nicht nötig.</translation>
     </message>
     <message>
         <source>{count} things need your attention. The practice patient works without them.</source>
-        <translation>{count} Punkte sind noch offen. Für den Probepatienten ist das nicht nötig.</translation>
+        <translation>{count} Punkte sind noch offen. Für den Testpatienten ist das nicht nötig.</translation>
     </message>
     <message>
         <source>The new folder is used from the next start. Close Carpus and open it again before you measure.</source>
@@ -10748,7 +10748,7 @@ von oben</translation>
     </message>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
-        <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
+        <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Testpatienten.</translation>
     </message>
 </context>
 <context>

@@ -269,7 +269,7 @@
     </message>
     <message>
         <source>{before} → {after} since {day}</source>
-        <translation>{before} → {after} rispetto al {day}</translation>
+        <translation>{before} → {after} rispetto al giorno {day}</translation>
     </message>
     <message>
         <source>(MDC {size})</source>
@@ -385,7 +385,7 @@
     </message>
     <message>
         <source>Not good enough: reprojection error {error} px.</source>
-        <translation>Non basta: errore di riproiezione {error} px.</translation>
+        <translation>Precisione insufficiente: errore di riproiezione {error} px.</translation>
     </message>
     <message>
         <source>Depth and colour are misaligned by {apart} px.</source>
@@ -401,7 +401,7 @@
     </message>
     <message>
         <source>Board not visible: show all of it, flat, in even light.</source>
-        <translation>Tavola non vista: mostrarla tutta, piatta, con luce uniforme.</translation>
+        <translation>Tavola non visibile: mostrarla per intero, ben piana, con luce uniforme.</translation>
     </message>
     <message>
         <source>Depth is correct.</source>
@@ -409,11 +409,11 @@
     </message>
     <message>
         <source>Depth was {share} % too large.</source>
-        <translation>La profondità risultava maggiore del {share} %.</translation>
+        <translation>La profondità era sovrastimata del {share} %.</translation>
     </message>
     <message>
         <source>Depth was {share} % too small.</source>
-        <translation>La profondità risultava minore del {share} %.</translation>
+        <translation>La profondità era sottostimata del {share} %.</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -449,11 +449,11 @@
     </message>
     <message>
         <source>Colour on depth</source>
-        <translation>Colore su profondità</translation>
+        <translation>Allineamento colore-profondità</translation>
     </message>
     <message>
         <source>{apart} px apart</source>
-        <translation>distanza {apart} px</translation>
+        <translation>scarto {apart} px</translation>
     </message>
     <message>
         <source>good: below {most} px</source>
@@ -465,7 +465,7 @@
     </message>
     <message>
         <source>This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
-        <translation>Questa telecamera non comunica un numero di serie, quindi la sua calibrazione non può essere salvata. “carpus calibrate-camera --output” scrive un file di telecamera che si può indicare nelle impostazioni.</translation>
+        <translation>Questa telecamera non comunica un numero di serie, quindi la sua calibrazione non può essere salvata. “carpus calibrate-camera --output” scrive un file della telecamera, che si può indicare nelle impostazioni.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -489,7 +489,7 @@
     </message>
     <message>
         <source>{count} of 6 markers visible. Show the whole card in the image, in even light, with its wedge upright.</source>
-        <translation>{count} marcatori visibili su 6. Mostrare tutto il cartoncino nell’immagine, con luce uniforme e cuneo in piedi.</translation>
+        <translation>{count} marcatori visibili su 6. Mostrare tutto il cartoncino, con luce uniforme e il cuneo in piedi.</translation>
     </message>
     <message>
         <source>All six markers are visible. Do not move the card.</source>
@@ -841,7 +841,7 @@
     </message>
     <message>
         <source>Is it the {marker}?</source>
-        <translation>È questo: {marker}?</translation>
+        <translation>Questo punto è: {marker}?</translation>
     </message>
     <message>
         <source>Which blue spot is the {marker}?</source>
@@ -973,11 +973,11 @@
     </message>
     <message>
         <source>At the base of the thumb, just distal to the anatomical snuffbox.</source>
-        <translation>Alla base del pollice, subito distale alla tabacchiera anatomica.</translation>
+        <translation>Alla base del pollice, subito distalmente alla tabacchiera anatomica.</translation>
     </message>
     <message>
         <source>On the back of the hand, 3–5 mm proximal to the MCP joint.</source>
-        <translation>Sul dorso della mano, 3–5 mm prossimale all’articolazione MCF.</translation>
+        <translation>Sul dorso della mano, 3–5 mm prossimalmente all’articolazione MCF.</translation>
     </message>
     <message>
         <source>Centred on the creases over the PIP joint.</source>
@@ -1233,7 +1233,7 @@
     </message>
     <message>
         <source>There!</source>
-        <translation>Ci sei!</translation>
+        <translation>Ecco!</translation>
     </message>
     <message>
         <source>There. Hold it.</source>
@@ -1241,7 +1241,7 @@
     </message>
     <message>
         <source>As far as is comfortable</source>
-        <translation>Fin dove è comodo</translation>
+        <translation>Fin dove non dà fastidio</translation>
     </message>
     <message>
         <source>Further</source>
@@ -1481,7 +1481,7 @@
     </message>
     <message>
         <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
-        <translation>α e γ sono indicati dove la loro DS resta sotto 30° ({share} del tempo): vicino alla posizione neutra sono noti solo β e α + γ.</translation>
+        <translation>α e γ sono indicati solo dove la loro DS resta sotto 30° ({share} del tempo): vicino alla posizione neutra si possono determinare solo β e α + γ.</translation>
     </message>
     <message>
         <source>no value</source>
@@ -1557,15 +1557,15 @@
     </message>
     <message>
         <source>TAM has improved in {count} of {all} fingers since {day}.</source>
-        <translation>TAM migliorato in {count} dita su {all} rispetto al {day}.</translation>
+        <translation>TAM migliorato in {count} dita su {all} rispetto al giorno {day}.</translation>
     </message>
     <message>
         <source>{name} has improved by {size} since {day}.</source>
-        <translation>{name}: miglioramento di {size} rispetto al {day}.</translation>
+        <translation>{name}: miglioramento di {size} rispetto al giorno {day}.</translation>
     </message>
     <message>
         <source>{name} has decreased by {size} since {day}.</source>
-        <translation>{name}: diminuzione di {size} rispetto al {day}.</translation>
+        <translation>{name}: diminuzione di {size} rispetto al giorno {day}.</translation>
     </message>
     <message>
         <source>Not assessed: the joints were partly occluded.</source>
@@ -1669,7 +1669,7 @@
     </message>
     <message>
         <source>{name}, across</source>
-        <translation>{name}, attraverso</translation>
+        <translation>{name}, andata</translation>
     </message>
     <message>
         <source>Time to peak</source>
@@ -1681,7 +1681,7 @@
     </message>
     <message>
         <source>Path length ratio</source>
-        <translation>Rapporto di percorso</translation>
+        <translation>Rapporto percorso/retta</translation>
     </message>
     <message>
         <source>Number of speed peaks</source>
@@ -1705,11 +1705,11 @@
     </message>
     <message>
         <source>Pose plausible while occluded</source>
-        <translation>Posizione plausibile mentre è nascosto</translation>
+        <translation>Posizione plausibile quando nascosta</translation>
     </message>
     <message>
         <source>Pose within 15° while occluded</source>
-        <translation>Posizione entro 15° mentre è nascosto</translation>
+        <translation>Posizione entro 15° quando nascosta</translation>
     </message>
     <message>
         <source>Jump on reappearance</source>
@@ -1737,7 +1737,7 @@
     </message>
     <message>
         <source>Lag of {other} after {one}</source>
-        <translation>{other} dopo {one}: ritardo</translation>
+        <translation>Ritardo: {other} dopo {one}</translation>
     </message>
     <message>
         <source>Enslaving of {other} by {one}</source>
@@ -1761,7 +1761,7 @@
     </message>
     <message>
         <source>Reach {time}, peak speed {speed}, path ratio {straight}, grip aperture {opening}, wrist {wrist}</source>
-        <translation>Raggiungimento {time}, velocità massima {speed}, rapporto di percorso {straight}, apertura {opening}, polso {wrist}</translation>
+        <translation>Raggiungimento {time}, velocità massima {speed}, rapporto percorso/retta {straight}, apertura {opening}, polso {wrist}</translation>
     </message>
     <message>
         <source>The thumb touched {met} of {all} fingertips</source>
@@ -1869,7 +1869,7 @@
     </message>
     <message>
         <source>Change since {day}</source>
-        <translation>Rispetto al {day}</translation>
+        <translation>Rispetto a: {day}</translation>
     </message>
     <message>
         <source>palmar abduction of the thumb</source>
@@ -1901,15 +1901,15 @@
     </message>
     <message>
         <source>No total active motion (TAM): no finger had all joints visible at once.</source>
-        <translation>Nessun movimento attivo totale (TAM): nessun dito aveva tutte le articolazioni visibili insieme.</translation>
+        <translation>Nessun movimento attivo totale (TAM): nessun dito aveva tutte le articolazioni visibili contemporaneamente.</translation>
     </message>
     <message>
         <source>It is missing for fingers whose joints were never all visible at once.</source>
-        <translation>Manca per le dita le cui articolazioni non erano mai tutte visibili insieme.</translation>
+        <translation>Manca per le dita le cui articolazioni non erano mai tutte visibili contemporaneamente.</translation>
     </message>
     <message>
         <source>DIP not measured: TAM assumes two thirds of PIP.</source>
-        <translation>IFD non misurata: il TAM assume due terzi della IFP.</translation>
+        <translation>IFD non misurata: per il TAM si assumono due terzi dell’angolo IFP.</translation>
     </message>
     <message>
         <source>PIP joints</source>
@@ -1925,11 +1925,11 @@
     </message>
     <message>
         <source>the first session on {day}</source>
-        <translation>giorno della prima seduta ({day})</translation>
+        <translation>della prima seduta ({day})</translation>
     </message>
     <message>
         <source>Change since {when} is not assessed: {why}.</source>
-        <translation>Cambiamento rispetto al {when} non valutato: {why}.</translation>
+        <translation>Cambiamento rispetto al giorno {when} non valutato: {why}.</translation>
     </message>
     <message>
         <source>Partly occluded joints are not assessed.</source>
@@ -1937,7 +1937,7 @@
     </message>
     <message>
         <source>Since {when}: {changes} (MDC {limit}).</source>
-        <translation>Rispetto al {when}: {changes} (MDC {limit}).</translation>
+        <translation>Rispetto al giorno {when}: {changes} (MDC {limit}).</translation>
     </message>
     <message>
         <source>IP</source>
@@ -2029,11 +2029,11 @@
     </message>
     <message>
         <source>Made by Carpus {version}</source>
-        <translation>Prodotto da Carpus {version}</translation>
+        <translation>Prodotto con Carpus {version}</translation>
     </message>
     <message>
         <source>measured by Carpus {versions}</source>
-        <translation>misurato da Carpus {versions}</translation>
+        <translation>misurato con Carpus {versions}</translation>
     </message>
     <message>
         <source>{before} and {after} repetitions</source>
@@ -2237,7 +2237,7 @@
     </message>
     <message>
         <source>range over the whole recording; no repetitions</source>
-        <translation>escursione su tutta la registrazione; nessuna ripetizione</translation>
+        <translation>escursione sull’intera registrazione; nessuna ripetizione</translation>
     </message>
     <message>
         <source>the exercised joint was not visible</source>
@@ -2301,7 +2301,7 @@
     </message>
     <message>
         <source>Since {when}: {changes}.</source>
-        <translation>Rispetto al {when}: {changes}.</translation>
+        <translation>Rispetto al giorno {when}: {changes}.</translation>
     </message>
     <message>
         <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
@@ -2313,11 +2313,11 @@
     </message>
     <message>
         <source>Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.</source>
-        <translation>Dita: 0° = esteso; negativo = iperestensione. Polso: {zero}.</translation>
+        <translation>Dita: 0° = dito esteso; negativo = iperestensione. Polso: {zero}.</translation>
     </message>
     <message>
         <source>Fingers: 0° = straight; negative = hyperextension. TAM = total flexion minus extension deficit. Wrist: {zero}.</source>
-        <translation>Dita: 0° = esteso; negativo = iperestensione. TAM = flessione totale meno deficit di estensione. Polso: {zero}.</translation>
+        <translation>Dita: 0° = dito esteso; negativo = iperestensione. TAM = flessione totale meno deficit di estensione. Polso: {zero}.</translation>
     </message>
     <message>
         <source>0° set by goniometer, start position {angles}</source>
@@ -2333,7 +2333,7 @@
     </message>
     <message>
         <source>Angles are relative to the room. They equal wrist angles only while the forearm is still.</source>
-        <translation>Gli angoli sono relativi allo spazio. Sono angoli del polso solo se l’avambraccio resta fermo.</translation>
+        <translation>Gli angoli sono riferiti all’ambiente. Equivalgono agli angoli del polso solo finché l’avambraccio resta fermo.</translation>
     </message>
     <message>
         <source>Camera not calibrated with a board.</source>
@@ -2349,7 +2349,7 @@
     </message>
     <message>
         <source>Simulated data: no patient was measured.</source>
-        <translation>Dati simulati: nessun paziente è stato misurato.</translation>
+        <translation>Dati simulati: non sono misure di un paziente.</translation>
     </message>
     <message>
         <source>Measured although uncertain: {findings}</source>
@@ -2377,11 +2377,11 @@
     </message>
     <message>
         <source>Corrected on {day}, from {time}, by {who}.</source>
-        <translation>Corretta in data {day}, da {time}, da {who}.</translation>
+        <translation>Corretta in data {day} da {who}, a partire da {time}.</translation>
     </message>
     <message>
         <source>Corrected on {day}, from {time}.</source>
-        <translation>Corretta in data {day}, da {time}.</translation>
+        <translation>Corretta in data {day}, a partire da {time}.</translation>
     </message>
     <message>
         <source>{share} % of the time</source>
@@ -2549,11 +2549,11 @@
     </message>
     <message>
         <source>operated on {day}</source>
-        <translation>intervento del {day}</translation>
+        <translation>intervento in data {day}</translation>
     </message>
     <message>
         <source>injured on {day}</source>
-        <translation>lesione del {day}</translation>
+        <translation>lesione in data {day}</translation>
     </message>
     <message>
         <source>Turn the palm up as far as the markers stay visible, then back.</source>
@@ -2797,7 +2797,7 @@
     </message>
     <message>
         <source>another start angle was given</source>
-        <translation>era indicato un altro angolo di partenza</translation>
+        <translation>era indicata un’altra posizione iniziale</translation>
     </message>
     <message>
         <source>the forearm moved</source>
@@ -2829,19 +2829,19 @@
     </message>
     <message>
         <source>{difference}, within MDC ({limit})</source>
-        <translation>{difference}, entro MDC ({limit})</translation>
+        <translation>{difference}, entro l’MDC ({limit})</translation>
     </message>
     <message>
         <source>{difference}, beyond MDC ({limit})</source>
-        <translation>{difference}, oltre MDC ({limit})</translation>
+        <translation>{difference}, oltre l’MDC ({limit})</translation>
     </message>
     <message>
         <source>{difference}: within MDC ({limit})</source>
-        <translation>{difference}: entro MDC ({limit})</translation>
+        <translation>{difference}: entro l’MDC ({limit})</translation>
     </message>
     <message>
         <source>{difference}: beyond MDC ({limit})</source>
-        <translation>{difference}: oltre MDC ({limit})</translation>
+        <translation>{difference}: oltre l’MDC ({limit})</translation>
     </message>
     <message>
         <source>Another blue spot fits the {markers} better.</source>
@@ -2893,19 +2893,19 @@
     </message>
     <message>
         <source>Choose the other side, or click the markers again.</source>
-        <translation>Scegliere l’altro lato, o rifare i clic sui marcatori.</translation>
+        <translation>Scegliere l’altro lato, o fare di nuovo clic sui marcatori.</translation>
     </message>
     <message>
         <source>Click all markers again, each under its own label.</source>
-        <translation>Rifare i clic su tutti i marcatori, ognuno con la sua etichetta.</translation>
+        <translation>Fare di nuovo clic su tutti i marcatori, ognuno con la sua etichetta.</translation>
     </message>
     <message>
         <source>Click each of the two on its own marker.</source>
-        <translation>Rifare i due clic, ognuno sul proprio marcatore.</translation>
+        <translation>Fare di nuovo clic, per ciascuna delle due etichette, sul proprio marcatore.</translation>
     </message>
     <message>
         <source>Click it again in its centre, and keep the hand still.</source>
-        <translation>Rifare il clic al suo centro, e tenere ferma la mano.</translation>
+        <translation>Fare di nuovo clic al suo centro e tenere ferma la mano.</translation>
     </message>
     <message>
         <source>Click nearer to the marker, or check the light.</source>
@@ -2913,7 +2913,7 @@
     </message>
     <message>
         <source>Click the {markers} again in its centre, or cover the other spot.</source>
-        <translation>Rifare il clic al centro ({markers}), o coprire l’altro punto.</translation>
+        <translation>Fare di nuovo clic al centro ({markers}), o coprire l’altro punto.</translation>
     </message>
     <message>
         <source>Clock</source>
@@ -2937,7 +2937,7 @@
     </message>
     <message>
         <source>Depth and colour are not aligned at the {markers} ({value} {unit}, up to {limit} is good).</source>
-        <translation>Profondità e colore non sono allineati: {markers} ({value} {unit}, fino a {limit} va bene).</translation>
+        <translation>Profondità e colore non sono allineati qui: {markers} ({value} {unit}, fino a {limit} va bene).</translation>
     </message>
     <message>
         <source>Disk</source>
@@ -2965,7 +2965,7 @@
     </message>
     <message>
         <source>Allow writing there, or choose another folder in the settings.</source>
-        <translation>Permettere la scrittura lì, o scegliere un’altra cartella nelle impostazioni.</translation>
+        <translation>Permettere la scrittura in questa cartella, o sceglierne un’altra nelle impostazioni.</translation>
     </message>
     <message>
         <source>Install Carpus again: part of it is missing.</source>
@@ -3005,7 +3005,7 @@
     </message>
     <message>
         <source>Needed for live cameras. {remedy}</source>
-        <translation>Serve per le telecamere dal vivo. {remedy}</translation>
+        <translation>Serve per misurare dal vivo con le telecamere. {remedy}</translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
@@ -3189,11 +3189,11 @@
     </message>
     <message>
         <source>The hand was still for {value} frames only ({limit} or more are good).</source>
-        <translation>La mano è stata ferma solo per {value} fotogrammi ({limit} o più va bene).</translation>
+        <translation>La mano è stata ferma solo per {value} fotogrammi ({limit} o più vanno bene).</translation>
     </message>
     <message>
         <source>The {markers} marker is {value} mm from its expected position (up to {limit} mm is good).</source>
-        <translation>Marcatore a {value} mm dalla posizione attesa: {markers} (fino a {limit} mm è buono).</translation>
+        <translation>Marcatore a {value} mm dalla posizione attesa: {markers} (fino a {limit} mm va bene).</translation>
     </message>
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
@@ -3233,7 +3233,7 @@
     </message>
     <message>
         <source>The {markers} does not lie on the line of its finger.</source>
-        <translation>Non è sulla linea del suo dito: {markers}.</translation>
+        <translation>Marcatore fuori dalla linea del suo dito: {markers}.</translation>
     </message>
     <message>
         <source>There is no folder {subject}.</source>
@@ -3245,11 +3245,11 @@
     </message>
     <message>
         <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
-        <translation>Questa telecamera non allinea la profondità al colore. Le profondità si leggeranno accanto ai marcatori.</translation>
+        <translation>Questa telecamera non allinea la profondità al colore. La profondità si misura quindi accanto ai marcatori.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
-        <translation>Questa telecamera non invia i tempi di ripresa. Valgono i tempi d’arrivo, quindi le velocità sono approssimative.</translation>
+        <translation>Questa telecamera non invia l’ora di ripresa dei fotogrammi. Vale l’ora di arrivo, quindi le velocità sono approssimative.</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
@@ -3257,7 +3257,7 @@
     </message>
     <message>
         <source>This port is slow for this camera. {port}</source>
-        <translation>Questa porta è lenta per questa telecamera. {port}</translation>
+        <translation>Questa porta è troppo lenta per questa telecamera. {port}</translation>
     </message>
     <message>
         <source>This port is too slow. {port}</source>
@@ -3293,7 +3293,7 @@
     </message>
     <message>
         <source>Wedge: cut along the lines, fold back along the dashes</source>
-        <translation>Cuneo: tagliare lungo le linee, piegare lungo i tratteggi</translation>
+        <translation>Cuneo: tagliare lungo le linee, piegare indietro lungo i tratteggi</translation>
     </message>
     <message>
         <source>Window</source>
@@ -3373,7 +3373,7 @@
     </message>
     <message>
         <source>reprojection error {error_px} px, at most {most_px} px accepted</source>
-        <translation>errore di riproiezione {error_px} px, al massimo {most_px} px accettabili</translation>
+        <translation>errore di riproiezione {error_px} px, massimo accettabile {most_px} px</translation>
     </message>
     <message>
         <source>cropped frames</source>
@@ -3481,7 +3481,7 @@
     </message>
     <message>
         <source>inside the data folder, or containing it</source>
-        <translation>dentro la cartella dei dati, o la contiene</translation>
+        <translation>è dentro la cartella dei dati, o la contiene</translation>
     </message>
     <message>
         <source>index finger</source>
@@ -3533,7 +3533,7 @@
     </message>
     <message>
         <source>its side with one marker here</source>
-        <translation>qui il lato con un marcatore</translation>
+        <translation>qui il lato del cuneo con un marcatore</translation>
     </message>
     <message>
         <source>times out of order</source>
@@ -3541,7 +3541,7 @@
     </message>
     <message>
         <source>times span more than a day: damaged, or a clock jumped</source>
-        <translation>i tempi coprono più di un giorno: danneggiata, oppure un orologio è saltato</translation>
+        <translation>i tempi coprono più di un giorno: danneggiata, oppure l’orologio ha avuto un salto</translation>
     </message>
     <message>
         <source>unit {unit}</source>
@@ -3561,7 +3561,7 @@
     </message>
     <message>
         <source>line {number} is not a time and a file name: {content}</source>
-        <translation>la riga {number} non è un tempo e un nome di file: {content}</translation>
+        <translation>la riga {number} non contiene un tempo e un nome di file: {content}</translation>
     </message>
     <message>
         <source>line {number} leads out of the folder: {content}</source>
@@ -3673,7 +3673,7 @@
     </message>
     <message>
         <source>no intrinsics for frames of {size}</source>
-        <translation>nessun valore interno della telecamera per fotogrammi di {size}</translation>
+        <translation>nessun parametro della telecamera per fotogrammi di {size}</translation>
     </message>
     <message>
         <source>no markers</source>
@@ -3689,7 +3689,7 @@
     </message>
     <message>
         <source>no reader for {value}</source>
-        <translation>nessun lettore per {value}</translation>
+        <translation>{value} non si può leggere</translation>
     </message>
     <message>
         <source>no usable reading</source>
@@ -3813,7 +3813,7 @@
     </message>
     <message>
         <source>the curves match by {match} at best. Check that it is the same movement</source>
-        <translation>le curve concordano al massimo per {match}. Controllare che sia lo stesso movimento</translation>
+        <translation>la concordanza delle curve è al massimo {match}. Controllare che sia lo stesso movimento</translation>
     </message>
     <message>
         <source>the curves are opposite, or the time shift is more than {most} s</source>
@@ -3849,7 +3849,7 @@
     </message>
     <message>
         <source>there is no such setting, in {file}</source>
-        <translation>quell’impostazione non esiste, in {file}</translation>
+        <translation>questa impostazione non esiste (in {file})</translation>
     </message>
     <message>
         <source>to CSV, JSON, C3D, TRC, MOT and BIDS</source>
@@ -3949,7 +3949,7 @@
     </message>
     <message>
         <source>{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle</source>
-        <translation>{angle}: il riferimento compie il {percent} % del movimento misurato da Carpus. Forse ha un’altra unità o è un altro angolo</translation>
+        <translation>{angle}: il riferimento mostra il {percent} % del movimento misurato da Carpus. Forse ha un’altra unità o indica un altro angolo</translation>
     </message>
     <message>
         <source>{calibration} has an impossible depth</source>
@@ -4033,11 +4033,11 @@
     </message>
     <message>
         <source>{value} is not a possible number, in {file}</source>
-        <translation>{value} non è un numero possibile, in {file}</translation>
+        <translation>{value} non è un valore ammesso (in {file})</translation>
     </message>
     <message>
         <source>{value} is not {wanted_words}, in {file}</source>
-        <translation>{value} non è {wanted_words}, in {file}</translation>
+        <translation>{value} non è {wanted_words} (in {file})</translation>
     </message>
     <message>
         <source>{value} frame {number}</source>
@@ -4089,7 +4089,7 @@
     </message>
     <message>
         <source>did you mean “{meant}”? There are: {names}</source>
-        <translation>si intendeva “{meant}”? Ci sono: {names}</translation>
+        <translation>forse “{meant}”? Ci sono: {names}</translation>
     </message>
     <message>
         <source>distortion_coefficients do not describe a lens: they cannot be inverted</source>
@@ -4185,7 +4185,7 @@
     </message>
     <message>
         <source>The packaged program does not include {packages}. Carpus installed from source can use it.</source>
-        <translation>Il programma impacchettato non include {packages}. Carpus installato dai sorgenti può usarlo.</translation>
+        <translation>Il pacchetto del programma non include {packages}. Carpus installato dai sorgenti può usarlo.</translation>
     </message>
     <message>
         <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
@@ -4209,7 +4209,7 @@
     </message>
     <message>
         <source>not available now</source>
-        <translation>ora non disponibile</translation>
+        <translation>al momento non disponibile</translation>
     </message>
     <message>
         <source>not connected</source>
@@ -4229,7 +4229,7 @@
     </message>
     <message>
         <source>It contains every session.</source>
-        <translation>Contiene ogni seduta.</translation>
+        <translation>Contiene tutte le sedute.</translation>
     </message>
     <message>
         <source>1 session file is missing from it.</source>
@@ -4309,7 +4309,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {day}.</source>
-        <translation>Nessun cambiamento oltre l’errore di misura rispetto al {day}.</translation>
+        <translation>Nessun cambiamento oltre l’errore di misura rispetto al giorno {day}.</translation>
     </message>
     <message>
         <source>{name}: no change beyond measurement error.</source>
@@ -4317,11 +4317,11 @@
     </message>
     <message>
         <source>No change beyond measurement error since {when}.</source>
-        <translation>Nessun cambiamento oltre l’errore di misura rispetto al {when}.</translation>
+        <translation>Nessun cambiamento oltre l’errore di misura rispetto al giorno {when}.</translation>
     </message>
     <message>
         <source>no change beyond MDC</source>
-        <translation>nessun cambiamento oltre MDC</translation>
+        <translation>nessun cambiamento oltre l’MDC</translation>
     </message>
     <message>
         <source>Each joint at its largest flexion; ± is the SD between repetitions.</source>
@@ -4349,7 +4349,7 @@
     </message>
     <message>
         <source>within MDC</source>
-        <translation>entro MDC</translation>
+        <translation>entro l’MDC</translation>
     </message>
     <message>
         <source>{gap} (MDC {limit})</source>
@@ -4365,7 +4365,7 @@
     </message>
     <message>
         <source>You have kept the progress you made.</source>
-        <translation>Lei ha mantenuto i progressi fatti.</translation>
+        <translation>Ha mantenuto i progressi fatti.</translation>
     </message>
     <message>
         <source>You have reached our goal.</source>
@@ -4373,11 +4373,11 @@
     </message>
     <message>
         <source>You are more than halfway to our goal.</source>
-        <translation>Lei è oltre la metà del percorso verso il nostro obiettivo.</translation>
+        <translation>È oltre la metà del percorso verso il nostro obiettivo.</translation>
     </message>
     <message>
         <source>You can move further than when you started.</source>
-        <translation>Lei riesce a muovere la mano più di quando ha iniziato.</translation>
+        <translation>Riesce a muovere la mano più di quando ha iniziato.</translation>
     </message>
     <message>
         <source>Your hand at home</source>
@@ -4385,7 +4385,7 @@
     </message>
     <message>
         <source>Tick a box when all rounds of the day are done.</source>
-        <translation>Segnare una casella quando tutti i giri del giorno sono fatti.</translation>
+        <translation>Segni una casella quando ha fatto tutti i giri del giorno.</translation>
     </message>
     <message>
         <source>Turn the palm up, then down. The elbow stays at your side.</source>
@@ -4425,11 +4425,11 @@
     </message>
     <message>
         <source>Notes, or what to ask next time</source>
-        <translation>Note, o che cosa chiedere la prossima volta</translation>
+        <translation>Note, o domande per la prossima volta</translation>
     </message>
     <message>
         <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
-        <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta fare meno e chiamarci.</translation>
+        <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta faccia meno e ci chiami.</translation>
     </message>
     <message>
         <source>The computer is too busy</source>
@@ -4437,7 +4437,7 @@
     </message>
     <message>
         <source>{count} frames are missing: close other programs</source>
-        <translation>{count} fotogrammi mancano: chiudere altri programmi</translation>
+        <translation>Mancano {count} fotogrammi: chiudere altri programmi</translation>
     </message>
     <message>
         <source>The computer is busy; every frame is saved</source>
@@ -4529,7 +4529,7 @@
     </message>
     <message>
         <source>{verdict} Checked {day}.</source>
-        <translation>{verdict} Controllata il {day}.</translation>
+        <translation>{verdict} Controllata in data {day}.</translation>
     </message>
     <message>
         <source>never calibrated</source>
@@ -4545,7 +4545,7 @@
     </message>
     <message>
         <source>Check it again: once a week.</source>
-        <translation>Controllarla di nuovo: una volta alla settimana.</translation>
+        <translation>Controllarla di nuovo (una volta alla settimana).</translation>
     </message>
     <message>
         <source>the reference contains both hands: {names} are used</source>
@@ -4705,7 +4705,7 @@
     </message>
     <message>
         <source>Show the board in other places, at other tilts</source>
-        <translation>Mostrare la tavola in altri punti, inclinata in altro modo</translation>
+        <translation>Mostrare la tavola in altre posizioni, con altre inclinazioni</translation>
     </message>
     <message>
         <source>Hand not visible</source>
@@ -4717,7 +4717,7 @@
     </message>
     <message>
         <source>Bend the wrist up, then down, as far as is comfortable. Keep the forearm still.</source>
-        <translation>Piegare il polso in su, poi in giù, fin dove è comodo. L’avambraccio resta fermo.</translation>
+        <translation>Piegare il polso in su, poi in giù, fin dove non dà fastidio. L’avambraccio resta fermo.</translation>
     </message>
     <message>
         <source>Check the path.</source>
@@ -4921,7 +4921,7 @@
     </message>
     <message>
         <source>Click every marker again, in the order shown.</source>
-        <translation>Rifare i clic su tutti i marcatori, nell’ordine indicato.</translation>
+        <translation>Fare di nuovo clic su tutti i marcatori, nell’ordine indicato.</translation>
     </message>
     <message>
         <source>Click the marker in the first frame of this recording.</source>
@@ -4929,7 +4929,7 @@
     </message>
     <message>
         <source>Click the markers again, or correct the file.</source>
-        <translation>Rifare i clic sui marcatori, o correggere il file.</translation>
+        <translation>Fare di nuovo clic sui marcatori, o correggere il file.</translation>
     </message>
     <message>
         <source>Close Carpus on other computers. If that does not help, ask your IT support for write access.</source>
@@ -4957,7 +4957,7 @@
     </message>
     <message>
         <source>Continue. When the disk or network is back, Carpus moves the session automatically.</source>
-        <translation>Continuare. Quando il disco o la rete tornano, Carpus sposta la seduta automaticamente.</translation>
+        <translation>Continuare. Quando il disco o la rete tornano disponibili, Carpus sposta la seduta automaticamente.</translation>
     </message>
     <message>
         <source>Copy the recording again from its source.</source>
@@ -5105,7 +5105,7 @@
     </message>
     <message>
         <source>No separate blue marker was found at a click: {subject}.</source>
-        <translation>Nel punto cliccato non è stato trovato un marcatore blu distinto: {subject}.</translation>
+        <translation>Nel punto del clic non è stato trovato un marcatore blu distinto: {subject}.</translation>
     </message>
     <message>
         <source>Nothing else was changed.</source>
@@ -5129,7 +5129,7 @@
     </message>
     <message>
         <source>Nothing was deleted: {subject} is a link to another place.</source>
-        <translation>Non è stato eliminato nulla: {subject} è un collegamento a un altro luogo.</translation>
+        <translation>Non è stato eliminato nulla: {subject} è un collegamento a un’altra posizione.</translation>
     </message>
     <message>
         <source>Open it again and enter your change once more.</source>
@@ -5265,11 +5265,11 @@
     </message>
     <message>
         <source>The clicked markers cannot be read: {subject} ({detail}).</source>
-        <translation>I marcatori cliccati non possono essere letti: {subject} ({detail}).</translation>
+        <translation>I clic sui marcatori non si possono leggere: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The clicked points do not form a hand ({subject}).</source>
-        <translation>I punti cliccati non formano una mano ({subject}).</translation>
+        <translation>I punti indicati non formano una mano ({subject}).</translation>
     </message>
     <message>
         <source>The clinic’s records server does not answer: {subject} ({detail}).</source>
@@ -5469,7 +5469,7 @@
     </message>
     <message>
         <source>Wait until its recording has ended, or restart Carpus: it completes the session.</source>
-        <translation>Attendere la fine della registrazione, o riavviare Carpus: completa la seduta.</translation>
+        <translation>Attendere la fine della registrazione, o riavviare Carpus, che completa la seduta.</translation>
     </message>
     <message>
         <source>What was recorded is safe.</source>
@@ -5477,7 +5477,7 @@
     </message>
     <message>
         <source>Without --scheduler this computer does the work.</source>
-        <translation>Senza --scheduler lavora questo computer.</translation>
+        <translation>Senza --scheduler il calcolo si svolge su questo computer.</translation>
     </message>
     <message>
         <source>Write “registered: true” or “registered: false” into camera_info.yaml.</source>
@@ -5509,7 +5509,7 @@
     </message>
     <message>
         <source>“carpus track --leave-out-damaged” continues without it.</source>
-        <translation>“carpus track --leave-out-damaged” prosegue senza di esso.</translation>
+        <translation>“carpus track --leave-out-damaged” prosegue senza quel fotogramma.</translation>
     </message>
     <message>
         <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
@@ -5625,7 +5625,7 @@
     </message>
     <message>
         <source>too few images with depth on the board</source>
-        <translation>troppo poche immagini con profondità sulla tavola</translation>
+        <translation>troppo poche immagini con valori di profondità sulla tavola</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, fully in view, about 60 cm away.</source>
@@ -5741,7 +5741,7 @@
     </message>
     <message>
         <source>{count} movement cycles; range over the whole recording</source>
-        <translation>{count} cicli di movimento; escursione su tutta la registrazione</translation>
+        <translation>{count} cicli di movimento; escursione sull’intera registrazione</translation>
     </message>
     <message>
         <source>too short</source>
@@ -5777,11 +5777,11 @@
     </message>
     <message>
         <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people. Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up.</source>
-        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti è il valore predefinito degli esperti di Carpus. Vale a parità di marcatori, lato e preparazione.</translation>
+        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti è il valore predefinito di Carpus, stabilito da esperti. Vale a parità di marcatori, lato e preparazione.</translation>
     </message>
     <message>
         <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
-        <translation>MDC (errore di misura): è il valore predefinito degli esperti di Carpus, non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
+        <translation>MDC (errore di misura): è il valore predefinito di Carpus, stabilito da esperti e non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -5861,7 +5861,7 @@
     </message>
     <message>
         <source>The language can be changed once no measurement or analysis is running.</source>
-        <translation>La lingua si può cambiare quando non è in corso nessuna misura o analisi.</translation>
+        <translation>La lingua si può cambiare quando non è in corso nessuna misurazione o analisi.</translation>
     </message>
     <message>
         <source>invisible character</source>
@@ -5905,7 +5905,7 @@
     </message>
     <message>
         <source>born {day}</source>
-        <translation>nato/a il {day}</translation>
+        <translation>nascita: {day}</translation>
     </message>
     <message>
         <source>No. {number}</source>
@@ -5921,7 +5921,7 @@
     </message>
     <message>
         <source>Connect the expected camera. Measurement and recording then continue automatically.</source>
-        <translation>Collegare la telecamera attesa. Misura e registrazione riprendono poi automaticamente.</translation>
+        <translation>Collegare la telecamera attesa. Misurazione e registrazione riprendono poi automaticamente.</translation>
     </message>
     <message>
         <source>Continue measuring. If the server still does not answer, ask your IT support.</source>
@@ -5933,7 +5933,7 @@
     </message>
     <message>
         <source>Plug the camera in again. Measurement and recording then continue automatically.</source>
-        <translation>Ricollegare la telecamera. Misura e registrazione riprendono poi automaticamente.</translation>
+        <translation>Ricollegare la telecamera. Misurazione e registrazione riprendono poi automaticamente.</translation>
     </message>
     <message>
         <source>no colour images of {width} × {height} pixels</source>
@@ -6053,7 +6053,7 @@
     </message>
     <message>
         <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
-        <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {limit})</translation>
+        <translation>{movement} {goal} (media {mean}; un cambiamento è rilevabile da {limit})</translation>
     </message>
     <message>
         <source>{count} pairs of one session, compared with {kind}</source>
@@ -6077,7 +6077,7 @@
     </message>
     <message>
         <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A supination goal before thumb up is negative, such as −25°.</source>
-        <translation>0° è il pollice in alto, il palmo piatto sul tavolo è 90° di pronazione. Visti dall’alto, i marcatori sono nascosti sotto circa 25° di pronazione. Un obiettivo di supinazione prima del pollice in alto è negativo, per esempio −25°.</translation>
+        <translation>0° corrisponde al pollice in alto, 90° di pronazione al palmo piatto sul tavolo. Visti dall’alto, i marcatori sono nascosti sotto circa 25° di pronazione. Un obiettivo di supinazione che non arriva al pollice in alto è negativo, per esempio −25°.</translation>
     </message>
     <message>
         <source>Backups cannot be saved there: {subject} ({detail}).</source>
@@ -6121,7 +6121,7 @@
     </message>
     <message>
         <source>Forearm pronation and supination are measured from thumb up (0°). Palm flat on the table is 90° pronation.</source>
-        <translation>Pronazione e supinazione dell’avambraccio si misurano dal pollice in alto (0°). Palmo piatto sul tavolo è 90° di pronazione.</translation>
+        <translation>Pronazione e supinazione dell’avambraccio si misurano dal pollice in alto (0°). Il palmo piatto sul tavolo corrisponde a 90° di pronazione.</translation>
     </message>
     <message>
         <source>Save the report as a PDF. It contains only the pseudonym.</source>
@@ -6366,7 +6366,7 @@
     </message>
     <message>
         <source>Restore the backup of {when}? Session files added: {come}, changed: {change}, removed: {go}.</source>
-        <translation>Ripristinare la copia di sicurezza del {when}? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
+        <translation>Ripristinare la copia di sicurezza ({when})? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
     </message>
     <message>
         <source>Patients and sessions deleted since then stay deleted: {n}.</source>
@@ -6378,7 +6378,7 @@
     </message>
     <message>
         <source>Carpus closes afterwards. Start it again then.</source>
-        <translation>Alla fine Carpus si chiude. Poi avviarlo di nuovo.</translation>
+        <translation>Al termine Carpus si chiude. Poi avviarlo di nuovo.</translation>
     </message>
     <message>
         <source>Restore</source>
@@ -6607,7 +6607,7 @@
     </message>
     <message>
         <source>The simulated patient is being prepared.</source>
-        <translation>Il paziente simulato viene preparato.</translation>
+        <translation>Preparazione del paziente simulato.</translation>
     </message>
 </context>
 <context>
@@ -6657,7 +6657,7 @@
     </message>
     <message>
         <source>A simulated hand does the exercise, to try things out. It is marked as simulated.</source>
-        <translation>Una mano simulata fa l’esercizio, per provare. È segnata come simulata.</translation>
+        <translation>Per fare prove, una mano simulata esegue l’esercizio. È segnata come simulata.</translation>
     </message>
     <message>
         <source>Choose a &amp;file…</source>
@@ -6681,7 +6681,7 @@
     </message>
     <message>
         <source>Camera above the hand, 60 cm or more away, looking straight down. No sun on the markers.</source>
-        <translation>Telecamera sopra la mano, a 60 cm o più, puntata a piombo. Niente sole sui marcatori.</translation>
+        <translation>Telecamera sopra la mano, a 60 cm o più, puntata verticalmente verso il basso. Niente sole sui marcatori.</translation>
     </message>
     <message>
         <source>The depth camera over the hand.</source>
@@ -6779,7 +6779,7 @@
     </message>
     <message>
         <source>A check is valid for one week. If all lengths deviate by the same share, the depth or the print size is wrong.</source>
-        <translation>Un controllo vale una settimana. Se tutte le lunghezze deviano della stessa quota, è errata la profondità o la dimensione della stampa.</translation>
+        <translation>Un controllo vale una settimana. Se tutte le lunghezze si scostano della stessa percentuale, è errata la profondità o la dimensione della stampa.</translation>
     </message>
     <message>
         <source>Check now, 30 seconds</source>
@@ -6844,7 +6844,7 @@
     <name>ComparisonFlow</name>
     <message>
         <source>Simulated data: no patient was measured. Excluded from analysis.</source>
-        <translation>Dati simulati: nessun paziente è stato misurato. Esclusi dall’analisi.</translation>
+        <translation>Dati simulati: non sono misure di un paziente. Esclusi dall’analisi.</translation>
     </message>
 </context>
 <context>
@@ -7061,7 +7061,7 @@
     </message>
     <message>
         <source>Removes it from all lists and results. Everything can be restored.</source>
-        <translation>Toglie tutto da elenchi e risultati. Tutto si può ripristinare.</translation>
+        <translation>Toglie tutto da ogni elenco e risultato. Tutto si può ripristinare.</translation>
     </message>
     <message>
         <source>Delete this session permanently?</source>
@@ -7081,7 +7081,7 @@
     </message>
     <message>
         <source>Backups up to {day} and copies elsewhere.</source>
-        <translation>Copie di sicurezza fino al {day} e copie altrove.</translation>
+        <translation>Copie di sicurezza fino al giorno {day} e copie altrove.</translation>
     </message>
     <message>
         <source>Copies elsewhere.</source>
@@ -7109,7 +7109,7 @@
     </message>
     <message>
         <source>The retention period set in Settings ({years} years) ends on {day}. You would delete before that date.</source>
-        <translation>Il periodo di conservazione impostato ({years} anni) termina il {day}. L’eliminazione avverrebbe prima.</translation>
+        <translation>Il periodo di conservazione impostato ({years} anni) termina in data {day}. L’eliminazione avverrebbe prima.</translation>
     </message>
     <message>
         <source>The patient’s other sessions.</source>
@@ -7124,7 +7124,7 @@
     <name>DeletionController</name>
     <message>
         <source>The session of {day} is in the archive.</source>
-        <translation>La seduta del {day} è nell’archivio.</translation>
+        <translation>La seduta in data {day} è nell’archivio.</translation>
     </message>
     <message>
         <source>{name} is in the archive.</source>
@@ -7288,11 +7288,11 @@
     </message>
     <message>
         <source>Adult</source>
-        <translation>Adulto</translation>
+        <translation>Adulti</translation>
     </message>
     <message>
         <source>Child</source>
-        <translation>Bambino</translation>
+        <translation>Bambini</translation>
     </message>
     <message>
         <source>No</source>
@@ -7414,7 +7414,7 @@
     </message>
     <message>
         <source>De-identified: random name, relative days, no notes</source>
-        <translation>De-identificata: nome casuale, giorni relativi, senza note</translation>
+        <translation>De-identificata: nome casuale, giorni contati invece di date, senza note</translation>
     </message>
     <message>
         <source>Progress of the export</source>
@@ -7562,7 +7562,7 @@
     </message>
     <message>
         <source>Palm down, fingers as straight as possible, forearm in line. Then take the image.</source>
-        <translation>Palmo in giù, dita il più estese possibile, avambraccio in linea. Poi acquisire l’immagine.</translation>
+        <translation>Palmo in giù, dita il più estese possibile, avambraccio in asse con la mano. Poi acquisire l’immagine.</translation>
     </message>
     <message>
         <source>Take the image</source>
@@ -7570,7 +7570,7 @@
     </message>
     <message>
         <source>Hold the hand in this position until measuring begins.</source>
-        <translation>Tenere la mano in questa posizione finché inizia la misura.</translation>
+        <translation>Tenere la mano in questa posizione finché non inizia la misurazione.</translation>
     </message>
     <message>
         <source>Click the markers</source>
@@ -7959,7 +7959,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Change PIN…</source>
-        <translation>Cambia PIN…</translation>
+        <translation>Cambia il PIN…</translation>
     </message>
     <message>
         <source>Set a PIN…</source>
@@ -8013,11 +8013,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Wrong PIN. 1 attempt left before a 1-minute wait.</source>
-        <translation>PIN sbagliato. Ancora 1 tentativo prima di 1 minuto di attesa.</translation>
+        <translation>PIN sbagliato. Ancora 1 tentativo, poi 1 minuto di attesa.</translation>
     </message>
     <message>
         <source>Wrong PIN. {left} attempts left before a 1-minute wait.</source>
-        <translation>PIN sbagliato. Ancora {left} tentativi prima di 1 minuto di attesa.</translation>
+        <translation>PIN sbagliato. Ancora {left} tentativi, poi 1 minuto di attesa.</translation>
     </message>
     <message>
         <source>Too many attempts. Try again in {seconds} s.</source>
@@ -8137,7 +8137,7 @@ dall’alto</translation>
     <name>ManualMeasurementsScreen</name>
     <message>
         <source>Date of measurement</source>
-        <translation>Data della misura</translation>
+        <translation>Data della misurazione</translation>
     </message>
     <message>
         <source>Other measures</source>
@@ -8169,7 +8169,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
-        <translation>Non vengono mediate né sottratte. Il cambiamento si valuta solo entro lo stesso metodo.</translation>
+        <translation>Non se ne calcola né la media né la differenza. Il cambiamento si valuta solo all’interno dello stesso metodo.</translation>
     </message>
     <message>
         <source>Not saved yet, including values of the other hand or another day.</source>
@@ -8181,7 +8181,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>By {initials}.</source>
-        <translation>Di {initials}.</translation>
+        <translation>Inseriti da {initials}.</translation>
     </message>
     <message>
         <source>Other measures…</source>
@@ -8196,7 +8196,7 @@ dall’alto</translation>
     <name>ManualValueChart</name>
     <message>
         <source>{name} over the days</source>
-        <translation>{name} nei giorni</translation>
+        <translation>{name} nel corso dei giorni</translation>
     </message>
     <message>
         <source>Carpus, mean</source>
@@ -8266,7 +8266,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>{now}, was {size} mm</source>
-        <translation>{now}, era {size} mm</translation>
+        <translation>{now}, prima {size} mm</translation>
     </message>
 </context>
 <context>
@@ -8293,7 +8293,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Open it again with depth aligned to colour, then click the markers again.</source>
-        <translation>Riaprirla con la profondità allineata al colore, poi rifare i clic sui marcatori.</translation>
+        <translation>Riaprirla con la profondità allineata al colore, poi fare di nuovo clic sui marcatori.</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
@@ -8316,7 +8316,7 @@ dall’alto</translation>
     <name>MarkersScreen</name>
     <message>
         <source>Wrist cannot reach neutral…</source>
-        <translation>Il polso non sta in neutro…</translation>
+        <translation>Polso non in posizione neutra…</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
@@ -8379,7 +8379,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>{name}: location of the measurement</source>
-        <translation>{name}: sede della misura</translation>
+        <translation>{name}: sede della misurazione</translation>
     </message>
     <message>
         <source>{side} {value}</source>
@@ -8460,7 +8460,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Note at this moment</source>
-        <translation>Nota in questo momento</translation>
+        <translation>Nota su questo momento</translation>
     </message>
     <message>
         <source>Stopped for pain</source>
@@ -8526,7 +8526,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>of {asked}</source>
-        <translation>di {asked}</translation>
+        <translation>su {asked}</translation>
     </message>
     <message>
         <source>Best today</source>
@@ -8631,7 +8631,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Place markers as on {day}</source>
-        <translation>Posizionare i marcatori come il {day}</translation>
+        <translation>Applicare i marcatori come in data {day}</translation>
     </message>
     <message>
         <source>No analysed session yet</source>
@@ -8826,7 +8826,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Since: {problem}</source>
-        <translation>Da: {problem}</translation>
+        <translation>Dal: {problem}</translation>
     </message>
     <message>
         <source>The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
@@ -8844,7 +8844,7 @@ dall’alto</translation>
     <name>PatientView</name>
     <message>
         <source>{done} of {asked}</source>
-        <translation>{done} di {asked}</translation>
+        <translation>{done} su {asked}</translation>
     </message>
     <message>
         <source>Goal {angle}</source>
@@ -9053,7 +9053,7 @@ dall’alto</translation>
     <name>PracticeSystemCard</name>
     <message>
         <source>The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to practice system” next to a report writes its values and the PDF into the second. These files contain real names.</source>
-        <translation>Il gestionale scrive un paziente come file GDT 2.1 nella prima cartella e Carpus lo apre. “Invia al gestionale” accanto a una relazione scrive i valori e il PDF nella seconda. Questi file contengono i nomi veri.</translation>
+        <translation>Il gestionale salva i dati di un paziente come file GDT 2.1 nella prima cartella, e Carpus apre il paziente. “Invia al gestionale”, accanto a una relazione, salva i valori e il PDF nella seconda. Questi file contengono i nomi veri.</translation>
     </message>
     <message>
         <source>Change…</source>
@@ -9099,7 +9099,7 @@ dall’alto</translation>
     <name>ProgressChart</name>
     <message>
         <source>Range of motion over the sessions</source>
-        <translation>Escursione articolare nelle sedute</translation>
+        <translation>Escursione articolare nel corso delle sedute</translation>
     </message>
     <message>
         <source>{name} {value}, {count} repetitions</source>
@@ -9129,11 +9129,11 @@ dall’alto</translation>
     <name>ProgressScreen</name>
     <message>
         <source>Progress report</source>
-        <translation>Relazione andamento</translation>
+        <translation>Relazione sull’andamento</translation>
     </message>
     <message>
         <source>Save table…</source>
-        <translation>Salva tabella…</translation>
+        <translation>Salva la tabella…</translation>
     </message>
     <message>
         <source>Exercise and hand</source>
@@ -9185,7 +9185,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Save image…</source>
-        <translation>Salva immagine…</translation>
+        <translation>Salva l’immagine…</translation>
     </message>
     <message>
         <source>&amp;Manual values…</source>
@@ -9208,11 +9208,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>session of {day}</source>
-        <translation>seduta del {day}</translation>
+        <translation>seduta in data {day}</translation>
     </message>
     <message>
         <source>archived on {day}</source>
-        <translation>archiviato il {day}</translation>
+        <translation>archiviato in data {day}</translation>
     </message>
     <message>
         <source>Archive</source>
@@ -9248,7 +9248,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>No record is past its retention period.</source>
-        <translation>Nessuna documentazione è scaduta.</translation>
+        <translation>Per nessun documento è scaduto il periodo di conservazione.</translation>
     </message>
     <message>
         <source>Set the retention period first.</source>
@@ -9260,15 +9260,15 @@ dall’alto</translation>
     </message>
     <message>
         <source>1 session on {last}, retention until {until}</source>
-        <translation>1 seduta il {last}, conservazione fino al {until}</translation>
+        <translation>1 seduta ({last}); scadenza della conservazione: {until}</translation>
     </message>
     <message>
         <source>{n} sessions, the last on {last}, retention until {until}</source>
-        <translation>{n} sedute, l’ultima il {last}, conservazione fino al {until}</translation>
+        <translation>{n} sedute, ultima: {last}; scadenza della conservazione: {until}</translation>
     </message>
     <message>
         <source>Records past retention</source>
-        <translation>Scadenze</translation>
+        <translation>Conservazione scaduta</translation>
     </message>
     <message>
         <source>Excluded from all lists and results. Everything can be restored.</source>
@@ -9396,7 +9396,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>log read</source>
-        <translation>registro letto</translation>
+        <translation>registro consultato</translation>
     </message>
     <message>
         <source>1 session</source>
@@ -9477,7 +9477,7 @@ dall’alto</translation>
     <name>RecordsCard</name>
     <message>
         <source>Records</source>
-        <translation>Documentazione</translation>
+        <translation>Conservazione</translation>
     </message>
     <message>
         <source>Enter the retention period that the law requires after the last session.</source>
@@ -9493,7 +9493,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Records past r&amp;etention…</source>
-        <translation>Scaden&amp;ze…</translation>
+        <translation>Conservazione scadu&amp;ta…</translation>
     </message>
     <message>
         <source>&amp;Archive…</source>
@@ -9531,7 +9531,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Name, address and logo of the clinic appear at the top of every page. Empty fields are not printed.</source>
-        <translation>Nome, indirizzo e logo del centro stanno in testa a ogni pagina. I campi vuoti non si stampano.</translation>
+        <translation>Nome, indirizzo e logo del centro compaiono in testa a ogni pagina. I campi vuoti non si stampano.</translation>
     </message>
     <message>
         <source>Clinic name</source>
@@ -9598,7 +9598,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>These placeholders take the session’s values: {places}</source>
-        <translation>Questi segnaposto prendono i valori della seduta: {places}</translation>
+        <translation>Questi segnaposto vengono sostituiti dai valori della seduta: {places}</translation>
     </message>
     <message>
         <source>Insert</source>
@@ -9638,7 +9638,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Warnings, method and the legal sentence always stay.</source>
-        <translation>Avvisi, metodo e frase legale restano sempre.</translation>
+        <translation>Avvisi, metodo e avvertenza legale restano sempre.</translation>
     </message>
     <message>
         <source>Use these parts for all reports</source>
@@ -9673,7 +9673,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Home exercise sheet…</source>
-        <translation>Scheda esercizi…</translation>
+        <translation>Scheda di esercizi…</translation>
     </message>
     <message>
         <source>Back to the report</source>
@@ -9705,7 +9705,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>{pages}, readable in grey. Contains the patient’s real name: store it securely.</source>
-        <translation>{pages}, leggibile in grigio. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
+        <translation>{pages}, leggibile anche in grigio. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
     </message>
     <message>
         <source>Save report</source>
@@ -9763,7 +9763,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>You can continue working. The old result stays until you choose the new one. Stop keeps the old result.</source>
-        <translation>Si può continuare a lavorare. Il vecchio risultato resta finché non si sceglie il nuovo. Interrompi mantiene il vecchio.</translation>
+        <translation>Si può continuare a lavorare. Il vecchio risultato resta finché non si sceglie il nuovo. “Interrompi” mantiene il vecchio.</translation>
     </message>
     <message>
         <source>Continue working</source>
@@ -9802,7 +9802,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Based on people measured more than once, with all markers removed and replaced in between. Shows the standard error of measurement (SEM) and MDC95 with 95 % confidence intervals.</source>
-        <translation>Da persone misurate più di una volta, con tutti i marcatori tolti e riapplicati nel frattempo. Mostra l’errore standard di misura (SEM) e l’MDC95 con intervalli di confidenza al 95 %.</translation>
+        <translation>Si basa su persone misurate più di una volta, con tutti i marcatori tolti e riapplicati fra una misurazione e l’altra. Mostra l’errore standard di misura (SEM) e l’MDC95 con intervalli di confidenza al 95 %.</translation>
     </message>
 </context>
 <context>
@@ -9883,7 +9883,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Save image</source>
-        <translation>Salva immagine</translation>
+        <translation>Salva l’immagine</translation>
     </message>
     <message>
         <source>no frame of it was saved</source>
@@ -9894,7 +9894,7 @@ dall’alto</translation>
     <name>ReviewFrameView</name>
     <message>
         <source>Correct markers…</source>
-        <translation>Correggi marcatori…</translation>
+        <translation>Correggi i marcatori…</translation>
     </message>
     <message>
         <source>A marker is wrong or missing here (Shift+F10)</source>
@@ -10037,7 +10037,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Change exercise</source>
-        <translation>Cambia esercizio</translation>
+        <translation>Cambia l’esercizio</translation>
     </message>
     <message>
         <source>Tick two to compare them</source>
@@ -10088,7 +10088,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Exercises that run one after the other with the same markers. Each becomes a session of its own.</source>
-        <translation>Esercizi che si seguono con gli stessi marcatori. Ognuno diventa una seduta propria.</translation>
+        <translation>Esercizi che si seguono con gli stessi marcatori. Ognuno diventa una seduta a sé.</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -10154,11 +10154,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Hands-free start: use a pedal or a presentation remote (Page Down). An automatic start is counted down, and Space cancels it.</source>
-        <translation>Avvio a mani libere: usare un pedale o un telecomando per presentazioni (Pag giù). L’avvio automatico ha un conto alla rovescia, e la barra spaziatrice lo annulla.</translation>
+        <translation>Avvio a mani libere: usare un pedale o un telecomando per presentazioni (Pag giù). L’avvio automatico è preceduto da un conto alla rovescia. La barra spaziatrice lo annulla.</translation>
     </message>
     <message>
         <source>A second screen or window shows the patient what to do. Open it while measuring. Choose with the exercise whether it addresses a child or an adult.</source>
-        <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misura. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
+        <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misurazione. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
     </message>
     <message>
         <source>As in the papers: deviation first</source>
@@ -10206,7 +10206,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Demo: settings apply until it is closed.</source>
-        <translation>Demo: le impostazioni valgono fino alla chiusura.</translation>
+        <translation>Demo: le impostazioni valgono solo fino alla chiusura.</translation>
     </message>
     <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
@@ -10314,7 +10314,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Measuring</source>
-        <translation>Misurare</translation>
+        <translation>Misurazione</translation>
     </message>
     <message>
         <source>Report and clinic</source>
@@ -10349,7 +10349,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Enter the wrist and forearm angles now, measured with a goniometer. Palm flat on the table is 90° pronation. Carpus adds them to all wrist angles and notes it in the report. Bent fingers need no entry.</source>
-        <translation>Inserire gli angoli attuali di polso e avambraccio, misurati con il goniometro. Palmo piatto sul tavolo è 90° di pronazione. Carpus li aggiunge a tutti gli angoli del polso e lo annota nella relazione. Per le dita flesse non serve inserire nulla.</translation>
+        <translation>Inserire gli angoli attuali di polso e avambraccio, misurati con il goniometro. Il palmo piatto sul tavolo corrisponde a 90° di pronazione. Carpus li aggiunge a tutti gli angoli del polso e lo annota nella relazione. Per le dita flesse non serve inserire nulla.</translation>
     </message>
     <message>
         <source>Wrist is in neutral</source>
@@ -10372,7 +10372,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>A bent finger is measured from its own resting position, with less certainty.</source>
-        <translation>Un dito piegato si misura dalla sua posizione di riposo, con meno sicurezza.</translation>
+        <translation>Un dito piegato si misura dalla sua posizione di riposo, con minore certezza.</translation>
     </message>
 </context>
 <context>

@@ -34,5 +34,5 @@ def test_recovered_practice_session_names_patient_in_persons_language(qtbot: QtB
     messages = Messages(host, Theme("light"))
     found = RecoveredSession(PRACTICE_PATIENT, "s1", "Practice patient", datetime(2026, 11, 26, 1, 41), 11.0)
     with use_language("de"):
-        assert "Probepatient" in messages.recovery_words(found).summary
+        assert "Testpatient" in messages.recovery_words(found).summary
         assert "Linde" in messages.recovery_words(replace(found, patient_id="p1", pseudonym="Linde")).summary
