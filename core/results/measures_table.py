@@ -10,6 +10,7 @@ from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.results.measure import is_total_active_motion
 from carpus.core.results.norms import grade_share
 from carpus.core.results.session_results import SessionResults
+from carpus.core.results.task_measures import QUANTITIES
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,12 +77,14 @@ def build_measure_rows(results: SessionResults, session: str) -> tuple[MeasureRo
             name = ", ".join(filter(None, (name, grade_share(one))))
         elif one.group == "range" and one.wrist_angle < 0:  # an end of a joint or a total is no movement
             name = (_TOTAL_MEASURES if is_total_active_motion(one.subject) else _JOINT_MEASURES).get(name, name)
-        is_signed = name in _JOINT_MEASURES.values()
+        positive = QUANTITIES[name].positive if one.group == "task" else _POSITIVE.get(name, "more")
+        if name in _JOINT_MEASURES.values():
+            positive = positive_direction(one.subject)
         rows.append(
             MeasureRow(
                 *common, name, f"{one.subject}, passive" if one.is_passive else one.subject, one.unit, one.mean, one.sd,
                 one.best, one.measurement_sd, one.count, one.is_lower_bound, one.seen_share, one.is_inferred,
-                positive=positive_direction(one.subject) if is_signed else _POSITIVE.get(name, "more"),
+                positive=positive,
                 estimate="smoother" if results.is_smoothed else "filter",
             )
         )  # fmt: skip

@@ -40,7 +40,7 @@ from carpus.core.results.repetition_rows import (
     measure_repetitions,
     to_repetition_results,
 )
-from carpus.core.results.task_measures import GuardedComputation, compute_task_measures
+from carpus.core.results.task_measures import GuardedComputation, MeasureInput, compute_task_measures
 from carpus.core.results.valid_data import MeasurableSession, motion_estimate
 from carpus.core.session.label_checks import CorrectionSummary, summarize_corrections
 from carpus.core.session.values import AngleOrder, Session
@@ -290,7 +290,7 @@ def compute_session_results(
         )
     elif seen.exercise.angle is not None or seen.exercise.joint in seen.tracks:
         uncounted = "nothing_seen"
-    task = (*compute_task_measures(own), *attempts.to_measures())
+    task = (*compute_task_measures(MeasureInput(own, trained, measured, choices)), *attempts.to_measures())
     pains = [(time_s, int(text)) for time_s, text in _events_of_kind(session, "pain") if text.isdigit()]
     return SessionResults(
         session_id=header.session_id,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property, partial
 from typing import TypeVar
 
 import numpy as np
@@ -17,16 +18,17 @@ from carpus.core.measures.coordination import (
     measure_tremor,
     synergy_share,
 )
-from carpus.core.measures.finger_range import JointTrack
 from carpus.core.measures.reach import TIP_NOISE, WRIST_NOISE, Reach, distance_m, find_reaches
 from carpus.core.measures.signals import BoolArray, find_runs, resample_evenly
 from carpus.core.measures.wrist_centre import rotation_in_w0
 from carpus.core.model.hand.clinical_angles import side_sign
+from carpus.core.model.hand.exercises import FLEXION
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
 from carpus.core.model.hand.protocols import DIGITS
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.types import FloatArray
 from carpus.core.results.measure import Measure, UnknownReason, summarise_values
+from carpus.core.results.repetition_rows import MeasuredRepetition, RepetitionChoices, TrainedAngle
 from carpus.core.results.valid_data import MeasurableSession, motion_estimate
 from carpus.core.session.values import Motion, Session
 
@@ -38,53 +40,9 @@ CERTAIN_SDS = 2.0
 """A hidden tip may be nearer than it is tracked by so many standard deviations."""
 MAX_APERTURE_SD_M = 0.015
 """An aperture of hidden tips with a larger sd is not reported (smoothed it is at times 10 mm off)."""
+TREMOR_NOISE_RAD = math.radians(0.25)
+"""Frame-to-frame sd of the tracker between 3 and 12 Hz for a hand at rest."""
 _THUMB_JOINTS = ("CMC1", "MCP1", "IP1")
-
-
-@dataclass(frozen=True, slots=True)
-class Quantity:
-    """Name of a measure, with ``{one}`` and ``{other}`` for two digits, unit and decimals shown."""
-
-    name: Phrase
-    unit: str
-    decimals: int = 0
-
-
-QUANTITIES: Mapping[str, Quantity] = {
-    "movement time": Quantity(phrase("Movement time"), "s", 2),
-    "peak speed": Quantity(phrase("Peak speed"), "mm/s"),
-    "time to peak": Quantity(phrase("Time to peak"), "share"),
-    "path length": Quantity(phrase("Path length"), "mm"),
-    "straightness": Quantity(phrase("Path length ratio"), "length/chord", 2),
-    "movement units": Quantity(phrase("Number of speed peaks"), "1", 1),
-    "smoothness": Quantity(phrase("Smoothness (SPARC)"), "SPARC", 2),
-    "largest aperture": Quantity(phrase("Maximum grip aperture, thumb–index"), "mm"),
-    "wrist extension at grasp": Quantity(phrase("Wrist angle at grasp"), "deg"),
-    "hand span": Quantity(phrase("Hand span, thumb–little"), "mm"),
-    "tip span": Quantity(phrase("Largest span, {one}–{other}"), "mm"),
-    "least distance": Quantity(phrase("Smallest distance, {one}–{other}"), "mm"),
-    "touches": Quantity(phrase("Touches, {one}–{other}"), "1"),
-    "thumb hidden": Quantity(phrase("Thumb occluded"), "share"),
-    "coherent though hidden": Quantity(phrase("Pose plausible while occluded"), "share"),
-    "known though hidden": Quantity(phrase("Pose within 15° while occluded"), "share"),
-    "jump when seen again": Quantity(phrase("Jump on reappearance"), "mm"),
-    "co-flexion": Quantity(phrase("Joint flexion, {one}–{other} (r)"), "r", 2),
-    "lag": Quantity(phrase("Lag of {other} after {one}"), "s", 2),
-    "enslaving": Quantity(phrase("Enslaving of {other} by {one}"), "share"),
-    "synergy": Quantity(phrase("Movement synergy (variance explained)"), "share"),
-    "tremor 3-12 Hz": Quantity(phrase("Tremor, 3 to 12 Hz (rms)"), "deg", 1),
-    # What could not be computed has a row with nothing in it.
-    "repetitions": Quantity(phrase("Repetitions"), ""),
-    "ranges": Quantity(phrase("Range of motion"), ""),
-    "ranges of joints": Quantity(phrase("Range of motion, fingers"), ""),
-    "other movements": Quantity(phrase("Movement of the other angles"), ""),
-    "speed": Quantity(phrase("Speed and smoothness"), ""),
-    "quality": Quantity(phrase("Quality of the recording"), ""),
-    "grades": Quantity(phrase("Grades"), ""),
-    "reaches": Quantity(phrase("Reaching movements"), ""),
-    "opposition": Quantity(phrase("Thumb opposition"), ""),
-}
-"""All task measures by their name in files."""
 
 
 T = TypeVar("T")
@@ -114,37 +72,49 @@ class GuardedComputation:
         )
 
 
+@dataclass(frozen=True)
+class MeasureInput:
+    """All that a measure may need of a session.
+
+    ``seen`` has no passive stretches, ``trained`` is None without a trained angle; ``repetitions`` are all that were
+    measured, included or not, by a person's ``choices``.
+    """
+
+    seen: MeasurableSession
+    trained: TrainedAngle | None = None
+    repetitions: tuple[MeasuredRepetition, ...] = ()
+    choices: RepetitionChoices = field(default_factory=RepetitionChoices)
+
+    @property
+    def session(self) -> Session:
+        return self.seen.session
+
+    @property
+    def counted_repetitions(self) -> tuple[MeasuredRepetition, ...]:
+        """Repetitions that the results include."""
+        return tuple(one for one in self.repetitions if one.row.counted)
+
+    @cached_property
+    def reaches(self) -> tuple[Reach, ...]:
+        """Outward and return movements of the wrist."""
+        return find_session_reaches(self.session, self.seen.is_in_view)
+
+    @cached_property
+    def tips_m(self) -> FloatArray:
+        """Tips (N, 5, 3) of thumb and fingers, NaN while lost or without markers."""
+        motion, out = motion_estimate(self.session), np.full((len(self.session), len(DIGITS), 3), np.nan)
+        for digit, chain in self.session.header.protocol.chains.items():
+            out[:, digit - 1] = motion.joint_position_m[:, chain[-1]]
+        out[np.asarray(self.session.status) == 2] = np.nan
+        return out
+
+    def has_tips(self, *digits: int) -> bool:
+        """Return whether fingertips, 0 for the thumb, have markers and were tracked."""
+        return bool(self.seen.tracks) and all(k + 1 in self.session.header.protocol.digits for k in digits)
+
+
 def _task_measure(quantity: str, subject: str, values: Sequence[float], unknown_reason: UnknownReason = "") -> Measure:
     return summarise_values("task", subject, quantity, QUANTITIES[quantity].unit, values, unknown_reason=unknown_reason)
-
-
-def compute_task_measures(seen: MeasurableSession) -> tuple[Measure, ...]:
-    """Compute what an exercise has besides its ranges, as far as its markers show it."""
-    session, wanted, attempts = seen.session, seen.exercise.task_measures, GuardedComputation()
-    reaches: tuple[Reach, ...] = ()
-    if "reaches" in wanted:
-        reaches = attempts.compute("reaches", lambda: find_session_reaches(session, seen.is_in_view), ())
-    groups: list[tuple[str, Callable[[], Sequence[Measure]]]] = [("reaches", lambda: summarise_reaches(reaches))]
-    if seen.tracks:
-        tips = _fingertips_m(session, motion_estimate(session))
-        has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
-        if has_tip[0] and has_tip[1]:
-            aperture_m = distance_m(tips[:, 0], tips[:, 1])
-            groups.append(("largest aperture", lambda: _measure_aperture(session, aperture_m, reaches)))
-        if "spans" in wanted:
-            spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
-            there = [(name, a, b) for name, a, b in spans if has_tip[a] and has_tip[b]]
-            groups.append(("hand span", lambda: [_measure_span(session, name, a, b, tips) for name, a, b in there]))
-        if "touches" in wanted and all(has_tip):
-            groups.append(("opposition", lambda: measure_opposition(session, tips)))
-        if "thumb beside" in wanted and has_tip[0]:
-            groups.append(("thumb hidden", lambda: measure_thumb_coherence(session)))
-        if "together" in wanted:
-            groups.append(("synergy", lambda: _measure_coordination(seen.tracks)))
-    angle = 1 if seen.exercise.angle is None else seen.exercise.angle
-    groups.append((TREMOR, lambda: measure_wrist_tremor(session, angle, TREMOR_NOISE_RAD)))
-    found = [one for name, compute in groups for one in attempts.compute(name, compute, ())]
-    return (*found, *attempts.to_measures())
 
 
 def find_session_reaches(session: Session, is_in_view: BoolArray) -> tuple[Reach, ...]:
@@ -184,13 +154,15 @@ def _unknown_reason(name: str, reaches: Sequence[Reach]) -> UnknownReason:
     return "too_slow" if slow else ""
 
 
-def measure_opposition(session: Session, tips_m: FloatArray) -> list[Measure]:
+def measure_opposition(data: MeasureInput) -> list[Measure]:
     """Measure nearest distances and touches of the thumb tip, and its paths across the palm.
 
-    Tips (N, 5, 3) in metres. The paths are in the hand's axes. Touching tips are mostly hidden from a camera above the
-    hand: a distance counts if both were seen, and is unknown if they may have been nearer while hidden.
+    The paths are in the hand's axes. Touching tips are mostly hidden from a camera above the hand: a distance counts if
+    both were seen, and is unknown if they may have been nearer while hidden.
     """
-    out = []
+    if not data.has_tips(0, 1, 2, 3, 4):
+        return []
+    session, tips_m, out = data.session, data.tips_m, []
     for k in range(1, 5):
         distance = distance_m(tips_m[:, 0], tips_m[:, k])
         seen = _is_tip_seen(session, 0) & _is_tip_seen(session, k) & np.isfinite(distance)
@@ -229,15 +201,6 @@ def _marker_index(session: Session, marker: str) -> int:
     return session.header.protocol.markers.index(marker)
 
 
-def _fingertips_m(session: Session, motion: Motion) -> FloatArray:
-    """Return tips (N, 5, 3) of thumb and fingers, NaN while lost or without markers."""
-    out = np.full((len(session), len(DIGITS), 3), np.nan)
-    for digit, chain in session.header.protocol.chains.items():
-        out[:, digit - 1] = motion.joint_position_m[:, chain[-1]]
-    out[np.asarray(session.status) == 2] = np.nan
-    return out
-
-
 def _is_tip_seen(session: Session, tip: int) -> BoolArray:
     """Return frames (N,) with a blob at a digit's tip, 0 for the thumb."""
     return np.asarray(
@@ -265,13 +228,15 @@ def _thumb_distance_sd_m(session: Session, tip: int) -> FloatArray:
     return np.asarray(np.sqrt(variance))
 
 
-def measure_thumb_coherence(session: Session) -> list[Measure]:
+def measure_thumb_coherence(data: MeasureInput) -> list[Measure]:
     """Measure how long the thumb was hidden and how coherent its pose was meanwhile.
 
     ``thumb hidden`` is the share of frames without a blob at an outer marker; the others are those of
     :func:`core.measures.coordination.digit_coherence`.
     """
-    motion, names = session.motion, session.header.joint_names
+    if not data.has_tips(0):
+        return []
+    session, motion, names = data.session, data.session.motion, data.session.header.joint_names
     columns = [k for k, name in enumerate(names) if name.split("_")[0] in _THUMB_JOINTS]
     outer = list(session.header.protocol.rows(("MCP1", "IP1", "TIP1")))
     hidden: BoolArray = np.any(~np.isfinite(session.markers.measured_px[:, outer, 0]), axis=1)
@@ -304,28 +269,32 @@ def _to_hand_axes(motion: Motion, joint: int) -> FloatArray:
 TREMOR = "tremor 3-12 Hz"
 
 
-def measure_wrist_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[Measure]:
+def measure_wrist_tremor(data: MeasureInput) -> Sequence[Measure]:
     """Measure the tremor of a held wrist angle; none if none was held for six seconds."""
+    session, angle = data.session, FLEXION if data.seen.exercise.angle is None else data.seen.exercise.angle
     time_s = session.timestamp_s - session.timestamp_s[:1]
     if len(time_s) < 2:
         return ()
     found = measure_tremor(
         resample_evenly(time_s, motion_estimate(session).angles_rad[:, angle], np.asarray(session.status) == 0),
-        noise_rms_rad,
+        TREMOR_NOISE_RAD,
     )
     if found.has_few_frames:
         return (_task_measure(TREMOR, "rms", (math.nan,), "few_frames"),)
     return (_task_measure(TREMOR, "rms", (math.degrees(found.rms_rad),)),) if found.is_tremor else ()
 
 
-def _measure_aperture(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[Measure]:
+def measure_apertures(data: MeasureInput) -> list[Measure]:
     """Measure the largest aperture of each reach; NaN if part of it was hidden or it is too uncertain."""
+    if not data.has_tips(0, 1):
+        return []
+    session, aperture_m = data.session, distance_m(data.tips_m[:, 0], data.tips_m[:, 1])
     time_s = session.timestamp_s - session.timestamp_s[:1]
     sure = (_is_tip_seen(session, 0) & _is_tip_seen(session, 1)) | (
         _thumb_distance_sd_m(session, 1) <= MAX_APERTURE_SD_M
     )
     largest, bent = [], []
-    for reach in (reach for reach in reaches if reach.is_outward):
+    for reach in (reach for reach in data.reaches if reach.is_outward):
         inside = (time_s >= reach.start_s) & (time_s <= reach.end_s) & np.isfinite(aperture_m)
         if inside.any():
             widest = int(np.argmax(np.where(inside, aperture_m, -math.inf)))
@@ -342,19 +311,24 @@ def _measure_aperture(session: Session, aperture_m: FloatArray, reaches: Sequenc
     ]
 
 
-def _measure_span(session: Session, name: str, one: int, other: int, tips_m: FloatArray) -> Measure:
+def measure_spans(data: MeasureInput) -> Iterator[Measure]:
     """Measure the largest distance of two tips in frames that show both."""
-    values_m = distance_m(tips_m[:, one], tips_m[:, other])
-    known = values_m[np.isfinite(values_m) & _is_tip_seen(session, one) & _is_tip_seen(session, other)]
-    of = f"TIP{one + 1}-TIP{other + 1}"
-    if not len(known):
-        return _task_measure(name, of, (math.nan,), "hidden")
-    return _task_measure(name, of, (1e3 * float(np.percentile(known, 99.0)),))
+    for name, one, other in (("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))):
+        if data.has_tips(one, other):
+            values_m = distance_m(data.tips_m[:, one], data.tips_m[:, other])
+            is_known = np.isfinite(values_m) & _is_tip_seen(data.session, one) & _is_tip_seen(data.session, other)
+            of = f"TIP{one + 1}-TIP{other + 1}"
+            if is_known.any():
+                yield _task_measure(name, of, (1e3 * float(np.percentile(values_m[is_known], 99.0)),))
+            else:
+                yield _task_measure(name, of, (math.nan,), "hidden")
 
 
-def _measure_coordination(tracks: Mapping[str, JointTrack]) -> list[Measure]:
+def measure_coordination(data: MeasureInput) -> list[Measure]:
     """Measure co-flexion of neighbouring PIP joints, and the synergy of all fingers."""
-    out = []
+    tracks, out = data.seen.tracks, []
+    if not tracks:
+        return []
     pairs = [(f"PIP{k}_flexion", f"PIP{k + 1}_flexion") for k in range(2, 5)]
     for one, other in pairs:
         a, b = tracks[one].tracked, tracks[other].tracked
@@ -370,5 +344,84 @@ def _measure_coordination(tracks: Mapping[str, JointTrack]) -> list[Measure]:
     return out
 
 
-TREMOR_NOISE_RAD = math.radians(0.25)
-"""Frame-to-frame sd of the tracker between 3 and 12 Hz for a hand at rest."""
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A measure: its name, with ``{one}`` and ``{other}`` for two digits, its unit and the decimals shown.
+
+    ``compute`` measures it, and the quantities below it that have no function of their own; it returns no measure of a
+    session that shows none. ``exercises`` that have it are named by id or by what their ``task_measures`` say; empty
+    are all. ``directions`` name a positive and a negative value, ``positive`` is what a larger one means in files.
+    """
+
+    name: Phrase
+    unit: str
+    decimals: int = 0
+    compute: Callable[[MeasureInput], Iterable[Measure]] | None = None
+    exercises: tuple[str, ...] = ()
+    directions: tuple[Phrase, Phrase] | None = None
+    positive: str = "more"
+
+    def measure(self, data: MeasureInput) -> list[Measure]:
+        """Measure a session of an exercise that has it."""
+        named = {data.seen.exercise.id, *data.seen.exercise.task_measures}
+        if self.compute is None or (self.exercises and named.isdisjoint(self.exercises)):
+            return []
+        return list(self.compute(data))
+
+
+QUANTITIES: Mapping[str, Quantity] = {
+    "reaches": Quantity(
+        phrase("Reaching movements"), "", compute=lambda data: summarise_reaches(data.reaches), exercises=("reaches",)
+    ),
+    "movement time": Quantity(phrase("Movement time"), "s", 2),
+    "peak speed": Quantity(phrase("Peak speed"), "mm/s"),
+    "time to peak": Quantity(phrase("Time to peak"), "share"),
+    "path length": Quantity(phrase("Path length"), "mm"),
+    "straightness": Quantity(phrase("Path length ratio"), "length/chord", 2),
+    "movement units": Quantity(phrase("Number of speed peaks"), "1", 1),
+    "smoothness": Quantity(phrase("Smoothness (SPARC)"), "SPARC", 2, positive="smoother"),
+    "largest aperture": Quantity(
+        phrase("Maximum grip aperture, thumb–index"), "mm", compute=measure_apertures, exercises=("reaches",)
+    ),
+    "wrist extension at grasp": Quantity(
+        phrase("Wrist angle at grasp"), "deg", directions=(phrase("extension"), phrase("flexion"))
+    ),
+    "hand span": Quantity(phrase("Hand span, thumb–little"), "mm", compute=measure_spans, exercises=("spans",)),
+    "tip span": Quantity(phrase("Largest span, {one}–{other}"), "mm"),
+    "opposition": Quantity(phrase("Thumb opposition"), "", compute=measure_opposition, exercises=("touches",)),
+    "least distance": Quantity(phrase("Smallest distance, {one}–{other}"), "mm"),
+    "touches": Quantity(phrase("Touches, {one}–{other}"), "1"),
+    "thumb hidden": Quantity(
+        phrase("Thumb occluded"), "share", compute=measure_thumb_coherence, exercises=("thumb beside",)
+    ),
+    "coherent though hidden": Quantity(phrase("Pose plausible while occluded"), "share"),
+    "known though hidden": Quantity(phrase("Pose within 15° while occluded"), "share"),
+    "jump when seen again": Quantity(phrase("Jump on reappearance"), "mm"),
+    "synergy": Quantity(
+        phrase("Movement synergy (variance explained)"), "share", compute=measure_coordination, exercises=("together",)
+    ),
+    "co-flexion": Quantity(phrase("Joint flexion, {one}–{other} (r)"), "r", 2),
+    "lag": Quantity(phrase("Lag of {other} after {one}"), "s", 2),
+    "enslaving": Quantity(phrase("Enslaving of {other} by {one}"), "share"),
+    TREMOR: Quantity(phrase("Tremor, 3 to 12 Hz (rms)"), "deg", 1, measure_wrist_tremor),
+    # What other modules compute; if that failed, its row has nothing in it.
+    "repetitions": Quantity(phrase("Repetitions"), ""),
+    "ranges": Quantity(phrase("Range of motion"), ""),
+    "ranges of joints": Quantity(phrase("Range of motion, fingers"), ""),
+    "other movements": Quantity(phrase("Movement of the other angles"), ""),
+    "speed": Quantity(phrase("Speed and smoothness"), ""),
+    "quality": Quantity(phrase("Quality of the recording"), ""),
+    "grades": Quantity(phrase("Grades"), ""),
+}
+"""All task measures by their name in files, in the order in which they are shown."""
+
+
+def compute_task_measures(data: MeasureInput) -> tuple[Measure, ...]:
+    """Compute what an exercise has besides its ranges, as far as its markers show it."""
+    attempts = GuardedComputation()
+    found = [
+        measure
+        for name, quantity in QUANTITIES.items()
+        for measure in attempts.compute(name, partial(quantity.measure, data), ())
+    ]
+    return (*found, *attempts.to_measures())

@@ -31,7 +31,8 @@ _UNKNOWN = {
     "few_frames": phrase("not available: fewer than {count} frames a second", count=round(MIN_TREMOR_FPS)),
     "failed": phrase("not available: the calculation failed"),
 }
-
+# Units that are not shown as they stand in files.
+_UNITS = {"deg": "°", "deg/s": "°/s", "1": "", "r": "", "SPARC": "", "length/chord": ""}
 
 # Name, today's value and last time's, twice.
 TASK_COLUMNS = (TableColumn(token="text2"), TableColumn(SEMIBOLD), TableColumn(is_right_aligned=True, is_wrapped=False))
@@ -82,33 +83,35 @@ def measure_name(item: Measure) -> str:
     name = translate_phrase(QUANTITIES[item.quantity].name)
     if item.subject in _STROKE_NAMES:
         return translate_phrase(_STROKE_NAMES[item.subject]).format(name=name)
-    if "{one}" in name:
-        one, other = (translate_phrase(_DIGITS[part[3:4]]) for part in item.subject.replace(", ", "-").split("-"))
-        return name.format(one=one, other=other)
-    return name
+    digits = [_DIGITS.get(part[3:4]) for part in item.subject.replace(", ", "-").split("-")]
+    one, other = (numbers.UNKNOWN if digit is None else translate_phrase(digit) for digit in (digits * 2)[:2])
+    return name.format(one=one, other=other)
 
 
 def value_words(item: Measure) -> str:
     """Return ``0.87 ± 0.05 s``: the mean, and the SD of three values or more."""
     if item.unknown_reason:
         return translate_phrase(_UNKNOWN[item.unknown_reason])
-    shown = _value(item)
-    if not math.isfinite(item.sd) or item.unit in ("share", "deg"):
-        return shown
-    number, gap, unit = shown.partition(numbers.NARROW_GAP)
-    spread = numbers.format_fixed(item.sd, QUANTITIES[item.quantity].decimals)
-    return f"{number}{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{spread}{gap}{unit}"
+    quantity = QUANTITIES[item.quantity]
+    if not math.isfinite(item.sd) or item.unit == "share" or quantity.directions:
+        return _value(item)
+    gap, unit = numbers.NARROW_GAP, _unit(item)
+    number, spread = (numbers.format_fixed(value, quantity.decimals) for value in (item.mean, item.sd))
+    number = number.replace("-", "\N{MINUS SIGN}")
+    return f"{number}{unit if item.unit == 'deg' else ''}{gap}±{gap}{spread}{unit}"
+
+
+def _unit(item: Measure) -> str:
+    return _UNITS.get(item.unit, f"{numbers.NARROW_GAP}{item.unit}")
 
 
 def _value(item: Measure) -> str:
-    value, gap = item.mean, numbers.NARROW_GAP
-    if item.quantity == "wrist extension at grasp":
-        return f"{numbers.format_degrees(value)} {tr('extension') if value >= 0 else tr('flexion')}"
+    value, quantity = item.mean, QUANTITIES[item.quantity]
+    if quantity.directions:
+        return f"{numbers.format_degrees(value)} {translate_phrase(quantity.directions[value < 0])}"
     if item.unit == "share":
-        return f"{format_rounded(100.0 * value)}{gap}%"
-    number = numbers.format_fixed(value, QUANTITIES[item.quantity].decimals).replace("-", "\N{MINUS SIGN}")
-    unit = {"deg": "°", "s": f"{gap}s", "mm": f"{gap}mm", "mm/s": f"{gap}mm/s"}.get(item.unit, "")
-    return f"{number}{unit}"
+        return f"{format_rounded(100.0 * value)}{numbers.NARROW_GAP}%"
+    return numbers.format_fixed(value, quantity.decimals).replace("-", "\N{MINUS SIGN}") + _unit(item)
 
 
 def task_summary(results: SessionResults) -> str:
