@@ -106,11 +106,6 @@ def _is_default_folder(folder: Path, settings: Settings) -> bool:
     return os.path.realpath(folder) == os.path.realpath(settings.data_folder)
 
 
-def is_practice_file(path: Path) -> bool:
-    """Tell whether a file of a data folder belongs to the practice patient."""
-    return Path(os.path.realpath(path)).parent.name == PRACTICE_PATIENT
-
-
 def read_choices(path: Path) -> RepetitionChoices:
     """Return excluded and moved repetitions of a session; empty outside a data folder."""
     from carpus.core.results.repetition_rows import RepetitionChoices
@@ -219,7 +214,7 @@ def user_initials() -> str:
 def log_session_action(action: AuditAction, path: Path, session_id: str) -> None:
     """Log what a command does with a session; a failure to log is a warning."""
     folder = find_data_folder(path)
-    if folder is not None and not is_practice_file(path):
+    if folder is not None and Path(os.path.realpath(path)).parent.name != PRACTICE_PATIENT:  # who is in no log
         log_folder_action(folder, action, "session", session_id)
 
 

@@ -236,12 +236,7 @@ class Settings:
         if self.run_folder is not None:
             return self.run_folder
         named = os.environ.get(DATA_VARIABLE) or self.recording.folder
-        return expand_home(named) if named else default_data_folder()
-
-
-def default_data_folder() -> Path:
-    """Return the user's default folder of patients and sessions."""
-    return Path(platformdirs.user_data_dir("carpus", appauthor=False))
+        return expand_home(named) if named else Path(platformdirs.user_data_dir("carpus", appauthor=False))
 
 
 def sessions_folder(settings: Settings) -> Path | None:
@@ -265,7 +260,9 @@ def load_settings(folder: Path | None = None) -> Settings:
 def load_valid_settings(folder: Path | None = None) -> tuple[Settings, list[CarpusFault]]:
     """Load the settings without the files that cannot be used, and the faults of those."""
     folder = folder or settings_folder()
-    merged = _load_defaults()
+    # the shipped file, without the tracking sections whose defaults are in the code
+    shipped = _parse_toml("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
+    merged: Values = {name: section for name, section in shipped.items() if name not in TRACKING}
     faults: list[CarpusFault] = []
     for name in (SETTINGS_FILE, PREFERENCES_FILE):
         try:
@@ -273,12 +270,6 @@ def load_valid_settings(folder: Path | None = None) -> tuple[Settings, list[Carp
         except CarpusFault as fault:
             faults.append(fault)
     return _build_settings(merged, "defaults.toml"), faults
-
-
-def _load_defaults() -> Values:
-    """Load the shipped file, without the tracking sections whose defaults are in the code."""
-    shipped = _parse_toml("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
-    return {name: section for name, section in shipped.items() if name not in TRACKING}
 
 
 def _build_settings(values: Values, file: str) -> Settings:

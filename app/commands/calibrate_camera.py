@@ -54,22 +54,18 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.board is not None:
         if arguments.recording is not None or arguments.output is not None:
             return report_usage_error("calibrate-camera", "--board only prints; leave out the recording and --output.")
-        return _print_board(arguments)
+        from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
+        from carpus.core.model.errors import OutputExists
+
+        if arguments.board.exists():
+            raise OutputExists(arguments.board)
+        from carpus.ui.report.pdf import write_sheets
+
+        write_sheets(arguments.board, [create_board_sheet(CHESSBOARD, arguments.paper)], "Carpus camera board")
+        print(f"Board: {arguments.board} ({CHESSBOARD.name()})")
+        print("Print it at 100 %, check its ruler (100 mm), and glue it flat onto something stiff.")
+        return 0
     return _calibrate(arguments)
-
-
-def _print_board(arguments: argparse.Namespace) -> int:
-    from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
-    from carpus.core.model.errors import OutputExists
-
-    if arguments.board.exists():
-        raise OutputExists(arguments.board)
-    from carpus.ui.report.pdf import write_sheets
-
-    write_sheets(arguments.board, [create_board_sheet(CHESSBOARD, arguments.paper)], "Carpus camera board")
-    print(f"Board: {arguments.board} ({CHESSBOARD.name()})")
-    print("Print it at 100 %, check its ruler (100 mm), and glue it flat onto something stiff.")
-    return 0
 
 
 def _calibrate(arguments: argparse.Namespace) -> int:

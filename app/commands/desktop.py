@@ -80,7 +80,14 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
             return code
         settings, told, usual, file, is_reopened = desktop.preferences.settings, [], None, None, True
         del desktop, opened
-        _delete_windows(qt)
+        # delete all widgets, also hidden ones: they would be styled together with the new ones
+        from PySide6.QtCore import QEvent
+
+        gc.unfreeze()
+        for widget in qt.topLevelWidgets():
+            widget.deleteLater()
+        qt.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
+        gc.collect()
 
 
 def _open_desktop(
@@ -157,14 +164,3 @@ def _finish_restore(folder: Path) -> None:
 
     activate_restored(folder, datetime.now())
     log_folder_action(folder, "restored", "everything")
-
-
-def _delete_windows(qt: QApplication) -> None:
-    """Delete all widgets, also hidden ones: they would be styled together with the new ones."""
-    from PySide6.QtCore import QEvent
-
-    gc.unfreeze()
-    for widget in qt.topLevelWidgets():
-        widget.deleteLater()
-    qt.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
-    gc.collect()

@@ -16,7 +16,6 @@ from carpus.core.model.rounding import format_rounded
 from carpus.core.session.reader import read_outline
 
 if TYPE_CHECKING:
-    from carpus.core.records.data_folder import DataFolder
     from carpus.core.records.erasure import ErasurePlan
 
 EXAMPLE = """carpus erase "Fern 12"
@@ -42,33 +41,29 @@ def run(arguments: argparse.Namespace) -> int:
         if fold_name(arguments.what) in library.erased_pseudonyms or (is_file and not path.exists()):
             print(f"The deletion of {arguments.what} that was started before is finished.")
             return _print_erased()
-        return _erase(library, arguments.what, path, arguments.for_good)
+        from carpus.core.records.retention import RecordRetention
 
-
-def _erase(library: DataFolder, what: str, path: Path, confirmed: str | None) -> int:
-    from carpus.core.records.retention import RecordRetention
-
-    records = RecordRetention(library)
-    if path.is_file():
-        plan = records.plan_session(read_outline(path).header.session_id)
-    else:
-        patient_id = library.patients.id_of_pseudonym(what)
-        if not patient_id:
-            if path.suffix == ".h5":
-                raise RecordingMissing(path)
-            pseudonyms = [one.pseudonym for one in library.patients.search(include_archived=True)]
-            raise PatientUnknown(what, describe_known_names(what, pseudonyms))
-        plan = records.plan_patient(patient_id)
-    pseudonym = plan.pseudonym
-    _print_plan(plan)
-    if confirmed is None:
-        print(f"Nothing was deleted. To delete permanently, add --for-good “{pseudonym}”. Archiving can be undone.")
-        return 0
-    if confirmed.casefold() != pseudonym.casefold():
-        print_message(f"“{confirmed}” is not this patient. Nothing has been deleted.")
-        return 1
-    records.erase(plan)
-    return _print_erased()
+        records = RecordRetention(library)
+        if path.is_file():
+            plan = records.plan_session(read_outline(path).header.session_id)
+        else:
+            patient_id = library.patients.id_of_pseudonym(arguments.what)
+            if not patient_id:
+                if path.suffix == ".h5":
+                    raise RecordingMissing(path)
+                pseudonyms = [one.pseudonym for one in library.patients.search(include_archived=True)]
+                raise PatientUnknown(arguments.what, describe_known_names(arguments.what, pseudonyms))
+            plan = records.plan_patient(patient_id)
+        pseudonym = plan.pseudonym
+        _print_plan(plan)
+        if arguments.for_good is None:
+            print(f"Nothing was deleted. To delete permanently, add --for-good “{pseudonym}”. Archiving can be undone.")
+            return 0
+        if arguments.for_good.casefold() != pseudonym.casefold():
+            print_message(f"“{arguments.for_good}” is not this patient. Nothing has been deleted.")
+            return 1
+        records.erase(plan)
+        return _print_erased()
 
 
 def _print_erased() -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -100,7 +99,15 @@ def run_track(arguments: argparse.Namespace) -> int:
     if arguments.manifest is not None or is_batch(named, arguments.output):
         if arguments.stream:
             return report_usage_error("track", "--stream is for one recording; leave it out.")
-        return _track_many(named, arguments)
+        usual = load_settings().track
+        chosen = apply_options(arguments, usual)
+        if _has_conflict(arguments, chosen):
+            return 2
+        if not chosen.uses_depth:
+            print_message(COLOR_ONLY_WARNING)
+        from carpus.app.commands.track_many import run_many
+
+        return run_many(named, arguments.output, arguments, usual, lambda base: apply_options(arguments, base))
     of_many = [name for name in ("jobs", "scheduler", "table", "time_limit") if getattr(arguments, name) is not None]
     if of_many:
         return report_usage_error("track", f"--{of_many[0].replace('_', '-')} is for many recordings; leave it out.")
@@ -175,18 +182,6 @@ def _open_stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Lis
         print_message("no program receives the stream; tracking continues.")
     begun_s.append(import_pylsl().local_clock())
     return stream
-
-
-def _track_many(named: list[Path], arguments: argparse.Namespace) -> int:
-    usual = load_settings().track
-    chosen = apply_options(arguments, usual)
-    if _has_conflict(arguments, chosen):
-        return 2
-    if not chosen.uses_depth:
-        print_message(COLOR_ONLY_WARNING)
-    from carpus.app.commands.track_many import run_many
-
-    return run_many(named, arguments.output, arguments, usual, lambda base: apply_options(arguments, base))
 
 
 def _retrack_session(arguments: argparse.Namespace, *, was_warned: bool) -> int:

@@ -32,11 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
         else:
             print(f"Complete: {path} ({found.frames} frames). It has no checksum, so changes cannot be detected.")
         return 0
-    return _verify_recording(path)
-
-
-def _verify_recording(path: Path) -> int:
-    """Decode every image; a recording has checksums of its own at most."""
+    # decode every image; a recording has checksums of its own at most
     from carpus.app.sources import open_recording
 
     told: list[CarpusFault] = []

@@ -105,7 +105,17 @@ class TourController(QObject):
             return
         if bubble is None:
             return
-        button = self._find_button(bubble)
+        controller = self._controller
+        buttons: dict[Bubble, Callable[[], QAbstractButton]] = {
+            "patient": lambda: controller.patients.screen.card.start_button,
+            "camera": lambda: controller.camera.screen.primary_button,
+            "record": lambda: controller.live.screen.controls.main_button,
+            "stop": lambda: controller.live.screen.controls.main_button,
+            "results": lambda: controller.review.screen.card.report_button,
+            "report": lambda: controller.review.screen.card.report_button,
+            "save": lambda: controller.report.screen.save_button,
+        }
+        button = buttons.get(bubble, lambda: controller.markers.screen.primary_button)()
         if bubble in ONLY_READ or not button.isEnabled():
             self._read_bubbles |= {bubble}
         else:
@@ -138,19 +148,6 @@ class TourController(QObject):
             is_recording="live" in made and controller.live.screen.recording.state != "off",
             is_saved=self._is_report_saved,
         )
-
-    def _find_button(self, bubble: Bubble) -> QAbstractButton:
-        controller = self._controller
-        buttons: dict[Bubble, Callable[[], QAbstractButton]] = {
-            "patient": lambda: controller.patients.screen.card.start_button,
-            "camera": lambda: controller.camera.screen.primary_button,
-            "record": lambda: controller.live.screen.controls.main_button,
-            "stop": lambda: controller.live.screen.controls.main_button,
-            "results": lambda: controller.review.screen.card.report_button,
-            "report": lambda: controller.review.screen.card.report_button,
-            "save": lambda: controller.report.screen.save_button,
-        }
-        return buttons.get(bubble, lambda: controller.markers.screen.primary_button)()
 
     def _on_report_saved(self, _: str) -> None:
         self._is_report_saved = True
@@ -231,23 +228,7 @@ class WelcomeController(QObject):
         if panel is None:
             return
         panel.show_checking()
-        folder, here = self._folder, self._check_window()
-
-        def show_findings(found: list[Finding]) -> None:
-            if panel is self.panel:
-                panel.show_checks([*(self._translate(finding) for finding in found), *here])
-
-        def show_fault(fault: Exception) -> None:
-            panel.show_checks(here)
-            self._controller.messages.show_fault(fault)
-
-        needs_camera = not self._controller.is_demo
-        self._background.run(
-            lambda: list(examine_at_start(folder, needs_camera=needs_camera)), show_findings, show_fault, panel
-        )
-
-    def _check_window(self) -> list[Finding]:
-        """Check screen size and fonts."""
+        # check screen size and fonts
         name = self.tr("Screen")
         room = QGuiApplication.primaryScreen().availableGeometry()
         found = self.tr("{width} × {height} for windows").format(width=room.width(), height=room.height())
@@ -261,7 +242,20 @@ class WelcomeController(QObject):
         if not {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts()):
             remedy = self.tr("Install Carpus again: part of it is missing or damaged.")
             checks.append(Finding(self.tr("Fonts"), "bad", self.tr("the fonts of Carpus cannot be used"), remedy))
-        return checks
+        folder, here = self._folder, checks
+
+        def show_findings(found: list[Finding]) -> None:
+            if panel is self.panel:
+                panel.show_checks([*(self._translate(finding) for finding in found), *here])
+
+        def show_fault(fault: Exception) -> None:
+            panel.show_checks(here)
+            self._controller.messages.show_fault(fault)
+
+        needs_camera = not self._controller.is_demo
+        self._background.run(
+            lambda: list(examine_at_start(folder, needs_camera=needs_camera)), show_findings, show_fault, panel
+        )
 
     def _translate(self, finding: Finding) -> Finding:
         names = {

@@ -156,7 +156,14 @@ class PracticeSystemController(QObject):
         request = replace(request, sex=patient.sex if patient.sex in ("male", "female") else "")
         content, name = report_pdf(screen.preview.pages), default_file_name(report)
         tests = gdt.build_tests(report.results.measures, _name_test)
-        findings = _describe_findings(report)
+        # exercise and hand, and the ranges of the wrist by the neutral-zero method
+        results = report.results
+        ranges = [words for angle in range(3) if (words := neutral_zero_words(results, angle))]
+        heading = f"{terms.exercise_name(results.exercise.id)}, {to_mid_sentence(terms.hand_name(results.side))}"
+        plain = str.maketrans(
+            {"\N{NON-BREAKING HYPHEN}": "-", "\N{GREATER-THAN OR EQUAL TO}": ">=", "\N{LESS-THAN OR EQUAL TO}": "<="}
+        )
+        findings = [heading, *(words.translate(plain) for words in ranges)]
 
         def work() -> str:
             target = folder / name
@@ -233,14 +240,3 @@ def _name_test(row: Measure) -> str:
     """Return the name of a range, of a joint with the end that it is."""
     end = "" if row.wrist_angle >= 0 else {"flexion": " max.", "extension": " min."}.get(row.quantity, "")
     return f"{range_name(row, names_arc=True)}{end}"
-
-
-def _describe_findings(report: SessionReport) -> list[str]:
-    """Return exercise and hand, and the ranges of the wrist by the neutral-zero method."""
-    results = report.results
-    ranges = [words for angle in range(3) if (words := neutral_zero_words(results, angle))]
-    heading = f"{terms.exercise_name(results.exercise.id)}, {to_mid_sentence(terms.hand_name(results.side))}"
-    plain = str.maketrans(
-        {"\N{NON-BREAKING HYPHEN}": "-", "\N{GREATER-THAN OR EQUAL TO}": ">=", "\N{LESS-THAN OR EQUAL TO}": "<="}
-    )
-    return [heading, *(words.translate(plain) for words in ranges)]

@@ -60,7 +60,29 @@ class SourceFactory:
         import_module("scipy.optimize")
         import_module("scipy.signal")
         if choice.kind == "file":
-            return self._open_recording(choice, set_up)
+            faults: list[CarpusFault] = []
+            source = open_recording(
+                Path(choice.path),
+                registered=choice.is_depth_registered,
+                leave_out_damaged=True,
+                data_folder=self._settings.data_folder,
+                notice=faults.append,
+            )
+            # read the first frames of a recording, for the neutral pose. Raises :class:`RecordingEmpty`
+            still_s = self._settings.track.calibration.still_s
+            opening: list[Frame] = []
+            for frame in source.frames():
+                if opening and frame.timestamp_s - opening[0].timestamp_s > still_s:
+                    break
+                opening.append(frame)
+            if not opening:
+                raise RecordingEmpty(source.info.name)
+            session = self._create_session(PacedSource(source, self._speed), source_waits=True)
+            asks = any(isinstance(fault, RegistrationAssumed) for fault in faults)
+            for fault in () if asks else faults:
+                session.handle_notice(fault)
+            pictures = CalibrationFrames(False, lambda: opening[0], lambda: opening)  # clicks are on the very first
+            return self._build_open_source(session, source, set_up, pictures, asks, recording=Path(choice.path))
         return self._open_camera(set_up) if choice.kind == "camera" else self._open_practice(set_up, progress)
 
     def _open_camera(self, set_up: SessionSetup) -> OpenSource:
@@ -106,40 +128,10 @@ class SourceFactory:
         )
         return replace(opened, is_hand_resting=lambda: not patient.can_move)
 
-    def _open_recording(self, choice: SourceChoice, set_up: SessionSetup) -> OpenSource:
-        faults: list[CarpusFault] = []
-        source = open_recording(
-            Path(choice.path),
-            registered=choice.is_depth_registered,
-            leave_out_damaged=True,
-            data_folder=self._settings.data_folder,
-            notice=faults.append,
-        )
-        opening = read_opening_frames(source, self._settings.track.calibration.still_s)
-        session = self._create_session(PacedSource(source, self._speed), source_waits=True)
-        asks = any(isinstance(fault, RegistrationAssumed) for fault in faults)
-        for fault in () if asks else faults:
-            session.handle_notice(fault)
-        pictures = CalibrationFrames(False, lambda: opening[0], lambda: opening)  # clicks are on the very first
-        return self._build_open_source(session, source, set_up, pictures, asks, recording=Path(choice.path))
-
     def _track_settings(self, set_up: SessionSetup) -> TrackSettings:
         """Return the tracking settings with the set-up's choice for the DIP joints."""
         track = self._settings.track
         return replace(track, tracker=replace(track.tracker, dip="free")) if set_up.is_dip_free else track
-
-    def _make_listener_factory(
-        self, session: LiveSession, set_up: SessionSetup
-    ) -> Callable[[Calibration], Listener | None]:
-        def listener(calibration: Calibration) -> Listener | None:
-            if not self.is_streaming():
-                return None
-            from carpus.core.pipeline.lsl_stream import SampleStream
-
-            rate_hz, dip_free = session.info.nominal_fps, self._track_settings(set_up).tracker.dip == "free"
-            return SampleStream.open(calibration.clicks, rate_hz, dip_free=dip_free)
-
-        return listener
 
     def _create_session(self, source: FrameSource, *, source_waits: bool = False) -> LiveSession:
         place = spool_folder(self._settings.data_folder)  # made with the first recording
@@ -158,9 +150,18 @@ class SourceFactory:
     ) -> OpenSource:
         """Build the open source; other arguments go to :class:`MeasurementController`."""
         track = self._track_settings(set_up)
+
+        def listener(calibration: Calibration) -> Listener | None:
+            if not self.is_streaming():
+                return None
+            from carpus.core.pipeline.lsl_stream import SampleStream
+
+            rate_hz, dip_free = session.info.nominal_fps, self._track_settings(set_up).tracker.dip == "free"
+            return SampleStream.open(calibration.clicks, rate_hz, dip_free=dip_free)
+
         measuring = MeasurementController(
             session, source.info, set_up, track, self._new_sessions,
-            listener=self._make_listener_factory(session, set_up), **options,
+            listener=listener, **options,
         )  # fmt: skip
         calibrator = HandCalibrator(
             pictures,
@@ -178,15 +179,3 @@ class SourceFactory:
 def _live_frames(session: LiveSession) -> CalibrationFrames:
     """Return the frames of a live session, newest first: the hand was still up to now."""
     return CalibrationFrames(True, session.current_frame, lambda: session.recent_frames(RECENT_FRAMES)[::-1])
-
-
-def read_opening_frames(source: FrameSource, still_s: float) -> list[Frame]:
-    """Read the first frames of a recording, for the neutral pose. Raises :class:`RecordingEmpty`."""
-    opening: list[Frame] = []
-    for frame in source.frames():
-        if opening and frame.timestamp_s - opening[0].timestamp_s > still_s:
-            break
-        opening.append(frame)
-    if not opening:
-        raise RecordingEmpty(source.info.name)
-    return opening

@@ -120,14 +120,11 @@ class Desktop:
         busy = controller.is_at_work or safe.backing_up.is_busy or self.tour.is_on or controller.messages.is_busy
         return tr("The language can be changed once no measurement or analysis is running.") if busy else ""
 
-    def come_to_front(self) -> None:
+    def on_second_instance(self, file: Path | None) -> None:
+        """Come to the front and open the file of a second instance."""
         self.shell.setWindowState(self.shell.windowState() & ~Qt.WindowState.WindowMinimized)
         self.shell.raise_()
         self.shell.activateWindow()
-
-    def on_second_instance(self, file: Path | None) -> None:
-        """Come to the front and open the file of a second instance."""
-        self.come_to_front()
         if file is not None:
             self.open_file(file)
 

@@ -40,47 +40,43 @@ def read_c3d(path: Path) -> PointTrack:
     except OSError as cause:
         raise ReferenceUnreadable(path, cause.strerror or "") from cause
     try:
-        return _parse_points(content, path)
+        if len(content) < 2 * BLOCK or content[1] != 0x50:
+            raise ReferenceUnreadable(path, "no C3D")
+        at = (content[0] - 1) * BLOCK
+        processor = content[at + 3]
+        if processor not in (INTEL, DEC, SGI):
+            raise ReferenceUnreadable(path, phrase("unknown processor type {processor}", processor=processor))
+        order = ">" if processor == SGI else "<"
+        parameters = _read_parameters(content, at, order, processor == DEC)
+        point = parameters["POINT"]
+        used = int(point["USED"][0])
+        scale = float(point["SCALE"][0])
+        rate_hz = float(point["RATE"][0])
+        first, last = (value & 0xFFFF for value in struct.unpack_from(f"{order}HH", content, 6))
+        analog = struct.unpack_from(f"{order}H", content, 4)[0]
+        begin = (int(point.get("DATA_START", [0])[0]) & 0xFFFF or struct.unpack_from(f"{order}H", content, 16)[0]) - 1
+        is_float = scale < 0.0
+        word = 4 if is_float else 2
+        row_bytes = (4 * used + analog) * word
+        if not used or rate_hz <= 0.0 or not np.isfinite(rate_hz):
+            raise ReferenceUnreadable(path, phrase("no points, or no rate stated"))
+        stored_rows = (len(content) - begin * BLOCK) // row_bytes
+        frames = min(_frame_count(parameters, last - first + 1), stored_rows)
+        if frames < 1:
+            raise ReferenceUnreadable(path, phrase("no frames"))
+        raw = np.frombuffer(content, np.uint8, frames * row_bytes, begin * BLOCK).reshape(frames, row_bytes)
+        values = _to_numbers(raw[:, : 4 * used * word], order, processor == DEC, is_float).reshape(frames, used, 4)
+        place = values[..., :3] if is_float else values[..., :3] * np.float32(scale)
+        unit = str(point.get("UNITS", ["mm"])[0]).strip().lower() or "mm"
+        if unit not in _METRES:
+            raise ReferenceUnreadable(path, phrase("unit {unit}", unit=unit))
+        known = values[..., 3] >= 0.0
+        place_m = np.where(known[..., None], place.astype(np.float64) * _METRES[unit], np.nan)
+        names = [str(name).strip() for k in ("", *map(str, range(2, 99))) for name in point.get(f"LABELS{k}", [])]
+        names = (names + [f"point {k + 1}" for k in range(used)][len(names) :])[:used]
+        return PointTrack(np.arange(frames) / rate_hz, tuple(names), zeros_to_nan(place_m), unit)
     except (ValueError, IndexError, KeyError, struct.error, OverflowError) as cause:
         raise ReferenceUnreadable(path, phrase("damaged, or not C3D")) from cause
-
-
-def _parse_points(content: bytes, path: Path) -> PointTrack:
-    if len(content) < 2 * BLOCK or content[1] != 0x50:
-        raise ReferenceUnreadable(path, "no C3D")
-    at = (content[0] - 1) * BLOCK
-    processor = content[at + 3]
-    if processor not in (INTEL, DEC, SGI):
-        raise ReferenceUnreadable(path, phrase("unknown processor type {processor}", processor=processor))
-    order = ">" if processor == SGI else "<"
-    parameters = _read_parameters(content, at, order, processor == DEC)
-    point = parameters["POINT"]
-    used = int(point["USED"][0])
-    scale = float(point["SCALE"][0])
-    rate_hz = float(point["RATE"][0])
-    first, last = (value & 0xFFFF for value in struct.unpack_from(f"{order}HH", content, 6))
-    analog = struct.unpack_from(f"{order}H", content, 4)[0]
-    begin = (int(point.get("DATA_START", [0])[0]) & 0xFFFF or struct.unpack_from(f"{order}H", content, 16)[0]) - 1
-    is_float = scale < 0.0
-    word = 4 if is_float else 2
-    row_bytes = (4 * used + analog) * word
-    if not used or rate_hz <= 0.0 or not np.isfinite(rate_hz):
-        raise ReferenceUnreadable(path, phrase("no points, or no rate stated"))
-    stored_rows = (len(content) - begin * BLOCK) // row_bytes
-    frames = min(_frame_count(parameters, last - first + 1), stored_rows)
-    if frames < 1:
-        raise ReferenceUnreadable(path, phrase("no frames"))
-    raw = np.frombuffer(content, np.uint8, frames * row_bytes, begin * BLOCK).reshape(frames, row_bytes)
-    values = _to_numbers(raw[:, : 4 * used * word], order, processor == DEC, is_float).reshape(frames, used, 4)
-    place = values[..., :3] if is_float else values[..., :3] * np.float32(scale)
-    unit = str(point.get("UNITS", ["mm"])[0]).strip().lower() or "mm"
-    if unit not in _METRES:
-        raise ReferenceUnreadable(path, phrase("unit {unit}", unit=unit))
-    known = values[..., 3] >= 0.0
-    place_m = np.where(known[..., None], place.astype(np.float64) * _METRES[unit], np.nan)
-    names = [str(name).strip() for k in ("", *map(str, range(2, 99))) for name in point.get(f"LABELS{k}", [])]
-    names = (names + [f"point {k + 1}" for k in range(used)][len(names) :])[:used]
-    return PointTrack(np.arange(frames) / rate_hz, tuple(names), zeros_to_nan(place_m), unit)
 
 
 def zeros_to_nan(position_m: FloatArray) -> FloatArray:

@@ -59,7 +59,13 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
     even = take.times
     points = build_points(take.session, even)
     with open_new_file(path) as file:
-        head = _header_and_parameters(take, even, points)
+        # lay out header and parameters, twice to know where the data begin
+        first = b"".join(_parameter_groups(take, even, points, 0))
+        blocks = -(-(len(first) + 4 + 1) // BLOCK)
+        data_block = 2 + blocks
+        parameters = b"".join(_parameter_groups(take, even, points, data_block))
+        section = struct.pack("<BBBB", 1, 0x50, blocks, INTEL) + parameters
+        head = _header(len(points.labels), len(even), even.rate_hz, data_block) + section.ljust(blocks * BLOCK, b"\0")
         file.write(head)
         for some in _point_data(points):
             file.write(some)
@@ -106,16 +112,6 @@ def _point_data(points: C3dPoints, batch_rows: int = 4096) -> Iterator[bytes]:
         out[..., :3] = np.where(known[..., None], place, 0.0)
         out[..., 3] = np.where(known, word, -1.0)
         yield out.tobytes()
-
-
-def _header_and_parameters(take: ExportItem, times: UniformTimes, points: C3dPoints) -> bytes:
-    """Lay out header and parameters, twice to know where the data begin."""
-    first = b"".join(_parameter_groups(take, times, points, 0))
-    blocks = -(-(len(first) + 4 + 1) // BLOCK)
-    data_block = 2 + blocks
-    parameters = b"".join(_parameter_groups(take, times, points, data_block))
-    section = struct.pack("<BBBB", 1, 0x50, blocks, INTEL) + parameters
-    return _header(len(points.labels), len(times), times.rate_hz, data_block) + section.ljust(blocks * BLOCK, b"\0")
 
 
 def _header(points: int, frames: int, rate_hz: float, data_block: int) -> bytes:

@@ -161,6 +161,20 @@ class Deidentifier:
             offset = day - self._first_day.setdefault(header.subject_id, day)
             recorded = (DAY_ZERO + offset).isoformat(timespec="seconds")
         known = {exercise.id for exercise in EXERCISES}
+        sections = {
+            part: section
+            for part in ("settings", "learnt")
+            if (section := made_by.parameter_section(header.parameters, part))
+        }
+        if isinstance(sections.get("learnt", {}).get(_LEARNT_TIME_FIELD), (int, float)):
+            sections["learnt"][_LEARNT_TIME_FIELD] -= start_s
+        for part, names in (
+            ("source", ANONYMOUS_SOURCE_FIELDS),
+            (SET_UP, _SETUP_FIELDS),
+            ("provenance", ("revision",)),
+        ):
+            if section := made_by.parameter_section(header.parameters, part):
+                sections[part] = {name: section[name] for name in names if name in section}
         return replace(
             header,
             session_id=self._id(header.session_id),
@@ -170,7 +184,7 @@ class Deidentifier:
             created=recorded or DAY_ZERO.isoformat(timespec="seconds"),
             exercise=header.exercise if header.exercise in known else "",
             origin="",
-            parameters=_deidentify_parameters(header.parameters, start_s),
+            parameters=json.dumps(sections, sort_keys=True),
         )
 
     def _id(self, old: str) -> str:
@@ -180,13 +194,3 @@ class Deidentifier:
 def _day(moment: str) -> datetime:
     """Return the day on the clinic's clock, whatever its zone."""
     return datetime.fromisoformat(moment).replace(hour=0, minute=0, second=0, microsecond=0, tzinfo=UTC)
-
-
-def _deidentify_parameters(text: str, start_s: float) -> str:
-    sections = {part: section for part in ("settings", "learnt") if (section := made_by.parameter_section(text, part))}
-    if isinstance(sections.get("learnt", {}).get(_LEARNT_TIME_FIELD), (int, float)):
-        sections["learnt"][_LEARNT_TIME_FIELD] -= start_s
-    for part, names in (("source", ANONYMOUS_SOURCE_FIELDS), (SET_UP, _SETUP_FIELDS), ("provenance", ("revision",))):
-        if section := made_by.parameter_section(text, part):
-            sections[part] = {name: section[name] for name in names if name in section}
-    return json.dumps(sections, sort_keys=True)

@@ -47,7 +47,15 @@ def open_new_file(path: Path, *, overwrite: bool = False) -> Iterator[IO[bytes]]
             if overwrite:
                 half.replace(path)
             else:
-                _publish(half, path)
+                # rename without replacing; on file systems without links after a check
+                try:
+                    os.link(half, path)
+                except FileExistsError:
+                    raise
+                except OSError:
+                    if path.exists():
+                        raise FileExistsError(path) from None
+                    half.rename(path)
         except FileExistsError as cause:
             raise OutputExists(path) from cause
         except OSError as cause:
@@ -152,15 +160,3 @@ def nan_to_none(value: Any) -> Any:
     if hasattr(value, "tolist"):
         return nan_to_none(value.tolist())
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _publish(half: Path, path: Path) -> None:
-    """Rename without replacing; on file systems without links after a check."""
-    try:
-        os.link(half, path)
-    except FileExistsError:
-        raise
-    except OSError:
-        if path.exists():
-            raise FileExistsError(path) from None
-        half.rename(path)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
-from typing import Any, Literal, TypeGuard, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -185,16 +185,12 @@ def _validate(sensor: DepthSensor) -> DepthSensor:
     ok = ok and 0 < len(sensor.name) <= _MAX_TEXT and len(sensor.origin) <= _MAX_TEXT
     ok = ok and sensor.kind in get_args(Kind) and sensor.edge in get_args(Edge)
     ok = ok and sensor.registration in get_args(Registration)
-    ok = ok and all(_is_non_negative(number) for number in numbers)
+    ok = ok and all(not isinstance(one, bool) and math.isfinite(one) and one >= 0.0 for one in numbers)
     ok = ok and all(0.0 <= law.fixed_m < 1.0 and 0.0 <= law.square_per_m < 1.0 for law in laws)
     ok = ok and max(sensor.reading.fixed_m, sensor.reading.square_per_m) > 0.0
     if not ok or sensor.edge_px > _MAX_EDGE_PX or sensor.patch_px < 1.0 or sensor.farthest_m <= sensor.nearest_m:
         raise ValueError("its figures are no sensor's")
     return sensor
-
-
-def _is_non_negative(value: object) -> TypeGuard[float]:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and value >= 0.0
 
 
 def _build_stereo_sensor(

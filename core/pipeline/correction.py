@@ -243,7 +243,10 @@ def correct_in_process(task: CorrectionTask, progress: Callable[[int, int], None
         raise ReanalysisFailed(task.output.name, phrase("process ended")) from None
     finally:
         child.end()
-        _remove_part_files(task)
+        # remove the part files of a killed process; the original session still exists
+        name = glob.escape(task.output.name)
+        for path in task.output.parent.glob(f"{name}.????????.part*"):
+            path.unlink(missing_ok=True)
 
 
 def correct_as_child(link: Connection, task: CorrectionTask) -> None:
@@ -263,10 +266,3 @@ def correct_as_child(link: Connection, task: CorrectionTask) -> None:
         message = ReanalysisFailed("", f"{type(cause).__name__}: {cause}")
     with suppress(OSError):  # the owner may have died, which may be the cause
         link.send(message)
-
-
-def _remove_part_files(task: CorrectionTask) -> None:
-    """Remove the part files of a killed process; the original session still exists."""
-    name = glob.escape(task.output.name)
-    for path in task.output.parent.glob(f"{name}.????????.part*"):
-        path.unlink(missing_ok=True)

@@ -318,7 +318,24 @@ class LiveSession:
             for frame in frames:
                 if self._stopping.is_set():
                     break
-                self._handle_frame(frame)
+                at_s = time.monotonic()
+                with self._lock:
+                    recording, pipeline = self._recording, self._pipeline
+                    if recording is not None and (recording.is_paused or self._backlog.is_finishing_recording):
+                        recording = None
+                    if pipeline is not None:  # announced under the lock, so that a stop waits for this frame too
+                        self._backlog.announce()
+                    self._recent_frames.append(frame)
+                    self._arrivals.append(at_s)
+                    self._captured += 1
+                    self._missing += frame.dropped_before
+                    if recording is not None and recording.first_frame_index is None:
+                        recording.first_frame_index = frame.index
+                if recording is not None and recording.frame_recorder is not None:
+                    recording.frame_recorder.submit(frame)
+                self._frame_mailbox.post(frame)
+                if pipeline is not None:
+                    self._backlog.submit(QueuedFrame(frame, at_s, pipeline, recording))
             else:
                 # A file has ended when its last frame is tracked: who then stops the recording loses none.
                 while self._backlog.is_blocking and self._backlog.has_pending() and not self._stopping.wait(_POLL_S):
@@ -332,26 +349,6 @@ class LiveSession:
             close = getattr(frames, "close", None)  # a generator gives its files back here, in its own thread
             if close is not None:
                 close()
-
-    def _handle_frame(self, frame: Frame) -> None:
-        at_s = time.monotonic()
-        with self._lock:
-            recording, pipeline = self._recording, self._pipeline
-            if recording is not None and (recording.is_paused or self._backlog.is_finishing_recording):
-                recording = None
-            if pipeline is not None:  # announced under the lock, so that a stop waits for this frame too
-                self._backlog.announce()
-            self._recent_frames.append(frame)
-            self._arrivals.append(at_s)
-            self._captured += 1
-            self._missing += frame.dropped_before
-            if recording is not None and recording.first_frame_index is None:
-                recording.first_frame_index = frame.index
-        if recording is not None and recording.frame_recorder is not None:
-            recording.frame_recorder.submit(frame)
-        self._frame_mailbox.post(frame)
-        if pipeline is not None:
-            self._backlog.submit(QueuedFrame(frame, at_s, pipeline, recording))
 
     def _track(self) -> None:
         for captured in self._backlog:

@@ -186,7 +186,15 @@ class SmoothingProcess:
     def _run(self) -> None:
         try:
             self._child = ChildProcess(run_smoother, self._hand, self._chunk_s, self._lag_s, name="smoothing")
-            self._communicate(self._child.link)
+            link = self._child.link
+            while not self._is_ending.wait(SEND_EVERY_S):
+                while self._waiting and not (self._failure or self._is_ending.is_set()):
+                    self._send_steps(link)
+            link.send(None)
+            while self._waiting and not self._failure:
+                self._send_steps(link)
+            link.send(None)
+            self._receive_chunks(link)
         except (EOFError, BrokenPipeError, ConnectionResetError):
             self._fail("" if self._child is None else self._child.describe_exit())
         except Exception as cause:  # the one catch at the top of this thread
@@ -194,16 +202,6 @@ class SmoothingProcess:
         finally:
             if self._child is not None:
                 self._child.end()
-
-    def _communicate(self, link: Connection) -> None:
-        while not self._is_ending.wait(SEND_EVERY_S):
-            while self._waiting and not (self._failure or self._is_ending.is_set()):
-                self._send_steps(link)
-        link.send(None)
-        while self._waiting and not self._failure:
-            self._send_steps(link)
-        link.send(None)
-        self._receive_chunks(link)
 
     def _send_steps(self, link: Connection) -> None:
         count = min(len(self._waiting), FRAMES_PER_MESSAGE)

@@ -147,7 +147,12 @@ def call_in_child(function: Callable[..., Any], *arguments: object, limit_s: flo
 def _run_child(link: Connection, work: str, arguments: bytes, is_forked: bool) -> None:
     if is_forked:
         _STARTING.release()  # the copy was made while the owner held it
-        _close_copied_files(link)
+        # close all files that a fork would hold open, the owner's end of the pipe above all
+        parent = multiprocessing.parent_process()
+        assert parent is not None
+        kept = sorted((2, link.fileno(), parent.sentinel))
+        for low, high in zip(kept, [*kept[1:], 4096], strict=True):
+            os.closerange(low + 1, high)
     for number in signal.valid_signals():
         if callable(signal.getsignal(number)):
             signal.signal(number, signal.SIG_DFL)
@@ -159,15 +164,6 @@ def _run_child(link: Connection, work: str, arguments: bytes, is_forked: bool) -
     getattr(import_module(module), function)(link, *pickle.loads(arguments))
     if is_forked:
         os._exit(0)  # what the owner registered for its own end is not the copy's
-
-
-def _close_copied_files(link: Connection) -> None:
-    """Close all files that a fork would hold open, the owner's end of the pipe above all."""
-    parent = multiprocessing.parent_process()
-    assert parent is not None
-    kept = sorted((2, link.fileno(), parent.sentinel))
-    for low, high in zip(kept, [*kept[1:], 4096], strict=True):
-        os.closerange(low + 1, high)
 
 
 def _send_result(link: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:

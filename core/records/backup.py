@@ -126,7 +126,9 @@ def create_backup(
     BackupIncomplete
         A file cannot be read, or a listed session has no file; all else is in the backup.
     """
-    check_backup_folder(data_folder, backup_folder)
+    data, there = data_folder.resolve(), _resolve_links(backup_folder)
+    if data == there or data in there.parents or there in data.parents:
+        raise BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
     sources = collect_sources(data_folder, backup_folder, settings_folder, sessions_folder, copy_store)
     for folder in (backup_folder, backup_folder / OBJECTS, backup_folder / BACKUPS):
         make_private_folder(folder)
@@ -229,41 +231,34 @@ def _read_backups(paths: Iterable[Path]) -> list[Backup]:
 def read_backup(path: Path) -> Backup:
     """Read a backup's JSON. Raises :class:`BackupUnreadable`."""
     try:
-        return backup_from_json(path.stem, path.read_text(encoding="utf-8"))
+        content = json.loads(path.read_text(encoding="utf-8"))
+        if content["format"] != FORMAT:
+            raise BackupUnreadable(path.stem, phrase("not a backup"))
+        if _parse_count(content["format_version"]) > FORMAT_VERSION:
+            newer = "version {version}, but this version of Carpus reads up to {format_version}"
+            raise BackupUnreadable(
+                path.stem, phrase(newer, version=content["format_version"], format_version=FORMAT_VERSION)
+            )
+        files = tuple(
+            BackupFile(str(p), str(h), _parse_count(size), _parse_count(ns)) for p, h, size, ns in content["files"]
+        )
+        if not all(_is_safe_path(one.path) and _SHA256.fullmatch(one.sha256) for one in files):
+            raise BackupUnreadable(path.stem, phrase("paths outside the folder"))
+        made = datetime.fromisoformat(content["made"])
+        if made.tzinfo is None or not 2000 <= made.year < 9000 or len({one.path for one in files}) != len(files):
+            raise ValueError("no such back-up was made")
+        return Backup(
+            path.stem,
+            made,
+            files,
+            _parse_count(content["sessions"]),
+            _parse_count(content["size_bytes"]),
+            _parse_count(content["lacking"]),
+            str(content["software_version"]),
+            str(content.get("data_folder", "")),
+        )
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError) as cause:
         raise BackupUnreadable(path, str(cause)[:80]) from cause
-
-
-def backup_from_json(name: str, text: str) -> Backup:
-    """Parse a backup's JSON.
-
-    Raises :class:`BackupUnreadable` for a newer format or paths that lead out of the folder, and whatever a wrong JSON
-    makes Python raise.
-    """
-    content = json.loads(text)
-    if content["format"] != FORMAT:
-        raise BackupUnreadable(name, phrase("not a backup"))
-    if _parse_count(content["format_version"]) > FORMAT_VERSION:
-        newer = "version {version}, but this version of Carpus reads up to {format_version}"
-        raise BackupUnreadable(name, phrase(newer, version=content["format_version"], format_version=FORMAT_VERSION))
-    files = tuple(
-        BackupFile(str(p), str(h), _parse_count(size), _parse_count(ns)) for p, h, size, ns in content["files"]
-    )
-    if not all(_is_safe_path(one.path) and _SHA256.fullmatch(one.sha256) for one in files):
-        raise BackupUnreadable(name, phrase("paths outside the folder"))
-    made = datetime.fromisoformat(content["made"])
-    if made.tzinfo is None or not 2000 <= made.year < 9000 or len({one.path for one in files}) != len(files):
-        raise ValueError("no such back-up was made")
-    return Backup(
-        name,
-        made,
-        files,
-        _parse_count(content["sessions"]),
-        _parse_count(content["size_bytes"]),
-        _parse_count(content["lacking"]),
-        str(content["software_version"]),
-        str(content.get("data_folder", "")),
-    )
 
 
 def verify_backup(backup_folder: Path, backup: Backup, progress: Progress = lambda _done, _total: None) -> None:
@@ -281,33 +276,29 @@ def prune_backups(backup_folder: Path, keep: int, months: int, now: datetime) ->
     while another program writes a backup. Raises :class:`BackupUnreadable`.
     """
     with contextlib.suppress(OutputBusy), _exclusive_lock(backup_folder):
-        return _prune_backups(backup_folder, keep, months, now)
+        try:
+            listed = [path for path in (backup_folder / BACKUPS).iterdir() if path.suffix == ".json"]
+        except OSError as cause:
+            raise BackupUnreadable(backup_folder / BACKUPS, cause.strerror or "") from cause
+        there = _read_backups(listed)  # read once: a fault between two readings would cost what it hides
+        sure = [one for one in there if one.made <= now]
+        kept = {one.name for one in there if one not in sure} | {one.name for one in sure[:keep]}
+        for month in {(one.made.year, one.made.month) for one in sure}:
+            newest = max((one for one in sure if (one.made.year, one.made.month) == month), key=lambda one: one.made)
+            if newest.made > now - timedelta(days=31 * months):
+                kept.add(newest.name)
+        gone = [one for one in there if one.name not in kept]
+        for one in gone:
+            (backup_folder / BACKUPS / f"{one.name}.json").unlink(missing_ok=True)
+        for path in (backup_folder / BACKUPS).glob(".*.json.part"):
+            path.unlink(missing_ok=True)
+        if there and len(there) == len(listed):
+            needed = {one.sha256 for backup in there if backup.name in kept for one in backup.files}
+            for path in _find_objects(backup_folder):
+                if path.name not in needed:
+                    path.unlink(missing_ok=True)
+        return len(gone)
     return 0
-
-
-def _prune_backups(backup_folder: Path, keep: int, months: int, now: datetime) -> int:
-    try:
-        listed = [path for path in (backup_folder / BACKUPS).iterdir() if path.suffix == ".json"]
-    except OSError as cause:
-        raise BackupUnreadable(backup_folder / BACKUPS, cause.strerror or "") from cause
-    there = _read_backups(listed)  # read once: a fault between two readings would cost what it hides
-    sure = [one for one in there if one.made <= now]
-    kept = {one.name for one in there if one not in sure} | {one.name for one in sure[:keep]}
-    for month in {(one.made.year, one.made.month) for one in sure}:
-        newest = max((one for one in sure if (one.made.year, one.made.month) == month), key=lambda one: one.made)
-        if newest.made > now - timedelta(days=31 * months):
-            kept.add(newest.name)
-    gone = [one for one in there if one.name not in kept]
-    for one in gone:
-        (backup_folder / BACKUPS / f"{one.name}.json").unlink(missing_ok=True)
-    for path in (backup_folder / BACKUPS).glob(".*.json.part"):
-        path.unlink(missing_ok=True)
-    if there and len(there) == len(listed):
-        needed = {one.sha256 for backup in there if backup.name in kept for one in backup.files}
-        for path in _find_objects(backup_folder):
-            if path.name not in needed:
-                path.unlink(missing_ok=True)
-    return len(gone)
 
 
 def is_backup_due(made: datetime | None, days: int, now: datetime) -> bool:
@@ -329,13 +320,6 @@ def backup_to_dict(backup: Backup) -> dict[str, Any]:
         "lacking": backup.missing_count,
         "files": [[one.path, one.sha256, one.size, one.modified_ns] for one in backup.files],
     }
-
-
-def check_backup_folder(data_folder: Path, backup_folder: Path) -> None:
-    """Raise :class:`BackupFolderUnsuited` for a folder inside or around the data folder."""
-    data, there = data_folder.resolve(), _resolve_links(backup_folder)
-    if data == there or data in there.parents or there in data.parents:
-        raise BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
 
 
 def _resolve_links(place: Path) -> Path:

@@ -84,31 +84,28 @@ def apply_changes(connection: Connection, changes: ChangeSet) -> None:
             before = connection.execute(select(SESSION.c.patient_id).where(SESSION.c.id == row.id)).scalar()
             owners |= {one for one in (before, row.values.get("patient_id")) if one}
         try:
-            _apply_row_change(connection, TABLES[row.table], row)
+            table = TABLES[row.table]
+            raised = {**row.values, "version": table.c.version + 1}
+            if row.action == "new":
+                connection.execute(insert(table).values(id=row.id, **row.values))
+            elif row.action == "change":
+                these = update(table).where(table.c.id == row.id).values(raised)
+                if row.version:
+                    these = these.where(table.c.version == row.version)
+                if connection.execute(these).rowcount != 1:
+                    raise ConcurrentChange(row.table)
+            elif row.action == "keep":
+                kind = sqlite if connection.dialect.name == "sqlite" else postgresql
+                made = kind.insert(table).values(id=row.id, **row.values)
+                connection.execute(made.on_conflict_do_update(index_elements=["id"], set_=raised))
+            else:
+                connection.execute(delete(table).where(table.c.id == row.id))
         except IntegrityError as cause:
             if "pseudonym_key" in str(cause.orig):
                 raise PseudonymTaken(row.values.get("pseudonym", "")) from cause
             raise ConcurrentChange(row.table) from cause
     for patient_id in sorted(owners):
         update_session_counts(connection, patient_id)
-
-
-def _apply_row_change(connection: Connection, table: Table, row: RowChange) -> None:
-    raised = {**row.values, "version": table.c.version + 1}
-    if row.action == "new":
-        connection.execute(insert(table).values(id=row.id, **row.values))
-    elif row.action == "change":
-        these = update(table).where(table.c.id == row.id).values(raised)
-        if row.version:
-            these = these.where(table.c.version == row.version)
-        if connection.execute(these).rowcount != 1:
-            raise ConcurrentChange(row.table)
-    elif row.action == "keep":
-        kind = sqlite if connection.dialect.name == "sqlite" else postgresql
-        made = kind.insert(table).values(id=row.id, **row.values)
-        connection.execute(made.on_conflict_do_update(index_elements=["id"], set_=raised))
-    else:
-        connection.execute(delete(table).where(table.c.id == row.id))
 
 
 def is_patient_id(text: str) -> bool:

@@ -64,8 +64,9 @@ class Database:
         event.listen(self._engine, "begin", _begin_transaction)
         try:
             with self.writing() as connection:
-                if copy is None:  # a copy was looked through when it was made
-                    self._check_integrity(connection)
+                is_checked = copy is None and path.stat().st_size <= MAX_CHECKED_BYTES  # a copy was when it was made
+                if is_checked and connection.exec_driver_sql("PRAGMA quick_check(1)").scalar() != "ok":
+                    raise PatientListDamaged(path, phrase("damaged"))
                 self.is_new = migrate(connection, path)
                 self.had_unguarded_log = _restore_log_triggers(connection)
                 for table in METADATA.sorted_tables:  # as text: SQLAlchemy would take a millisecond for each
@@ -123,12 +124,6 @@ class Database:
             finally:
                 raw.execute(f"PRAGMA busy_timeout = {LOCK_WAIT_MS}")
                 raw.close()
-
-    def _check_integrity(self, connection: Connection) -> None:
-        if self._path.stat().st_size <= MAX_CHECKED_BYTES:
-            found = connection.exec_driver_sql("PRAGMA quick_check(1)").scalar()
-            if found != "ok":
-                raise PatientListDamaged(self._path, phrase("damaged"))
 
     @contextlib.contextmanager
     def _translate_errors(self) -> Iterator[None]:

@@ -70,7 +70,21 @@ class LocalStoreImport:
             if "outbox" in tables:
                 for row in old.execute("SELECT id, change FROM outbox WHERE refused = '' ORDER BY number"):
                     if server.execute(_MARK_DELIVERED, {"id": row["id"]}).first():
-                        self._apply_queued(json.loads(row["change"]))
+                        # apply a queued change of 0.2.0: action, table, id, values, version, mark
+                        change = json.loads(row["change"])
+                        if change and change[0][0] == "join":
+                            self._import_rows(
+                                TABLES[change[0][1]], [{"id": row_id, **values} for _, _, row_id, values, *_ in change]
+                            )
+                        else:
+                            self._apply(
+                                [
+                                    RowChange(
+                                        action, name, row_id, rename_former_columns(TABLES[name], values), version
+                                    )
+                                    for action, name, row_id, values, version, *_ in change
+                                ]
+                            )
 
     def _import_rows(self, table: Table, rows: Sequence[Mapping[str, Any]]) -> None:
         """Insert rows that the server lacks.
@@ -105,18 +119,6 @@ class LocalStoreImport:
 
     def _existing_values(self, column: Column[Any], values: Sequence[Any]) -> set[Any]:
         return set(self._server.scalars(select(column).where(column.in_(values))))
-
-    def _apply_queued(self, change: Sequence[Sequence[Any]]) -> None:
-        """Apply a queued change of 0.2.0: action, table, id, values, version, mark."""
-        if change and change[0][0] == "join":
-            self._import_rows(TABLES[change[0][1]], [{"id": row_id, **values} for _, _, row_id, values, *_ in change])
-        else:
-            self._apply(
-                [
-                    RowChange(action, name, row_id, rename_former_columns(TABLES[name], values), version)
-                    for action, name, row_id, values, version, *_ in change
-                ]
-            )
 
     def _apply(self, change: Sequence[RowChange]) -> None:
         for number in range(1, MAX_NAMESAKES):

@@ -385,7 +385,8 @@ class SessionFileScanner:
                     del now_seen[path]
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
             faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is not text")) for one in nameless]
-        gone = [path for path in before if path not in there and not self._is_unfinished_part(path)]
+        unfinished = {path for path in before if path.endswith(".part") and (self._folder / path).exists()}
+        gone = [path for path in before if path not in there and path not in unfinished]
         taken = self._update_list(found, known, there.keys(), now_seen)
         save_file_states(self._store, now_seen, gone)
         return ScanResult(taken, tuple(faults))
@@ -493,9 +494,6 @@ class SessionFileScanner:
             for name, one in read_file_states(self._store).items()
             if one.reason == f"{COPY_REASON}{path}"
         ]
-
-    def _is_unfinished_part(self, path: str) -> bool:
-        return path.endswith(".part") and (self._folder / path).exists()
 
 
 def _session_columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict[str, Any]:

@@ -31,29 +31,25 @@ def build_empty_session(header: SessionHeader, camera: Camera, calibration: Cali
     """Return a session file without rows, as bytes."""
     with h5py.File("session", "w", driver="core", backing_store=False, libver="earliest") as file:
         layout = TableLayout(header.protocol, header.joint_names)
-        write_header(file, header, camera)
+        # write the attributes of ``/`` and ``/camera``
+        is_inverse = camera.distortion_model == "inverse_brown_conrady"
+        values = {
+            "format": schema.FORMAT,
+            # files that an older Carpus would misread have a version that it refuses
+            "format_version": schema.LENS_VERSION if is_inverse and camera.is_distorted else schema.FORMAT_VERSION,
+            "protocol": header.protocol.name,
+            "complete": True,  # it gets its name only then
+        }
+        for name in schema.ROOT_ATTRIBUTES:
+            file.attrs[name] = values[name] if name in values else getattr(header, name)
+        group = file.create_group("/camera")
+        entries = asdict(camera) | {"sensor": json.dumps(camera.sensor.to_dict(), sort_keys=True)}
+        for name, value in zip(schema.CAMERA_ATTRIBUTES, entries.values(), strict=True):
+            group.attrs[name] = value
         write_calibration(file, layout, calibration)
         create_growing_datasets(file, layout)
         file.flush()
         return bytes(file.id.get_file_image())
-
-
-def write_header(file: h5py.File, header: SessionHeader, camera: Camera) -> None:
-    """Write the attributes of ``/`` and ``/camera``."""
-    is_inverse = camera.distortion_model == "inverse_brown_conrady"
-    values = {
-        "format": schema.FORMAT,
-        # files that an older Carpus would misread have a version that it refuses
-        "format_version": schema.LENS_VERSION if is_inverse and camera.is_distorted else schema.FORMAT_VERSION,
-        "protocol": header.protocol.name,
-        "complete": True,  # it gets its name only then
-    }
-    for name in schema.ROOT_ATTRIBUTES:
-        file.attrs[name] = values[name] if name in values else getattr(header, name)
-    group = file.create_group("/camera")
-    entries = asdict(camera) | {"sensor": json.dumps(camera.sensor.to_dict(), sort_keys=True)}
-    for name, value in zip(schema.CAMERA_ATTRIBUTES, entries.values(), strict=True):
-        group.attrs[name] = value
 
 
 def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibration) -> None:

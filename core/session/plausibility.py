@@ -47,7 +47,20 @@ def check_header(header: SessionHeader, parameters: object) -> None:
         is_missing = name == "session_id" and not text.strip()
         if is_missing or len(text) > MAX_TEXT_CHARACTERS or not (text.isprintable() or name == "origin"):
             raise damage_error(name)
-    if _nesting_depth(parameters) > MAX_PARAMETERS_DEPTH or len(header.parameters) > MAX_PARAMETERS_CHARACTERS:
+    # how deeply dicts and lists are nested; counted without recursion
+    deepest, level = 0, [parameters]
+    while level:
+        deepest += 1
+        inside: list[object] = []
+        for one in level:
+            if isinstance(one, dict):
+                inside += one.values()
+            elif isinstance(one, list):
+                inside += one
+        level = inside
+        if deepest > 2 * MAX_PARAMETERS_DEPTH:
+            break
+    if deepest > MAX_PARAMETERS_DEPTH or len(header.parameters) > MAX_PARAMETERS_CHARACTERS:
         raise damage_error("parameters")
 
 
@@ -108,20 +121,3 @@ def check_detections(detections: Detections) -> None:
         good = good and not bool(((values < 0.0) | (values > MAX_POSITION_M)).any())
     if not good:
         raise damage_error("/detections")
-
-
-def _nesting_depth(value: object) -> int:
-    """Return how deeply dicts and lists are nested; counted without recursion."""
-    deepest, level = 0, [value]
-    while level:
-        deepest += 1
-        inside: list[object] = []
-        for one in level:
-            if isinstance(one, dict):
-                inside += one.values()
-            elif isinstance(one, list):
-                inside += one
-        level = inside
-        if deepest > 2 * MAX_PARAMETERS_DEPTH:
-            break
-    return deepest

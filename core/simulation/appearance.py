@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core.model.camera import Camera
 from carpus.core.model.types import FloatArray
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
@@ -106,7 +105,13 @@ def sample_appearance(scene: Scene) -> Appearance:
     to_lamp = np.array([side * math.cos(heading), side * math.sin(heading), -1.0])
     to_lamp = to_lamp / np.linalg.norm(to_lamp)
     lamp_share = rng.uniform(0.45, 0.65)
-    depth = table_depth(scene.camera, scene)
+    # the depth of the table along z, (H, W)
+    x = (np.arange(scene.camera.width_px) - scene.camera.cx_px) / scene.camera.fx_px
+    y = (np.arange(scene.camera.height_px) - scene.camera.cy_px) / scene.camera.fy_px
+    normal = scene.rotation_w0_cam[:, 2]
+    point = scene.to_camera(np.array([0.0, 0.0, scene.table_height_m]))
+    slope = normal[0] * x[None, :] + normal[1] * y[:, None] + normal[2]
+    depth = np.asarray((normal @ point) / slope, dtype=np.float32)
     table = _table_albedo(scene, depth, rng)
     return Appearance(
         skin=to_linear(SKIN_TONES_SRGB[tone] * rng.uniform(0.96, 1.04, 3)),
@@ -141,16 +146,6 @@ def _sample_bands(spec: RecordingSpec, sleeve: str, sleeve_start_m: float, shade
             WornBand(to_linear(np.array(_SLEEVES_SRGB[sleeve]) * shade), sleeve_start_m, math.inf, is_cloth=True)
         )
     return tuple(out)
-
-
-def table_depth(camera: Camera, scene: Scene) -> FloatImage:
-    """Return the depth of the table along z, (H, W)."""
-    x = (np.arange(camera.width_px) - camera.cx_px) / camera.fx_px
-    y = (np.arange(camera.height_px) - camera.cy_px) / camera.fy_px
-    normal = scene.rotation_w0_cam[:, 2]
-    point = scene.to_camera(np.array([0.0, 0.0, scene.table_height_m]))
-    slope = normal[0] * x[None, :] + normal[1] * y[:, None] + normal[2]
-    return np.asarray((normal @ point) / slope, dtype=np.float32)
 
 
 def _table_albedo(scene: Scene, depth_m: FloatImage, rng: np.random.Generator) -> FloatImage:

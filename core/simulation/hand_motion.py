@@ -293,7 +293,13 @@ class TissueMovement:
         beneath = beneath - beneath[0]
         skin = apply_lag(apply_play(beneath, tissue.play_rad), tissue.lag_s / _STEP_S)
         self._glide_m = skin * tissue.glide_m_rad
-        grip = _grip_share(motion.joint_names, joints)
+
+        # how far (N,) ring and little finger close, 0 straight to 1 in a power grip
+        def mean(joint: str) -> FloatArray:
+            return np.asarray(joints[:, [motion.joint_names.index(f"{joint}{k}_flexion") for k in (4, 5)]].mean(axis=1))
+
+        share = np.clip(0.5 * (mean("MCP") / _GRIP_MCP_RAD + mean("PIP") / _GRIP_PIP_RAD), 0.0, 1.0)
+        grip = np.asarray(share**3 * (3.0 - 2.0 * share))
         self._cup_rad = (grip - grip[0])[:, None] * tissue.cup_rad
         knuckles = beneath[:, [SITES.index(f"MCP{k}") for k in (2, 3, 4, 5)]]
         self._rise = np.clip(knuckles / _FULL_RISE_RAD, 0.0, 1.0)
@@ -335,13 +341,3 @@ def _angles_beneath_rad(wrist_rad: FloatArray, names: tuple[str, ...], joints_ra
         out[:, SITES.index(marker)] = joints_rad[:, names.index(joint)]
     out[:, 5:].reshape(-1, 4, 4)[..., :3] = finger_angles(joints_rad)[..., 1:]
     return out
-
-
-def _grip_share(names: tuple[str, ...], joints_rad: FloatArray) -> FloatArray:
-    """Return how far (N,) ring and little finger close, 0 straight to 1 in a power grip."""
-
-    def mean(joint: str) -> FloatArray:
-        return np.asarray(joints_rad[:, [names.index(f"{joint}{k}_flexion") for k in (4, 5)]].mean(axis=1))
-
-    share = np.clip(0.5 * (mean("MCP") / _GRIP_MCP_RAD + mean("PIP") / _GRIP_PIP_RAD), 0.0, 1.0)
-    return np.asarray(share**3 * (3.0 - 2.0 * share))

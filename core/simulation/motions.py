@@ -263,7 +263,11 @@ def _build_power_grip(builder: _MotionBuilder) -> None:
     grip = np.concatenate((extended, closed))
     both = StrokePathBuilder(np.concatenate((np.zeros(3), builder.neutral)), STILL_S)
     builder.add_repetitions(both, [grip, both.posture], both.posture, hold_share=0.4)
-    _split_strokes(builder, both)
+    # add strokes of wrist (3) and joints at once to their two paths
+    path = both.build()
+    for time_s, value in zip(path.time_s[2:], path.value[2:], strict=True):
+        builder.wrist.add_stroke(value[:3], time_s - builder.wrist.time_s)
+        builder.joints.add_stroke(value[3:], time_s - builder.joints.time_s)
 
 
 def _build_grasp_mug(builder: _MotionBuilder) -> None:
@@ -298,14 +302,6 @@ def _build_grasp_mug(builder: _MotionBuilder) -> None:
             (np.zeros(3), np.zeros(3), builder.neutral, 0.9 * pace),
         )
         done += 1
-
-
-def _split_strokes(builder: _MotionBuilder, both: StrokePathBuilder) -> None:
-    """Add strokes of wrist (3) and joints at once to their two paths."""
-    path = both.build()
-    for time_s, value in zip(path.time_s[2:], path.value[2:], strict=True):
-        builder.wrist.add_stroke(value[:3], time_s - builder.wrist.time_s)
-        builder.joints.add_stroke(value[3:], time_s - builder.joints.time_s)
 
 
 _GRIPPING_THUMB = {"CMC1_extension": -5.0, "CMC1_abduction": 35.0, "MCP1_flexion": 30.0, "IP1_flexion": 35.0}
@@ -377,7 +373,14 @@ def create_motion(spec: RecordingSpec) -> HandMotion:
     habit = spec.generator(RandomStream.HABIT)
     _add_finger_habits(patient, spec, habit)
     if spec.leaves_picture:
-        _withdraw_arm(patient)
+        # take the arm out of the image in the middle of the recording, and return
+        away_s, out_s = 0.6, patient.rng.uniform(0.8, 1.5)
+        start_s = 0.45 * patient.end_s
+        path = StrokePathBuilder(np.zeros(3), max(start_s, STILL_S))
+        path.add_stroke(np.array([-0.55, 0.0, 0.0]), away_s)
+        path.add_hold(out_s)
+        path.add_stroke(np.zeros(3), away_s)
+        patient.arm = path
     tremor_deg = spec.tremor_deg or (_TREMOR_DEG if spec.motion == "tremor" else 0.0)
     axis = rng.normal(size=3)
     return HandMotion(
@@ -403,14 +406,3 @@ def _add_finger_habits(builder: _MotionBuilder, spec: RecordingSpec, rng: np.ran
     elif "open_close" in spec.habits:
         _build_open_close(builder)
     builder.rng = exercise
-
-
-def _withdraw_arm(builder: _MotionBuilder) -> None:
-    """Take the arm out of the image in the middle of the recording, and return."""
-    away_s, out_s = 0.6, builder.rng.uniform(0.8, 1.5)
-    start_s = 0.45 * builder.end_s
-    path = StrokePathBuilder(np.zeros(3), max(start_s, STILL_S))
-    path.add_stroke(np.array([-0.55, 0.0, 0.0]), away_s)
-    path.add_hold(out_s)
-    path.add_stroke(np.zeros(3), away_s)
-    builder.arm = path

@@ -71,21 +71,17 @@ class ColorSensor:
         variance = raw / np.float32(electrons) + np.float32((READ_NOISE_ELECTRONS / electrons) ** 2)
         raw += rng.standard_normal(raw.shape, dtype=np.float32) * np.sqrt(variance)
         whole = cv2.demosaicing(_to_16_bit(raw), cv2.COLOR_BayerRGGB2RGB)
-        return _apply_yuv422(_GAMMA[whole])
+        # share the chroma of two neighbours in a row, as in the camera's UYVY stream
+        ycc = cv2.cvtColor(_GAMMA[whole], cv2.COLOR_RGB2YCrCb)
+        chroma = ycc[..., 1:].astype(np.uint16)
+        shared = ((chroma[:, 0::2] + chroma[:, 1::2] + 1) >> 1).astype(np.uint8)
+        ycc[:, 0::2, 1:] = shared
+        ycc[:, 1::2, 1:] = shared
+        return np.asarray(cv2.cvtColor(ycc, cv2.COLOR_YCrCb2RGB), dtype=np.uint8)
 
 
 def _to_16_bit(light: FloatImage) -> NDArray[np.uint16]:
     return np.asarray(np.clip(light * np.float32(_WHITE), 0.0, _WHITE).astype(np.uint16))
-
-
-def _apply_yuv422(rgb: ByteImage) -> ByteImage:
-    """Share the chroma of two neighbours in a row, as in the camera's UYVY stream."""
-    ycc = cv2.cvtColor(rgb, cv2.COLOR_RGB2YCrCb)
-    chroma = ycc[..., 1:].astype(np.uint16)
-    shared = ((chroma[:, 0::2] + chroma[:, 1::2] + 1) >> 1).astype(np.uint8)
-    ycc[:, 0::2, 1:] = shared
-    ycc[:, 1::2, 1:] = shared
-    return np.asarray(cv2.cvtColor(ycc, cv2.COLOR_YCrCb2RGB), dtype=np.uint8)
 
 
 def depth_scale(spec: RecordingSpec) -> float:

@@ -133,31 +133,28 @@ def examine_cameras(data_folder: Path, now: datetime) -> Iterator[Finding]:
     """Yield one finding for each camera with stored data, or one that there is none."""
     serials = sorted(find_camera_serials(data_folder))
     for serial in serials:
-        yield _examine_camera(check_status(data_folder, serial, now))
+        status = check_status(data_folder, serial, now)
+        text, remedies = "never calibrated", ["Run: carpus calibrate-camera."]
+        if math.isfinite(status.calibration_age_days):
+            text = f"calibrated {_days_ago_text(status.calibration_age_days)}"
+            remedies = ["Run: carpus calibrate-camera: the calibration is older than a year."]
+            remedies = remedies if status.calibration_age_days > MAX_CALIBRATION_AGE_DAYS else []
+        if status.last_check is None:
+            text += ", never checked"
+            remedies.append("Run: carpus check-card.")
+        else:
+            text += f", checked {_days_ago_text(status.check_age_days)}: {verdict_sentence(status.last_check.reading)}"
+            if status.is_out_of_tolerance:
+                remedies.append("It measured wrong at the last check: check once more, then calibrate it again.")
+            elif status.is_due:
+                is_old = f"the check is older than {MAX_CHECK_AGE_DAYS:g} days"
+                reason = "it has been calibrated since" if status.is_recalibrated else is_old
+                remedies.append(f"Run: carpus check-card: {reason}.")
+        state: State = "bad" if status.is_out_of_tolerance else "warning" if remedies else "good"
+        yield Finding(f"Camera {status.serial}", state, text, " ".join(remedies))
     if not serials:
         remedy = "Run: carpus calibrate-camera --board board.pdf, then hold the printed board before the camera."
         yield Finding("Calibration", "warning", "no camera has been calibrated or checked", remedy)
-
-
-def _examine_camera(status: CheckStatus) -> Finding:
-    text, remedies = "never calibrated", ["Run: carpus calibrate-camera."]
-    if math.isfinite(status.calibration_age_days):
-        text = f"calibrated {_days_ago_text(status.calibration_age_days)}"
-        remedies = ["Run: carpus calibrate-camera: the calibration is older than a year."]
-        remedies = remedies if status.calibration_age_days > MAX_CALIBRATION_AGE_DAYS else []
-    if status.last_check is None:
-        text += ", never checked"
-        remedies.append("Run: carpus check-card.")
-    else:
-        text += f", checked {_days_ago_text(status.check_age_days)}: {verdict_sentence(status.last_check.reading)}"
-        if status.is_out_of_tolerance:
-            remedies.append("It measured wrong at the last check: check once more, then calibrate it again.")
-        elif status.is_due:
-            is_old = f"the check is older than {MAX_CHECK_AGE_DAYS:g} days"
-            reason = "it has been calibrated since" if status.is_recalibrated else is_old
-            remedies.append(f"Run: carpus check-card: {reason}.")
-    state: State = "bad" if status.is_out_of_tolerance else "warning" if remedies else "good"
-    return Finding(f"Camera {status.serial}", state, text, " ".join(remedies))
 
 
 def _days_ago_text(days: float) -> str:

@@ -125,16 +125,6 @@ def choose_streams(rs: Any, device: Any) -> RealsenseStreams:
     return _group_by_sensor([color, max(depths, key=lambda pair: nearness(pair, DEPTH_SIZE_PX))])
 
 
-def choose_recording_streams(rs: Any, playback: Any) -> RealsenseStreams:
-    """Return colour and, if there is any, depth of a recording; raises :class:`RecordingUnsupported`."""
-    colors, depths = _list_profiles(rs, playback)
-    readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
-    if not readable:
-        form = f"colour as {colors[0][1].format().name}" if colors else "no colour frames"
-        raise RecordingUnsupported("", form)
-    return _group_by_sensor([readable[0], *depths[:1]])
-
-
 def _list_profiles(rs: Any, device: Any) -> tuple[list[tuple[Any, Any]], list[tuple[Any, Any]]]:
     """Return sensor and profile of all colour streams, and of all depth streams."""
     offered = [
@@ -311,7 +301,13 @@ def _serve_recording(rs: Any, channel: CaptureChannel, path: Path) -> None:
     try:
         playback = rs.context().load_device(str(path))
         playback.set_real_time(False)
-        streams = choose_recording_streams(rs, playback)
+        # colour and, if there is any, depth of a recording; raises :class:`RecordingUnsupported`
+        colors, depths = _list_profiles(rs, playback)
+        readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
+        if not readable:
+            form = f"colour as {colors[0][1].format().name}" if colors else "no colour frames"
+            raise RecordingUnsupported("", form)
+        streams = _group_by_sensor([readable[0], *depths[:1]])
     except RuntimeError as failure:
         raise RecordingDamaged("", " ".join(str(failure).split())) from failure
     channel.retain(playback)

@@ -345,7 +345,13 @@ class OniSource:
             with self._path.open("rb") as file:
                 if read_file_identity(self._path) != self._contents.identity:
                     raise RecordingDamaged(self._path, phrase("the file changes while it is read"))
-                for sensor, place in self._images_by_position():
+                # stream and index of each image in the order of the file
+                places = [
+                    (position, sensor, place)
+                    for sensor, stream in self._streams.items()
+                    for place, position in enumerate(stream.position.tolist())
+                ]
+                for sensor, place in [(sensor, place) for _, sensor, place in sorted(places)]:
                     if self._is_closed or self._current_pass is not walk:
                         return
                     stream = self._streams[sensor]
@@ -356,20 +362,18 @@ class OniSource:
         except OSError as cause:
             raise RecordingDamaged(self._path, cause.strerror or phrase("cannot be opened")) from cause
         yield from assembler.finish()
-        self._report_damaged_images(arrived)
+        names = {Sensor.COLOR: "colour", Sensor.DEPTH: "depth"}
+        counts = [
+            f"{len(stream) - arrived[sensor]} of {len(stream)} {names[sensor]}"
+            for sensor, stream in self._streams.items()
+            if arrived[sensor] < len(stream)
+        ]
+        if counts:
+            self._notice(DamagedFramesExcluded(self._path, ", ".join(counts)))
 
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
         self._is_closed = True
-
-    def _images_by_position(self) -> list[tuple[Sensor, int]]:
-        """Return stream and index of each image in the order of the file."""
-        places = [
-            (position, sensor, place)
-            for sensor, stream in self._streams.items()
-            for place, position in enumerate(stream.position.tolist())
-        ]
-        return [(sensor, place) for _, sensor, place in sorted(places)]
 
     def _read_image(self, file: BinaryIO, stream: OniStream, place: int) -> NDArray[Any] | None:
         """Return one image, (H, W, 3) uint8 or (H, W) uint16; None if it is damaged."""
@@ -385,16 +389,6 @@ class OniSource:
             picture = decode_color(data)
             return picture if picture is not None and picture.shape == (*shape, 3) else None
         return np.frombuffer(data, np.uint8).reshape((*shape, 3)) if size == 3 * shape[0] * shape[1] else None
-
-    def _report_damaged_images(self, arrived: Counter[Sensor]) -> None:
-        names = {Sensor.COLOR: "colour", Sensor.DEPTH: "depth"}
-        counts = [
-            f"{len(stream) - arrived[sensor]} of {len(stream)} {names[sensor]}"
-            for sensor, stream in self._streams.items()
-            if arrived[sensor] < len(stream)
-        ]
-        if counts:
-            self._notice(DamagedFramesExcluded(self._path, ", ".join(counts)))
 
     def _build_info(self, camera_info: CameraInfo | None, answer: bool | None) -> SourceInfo:
         contents, layout = self._contents, self._layout

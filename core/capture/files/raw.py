@@ -98,7 +98,25 @@ class RawWriter(FileWriter):
         """Append one frame: depth lossless, colour as JPEG 95 or lossless. Times must rise."""
         if self._count == 0:
             self._depth_unit_m = frame.depth_unit_m
-            self._write(_pack_record(b"HEAD", 0.0, 0, 0, self._build_header(), b""))
+            info, camera = self._info, self._info.camera
+            content = {
+                "name": info.name,
+                "nominal_fps": info.nominal_fps,
+                "has_depth": info.has_depth,
+                "depth_unit_m": self._depth_unit_m,
+                "color": "png" if self._lossless else "jpeg",
+                "settings": dict(info.settings),
+                "recording_id": info.recording_id,
+                "recorded": info.recorded,
+                "depth_sensor": camera.sensor.to_dict(),
+                # an older Carpus, which would take any lens for plumb_bob, refuses a head that names one
+                "camera": {
+                    name: value
+                    for name, value in asdict(camera).items()
+                    if name != "sensor" and (name, value) != ("distortion_model", "plumb_bob")
+                },
+            }
+            self._write(_pack_record(b"HEAD", 0.0, 0, 0, json.dumps(content, ensure_ascii=False).encode(), b""))
         depth = b"" if frame.depth_raw is None else pack_tiles(frame.depth_raw, encode_depth)
         if depth and frame.depth_unit_m != self._depth_unit_m:
             raise ValueError(f"depth in steps of {frame.depth_unit_m} m after {self._depth_unit_m} m")
@@ -129,27 +147,6 @@ class RawWriter(FileWriter):
     def discard(self) -> None:
         self.abandon()
         self._path.unlink(missing_ok=True)
-
-    def _build_header(self) -> bytes:
-        info, camera = self._info, self._info.camera
-        content = {
-            "name": info.name,
-            "nominal_fps": info.nominal_fps,
-            "has_depth": info.has_depth,
-            "depth_unit_m": self._depth_unit_m,
-            "color": "png" if self._lossless else "jpeg",
-            "settings": dict(info.settings),
-            "recording_id": info.recording_id,
-            "recorded": info.recorded,
-            "depth_sensor": camera.sensor.to_dict(),
-            # an older Carpus, which would take any lens for plumb_bob, refuses a head that names one
-            "camera": {
-                name: value
-                for name, value in asdict(camera).items()
-                if name != "sensor" and (name, value) != ("distortion_model", "plumb_bob")
-            },
-        }
-        return json.dumps(content, ensure_ascii=False).encode()
 
     def _write(self, data: bytes) -> None:
         if self._file is None:

@@ -98,7 +98,7 @@ class RealSenseRecording:
         self._stop()
         if self._closing.is_set():
             return None
-        process = self._process = self._start_process()
+        process = self._process = CaptureProcess(serve, self._path.resolve(), str(self._path), MAX_IMAGE_BYTES, SLOTS)
         opened: DeviceOpened | None = None
         try:
             with self._lock:
@@ -107,9 +107,6 @@ class RealSenseRecording:
             if opened is None:
                 self._stop()  # a close while the process was being made did not see it
         return opened
-
-    def _start_process(self) -> CaptureProcess:
-        return CaptureProcess(serve, self._path.resolve(), str(self._path), MAX_IMAGE_BYTES, SLOTS)
 
     def _stop(self) -> None:
         with self._lock:

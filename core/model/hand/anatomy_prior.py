@@ -86,6 +86,8 @@ def fit_digit(
     information_m2 : (F, 3, 3, 3)
         Inverse covariances in 1/m2, zero where a disc (or its depth) is not known.
     """
+    # s with S'S = information, also where it is singular
+    value, vector = np.linalg.eigh(information_m2)
     problem = _Problem(
         model,
         constants.mean,
@@ -93,7 +95,7 @@ def fit_digit(
         angles.mean,
         _invert_symmetric(angles.covariance),
         np.where(np.isfinite(disc_m), disc_m, 0.0),
-        _compute_square_root(information_m2),
+        np.asarray(np.sqrt(np.maximum(value, 0.0))[..., None] * np.swapaxes(vector, -1, -2)),
     )
     c, q = _minimise(problem, constants.mean, angles.mean)
     c_covariance, q_covariance, cross = _NormalEquations.from_problem(problem, c, q).covariances()
@@ -198,12 +200,6 @@ def _invert_symmetric(matrix: FloatArray) -> FloatArray:
     """Invert symmetric matrices (..., n, n), the result symmetric to the last digit."""
     inverse = np.linalg.inv(matrix)
     return np.asarray(0.5 * (inverse + np.swapaxes(inverse, -1, -2)), dtype=np.float64)
-
-
-def _compute_square_root(information: FloatArray) -> FloatArray:
-    """Return S with S'S = information, also where it is singular."""
-    value, vector = np.linalg.eigh(information)
-    return np.asarray(np.sqrt(np.maximum(value, 0.0))[..., None] * np.swapaxes(vector, -1, -2))
 
 
 # places in ``hand21`` of the three moving discs of thumb and fingers

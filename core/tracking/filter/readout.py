@@ -67,17 +67,14 @@ class Readout:
         self._axes: WristAxes | None = None
         self._turned: tuple[PalmEstimate, FloatArray] | None = None
 
-    def _axes_near(self, estimate: PalmEstimate) -> WristAxes:
-        """Return axes of a shape so near to the estimate's that they follow it to first order."""
+    def _wrist_axes(self, estimate: PalmEstimate) -> tuple[WristAxes, FloatArray]:
+        """Return the axes near the estimate's, and as its shape has turned them since, to first order (3, 3)."""
+        # axes of a shape so near to the estimate's that they follow it to first order
         shape = estimate.value[SHAPE]
         if self._axes is None or np.abs(shape - self._axes.shape_m).max() > MAX_SHAPE_CHANGE_M:
             axes, sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
             self._axes = WristAxes(axes, sensitivity, shape.copy())
-        return self._axes
-
-    def _wrist_axes(self, estimate: PalmEstimate) -> tuple[WristAxes, FloatArray]:
-        """Return the axes near the estimate's, and as its shape has turned them since, to first order (3, 3)."""
-        known = self._axes_near(estimate)
+        known = self._axes
         if self._turned is None or self._turned[0] is not estimate:
             turn = so3.exp(known.sensitivity @ (estimate.value[SHAPE] - known.shape_m))
             self._turned = estimate, np.asarray(known.axes @ turn)
