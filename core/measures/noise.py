@@ -32,8 +32,6 @@ CYCLES_PER_SUBMOVEMENT = 2.0
 """At so many cycles per sub-movement its spectrum has fallen to zero."""
 MIN_SMOOTHNESS_CUTOFF_HZ = 2.0
 """Sub-movements last up to half a second: a lower cut-off would hide a jerky movement."""
-MIN_JERK_CUTOFF_HZ = 4.0
-MAX_JERK_NOISE = 0.01
 _DRAWS = 64
 HOLD_BAND_SDS = 4.0
 """A noisy hold stays within so many standard deviations of its extreme."""
@@ -132,20 +130,6 @@ def cutoff_for_smoothness(noise: Noise, arc: float, stroke_s: float, submovement
     tried = np.geomspace(MAX_CUTOFF_HZ, lowest, 40)
     most = MAX_SPECTRUM_NOISE * (2.0 if math.isfinite(submovement_s) else 1.0)
     return float(next((hz for hz in tried if noise.spectrum_share(hz, stroke_s, arc) <= most), math.nan))
-
-
-def cutoff_for_jerk(noise: Noise, submovement_arc: float, submovement_s: float, stroke_s: float) -> float:
-    """Return the cut-off (Hz) below which noise is a small share of the least jerk, 720 arc^2 / T^5.
-
-    NaN if the cut-off leaves nothing that compares with published values.
-    """
-    lowest = max(CYCLES_PER_STROKE / submovement_s, MIN_JERK_CUTOFF_HZ)
-    if not noise.sd > 0.0:
-        return max(MAX_CUTOFF_HZ, lowest)
-    least = MAX_JERK_NOISE * 720.0 * submovement_arc**2 / submovement_s**5 / max(stroke_s, submovement_s)
-    plateau = 4.0 * noise.sd**2 / noise.correlation_s * (2.0 * math.pi) ** 4 / 5.0
-    found = min(float((least / plateau) ** 0.2), max(MAX_CUTOFF_HZ, lowest))
-    return found if found >= lowest else math.nan
 
 
 def estimate_extreme(

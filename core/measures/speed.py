@@ -1,9 +1,10 @@
 """Speed, timing and smoothness of strokes of an angle (clinical reference 5).
 
-A stroke goes from leaving one turning point to reaching the next; pauses are part of it. SPARC and log dimensionless
-jerk: Balasubramanian et al. 2015, doi 10.1186/s12984-015-0090-9. Speed profiles (n,) are evenly sampled and low-passed
-as much as their noise requires. They come from the smoothed angle, never from the filter's angular velocity (reference
-4.5).
+A stroke goes from leaving one turning point to reaching the next; pauses are part of it. Smoothness is SPARC
+(Balasubramanian et al. 2012, doi 10.1109/TBME.2011.2179545; 2015, doi 10.1186/s12984-015-0090-9) and nothing else:
+log dimensionless jerk needs the third derivative, in which the noise of a camera outweighs the movement. Speed profiles
+(n,) are evenly sampled and low-passed as much as their noise requires. They come from the smoothed angle, never from
+the filter's angular velocity (reference 4.5).
 """
 
 from __future__ import annotations
@@ -19,7 +20,6 @@ from carpus.core.measures.noise import (
     MIN_SMOOTHNESS_CUTOFF_HZ,
     Noise,
     clean_cutoff_hz,
-    cutoff_for_jerk,
     cutoff_for_smoothness,
     cutoff_for_speed,
     estimate_extreme,
@@ -61,23 +61,6 @@ def sparc(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
         return math.nan
     steps = len(curve) - 1
     return -float(np.sqrt(1.0 / steps**2 + np.diff(curve) ** 2).sum())
-
-
-def log_dimensionless_jerk(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
-    """Compute LDLJ = -ln(T^3 / v_peak^2 * integral (d2v/dt2)^2 dt), T = n dt; smoother is nearer to 0.
-
-    Very sensitive to noise, so show it only beside SPARC. NaN as for :func:`sparc`.
-
-    >>> t = np.arange(-100, 100) / 100
-    >>> round(log_dimensionless_jerk(np.exp(-5 * t**2), 100.0), 5)
-    -5.81636
-    """
-    if not _is_measurable(speed, min_peak):
-        return math.nan
-    dt = 1.0 / rate_hz
-    jerk = np.diff(speed, 2) / dt**2
-    total = (len(speed) * dt) ** 3 / float(np.abs(speed).max()) ** 2 * float((jerk**2).sum()) * dt
-    return -math.log(total) if total > 0.0 else math.nan
 
 
 _MIN_PEAK_INTERVAL_S = 0.15
@@ -123,6 +106,9 @@ _HALF_HEIGHT_SHARE, _MINIMUM_JERK_PEAK_TO_MEAN = 0.541, 1.875
 """Share of the time that a minimum-jerk movement is above half its peak; peak over mean speed."""
 _MAX_SUBMOVEMENT_SHARE, _SUBMOVEMENT_SDS = 0.6, 2.0
 """A shorter quickest part is a sub-movement, if it is so much above the noise."""
+_NOISE_MARGIN_CYCLES = 3.0
+"""Simulated noise is drawn so much longer at each end, where the low-pass differs."""
+_NO_GAPS = np.empty((0, 2))
 _FILTER_MARGIN_CYCLES, _FILTER_MARGIN_S = 8.0, 5.0
 """A low-pass forgets within so many cycles of its cut-off; movements end within so many seconds."""
 
@@ -132,8 +118,8 @@ class StrokeMeasures:
     """Measures of one stroke: unsigned speeds in rad/s, smoothness dimensionless.
 
     ``movement_time_s`` goes from ``onset_s`` to ``offset_s`` with pauses; ``pause_s`` is their total.
-    ``peak_speed_sd_rad_s`` is what noise leaves in the peak speed. ``too_slow`` and ``too_slow_to_be_smooth``: speed or
-    smoothness is unknown, because noise is too large for this speed.
+    ``peak_speed_sd_rad_s`` and ``sparc_sd`` are what noise leaves in peak speed and SPARC. ``too_slow`` and
+    ``too_slow_to_be_smooth``: speed or smoothness is unknown, because noise is too large for this speed.
     """
 
     stroke: Stroke
@@ -146,7 +132,7 @@ class StrokeMeasures:
     pauses: float = math.nan
     pause_s: float = math.nan
     sparc: float = math.nan
-    ldlj: float = math.nan
+    sparc_sd: float = math.nan
     peak_speed_sd_rad_s: float = math.nan
     onset_s: float = math.nan
     offset_s: float = math.nan
@@ -182,8 +168,6 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     submovement_s = quickest.duration_s if quickest.has_stops else math.inf
     cutoff_hz = cutoff_for_smoothness(noise, arc, motion.duration_s, submovement_s)
     smooth = _measure_motion(angle, stroke, noise, cutoff_hz)
-    cutoff_hz = cutoff_for_jerk(noise, quickest.arc, quickest.duration_s, motion.duration_s)
-    jerk = _measure_motion(angle, stroke, noise, cutoff_hz)
     speed_sd = noise.speed_sd(quickest.cutoff_hz)
     is_detailed = quickest.cutoff_hz >= MIN_SMOOTHNESS_CUTOFF_HZ
     pauses_s = motion.pauses_s if is_detailed and _PAUSE_SDS * speed_sd <= PAUSE_SPEED_SHARE * motion.peak else None
@@ -191,7 +175,10 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     peaks = math.nan
     if is_detailed and min_dip <= min_rise:
         peaks = float(count_speed_peaks(motion.onset_to_offset, angle.rate_hz, min_rise, min_dip)) or math.nan
-    smoothness = math.nan if smooth is None else sparc(smooth.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S)
+    smoothness, smoothness_sd = math.nan, math.nan
+    if smooth is not None:
+        smoothness = sparc(smooth.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S)
+        smoothness_sd = _estimate_sparc_sd(smooth.rest_to_rest, angle.rate_hz, noise, cutoff_hz)
     return StrokeMeasures(
         stroke=stroke,
         arc_rad=arc,
@@ -203,12 +190,26 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
         pauses=math.nan if pauses_s is None else float(len(pauses_s)),
         pause_s=math.nan if pauses_s is None else math.fsum(pauses_s),
         sparc=smoothness,
-        ldlj=math.nan if jerk is None else log_dimensionless_jerk(jerk.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S),
+        sparc_sd=smoothness_sd,
         peak_speed_sd_rad_s=speed_sd,
         onset_s=motion.onset_s,
         offset_s=motion.offset_s,
         too_slow_to_be_smooth=math.isnan(smoothness),
     )
+
+
+def _estimate_sparc_sd(speed: FloatArray, rate_hz: float, noise: Noise, cutoff_hz: float) -> float:
+    """Estimate the standard deviation of the SPARC of a speed (n,) by adding simulated noise to it.
+
+    The noise passes the low-pass and the derivative that the angle passed.
+    """
+    if not noise.sd > 0.0:
+        return 0.0
+    margin = math.ceil(_NOISE_MARGIN_CYCLES * rate_hz / cutoff_hz)
+    drawn = noise.sample(len(speed) + 2 * margin, rate_hz).T
+    added = rate_of_change(low_pass(Signal(np.arange(len(drawn)) / rate_hz, drawn, rate_hz, 1.0, _NO_GAPS), cutoff_hz))
+    inside = added.value[margin : margin + len(speed)].T
+    return float(np.std([sparc(np.abs(speed + one), rate_hz) for one in inside], ddof=1))
 
 
 def _measure_without_rest(

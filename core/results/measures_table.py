@@ -113,7 +113,7 @@ _JOINT_MEASURES = {"flexion": "largest", "extension": "smallest"}
 _POSITIVE = {
     "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar",
     "supination": "supinated, 0 is thumb up", "pronation": "pronated, 0 is thumb up",
-    "extension deficit": "further from straight", "smoothness": "smoother", "jerk": "smoother",
+    "extension deficit": "further from straight", "smoothness": "smoother",
 }  # fmt: skip
 _TOTAL_MEASURES = {"arc": "total active motion", "extension": "extension deficit"}
 

@@ -50,7 +50,7 @@ SPEED_MEASURES: tuple[tuple[str, str, str, Best], ...] = (
     ("peak speed", "deg/s", "peak_speed_rad_s", max), ("smoothness", "SPARC", "sparc", max),
     ("mean speed", "deg/s", "mean_speed_rad_s", max), ("movement time", "s", "movement_time_s", min),
     ("time to peak", "share", "time_to_peak_share", None), ("movement units", "1", "peaks", min),
-    ("jerk", "LDLJ", "ldlj", max), ("pauses", "1", "pauses", min), ("pause time", "s", "pause_s", min),
+    ("pauses", "1", "pauses", min), ("pause time", "s", "pause_s", min),
 )  # fmt: skip
 """Name, unit, attribute, and choice of the best value of what is measured of every stroke."""
 
@@ -64,7 +64,8 @@ def summarise_strokes(of: str, strokes: Sequence[StrokeMeasures]) -> tuple[Measu
     out = []
     for what, unit, name, best in SPEED_MEASURES:
         read = math.degrees if unit == "deg/s" else float
-        sds = [math.degrees(one.peak_speed_sd_rad_s) for one in strokes] if what == "peak speed" else ()
+        sd_name = {"peak speed": "peak_speed_sd_rad_s", "smoothness": "sparc_sd"}.get(what)
+        sds = [read(getattr(one, sd_name)) for one in strokes] if sd_name else ()
         values = [read(getattr(one, name)) for one in strokes]
         out.append(
             summarise_values("speed", of, what, unit, values, sds=sds, best=best, unknown_reason=slow.get(what, ""))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.measures.signals import low_pass, resample_evenly
-from carpus.core.measures.speed import count_speed_peaks, log_dimensionless_jerk, sparc
+from carpus.core.measures.speed import count_speed_peaks, sparc
 from carpus.core.model.types import FloatArray
 
 
@@ -26,7 +26,6 @@ def test_smoothness_of_the_reference_vector_is_exact() -> None:
     t = np.arange(-1.0, 1.0, 0.01)
     speed = np.exp(-5.0 * t**2)
     assert sparc(speed, 100.0) == pytest.approx(-1.41403, abs=5e-6)
-    assert log_dimensionless_jerk(speed, 100.0) == pytest.approx(-5.81636, abs=5e-6)
 
 
 @pytest.mark.parametrize(("hz", "counts"), [(8.0, True), (12.0, False)])
@@ -37,10 +36,9 @@ def test_sparc_ignores_frequencies_above_ten_hertz(hz: float, counts: bool) -> N
     assert (sparc(shaken, 100.0) < sparc(speed, 100.0) - 0.05) == counts
 
 
-@pytest.mark.parametrize(("parts", "arc_length", "jerk"), [(2, -2.26, -8.0), (4, -3.10, -10.8)])
-def test_smoothness_falls_with_submovements(parts: int, arc_length: float, jerk: float) -> None:
+@pytest.mark.parametrize(("parts", "arc_length"), [(2, -2.26), (4, -3.10)])
+def test_smoothness_falls_with_submovements(parts: int, arc_length: float) -> None:
     assert sparc(make_serial_speed(parts), 30.0) == pytest.approx(arc_length, abs=0.08)
-    assert log_dimensionless_jerk(make_serial_speed(parts), 30.0) == pytest.approx(jerk, abs=0.15)
 
 
 def test_smoothness_of_a_noisy_profile_is_restored_by_filtering() -> None:
@@ -66,7 +64,6 @@ def test_smoothness_of_a_noisy_profile_is_restored_by_filtering() -> None:
 )
 def test_smoothness_undefined_is_nan(speed: FloatArray) -> None:
     assert math.isnan(sparc(speed, 30.0))
-    assert math.isnan(log_dimensionless_jerk(speed, 30.0))
 
 
 def test_smoothness_of_a_slow_profile_is_nan() -> None:

@@ -13,7 +13,7 @@ from carpus.core.measures.motion_range import motion_range
 from carpus.core.measures.noise import SMOOTHER_CORRELATION_S, Noise
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import low_pass, resample_evenly
-from carpus.core.measures.speed import StrokeMeasures, log_dimensionless_jerk, measure_stroke, sparc
+from carpus.core.measures.speed import StrokeMeasures, measure_stroke, sparc
 from carpus.core.model.types import FloatArray
 from tests.measures.test_noise import make_angle
 from tests.measures.tracked import ONE_PROCESS, tracked
@@ -64,7 +64,6 @@ def test_stroke_with_a_stop_includes_the_pause(parts: list[Part], published: flo
     for stroke in found:
         assert stroke.sparc == pytest.approx(published, abs=0.08)
         assert stroke.sparc == pytest.approx(sparc(true_speed(parts), RATE), abs=0.08)
-        assert stroke.ldlj == pytest.approx(log_dimensionless_jerk(true_speed(parts), RATE), abs=0.35)
         # A minimum-jerk movement passes 5 % of its peak speed after 5.9 % of its time, 10 % after 8.7 %.
         assert stroke.movement_time_s == pytest.approx(duration_s - 2 * 0.0594 * moves[0][1], abs=0.03)
         assert math.degrees(stroke.arc_rad) == pytest.approx(sum(part[0] for part in parts), abs=0.1)

@@ -252,7 +252,7 @@ def test_speed_measures_best_is_quickest_and_smoothest() -> None:
     assert speed["movement time"].best < speed["movement time"].mean
     assert speed["mean speed"].best > speed["mean speed"].mean
     assert speed["movement units"].best == 1.0
-    assert speed["jerk"].best >= speed["jerk"].mean
+    assert speed["smoothness"].best >= speed["smoothness"].mean
     assert math.isnan(speed["time to peak"].best), "neither way is better"
 
 
