@@ -52,7 +52,7 @@ bench: setup-test               ## cost per frame and of the screen
 accuracy: setup-test            ## errors against simulated truth
 	$(PY) -m tests.accuracy
 
-validation: setup-test          ## resources/validation.md: accuracy, agreement, retest from fresh seeds (an hour; ARGUMENTS=--people 0: less)
+validation: setup-test          ## resources/validation.md: agreement and retest of 20 simulated people from fresh seeds (a quarter of an hour; ARGUMENTS="--people 3": less)
 	$(PY) -m tests.validation $(ARGUMENTS)
 
 torture: thorough               ## kills, damaged files, bad disks: what is lost and let in (an hour or two)

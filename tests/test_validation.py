@@ -1,41 +1,33 @@
-"""The validation's document: made by its command, with what a reviewer needs to make it again."""
+"""The page of the validation: made by its command, with what a reviewer needs to make it again."""
 
 from __future__ import annotations
 
-import re
-import shlex
 from pathlib import Path
 
-from carpus.core.platform.provenance import source_revision
-from tests.accuracy.jobs import jobs_for
-from tests.accuracy.scenarios import WRIST
-from tests.validation import MOTIONS, main, mountings
-
-AGAIN = re.compile(r"make validation ARGUMENTS='([^']+)'")
+from carpus.core.model.hand.exercises import EXERCISES
+from tests.validation import MOUNTINGS, Job, main
 
 
-def test_document_names_what_makes_it_again(tmp_path: Path) -> None:
-    words = ["--people", "0", "--seeds", "1", "--only", "rest, no such row"]
-    assert main([*words, "--output", str(tmp_path / "a.md")]) == 0
-    made = (tmp_path / "a.md").read_text(encoding="utf-8")
-    found = AGAIN.search(made)
-    assert source_revision()[:12] in made
-    assert main([*shlex.split(found[1]), *words[2:], "--output", str(tmp_path / "b.md")]) == 0
-    assert (tmp_path / "b.md").read_text(encoding="utf-8") == made, "the same seeds, the same document"
-    assert main([*words, "--output", str(tmp_path / "c.md")]) == 0
-    assert (tmp_path / "c.md").read_text(encoding="utf-8") != made, "else fresh ones"
+def test_page_names_what_makes_it_again(tmp_path: Path) -> None:
+    asked = "--first-seed 10000001 --people 3 --exercises WRIST_FE"
+    less = ["--second", "0", "--no-images", "--processes", "1"]
+    assert main([*asked.split(), *less, "--output", str(tmp_path / "page.md")]) == 0
+    made = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert "simulated" in made.splitlines()[0]
+    assert made.count("| WRIST_FE | flexion") == 4, "agreement, and the retest of arc and both ends"
+    assert f"make validation ARGUMENTS='{asked}'" in made
 
 
-def test_seeds_are_of_nobody_else() -> None:
-    made = [one.spec.seed for motion in MOTIONS for one in mountings(motion, 12, 10_000_000)]
+def test_seeds_belong_to_one_recording_each() -> None:
+    jobs = [Job(exercise.id, 20, (), 10_000_000) for exercise in EXERCISES]
+    made = [job.spec(person, k).seed for job in jobs for person in range(20) for k in range(MOUNTINGS)]
     assert len(set(made)) == len(made)
-    jobs = [job.seed for job in jobs_for(WRIST, 2, 0, 10_000_000)]
-    assert min(jobs) >= 10_000_000
-    assert not set(made) & set(jobs)
+    assert min(made) >= 10_000_000
 
 
-def test_person_keeps_what_new_mounting_does_not_change() -> None:
-    first, second, other, _ = mountings("flexion", 2, 1)
-    assert (first.spec.hand_length_mm, first.spec.range_share) == (second.spec.hand_length_mm, second.spec.range_share)
-    assert first.spec.seed != second.spec.seed
-    assert first.spec.hand_length_mm != other.spec.hand_length_mm
+def test_new_mounting_keeps_the_person() -> None:
+    job = Job("WRIST_FE", 2, (), 1)
+    first, second, other = job.spec(0, 0), job.spec(0, 1), job.spec(1, 0)
+    assert (first.hand_length_mm, first.range_share) == (second.hand_length_mm, second.range_share)
+    assert first.seed != second.seed
+    assert first.hand_length_mm != other.hand_length_mm

@@ -91,11 +91,11 @@ def rows_named(only: str) -> list[Row]:
     return [row for row in ROWS if only.lower() in f"second: {row.name}".lower()]
 
 
-def report(rows: Sequence[Row], recordings: int, processes: int) -> tuple[str, list[ReadRow]]:
-    """Run ``recordings`` of each of these rows and tell; also what is read off them."""
-    jobs = [
-        (row, _clickable_seed(row, SECOND_SEEDS + 50 * ROWS.index(row) + i)) for row in rows for i in range(recordings)
-    ]
+def report(
+    rows: Sequence[Row], recordings: int, processes: int, first: int = SECOND_SEEDS
+) -> tuple[str, list[ReadRow]]:
+    """Run ``recordings`` of each of these rows, seeds from ``first`` on, and tell; also what is read off them."""
+    jobs = [(row, _clickable_seed(row, first + 50 * ROWS.index(row) + i)) for row in rows for i in range(recordings)]
     done = side_by_side(_tracked, jobs, processes)
     runs, faults = [run for run in done if isinstance(run, SecondRun)], [run for run in done if isinstance(run, str)]
     read = list(_read_rows(runs, rows))
