@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import statistics
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 from typing import Literal
@@ -16,7 +16,7 @@ from typing import Literal
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Side
 
-Kind = Literal["angle", "force", "size", "score"]
+Kind = Literal["angle", "finger", "force", "size", "score"]
 Better = Literal["more", "less", ""]
 Unit = Literal["deg", "kg", "cm", "ml", "points"]
 Mode = Literal["active", "passive", ""]
@@ -24,6 +24,12 @@ Mode = Literal["active", "passive", ""]
 GONIOMETER_DEG = 10.0
 """Commonly required change per joint; 12 to 30 degrees were found over two days (reference 6.3, C30)."""
 ANGLE_SOURCE = "commonly quoted for one rater"
+FINGER_JOINTS = {
+    1: ("MCP1", "IP1"),
+    **{finger: (f"MCP{finger}", f"PIP{finger}", f"DIP{finger}") for finger in range(2, 6)},
+}
+"""Joints that flex a finger, base first."""
+KAPANDJI = "KAPANDJI"
 SCORE_SOURCE = "Sorensen 2013"
 _DEFAULT_IDS = {
     *("FLEXION", "EXTENSION", "RADIAL", "ULNAR"),
@@ -62,7 +68,7 @@ class ManualMeasure:
     @property
     def is_per_hand(self) -> bool:
         """True for a measure of one hand, False for one of the person."""
-        return self.kind != "score"
+        return self.kind != "score" or self.id == KAPANDJI
 
     @property
     def is_default(self) -> bool:
@@ -70,13 +76,15 @@ class ManualMeasure:
         return self.id in _DEFAULT_IDS
 
 
-_BOTH_MODES: tuple[Mode, ...] = ("active", "passive")
+BOTH_MODES: tuple[Mode, ...] = ("active", "passive")
 
 
-def _angle_measure(name: str, usual_max: float, session_measure: tuple[str, str] | None) -> ManualMeasure:
-    limits, modes = (-90.0, 180.0, (-20.0, usual_max)), _BOTH_MODES
+def _angle_measure(
+    id: str, usual_max: float, session_measure: tuple[str, str] | None, kind: Kind = "angle", usual_min: float = -20.0
+) -> ManualMeasure:
+    limits, modes = (-90.0, 180.0, (usual_min, usual_max)), BOTH_MODES
     return ManualMeasure(
-        name, "angle", "deg", *limits, "more", GONIOMETER_DEG, ANGLE_SOURCE, modes, 1, session_measure, decimals=0
+        id, kind, "deg", *limits, "more", GONIOMETER_DEG, ANGLE_SOURCE, modes, 1, session_measure, decimals=0
     )
 
 
@@ -108,18 +116,29 @@ _WRIST = (
     _angle_measure("PRONATION", 100.0, ("pronosupination", "pronation")),
     _angle_measure("SUPINATION", 105.0, ("pronosupination", "supination")),
 )
-_USUAL_MAX_THUMB_DEG = {"MCP": 80.0, "IP": 100.0}
-_USUAL_MAX_FINGER_DEG = {"MCP": 100.0, "PIP": 125.0, "DIP": 100.0}
-_JOINTS = tuple(
-    measure
-    for finger in (1, 2, 3, 4, 5)
-    for joint, most in (_USUAL_MAX_THUMB_DEG if finger == 1 else _USUAL_MAX_FINGER_DEG).items()
-    for measure in (
-        _angle_measure(f"{joint}{finger}_FLEXION", most, (f"{joint}{finger}_flexion", "flexion")),
+_USUAL_MAX_DEG = {"MCP1": 80.0, "IP": 100.0, "MCP": 100.0, "PIP": 125.0, "DIP": 100.0}
+
+
+def _finger_measures(finger: int, joints: tuple[str, ...]) -> Iterator[ManualMeasure]:
+    """Yield both ends of each joint, TAM, and of the long fingers the distance from fingertip to palm.
+
+    Extension is counted above zero in hyperextension, below it for a deficit.
+    """
+    for joint in joints:
+        usual_max = _USUAL_MAX_DEG.get(joint, _USUAL_MAX_DEG.get(joint[:-1], 0.0))
+        yield _angle_measure(f"{joint}_FLEXION", usual_max, (f"{joint}_flexion", "flexion"), "finger")
         # The smallest angle that Carpus measures is no extension of a single joint, so the two are not compared.
-        _angle_measure(f"{joint}{finger}_EXTENSION", 45.0, None),
+        yield _angle_measure(f"{joint}_EXTENSION", 45.0, None, "finger", -90.0)
+    limits = (-90.0 * len(joints), 180.0 * len(joints), (-90.0 * len(joints), 360.0))
+    yield ManualMeasure(
+        f"TAM{finger}", "finger", "deg", *limits, "more", math.nan, "", BOTH_MODES, 1, (f"TAM{finger}", "arc"), 0
     )
-)
+    if finger > 1:
+        limits = (0.0, 20.0, (0.0, 12.0))
+        yield ManualMeasure(f"TIP_TO_PALM{finger}", "finger", "cm", *limits, "less", math.nan, "", ("active",))
+
+
+_FINGERS = tuple(measure for finger, joints in FINGER_JOINTS.items() for measure in _finger_measures(finger, joints))
 
 _VOLUME = ManualMeasure(
     "VOLUME",
@@ -151,7 +170,8 @@ MEASURES: tuple[ManualMeasure, ...] = (
     _score_measure("MHQ", "MHQ", 100.0, "more"),
     _score_measure("PAIN_AT_REST", phrase("Pain at rest"), 10.0, "less", 2.0, "Farrar 2001"),
     _score_measure("PAIN_MOVING", phrase("Pain on movement"), 10.0, "less", 2.0, "Farrar 2001"),
-    *_JOINTS,
+    _score_measure(KAPANDJI, phrase("Kapandji score"), 10.0, "more"),
+    *_FINGERS,
 )
 
 
@@ -219,10 +239,37 @@ class ManualChange:
 def current_values(entries: Iterable[ManualValue]) -> list[ManualValue]:
     """Return the latest entry of each measure, mode, hand and day, sorted by day, without withdrawn ones.
 
-    ``entries`` are in the order in which they were entered.
+    With them the TAM (TPM if passive) of each finger whose joints were all measured. ``entries`` are in the order in
+    which they were entered.
     """
-    latest = find_latest_entries(entries).values()
-    return sorted((entry for entry in latest if entry.trials), key=lambda entry: entry.day)
+    latest = [entry for entry in find_latest_entries(entries).values() if entry.trials]
+    return sorted((*latest, *_compute_totals(latest)), key=lambda entry: entry.day)
+
+
+def compute_total_deg(finger: int, angles_deg: Mapping[str, float]) -> float:
+    """Return a finger's TAM, or TPM, from its joints' angles by measure; NaN if one is missing.
+
+    Sum of flexion less the deficits of extension; hyperextension counts as 0 (ASSH, clinical reference 4.3).
+
+    >>> flexion = {"MCP1_FLEXION": 50.0, "IP1_FLEXION": 60.0}
+    >>> compute_total_deg(1, {**flexion, "MCP1_EXTENSION": 10.0, "IP1_EXTENSION": -20.0})
+    90.0
+    """
+    joints = FINGER_JOINTS[finger]
+    flexion = sum(angles_deg.get(f"{joint}_FLEXION", math.nan) for joint in joints)
+    extension = [angles_deg.get(f"{joint}_EXTENSION", math.nan) for joint in joints]
+    return flexion + sum(0.0 if end > 0.0 else end for end in extension)
+
+
+def _compute_totals(values: Iterable[ManualValue]) -> Iterator[ManualValue]:
+    by_way: dict[tuple[Mode, Side | Literal[""], date], dict[str, float]] = {}
+    for one in values:
+        by_way.setdefault((one.mode, one.side, one.day), {})[one.measure] = one.value
+    for (mode, side, day), angles_deg in by_way.items():
+        for finger in FINGER_JOINTS:
+            total_deg = compute_total_deg(finger, angles_deg)
+            if math.isfinite(total_deg):
+                yield ManualValue(f"TAM{finger}", mode, side, day, (total_deg,))
 
 
 def find_latest_entries(entries: Iterable[ManualValue]) -> dict[tuple[MeasureKey, date], ManualValue]:

@@ -6247,6 +6247,38 @@
         <source>from the start, + = thumb side up; {within}</source>
         <translation>ab dem Start, + = Daumenseite hoch; {within}</translation>
     </message>
+    <message>
+        <source>{finger}, TAM</source>
+        <translation>{finger}, TAM</translation>
+    </message>
+    <message>
+        <source>{finger}, fingertip to palm</source>
+        <translation>{finger}, Fingerkuppen-Hohlhand-Abstand</translation>
+    </message>
+    <message>
+        <source>Finger joints, goniometer (°)</source>
+        <translation>Fingergelenke, Goniometer (°)</translation>
+    </message>
+    <message>
+        <source>Enter a number from {least} to {most}, or leave it empty</source>
+        <translation>Geben Sie eine Zahl von {least} bis {most} ein, oder lassen Sie das Feld leer</translation>
+    </message>
+    <message>
+        <source>{value}? Typical range: {low} to {high}</source>
+        <translation>{value}? Typischer Bereich: {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>removed</source>
+        <translation>entfernt</translation>
+    </message>
+    <message>
+        <source>Previous entries for this day:</source>
+        <translation>Frühere Einträge für diesen Tag:</translation>
+    </message>
+    <message>
+        <source>Kapandji score</source>
+        <translation>Kapandji-Index</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -8097,6 +8129,10 @@ von oben</translation>
         <source>previous</source>
         <translation>zuletzt</translation>
     </message>
+    <message>
+        <source>Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day ({sign} = minimum), not saved here; type over it to enter a goniometer value.</source>
+        <translation>Extension: − Streckdefizit, + Überstreckung. Getönt und kursiv: von Carpus an diesem Tag gemessen ({sign} = mindestens), wird hier nicht gespeichert; für einen Goniometerwert überschreiben. FKHA: Fingerkuppen-Hohlhand-Abstand.</translation>
+    </message>
 </context>
 <context>
     <name>ManualMeasurementsFlow</name>
@@ -8384,14 +8420,6 @@ von oben</translation>
     <message>
         <source>{side} {value}</source>
         <translation>{side} {value}</translation>
-    </message>
-    <message>
-        <source>removed</source>
-        <translation>entfernt</translation>
-    </message>
-    <message>
-        <source>Previous entries for this day:</source>
-        <translation>Frühere Einträge für diesen Tag:</translation>
     </message>
     <message>
         <source>changed</source>
@@ -10563,17 +10591,6 @@ von oben</translation>
     </message>
 </context>
 <context>
-    <name>ValueField</name>
-    <message>
-        <source>Enter a number from {least} to {most}, or leave it empty</source>
-        <translation>Geben Sie eine Zahl von {least} bis {most} ein, oder lassen Sie das Feld leer</translation>
-    </message>
-    <message>
-        <source>{value}? Typical range: {low} to {high}</source>
-        <translation>{value}? Typischer Bereich: {low} bis {high}</translation>
-    </message>
-</context>
-<context>
     <name>VerdictPanel</name>
     <message>
         <source>good</source>
@@ -10764,6 +10781,31 @@ von oben</translation>
     <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
         <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben das Pseudonym ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
+    </message>
+</context>
+<context>
+    <name>FingerGrid</name>
+    <message>
+        <source>ext.</source>
+        <translation>Ext.</translation>
+    </message>
+    <message>
+        <source>flex.</source>
+        <translation>Flex.</translation>
+    </message>
+    <message>
+        <source>Tip to
+palm, cm</source>
+        <translation>FKHA
+cm</translation>
+    </message>
+    <message>
+        <source>Finger joints, goniometer</source>
+        <translation>Fingergelenke, Goniometer</translation>
+    </message>
+    <message>
+        <source>Measured by Carpus on this day</source>
+        <translation>Von Carpus an diesem Tag gemessen</translation>
     </message>
 </context>
 </TS>

@@ -6247,6 +6247,38 @@
         <source>from the start, + = thumb side up; {within}</source>
         <translation>dall’inizio, + = pollice in alto; {within}</translation>
     </message>
+    <message>
+        <source>{finger}, TAM</source>
+        <translation>{finger}, TAM</translation>
+    </message>
+    <message>
+        <source>{finger}, fingertip to palm</source>
+        <translation>{finger}, distanza polpastrello-palmo</translation>
+    </message>
+    <message>
+        <source>Finger joints, goniometer (°)</source>
+        <translation>Articolazioni delle dita, goniometro (°)</translation>
+    </message>
+    <message>
+        <source>Enter a number from {least} to {most}, or leave it empty</source>
+        <translation>Inserire un numero da {least} a {most}, o lasciare vuoto</translation>
+    </message>
+    <message>
+        <source>{value}? Typical range: {low} to {high}</source>
+        <translation>{value}? Valori tipici: da {low} a {high}</translation>
+    </message>
+    <message>
+        <source>removed</source>
+        <translation>rimosso</translation>
+    </message>
+    <message>
+        <source>Previous entries for this day:</source>
+        <translation>Inserimenti precedenti per questo giorno:</translation>
+    </message>
+    <message>
+        <source>Kapandji score</source>
+        <translation>Indice di Kapandji</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -8097,6 +8129,10 @@ dall’alto</translation>
         <source>previous</source>
         <translation>precedente</translation>
     </message>
+    <message>
+        <source>Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day ({sign} = minimum), not saved here; type over it to enter a goniometer value.</source>
+        <translation>Estensione: − deficit, + iperestensione. Colorato e in corsivo: misurato da Carpus in questo giorno ({sign} = almeno), non viene salvato qui; sovrascrivere per inserire un valore del goniometro.</translation>
+    </message>
 </context>
 <context>
     <name>ManualMeasurementsFlow</name>
@@ -8384,14 +8420,6 @@ dall’alto</translation>
     <message>
         <source>{side} {value}</source>
         <translation>{side} {value}</translation>
-    </message>
-    <message>
-        <source>removed</source>
-        <translation>rimosso</translation>
-    </message>
-    <message>
-        <source>Previous entries for this day:</source>
-        <translation>Inserimenti precedenti per questo giorno:</translation>
     </message>
     <message>
         <source>changed</source>
@@ -10563,17 +10591,6 @@ dall’alto</translation>
     </message>
 </context>
 <context>
-    <name>ValueField</name>
-    <message>
-        <source>Enter a number from {least} to {most}, or leave it empty</source>
-        <translation>Inserire un numero da {least} a {most}, o lasciare vuoto</translation>
-    </message>
-    <message>
-        <source>{value}? Typical range: {low} to {high}</source>
-        <translation>{value}? Valori tipici: da {low} a {high}</translation>
-    </message>
-</context>
-<context>
     <name>VerdictPanel</name>
     <message>
         <source>good</source>
@@ -10764,6 +10781,31 @@ dall’alto</translation>
     <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
         <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
+    </message>
+</context>
+<context>
+    <name>FingerGrid</name>
+    <message>
+        <source>ext.</source>
+        <translation>est.</translation>
+    </message>
+    <message>
+        <source>flex.</source>
+        <translation>fless.</translation>
+    </message>
+    <message>
+        <source>Tip to
+palm, cm</source>
+        <translation>polpa–palmo
+cm</translation>
+    </message>
+    <message>
+        <source>Finger joints, goniometer</source>
+        <translation>Articolazioni delle dita, goniometro</translation>
+    </message>
+    <message>
+        <source>Measured by Carpus on this day</source>
+        <translation>Misurato da Carpus in questo giorno</translation>
     </message>
 </context>
 </TS>

@@ -66,6 +66,18 @@ def test_current_values_of_a_day_are_the_latest_and_earlier_ones_stay() -> None:
     assert [one.value for one in value_history(taken_back, flexion(0.0).key)] == [30.0]
 
 
+@given(flexion_deg=st.lists(st.floats(0, 110), min_size=3, max_size=3), extension=st.floats(-60, 30))
+def test_current_values_hold_the_total_of_a_finger_measured_whole(flexion_deg: list[float], extension: float) -> None:
+    ends = {f"{joint}4_FLEXION": angle for joint, angle in zip(("MCP", "PIP", "DIP"), flexion_deg, strict=True)}
+    ends |= {"MCP4_EXTENSION": 0.0, "PIP4_EXTENSION": extension, "DIP4_EXTENSION": 0.0}
+    entries = [ManualValue(name, "active", "left", DAY, (angle,)) for name, angle in ends.items()]
+    (total,) = (one for one in current_values(entries) if one.measure == "TAM4")
+    assert total.key == ("TAM4", "active", "left")
+    assert total.value == pytest.approx(sum(flexion_deg) - max(-extension, 0.0)), "hyperextension counts as 0"
+    taken_back = [*entries, replace(entries[4], trials=())]
+    assert all(not one.measure.startswith("TAM") for one in current_values(taken_back)), "one end is not known"
+
+
 @given(first=st.floats(0, 90), last=st.floats(0, 90))
 def test_change_verdict_follows_limit_and_direction_of_the_measure(first: float, last: float) -> None:
     def verdict(name: str, share: float = 1.0) -> str:

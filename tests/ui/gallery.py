@@ -586,6 +586,15 @@ class Gallery(GalleryWindow):
         figures = sorted(self.sessions.history("linden"), key=lambda one: one.when)
         screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
 
+    def by_hand_fingers(self) -> None:
+        """The grid of a fist session: some cells typed, some of them wrong or unusual, the rest measured by Carpus."""
+        screen = self.show(ManualMeasurementsScreen(self.theme, lambda: TODAY), tab=2, camera="")
+        figures = sorted(FakeHandSessions().history("linden"), key=lambda one: one.when)
+        screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values_today()), tuple(figures), "MK"))
+        for name, text in (("DIP2_EXTENSION", "-10"), ("DIP2_FLEXION", "55"), ("PIP5_FLEXION", "130")):
+            screen.form.fingers.cells[name, "active"].setText(text)
+        screen.form.fingers.setFocus()
+
     def _report(self, made: Report) -> None:
         self.show(ReportScreen(self.theme, self.background), tab=3, camera="").show_report(made, "")
         self.settle()

@@ -11,7 +11,7 @@ from typing import cast
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.measures.manual_measurements import ManualValue, current_values
@@ -34,6 +34,7 @@ from carpus.ui.shell.main_window import MainWindow
 from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import NOW, FakeSessions, hand_values
+from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.printed import words_of
 
 TODAY = NOW.date()
@@ -122,10 +123,76 @@ def test_manual_form_invalid_value_is_refused_and_unusual_one_confirmed(
     with qtbot.waitSignal(screen.save_requested) as caught:
         screen.save_button.click()
     assert "170°?" in caught.args[1][0]
-    screen.measure_choice.setCurrentIndex(screen.measure_choice.findData("PIP3_FLEXION"))
+    screen.measure_choice.setCurrentIndex(screen.measure_choice.findData("TIP_PINCH"))
     screen.measure_choice.activated.emit(screen.measure_choice.currentIndex())
     assert active.value() == 170.0, "what is written stays when a row is added"
-    assert screen.focusWidget() is screen.form.rows["PIP3_FLEXION"].fields[0][1]
+    assert screen.focusWidget() is screen.form.rows["TIP_PINCH"].fields[0][1]
+
+
+def press(screen: ManualMeasurementsScreen, key: Qt.Key) -> None:
+    QTest.keyClick(cast("QWidget", screen.focusWidget()), key)
+
+
+def test_finger_grid_typed_in_one_go_totals_follow_and_carpus_values_are_not_saved(
+    screen: ManualMeasurementsScreen, qtbot: QtBot
+) -> None:
+    figures = sorted(FakeHandSessions().history("linden"), key=lambda one: one.when)
+    screen.show_record(ManualRecord("Linden 42", "right", (), tuple(figures), "MK"))
+    grid = screen.form.fingers
+    cells = grid.cells
+    measured = cells["PIP2_FLEXION", "active"]
+    assert measured.is_measured
+    assert measured.is_lower_bound
+    assert measured.text().startswith("≥")
+    assert not screen.has_unsaved, "what Carpus measured is no manual value"
+    grid.setFocus()
+    grid.setCurrentCell(1, 4)
+    typed_texts = ("-10", "55", "2,5")  # DIP extension and flexion, then past the total to the distance from the palm
+    for text in typed_texts:
+        QTest.keyClicks(screen.focusWidget(), text[0])
+        QTest.keyClicks(screen.focusWidget(), text[1:])
+        press(screen, Qt.Key.Key_Return)
+        QApplication.processEvents()  # the editor closes after its key
+    assert (grid.currentRow(), grid.currentColumn()) == (2, 0)
+    parts = [cells[f"{joint}2_FLEXION", "active"].number for joint in ("MCP", "PIP", "DIP")]
+    lacking = [min(cells[f"{joint}2_EXTENSION", "active"].number, 0.0) for joint in ("MCP", "PIP", "DIP")]
+    total = cells["TAM2", "active"]
+    assert total.text() == f"≥{sum((*parts, *lacking)):.0f}", "a lower bound makes the total one"
+    assert total.is_measured
+    press(screen, Qt.Key.Key_Left)
+    assert (grid.currentRow(), grid.currentColumn()) == (2, 0)
+    press(screen, Qt.Key.Key_Down)
+    QTest.keyClicks(grid, "x")
+    assert "Ring finger" in screen.status_text.text()
+    assert not screen.save_button.isEnabled()
+    press(screen, Qt.Key.Key_Tab)
+    grid.setCurrentCell(3, 0)
+    press(screen, Qt.Key.Key_Delete)
+    with qtbot.waitSignal(screen.save_requested) as caught:
+        QTest.keyClick(screen, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
+    assert caught.args[0] == [
+        ManualValue("DIP2_EXTENSION", "active", "right", TODAY, (-10.0,)),
+        ManualValue("DIP2_FLEXION", "active", "right", TODAY, (55.0,)),
+        ManualValue("TIP_TO_PALM2", "active", "right", TODAY, (2.5,)),
+    ]
+    grid.setCurrentCell(9, 5)
+    press(screen, Qt.Key.Key_Tab)
+    assert screen.focusWidget() is screen.form.rows["GRIP"].fields[0][1], "Tab leaves the grid after its last cell"
+    screen.hand_choice.choose("left")
+    screen.hand_choice.chosen.emit("left")
+    assert not any(cell.is_measured for cell in cells.values()), "the session was of the right hand"
+
+
+def test_finger_grid_chosen_from_other_measures_replaces_the_list_of_joints(screen: ManualMeasurementsScreen) -> None:
+    screen.show_record(ManualRecord("Linden 42", "right", (), (), ""))
+    choices = [screen.measure_choice.itemData(row) for row in range(screen.measure_choice.count())]
+    assert not screen.form.has_fingers
+    assert [name for name in choices if str(name)[-8:] in ("_FLEXION", "XTENSION")] == ["MCP2_FLEXION"]
+    screen.measure_choice.setCurrentIndex(screen.measure_choice.findData("MCP2_FLEXION"))
+    screen.measure_choice.activated.emit(screen.measure_choice.currentIndex())
+    assert screen.form.has_fingers
+    assert screen.focusWidget() is screen.form.fingers
+    assert screen.measure_choice.findData("MCP2_FLEXION") < 0
 
 
 @pytest.fixture

@@ -173,6 +173,15 @@ class DateField(QLineEdit):
         self.setText(numbers.format_date(day) if day is not None else "")
 
 
+def parse_number(text: str) -> float:
+    """Return a number with decimal comma or point, NaN for anything else."""
+    try:
+        value = float(text.strip().removesuffix("°").strip().replace(",", ".").replace("\N{MINUS SIGN}", "-"))
+    except ValueError:
+        return math.nan
+    return value if math.isfinite(value) else math.nan
+
+
 class NumberField(QLineEdit):
     """Line for a number with decimal comma or point.
 
@@ -191,12 +200,7 @@ class NumberField(QLineEdit):
 
     def value(self) -> float:
         """Return the number, NaN for nothing or anything else."""
-        text = self.text().strip().removesuffix("°").strip().replace(",", ".").replace("\N{MINUS SIGN}", "-")
-        try:
-            value = float(text)
-        except ValueError:
-            return math.nan
-        return value if math.isfinite(value) else math.nan
+        return parse_number(self.text())
 
     def set_value(self, value: float) -> None:
         """Show a number; NaN empties the field."""

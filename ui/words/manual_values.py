@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from datetime import date
 
 from carpus.core.measures.manual_measurements import (
+    BOTH_MODES,
+    FINGER_JOINTS,
     MEASURES,
     ManualChange,
     ManualMeasure,
     ManualValue,
     MeasureKey,
+    Mode,
     compute_change,
     find_manual_measure,
+    find_superseded_entries,
+    is_unusual,
     value_history,
 )
 from carpus.ui.kit import numbers
@@ -26,6 +32,10 @@ def measure_name(measure: ManualMeasure) -> str:
     """Return the name of a measure, such as ``Grip`` or ``Ring finger, PIP flexion``."""
     if measure.name:
         return translate_phrase(measure.name)
+    if measure.id.startswith("TAM"):
+        return tr("{finger}, TAM").format(finger=long_finger_name(measure.id[-1]))
+    if measure.unit == "cm":
+        return tr("{finger}, fingertip to palm").format(finger=long_finger_name(measure.id[-1]))
     joint, _, movement = measure.id.rpartition("_")
     if not joint:
         name = terms.movement_long_name(movement.lower())
@@ -34,12 +44,15 @@ def measure_name(measure: ManualMeasure) -> str:
             if movement in ("PRONATION", "SUPINATION")
             else tr("Wrist, {movement}").format(movement=to_mid_sentence(name))
         )
-    finger = int(joint[-1])
-    row = {"MCP": tr("MCP"), "PIP": tr("PIP"), "DIP": tr("DIP"), "IP": tr("IP")}[joint[:-1]]
-    name = long_finger_name(str(finger))
     return tr("{finger}, {joint}, {movement}").format(
-        finger=name, joint=row, movement=tr("extension") if movement == "EXTENSION" else tr("flexion")
+        finger=long_finger_name(joint[-1]),
+        joint=_joint_name(joint),
+        movement=tr("extension") if movement == "EXTENSION" else tr("flexion"),
     )
+
+
+def _joint_name(joint: str) -> str:
+    return {"MCP": tr("MCP"), "PIP": tr("PIP"), "DIP": tr("DIP"), "IP": tr("IP")}[joint[:-1]]
 
 
 def mode_name(way: str) -> str:
@@ -68,8 +81,39 @@ def value_words(measure: ManualMeasure, value: float) -> str:
 def group_names() -> dict[str, str]:
     """Return the headings of the form by kind, in order."""
     return {
-        "angle": tr("Goniometer"), "force": tr("Force"), "size": tr("Circumference and volume"), "score": tr("Scores"),
+        "angle": tr("Goniometer"), "finger": tr("Finger joints, goniometer (°)"), "force": tr("Force"),
+        "size": tr("Circumference and volume"), "score": tr("Scores"),
     }  # fmt: skip
+
+
+def entry_error(measure: ManualMeasure, value: float) -> str:
+    """Say which numbers are possible; empty for one of them."""
+    if measure.min_value <= value <= measure.max_value:
+        return ""
+    pattern = tr("Enter a number from {least} to {most}, or leave it empty")
+    return pattern.format(
+        least=numbers.format_significant(measure.min_value, 6), most=value_words(measure, measure.max_value)
+    )
+
+
+def entry_warning(measure: ManualMeasure, value: float) -> str:
+    """Return ``180°? Typical range: …`` for an unusual value; empty for any other."""
+    if entry_error(measure, value) or not is_unusual(measure, value):
+        return ""
+    low, high = (value_words(measure, end) for end in measure.usual_range)
+    return tr("{value}? Typical range: {low} to {high}").format(value=value_words(measure, value), low=low, high=high)
+
+
+def history_words(values: Sequence[ManualValue], keys: Sequence[MeasureKey], day: date) -> str:
+    """Return the earlier entries of a day and their authors, line by line; empty without any."""
+    lines = []
+    for key in keys:
+        measure = find_manual_measure(key[0])
+        for one in find_superseded_entries(values, key, day):
+            when = numbers.format_date_time(one.entered_at.astimezone()) if one.entered_at else ""
+            parts = (value_words(measure, one.value) if one.trials else tr("removed"), mode_name(one.mode))
+            lines.append(" · ".join(filter(None, (" ".join(filter(None, parts)), one.rater, when))))
+    return tr("Previous entries for this day:") + "\n" + "\n".join(lines) if lines else ""
 
 
 def direction_words(measure: ManualMeasure) -> str:
@@ -110,22 +154,54 @@ def sort_keys(values: Iterable[ManualValue]) -> list[MeasureKey]:
 
 
 def day_words(values: Sequence[ManualValue]) -> str:
-    """Return the newest value of each measure in one line."""
+    """Return the newest value of each measure in one line, finger joints as in :func:`_joint_words`."""
     by_measure: dict[str, list[ManualValue]] = {}
     for key in sort_keys(values):
         by_measure.setdefault(key[0], []).append(value_history(values, key)[-1])
     words = []
     for name, found in by_measure.items():
         manual_measure = find_manual_measure(name)
+        if manual_measure.kind == "finger" and manual_measure.unit == "deg":
+            continue
         text = ", ".join(
             " ".join(filter(None, (value_words(manual_measure, v.value), mode_name(v.mode), v.location))) for v in found
         )
         unit = f" {unit_name(manual_measure)}" if manual_measure.unit == "points" else ""
         words.append(f"{measure_name(manual_measure)} {text}{unit}")
-    return "; ".join(words)
+    newest = {(one.measure, one.mode): one.value for found in by_measure.values() for one in found}
+    joints = (_joint_words(finger, mode, newest) for finger in FINGER_JOINTS for mode in BOTH_MODES)
+    return "; ".join([*words, *filter(None, joints)])
+
+
+def _joint_words(finger: int, mode: Mode, values: Mapping[tuple[str, Mode], float]) -> str:
+    """Return ``Ring finger, active: MCP 0/85, PIP −20/90, TAM 225``: extension and flexion; empty without any."""
+    parts = []
+    for joint in FINGER_JOINTS[finger]:
+        ends = [values.get((f"{joint}_{end}", mode), math.nan) for end in ("EXTENSION", "FLEXION")]
+        if any(map(math.isfinite, ends)):
+            both = "/".join(numbers.format_signed_degrees(end).removesuffix("°") for end in ends)
+            parts.append(f"{_joint_name(joint)} {both}")
+    if (total := values.get((f"TAM{finger}", mode))) is not None:
+        parts.append(f"{'TAM' if mode == 'active' else 'TPM'} {numbers.format_degrees(total)}")
+    who = f"{long_finger_name(str(finger))}, {mode_name(mode)}"
+    return f"{who}: {', '.join(parts)}" if parts else ""
 
 
 def find_changes(values: Sequence[ManualValue]) -> list[tuple[MeasureKey, ManualChange]]:
-    """Return first and last value of each measure that was taken on two days or more."""
-    found = [(key, compute_change(value_history(values, key))) for key in sort_keys(values)]
-    return [(key, change) for key, change in found if change is not None]
+    """Return first and last value of each measure that was taken on two days or more.
+
+    The total of a finger stands for its joints.
+    """
+    found = {key: compute_change(value_history(values, key)) for key in sort_keys(values)}
+    totals = {(key[0][-1], *key[1:]) for key, change in found.items() if change and key[0].startswith("TAM")}
+    return [
+        (key, change)
+        for key, change in found.items()
+        if change is not None and (_finger_of_joint(key[0]), *key[1:]) not in totals
+    ]
+
+
+def _finger_of_joint(measure_id: str) -> str:
+    """Return the number of the finger whose joint is measured, empty for any other measure."""
+    joint = measure_id.partition("_")[0]
+    return joint[-1] if any(joint in joints for joints in FINGER_JOINTS.values()) else ""

@@ -20,8 +20,6 @@ from carpus.core.measures.manual_measurements import (
     Mode,
     find_latest_entries,
     find_manual_measure,
-    find_superseded_entries,
-    is_unusual,
     previous_value,
     value_on_day,
 )
@@ -33,8 +31,20 @@ from carpus.ui.kit.field import NumberField, add_inside
 from carpus.ui.kit.layouts import grid_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.by_hand.finger_grid import CellKey, FingerGrid
 from carpus.ui.words import terms
-from carpus.ui.words.manual_values import direction_words, group_names, measure_name, mode_name, unit_name, value_words
+from carpus.ui.words.fingers import LOWER_BOUND
+from carpus.ui.words.manual_values import (
+    direction_words,
+    entry_error,
+    entry_warning,
+    group_names,
+    history_words,
+    measure_name,
+    mode_name,
+    unit_name,
+    value_words,
+)
 
 FIELD_PX = {"angle": 84, "force": 84, "size": 104, "score": 104}
 CARPUS_COLUMN, OTHER_HAND_COLUMN, LAST_COLUMN = 4, 5, 6
@@ -110,7 +120,11 @@ class MeasureRow(QObject):
         words = " / ".join(value_words(self.measure, one.value) if one else "–" for one in last)
         known = [one for one in last if one]
         self.last_text.setText(f"{numbers.format_day_month(max(one.day for one in known))}: {words}" if known else "")
-        self._show_history(values, side, day)
+        history = history_words(values, self.keys(side), day)
+        if history:
+            self.last_text.setText(" · ".join(filter(None, (self.tr("changed"), self.last_text.text()))))
+        self.last_text.setToolTip(history)
+        self.last_text.setAccessibleDescription(history)
         self.other_hand_text.setText("")
         if self.measure.is_per_hand and self.measure.kind != "angle":
             other: Side = "left" if side == "right" else "right"
@@ -120,23 +134,6 @@ class MeasureRow(QObject):
                 value = value_words(self.measure, found.value)
                 self.other_hand_text.setText(pattern.format(side=terms.side_name(other), value=value))
         self._update_side_text()
-
-    def _show_history(self, values: Sequence[ManualValue], side: Side, day: date) -> None:
-        """Show earlier entries of the same day, and their authors."""
-        lines = []
-        for key in self.keys(side):
-            for one in find_superseded_entries(values, key, day):
-                when = numbers.format_date_time(one.entered_at.astimezone()) if one.entered_at else ""
-                parts = (
-                    value_words(self.measure, one.value) if one.trials else self.tr("removed"),
-                    mode_name(one.mode),
-                )
-                lines.append(" · ".join(filter(None, (" ".join(filter(None, parts)), one.rater, when))))
-        if lines:
-            changed = self.tr("changed")
-            self.last_text.setText(f"{changed} · {self.last_text.text()}" if self.last_text.text() else changed)
-        self.last_text.setToolTip(self.tr("Previous entries for this day:") + "\n" + "\n".join(lines) if lines else "")
-        self.last_text.setAccessibleDescription(self.last_text.toolTip())
 
     def read_values(self, side: Side, day: date) -> list[ManualValue]:
         """Return one value per mode, without tries if empty.
@@ -149,6 +146,12 @@ class MeasureRow(QObject):
             where = self.location_field.text().strip() if self.measure.kind == "size" and tries else ""
             found.append(ManualValue(key[0], key[1], key[2], day, tries, where))  # type: ignore[arg-type]
         return found
+
+    def list_errors(self) -> list[str]:
+        return [f"{field.accessibleName()}: {field.error}" for _, field in self.fields if field.error]
+
+    def list_warnings(self) -> list[str]:
+        return [f"{field.accessibleName()}: {field.warning}" for _, field in self.fields if field.warning]
 
     def _on_edited(self) -> None:
         self._update_side_text()
@@ -188,6 +191,7 @@ class ManualForm(QWidget):
         self._grid = grid_layout(12, 6, stretches=(1,), margins=(0, 0, 0, 0), parent=self)
         self.rows: dict[str, MeasureRow] = {}
         """Visible rows from top to bottom."""
+        self.fingers = FingerGrid(theme)
         self._rows_by_measure: dict[str, MeasureRow] = {}
         self._grid_rows: dict[str, int] = {}
         """Grid row of each measure, visible or not."""
@@ -195,9 +199,11 @@ class ManualForm(QWidget):
         """Headings of each kind, and the grid row below its measures."""
         for kind, heading in group_names().items():
             line = self._grid.rowCount()
-            measures = [one.id for one in MEASURES if one.kind == kind]
+            measures = [one.id for one in MEASURES if one.kind == kind and kind != "finger"]
             self._grid_rows |= {name: line + 2 + number for number, name in enumerate(measures)}
             self._headings[kind] = self._make_heading(kind, heading, line), line + 2 + len(measures)
+            if kind == "finger":
+                self._add_fingers(line + 2)
             self._grid.setRowMinimumHeight(self._headings[kind][1], 12)
 
     def _make_heading(self, kind: str, heading: str, line: int) -> list[QWidget]:
@@ -214,6 +220,32 @@ class ManualForm(QWidget):
             self._grid.addWidget(shown[-1], line, column, place)
         return shown
 
+    def _add_fingers(self, line: int) -> None:
+        words = self.tr(
+            "Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day "
+            "({sign} = minimum), not saved here; type over it to enter a goniometer value."
+        )
+        legend = Text(self._theme, words.format(sign=LOWER_BOUND), 12, REGULAR, "text2", wrap=True)
+        self._headings["finger"][0].extend((self.fingers, legend))
+        self._grid.addWidget(self.fingers, line, 0, 1, LAST_COLUMN + 1)
+        self._grid.addWidget(legend, line + 1, 0, 1, LAST_COLUMN + 1)
+        self._headings["finger"] = self._headings["finger"][0], line + 2
+        self.fingers.edited.connect(self.edited)
+        self.fingers.edited.connect(self.measure_edited)
+
+    @property
+    def has_fingers(self) -> bool:
+        """True if the grid of finger joints is shown."""
+        return not self.fingers.isHidden()
+
+    @property
+    def _entries(self) -> list[MeasureRow | FingerGrid]:
+        return [*self.rows.values(), *([self.fingers] if self.has_fingers else [])]
+
+    def keys(self, side: Side) -> list[MeasureKey]:
+        """Return the keys of all visible entries of a hand."""
+        return [key for entry in self._entries for key in entry.keys(side)]
+
     def set_measures(self, wanted: set[str]) -> None:
         """Show these measures; rows that stay keep their entries."""
         self.rows = {
@@ -222,7 +254,7 @@ class ManualForm(QWidget):
         for name, row in self._rows_by_measure.items():
             for widget in row.widgets:
                 widget.setVisible(name in wanted)
-        kinds = {row.measure.kind for row in self.rows.values()}
+        kinds = {find_manual_measure(name).kind for name in wanted}
         for kind, (heads, end) in self._headings.items():
             self._grid.setRowMinimumHeight(end, 12 if kind in kinds else 0)
             for head in heads:
@@ -240,15 +272,15 @@ class ManualForm(QWidget):
         return row
 
     def _input_fields(self) -> list[QWidget]:
-        """Return all fields, row by row."""
-        return [
-            entry
-            for row in self.rows.values()
-            for entry in (
-                *(field for _, field in row.fields),
-                *([row.location_field] if row.measure.kind == "size" else []),
-            )
-        ]
+        """Return all fields from top to bottom; the grid of the fingers is one of them."""
+        fields: list[QWidget] = []
+        rows = list(self.rows.values())
+        for row in rows:
+            fields += (field for _, field in row.fields)
+            fields += [row.location_field] if row.measure.kind == "size" else []
+        if self.has_fingers:
+            fields.insert(sum(len(row.fields) for row in rows if row.measure.kind == "angle"), self.fingers)
+        return fields
 
     def _focus_next(self, field: ValueField) -> None:
         """Move the focus to the next field; after the last one it stays."""
@@ -257,30 +289,35 @@ class ManualForm(QWidget):
         following.setFocus(Qt.FocusReason.TabFocusReason)
 
     def show_values(
-        self, values: Sequence[ManualValue], side: Side, day: date, carpus_measures: Mapping[str, Measure]
+        self,
+        values: Sequence[ManualValue],
+        side: Side,
+        day: date,
+        carpus_measures: Mapping[str, Measure],
+        measured_cells: Mapping[CellKey, Measure],
     ) -> None:
         for name, row in self.rows.items():
             row.show_values(values, side, day, carpus_measures.get(name))
+        self.fingers.show_values(values, side, day, measured_cells)
 
     def initial_focus(self) -> QWidget:
-        return next(iter(self.rows.values())).fields[0][1]
+        return self._input_fields()[0]
 
-    def list_errors(self) -> list[tuple[ValueField, str]]:
-        return [(f, f.error) for row in self.rows.values() for _, f in row.fields if f.error]
+    def list_errors(self) -> list[str]:
+        return [words for entry in self._entries for words in entry.list_errors()]
 
     def list_warnings(self) -> list[str]:
         """Return unusual values to check, such as ``Flexion, passive: 180°? …``."""
-        return [f"{f.accessibleName()}: {f.warning}" for row in self.rows.values() for _, f in row.fields if f.warning]
+        return [words for entry in self._entries for words in entry.list_warnings()]
 
     def find_changes(self, values: Sequence[ManualValue], side: Side, day: date) -> list[ManualValue]:
         """Return entries that differ from the saved values."""
         found, kept = [], find_latest_entries(values)
-        for row in self.rows.values():
-            for one in row.read_values(side, day):
-                stored = kept.get((one.key, day))
-                same = (stored.trials, stored.location) == (one.trials, one.location) if stored else not one.trials
-                if not same:
-                    found.append(one)
+        for one in (one for entry in self._entries for one in entry.read_values(side, day)):
+            stored = kept.get((one.key, day))
+            same = (stored.trials, stored.location) == (one.trials, one.location) if stored else not one.trials
+            if not same:
+                found.append(one)
         return found
 
 
@@ -298,22 +335,11 @@ class ValueField(NumberField):
 
     @property
     def error(self) -> str:
-        of = self._measure
-        if self.is_empty or of.min_value <= self.value() <= of.max_value:
-            return ""
-        pattern = self.tr("Enter a number from {least} to {most}, or leave it empty")
-        return pattern.format(least=numbers.format_significant(of.min_value, 6), most=value_words(of, of.max_value))
+        return "" if self.is_empty else entry_error(self._measure, self.value())
 
     @property
     def warning(self) -> str:
-        """Warning for an unusual value, such as ``180°? Typical range: …``."""
-        of, value = self._measure, self.value()
-        if self.error or not math.isfinite(value) or not is_unusual(of, value):
-            return ""
-        low, high = (value_words(of, end) for end in of.usual_range)
-        return self.tr("{value}? Typical range: {low} to {high}").format(
-            value=value_words(of, value), low=low, high=high
-        )
+        return "" if self.is_empty else entry_warning(self._measure, self.value())
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         plain = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier == Qt.KeyboardModifier.NoModifier

@@ -39,9 +39,14 @@ from carpus.ui.kit.layouts import (
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.screens.by_hand.change_rows import add_change_rows
+from carpus.ui.screens.by_hand.finger_grid import CellKey, find_measured_cells
 from carpus.ui.screens.by_hand.form import ManualForm
 from carpus.ui.words import terms
-from carpus.ui.words.manual_values import find_changes, measure_name
+from carpus.ui.words.manual_values import find_changes, group_names, measure_name
+
+FINGER_MEASURES = {one.id for one in MEASURES if one.kind == "finger"}
+_FINGERS = "MCP2_FLEXION"
+"""Any of them: all stand in one grid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,11 +96,15 @@ class ManualMeasurementsScreen(FittedWidget):
         )
         self.chart = ManualValueChart(theme)
         self._changes = Card(theme, 20)
+        host = ScrolledColumn()
+        self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
+        self._scroll = ScrollArea(host)
         self._build_layout()
         self.day_field.dateChanged.connect(lambda _: self._switch_day_or_hand())
         self.hand_choice.chosen.connect(lambda _: self._switch_day_or_hand())
         self.form.edited.connect(self._on_edited)
         self.form.measure_edited.connect(self._show_course)
+        self.form.fingers.currentCellChanged.connect(lambda *_: self._show_current_cell())
         self.measure_choice.activated.connect(self._add_measure)
         self.save_button.clicked.connect(self._request_save)
         for keys in ("Ctrl+Return", "Ctrl+Enter"):
@@ -110,8 +119,6 @@ class ManualMeasurementsScreen(FittedWidget):
         course = Card(self._theme, 20)
         course.body.addWidget(self.chart)
         right = column_layout(course, self._changes, STRETCH, gap=GAP_PX)
-        host = ScrolledColumn()
-        self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
         self._columns.setContentsMargins(0, 0, 0, 0)
         self._columns.setSpacing(GAP_PX)
         fill(self._columns, (entries, 5, Qt.AlignmentFlag.AlignTop), (right, 4))
@@ -121,7 +128,7 @@ class ManualMeasurementsScreen(FittedWidget):
             2,
             self.basis_text,
             14,
-            (ScrollArea(host), 1),
+            (self._scroll, 1),
             12,
             foot,
             gap=0,
@@ -159,7 +166,7 @@ class ManualMeasurementsScreen(FittedWidget):
         """
         side, day = self._shown
         here = self.form.find_changes(self.record.values, side, day)
-        shown = {(key, day) for row in self.form.rows.values() for key in row.keys(side)}
+        shown = {(key, day) for key in self.form.keys(side)}
         return [*(one for at, one in self._unsaved.items() if at not in shown), *here]
 
     def restore_unsaved(self, values: Sequence[ManualValue]) -> None:
@@ -202,14 +209,19 @@ class ManualMeasurementsScreen(FittedWidget):
     def _fill(self) -> None:
         self._shown = (self.side, self.current_day)
         usual = {one.id for one in MEASURES if one.is_default}
+        if any(figures.joint_ranges for figures in self.record.figures):
+            usual.add(_FINGERS)
         self.form.set_measures(usual | {one.measure for one in self.record.values} | self._added_measures)
-        self.form.show_values(self._all_values(), self.side, self.current_day, self._carpus_measures())
+        self.form.show_values(
+            self._all_values(), self.side, self.current_day, self._carpus_measures(), self._measured_cells()
+        )
         self._fill_more()
         day = numbers.format_short_date(self.current_day)
         self.title.setText(self.tr("Manual measurements, {day}").format(day=day))
         self._show_basis()
         shown = self.chart.measure.id if self.chart.measure else ""
-        self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))
+        is_shown = shown in self.form.rows or (shown in FINGER_MEASURES and self.form.has_fingers)
+        self._show_course(shown if is_shown else next(iter(self.form.rows)))
         self._fill_changes()
         self._on_edited()
 
@@ -217,8 +229,13 @@ class ManualMeasurementsScreen(FittedWidget):
         return (*self.record.values, *self._unsaved.values())
 
     def _fill_more(self) -> None:
-        others = [(one.id, measure_name(one)) for one in MEASURES if one.id not in self.form.rows]
-        self.measure_choice.set_choices([("", self.tr("Other measures…")), *others])
+        others = [
+            (one.id, measure_name(one))
+            for one in MEASURES
+            if one.id not in self.form.rows and one.id not in FINGER_MEASURES
+        ]
+        fingers = [] if self.form.has_fingers else [(_FINGERS, group_names()["finger"])]
+        self.measure_choice.set_choices([("", self.tr("Other measures…")), *fingers, *others])
 
     def _show_basis(self) -> None:
         by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
@@ -233,14 +250,28 @@ class ManualMeasurementsScreen(FittedWidget):
         if not name:
             return
         self._added_measures.add(name)
-        self.form.set_measures({*self.form.rows, name})
-        self.form.rows[name].show_values(
-            self._all_values(), self.side, self.current_day, self._carpus_measures().get(name)
-        )
+        form, values, side, day = self.form, self._all_values(), self.side, self.current_day
+        form.set_measures({*form.rows, *([_FINGERS] if form.has_fingers else []), name})
+        field: QWidget = form.fingers
+        if name == _FINGERS:
+            form.fingers.show_values(values, side, day, self._measured_cells())
+        else:
+            form.rows[name].show_values(values, side, day, self._carpus_measures().get(name))
+            field = form.rows[name].fields[0][1]
         self._fill_more()
         self._show_basis()
         self._show_course(name)
-        self.form.rows[name].fields[0][1].setFocus(Qt.FocusReason.OtherFocusReason)
+        field.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _measured_cells(self) -> dict[CellKey, Measure]:
+        return find_measured_cells(self.record.figures, self.side, self.current_day)
+
+    def _show_current_cell(self) -> None:
+        """Scroll to the grid's current cell, which is no widget that the page would follow."""
+        grid = self.form.fingers
+        cell = grid.visualRect(grid.currentIndex())
+        bottom = grid.viewport().mapTo(self._scroll.widget(), cell.bottomLeft())  # type: ignore[arg-type]
+        self._scroll.ensureVisible(bottom.x(), bottom.y(), 0, 2 * cell.height())
 
     def _carpus_measures(self) -> dict[str, Measure]:
         """Return Carpus's measures of that day, of the last session that has them."""
@@ -284,7 +315,7 @@ class ManualMeasurementsScreen(FittedWidget):
         elsewhere = [one for (_, day), one in self._unsaved.items() if (one.side, day) != self._shown and one.side]
         doubts = self.form.list_warnings()
         self.status_text.setText(
-            f"{problems[0][0].accessibleName()}: {problems[0][1]}" if problems
+            problems[0] if problems
             else doubts[0] if doubts
             else self.tr("Not saved yet, including values of the other hand or another day.") if elsewhere
             else self.tr("Values are saved with initials and time. Later changes stay visible.")
