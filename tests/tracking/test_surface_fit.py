@@ -12,6 +12,7 @@ from carpus.core.model import so3
 from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.model.hand.dorsal_surface import DorsalSurface, fit_dorsal_surface
 from carpus.core.model.types import FloatArray, SurfaceSamples
+from carpus.core.tracking.association.palm_association import Measurements, update_palm
 from carpus.core.tracking.filter.mixture_filter import ModeMixture, Update, update_mixture
 from carpus.core.tracking.filter.palm_state import (
     POSITION,
@@ -23,7 +24,7 @@ from carpus.core.tracking.filter.palm_state import (
     PalmView,
     reset_error,
 )
-from carpus.core.tracking.filter.predicted_measurement import shape_partial_update
+from carpus.core.tracking.filter.predicted_measurement import predict_measurement, shape_partial_update
 from carpus.core.tracking.filter.surface_fit import (
     NO_NOISE,
     SurfaceMeasurement,
@@ -31,6 +32,7 @@ from carpus.core.tracking.filter.surface_fit import (
     fit_surface,
     surface_calibration_covariance,
 )
+from carpus.core.tracking.filter.unscented import UnscentedParameters
 from tests.suites import few
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
@@ -57,8 +59,7 @@ def get_surface_point(rotation: FloatArray, position: FloatArray) -> SurfaceSamp
     return SurfaceSamples(pixel, depth)
 
 
-@pytest.fixture(scope="module")
-def surface() -> DorsalSurface:
+def build_surface() -> DorsalSurface:
     x, y = np.meshgrid(np.arange(-0.02, 0.11, 0.0013), np.arange(-0.03, 0.04, 0.0013))
     points = np.stack((x.ravel(), y.ravel(), height_m(x, y).ravel()), axis=1)
     corner = RIGHT_PALM_M[:4].copy()
@@ -66,6 +67,11 @@ def surface() -> DorsalSurface:
     found = fit_dorsal_surface(points, corner)
     assert found is not None
     return found
+
+
+@pytest.fixture(scope="module")
+def surface() -> DorsalSurface:
+    return build_surface()
 
 
 def build_estimate(rotation: FloatArray, position: FloatArray) -> PalmEstimate:
@@ -242,3 +248,23 @@ def test_dorsal_surface_too_few_points_gives_none() -> None:
     assert fit_dorsal_surface(np.empty((0, 3)), RIGHT_PALM_M[:4]) is None
     lonely = np.column_stack((np.linspace(0.0, 0.08, 40), np.zeros(40), np.zeros(40)))
     assert fit_dorsal_surface(lonely, RIGHT_PALM_M[:4]) is None
+
+
+def test_update_palm_is_corrected_only_by_a_surface_that_can_be_this_one(surface: DorsalSurface) -> None:
+    estimate, samples = build_estimate(np.eye(3), np.zeros(3)), get_surface_point(np.eye(3), np.zeros(3))
+    mixture, partial = (
+        ModeMixture.from_gaussian(np.zeros((1, SIZE)), 1e-6 * np.eye(SIZE)[None], 2),
+        shape_partial_update(0.2),
+    )
+    far = replace(mixture, mean=mixture.mean + np.where(np.arange(SIZE) == RELIEF.start, 0.5, 0.0))
+
+    def is_used(samples: SurfaceSamples, of: ModeMixture = mixture, partial: FloatArray | None = partial) -> bool:
+        predicted = predict_measurement(estimate, of, VIEW, UnscentedParameters(), partial)
+        found = fit_surface(estimate, samples, surface, VIEW, SurfaceSettings())
+        blobs = Measurements(np.empty((0, 3)), np.empty((0, 3)), found)
+        return update_palm(predicted, blobs, np.full(6, -1), np.zeros(6, dtype=bool), np.ones((6, 3))).by_surface
+
+    assert is_used(samples)
+    assert is_used(samples, partial=None)
+    assert not is_used(samples, far)
+    assert not is_used(replace(samples, pixel=samples.pixel + 1e4))
