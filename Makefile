@@ -47,7 +47,7 @@ coverage: setup-test            ## how much of the code the tests reach, half as
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --cov --cov-report=term:skip-covered $(ARGUMENTS)
 
 bench: setup-test               ## cost per frame and of the screen
-	$(PY) -m tests.bench --compare
+	$(PY) -m tests.bench
 
 accuracy: setup-test            ## errors against simulated truth
 	$(PY) -m tests.accuracy

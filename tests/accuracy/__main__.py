@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from carpus.core.platform.provenance import source_revision
-from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second
+from tests.accuracy import badly, hand21_table, papers, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.pages import marked, ruled
@@ -37,10 +37,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
     parser.add_argument(
         "--group",
-        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second", "camera", "badly"),
+        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second", "badly"),
         default="all",
-        help="which rows; second: the patient that is for judging only, by rendered pictures alone; camera: "
-        "calibration and check card; badly: hands calibrated badly",
+        help="which rows; second: the patient that is for judging only, by rendered pictures alone; "
+        "badly: hands calibrated badly",
     )
     parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name holds this")
     parser.add_argument(
@@ -56,7 +56,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     seeds, pictures = (SEEDS, 0) if options.quick else (options.seeds, options.pictures)
     wrist, hand = (_named(rows, options.group, options.only) for rows in (WRIST_ROWS, HAND_ROWS))
     judged = second.rows_named(options.only) if options.group in ("all", "second") and pictures else []
-    if not wrist and not hand and not judged and options.group not in ("papers", "camera", "badly"):
+    if not wrist and not hand and not judged and options.group not in ("papers", "badly"):
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2
     begin = time.monotonic()
@@ -72,9 +72,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("", *_hand_tables(hands, hand), *kept, sep="\n", flush=True)
     if options.group == "papers":
         print("", papers.report(options.only, seeds, options.processes), sep="\n")
-    if options.group == "camera" and pictures:
-        for group in (cameras, check_cards):
-            print("", group.report(options.only, max(seeds // 2, 1)), sep="\n")
     if options.group in ("all", "badly") and pictures and not options.only:
         print("", marked("badly", badly.report(pictures)), sep="\n", flush=True)
     if judged:

@@ -9,8 +9,7 @@ import sys
 from importlib import import_module
 
 PARTS = {
-    "start": "starting", "tracking": "tracking", "whole-hand": "whole_hand", "writing": "writing", "batch": "batch",
-    "zoom": "zooming", "window": "window",
+    "start": "starting", "tracking": "tracking", "whole-hand": "whole_hand", "batch": "batch", "window": "window",
 }  # fmt: skip
 """What is measured, and the module that does it."""
 
@@ -26,9 +25,6 @@ def main() -> int:
     parser.add_argument("--raw", action="store_true", help="the window's run stores the raw pictures too")
     parser.add_argument("--hand", action="store_true", help="the window's run measures the whole hand, 21 markers")
     parser.add_argument("--rounds", type=int, default=3, help="how often the recordings are tracked")
-    parser.add_argument(
-        "--compare", action="store_true", help="whole-hand beside Stone Soup, filterpy, MediaPipe (installed apart)"
-    )
     arguments = parser.parse_args()
     parts = arguments.parts or list(PARTS)
     if unknown := set(parts) - set(PARTS):
@@ -38,7 +34,7 @@ def main() -> int:
     print(f"CPU time; ratios to the yardstick of the same run. Load at the start: {load:.1f}\n")
     options: dict[str, dict[str, object]] = {
         "tracking": {"rounds": arguments.rounds},
-        "whole-hand": {"rounds": arguments.rounds, "compare": arguments.compare},
+        "whole-hand": {"rounds": arguments.rounds},
         "window": {"seconds": arguments.seconds, "pictures": arguments.raw, "whole_hand": arguments.hand},
     }
     for part in (one for one in PARTS if one in parts):

@@ -38,8 +38,8 @@ PARTS = (
 )
 
 
-def report(rounds: int, *, compare: bool = False) -> Iterator[str]:
-    """Measure and tell, line by line; ``compare`` with other people's work too."""
+def report(rounds: int) -> Iterator[str]:
+    """Measure and tell, line by line."""
     costs = Costs()
     for spec in (FIST, FINGERS):
         measure(render_cached(spec, workers=2), costs, rounds, PARTS)
@@ -56,8 +56,3 @@ def report(rounds: int, *, compare: bool = False) -> Iterator[str]:
         ("filter", "rest", "what is left: predict, update, all motion modes, angles, their sd"),
     ):
         yield line(f"- {label}", costs.part[part], plain, note)
-    if compare:
-        from tests.bench import peers
-
-        yield ""
-        yield from peers.report(float(np.median(costs.whole)) / plain)
