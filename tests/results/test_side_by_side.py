@@ -25,7 +25,6 @@ from tests.results.days import days_ago
 from tests.ui.fakes import NOW, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
-RATE_HZ = 30.0
 lengths = st.lists(st.tuples(st.floats(0.0, 3.0), st.floats(0.4, 8.0)), max_size=6)
 
 

@@ -34,7 +34,6 @@ class Bone(IntEnum):
 
 
 BONES = 20
-ANGLES = 21
 _ARM_END_M = 0.070
 _CUP_ROLL = 0.45
 """A metacarpal that flexes turns its palm side to the thumb, by this share."""

@@ -17,16 +17,6 @@ DT_S = 1.0 / 30.0
 NONE = np.zeros(3, dtype=bool)
 
 
-def test_consistency_marker_unused_for_long_is_doubted() -> None:
-    watch = ConsistencyTest(3)
-    over = np.array([False, True, False])
-    said = [watch.update(DT_S, over, 10.0, 10, 0) for _ in range(12)]
-    assert not any(doubt.is_any for doubt in said[:9])
-    assert said[-1].doubted.tolist() == [False, True, False]
-    assert said[-1].sd_factor > 1.0
-    assert not watch.update(DT_S, NONE, 10.0, 10, 0).is_any, "and no longer, once it is used"
-
-
 def test_consistency_nis_beyond_bound_widens_the_sd() -> None:
     watch = ConsistencyTest(3)
     one = watch.update(DT_S, NONE, 200.0, 10, 2)
@@ -37,13 +27,6 @@ def test_consistency_nis_beyond_bound_widens_the_sd() -> None:
     assert 2.5 < last.sd_factor < 3.1, "to what the innovations say, 9 times the variance"
     watch.reset()
     assert not watch.update(DT_S, NONE, 10.0, 10, 0).is_any
-
-
-def test_consistency_without_measurement_is_no_doubt() -> None:
-    watch = ConsistencyTest(3)
-    for _ in range(60):
-        doubt = watch.update(DT_S, NONE, float("nan"), 0, 0)
-    assert not doubt.is_any
 
 
 def test_unused_markers_need_a_free_blob_at_place_and_depth() -> None:

@@ -42,18 +42,3 @@ def test_digit_motion_coupled_dip_returns_to_pip_with_its_scatter(dt_s: float) -
     assert late.mean[1:, :, END_JOINT] == pytest.approx(0.0, abs=1e-3)
     variance = late.covariance[1:, :, END_JOINT, END_JOINT]
     assert np.sqrt(variance) == pytest.approx(STRAYS_RAD, rel=1e-3), "in every mode alike, however often it is asked"
-
-
-def test_digit_motion_free_joints_keep_their_rate() -> None:
-    late = predict_variance(10.0 * SETTLES_S, 0.1)
-    assert late.mean[0, :, END_JOINT] == pytest.approx(0.3)
-    assert (late.covariance[0, :, END_JOINT, END_JOINT] > 1.0).all()
-
-
-def test_digit_transition_for_smoothing_is_that_of_the_filter() -> None:
-    forward, noise = motion().compute_transition(0.1, np.ones(N_DIGITS), None)
-    mixture = predict_variance(0.1, 0.1)
-    start = np.zeros((N_DIGITS, DIGIT_SIZE))
-    start[:, END_JOINT] = 0.3
-    assert (forward @ start[..., None])[..., 0] == pytest.approx(mixture.mean[:, 0])
-    assert noise[1:, END_JOINT, END_JOINT] == pytest.approx(mixture.covariance[1:, 0, END_JOINT, END_JOINT], rel=1e-6)

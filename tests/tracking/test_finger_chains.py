@@ -3,8 +3,6 @@ differences."""
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -15,8 +13,6 @@ from carpus.core.model.hand.anatomy_prior import constants_from_anatomy
 from carpus.core.model.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
 from carpus.core.model.hand.protocols import SITE_CHAINS, joint_angle_names
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.digits.digit_search import is_in_reach
-from carpus.core.tracking.digits.disc_visibility import compute_tilts
 from carpus.core.tracking.filter.digit_filter import (
     DIGIT_SIZE,
     OBSERVED,
@@ -26,7 +22,6 @@ from carpus.core.tracking.filter.digit_filter import (
     linearise_digits,
 )
 from carpus.core.tracking.filter.hand_geometry import (
-    N_CONSTANTS,
     N_DIGITS,
     N_SLOTS,
     JointAngleMap,
@@ -147,33 +142,3 @@ def test_joint_angle_map_inverts_the_slots(dip_free: bool) -> None:
     assert by_name["PIP4_flexion"] == pytest.approx(3.0)
     if dip_free:
         assert by_name["DIP4_flexion"] == pytest.approx(4.0 / 9.0 * 3.0 + 4.0)
-
-
-@pytest.mark.parametrize(
-    ("digit", "off_m", "is_reached"),
-    [
-        (1, (0.099, 0.0, 0.0), True), (1, (0.101, 0.0, 0.0), False),
-        (1, (-0.019, 0.0, 0.0), True), (1, (-0.021, 0.0, 0.0), False),
-        (1, (0.0, 0.0, 0.049), True), (1, (0.0, 0.0, 0.051), False),
-        (0, (0.0, -0.029, 0.0), True), (0, (0.0, -0.031, 0.0), False),
-    ],
-)  # fmt: skip
-def test_is_in_reach_allows_a_digits_length_and_margin(digit: int, off_m: tuple[float, ...], is_reached: bool) -> None:
-    """15 mm beyond it, 20 mm behind its root and 50 mm above the palm; of the thumb 30 mm across it."""
-    roots = np.array([[0.0, float(k), 0.0] for k in range(N_DIGITS)])  # so far apart that one reaches no other's
-    state = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS))
-    state[:, N_SLOTS : N_SLOTS + 3] = 0.040, 0.025, 0.020
-    assert is_in_reach(roots[digit] + off_m, roots, state) == is_reached
-
-
-@pytest.mark.parametrize("slot", [1, 2, 3])
-def test_tilt_variance_of_finger_discs_is_of_the_flexions_that_turn_them(slot: int) -> None:
-    pose, roots, covariance = np.zeros((5, 16)), np.zeros((5, 3)), np.zeros((5, 21, 21))
-    pose[:, 5:8], covariance[:, slot, slot] = 0.03, 1.0
-    bent = pose.copy()
-    bent[:, slot] += 1e-4
-    normal = place_digits(pose, roots)[1]
-    is_turned = np.linalg.norm(place_digits(bent, roots)[1] - normal, axis=-1) > 1e-5
-    seen = SimpleNamespace(centre_m=np.tile([0.0, 0.0, 0.5], (5, 3, 1)), rotation=np.eye(3))
-    _, variance = compute_tilts(normal, covariance, seen, seen)
-    assert np.array_equal(variance[1:] == 1.0, is_turned[1:])

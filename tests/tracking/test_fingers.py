@@ -6,13 +6,11 @@ import functools
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.association.palm_association import measurements_from_blobs
-from carpus.core.tracking.digits import finger_model
 from carpus.core.tracking.digits.digit_readout import base_from_estimate
 from carpus.core.tracking.digits.digit_update import DigitFrame, DigitPosterior
 from carpus.core.tracking.filter.digit_filter import ANATOMY
@@ -60,14 +58,6 @@ def test_fingers_reacquired_hand_keeps_learnt_lengths() -> None:
     np.testing.assert_allclose(after.kinematics.angles_rad, before.kinematics.angles_rad, atol=0.03)
 
 
-def test_finger_speeds_hidden_joints_may_be_fast() -> None:
-    settings = TrackerSettings()
-    fingers = FingerFilter(calibrate_sequence(sequence()), sequence().truth.camera, settings)
-    assert fingers.joint_speeds == (0.0, 0.0)
-    fingers.reset_joints()
-    assert 0.5 < min(fingers.joint_speeds) <= max(fingers.joint_speeds) <= settings.tissue.fastest_rad_s
-
-
 def update_digits_once(place_m: float, off_px: tuple[float, float]) -> tuple[DigitPosterior, FloatArray]:
     """The fingers of the first picture on a palm known to ``place_m``, their discs off to the sides in turn, and how
     far they go on from neutral (5, n)."""
@@ -83,37 +73,6 @@ def update_digits_once(place_m: float, off_px: tuple[float, float]) -> tuple[Dig
     picture = DigitFrame(0.0, base, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
     trial = fingers.updater.update(fingers.predict(0.0), picture)
     return trial, trial.update.update.mixture.merge()[0] - fingers.model.neutral_mixture().merge()[0]
-
-
-def test_digit_discs_share_the_palms_error() -> None:
-    """All discs to one side is an unsure palm's error; some to one and some to the other is not."""
-    aside, apart = (update_digits_once(5e-3, off_px)[0] for off_px in ((1.0, 1.0), (1.0, -1.0)))
-    assert np.count_nonzero(aside.blob >= 0) == np.count_nonzero(apart.blob >= 0) == 15
-    assert aside.nis < 0.5 * apart.nis
-    assert aside.nis < 0.5 * update_digits_once(1e-4, (1.0, 1.0))[0].nis
-
-
-def test_fingers_anatomy_learns_its_share_per_frame(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(finger_model, "LEARNING_SHARE", 0.2)
-    fifth = update_digits_once(1e-5, (0.3, -0.3))[1][:, ANATOMY]
-    monkeypatch.setattr(finger_model, "LEARNING_SHARE", 1.0)
-    whole = update_digits_once(1e-5, (0.3, -0.3))[1][:, ANATOMY]
-    assert np.abs(whole).max() > 1e-4
-    assert fifth == pytest.approx(0.2 * whole, rel=0.1, abs=1e-6)
-
-
-def test_fingers_hidden_joint_sd_grows_to_its_range() -> None:
-    pip, dip, tip = (HAND21.markers.index(name) for name in ("PIP3", "DIP3", "TIP3"))
-    hidden_from = 30
-    frames, _ = track_frames(dict.fromkeys(range(hidden_from, 60), (pip, dip, tip)))
-    flexion = 5 + 3 + 2  # PIP3_flexion among the 17
-    sd_deg = np.degrees([frame.kinematics.joint_angles_sd_rad[flexion] for frame in frames])
-    before = sd_deg[hidden_from - 1]
-    assert sd_deg[hidden_from + 2] > 1.2 * before
-    assert sd_deg[hidden_from + 15] > 20.0
-    assert all(np.diff(sd_deg[hidden_from - 1 : hidden_from + 10]) > 0.0)
-    index_deg = np.degrees(frames[hidden_from + 10].kinematics.joint_angles_sd_rad[5 + 2])  # its neighbour, still seen
-    assert index_deg < 0.6 * sd_deg[hidden_from + 10]
 
 
 def test_fingers_joint_centres_and_tips_match_the_truth() -> None:

@@ -5,28 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from carpus.core.model.hand.dorsal_surface import fit_dorsal_surface
 from carpus.core.model.types import Detections
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.association.reacquire import FoundPalm
 from carpus.core.tracking.filter.hand_geometry import palm_calibration
-from carpus.core.tracking.filter.motion import RATE_MEMORY_S
-from carpus.core.tracking.filter.palm_state import RATE, SHAPE, SKIN
+from carpus.core.tracking.filter.palm_state import SHAPE, SKIN
 from carpus.core.tracking.filter.settings import TrackerSettings
-from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
+from carpus.core.tracking.hand_filter import HandFilter
 from tests.simulation.measurements import measurement_sequence
-from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
+from tests.tracking.hands import CAMERA, DT_S, blobs, calibration, swing
 from tests.tracking.sequences import calibrate_sequence
 
 FOUND = FoundPalm(np.array([0.02, 0.01, -0.01]), np.eye(3), np.ones(6, dtype=bool))
-
-
-def update_filter(own: HandFilter, at_s: float, pose: Pose, hidden: tuple[int, ...] = ()) -> tuple[Posterior, Scan]:
-    predicted = own.predict(DT_S)
-    scan = own.build_scan(predicted, blobs(pose, hidden=hidden), at_s, DT_S)
-    return own.update(predicted, scan), scan
 
 
 def run(own: HandFilter, frames: int = 40) -> None:
@@ -53,25 +45,6 @@ def test_hand_filter_lost_track_keeps_the_learnt_palm() -> None:
     np.testing.assert_allclose(begun.covariance[SHAPE, SHAPE], learnt.covariance[SHAPE, SHAPE])
     own.begin_at_neutral()
     assert not np.any(own.predict(0.0).nominal.value[SHAPE])
-
-
-def test_hand_filter_collinear_discs_fade_the_rate_about_their_line() -> None:
-    own = HandFilter(calibration(), CAMERA, TrackerSettings(use_surface=False))
-    run(own, 10)
-    posterior, scan = update_filter(own, 10 * DT_S, swing(1, 40.0, 1.0)(10 * DT_S), (WRIST, CMC1, MCP2))
-    assert np.count_nonzero(posterior.palm.assigned >= 0) == 3
-    assert (posterior.palm.assigned[[MCP3, MCP4, MCP5]] >= 0).all()
-    own.accept(posterior, scan, is_seen=True, is_linked=True)
-    line = np.array([0.016, 0.033, 0.0]) / np.hypot(0.016, 0.033)
-    before, after = posterior.estimate.value[RATE], own.predict(0.0).nominal.value[RATE]
-    assert abs(line @ before) > 0.05
-    kept = np.exp(-DT_S / RATE_MEMORY_S)
-    assert line @ after == pytest.approx(kept * (line @ before), rel=0.05)
-    across = before - line * (line @ before)
-    np.testing.assert_allclose(after - line * (line @ after), across, atol=0.02 * np.linalg.norm(before))
-    assert not own.is_rotation_observed
-    own.start(own.estimate_from_found(FOUND))
-    assert own.is_rotation_observed, "what was not seen before is none of a hand found anew"
 
 
 def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:

@@ -8,7 +8,6 @@ import pytest
 from carpus.core.model.types import Detections, FloatArray, MarkerLabel
 from carpus.core.tracking.association.operator_labels import (
     LABEL_TIMEOUT_S,
-    REJECTION_VALID_S,
     LabelledDetections,
     OperatorLabels,
 )
@@ -52,19 +51,6 @@ def test_operator_label_waits_for_its_blob_until_timeout(after_s: float, is_hear
     for index, at_s in ((1, 0.0), (2, later_s)):
         assert apply_frame(hints, index, at_s, spots((20.0, 20.0))).labelled is None
     assert (apply_frame(hints, 3, later_s, spots((200.0, 100.0))).labelled is not None) == is_heard
-
-
-@pytest.mark.parametrize(("after_s", "is_out"), [(0.99, True), (1.01, False)])
-def test_rejected_blob_stays_excluded_for_its_time(after_s: float, is_out: bool) -> None:
-    hints = OperatorLabels(MARKERS)
-    both = spots((200.0, 100.0), (230.0, 100.0))
-    apply_frame(hints, 0, 0.0, both)
-    hints.add(MarkerLabel(0, "MCP3", None, ((230.0, 100.0),)))
-    first = apply_frame(hints, 1, 0.0, both)
-    assert first.is_rejected.tolist() == [False, True]
-    assert first.detections.pixel.tolist() == [[200.0, 100.0]]
-    assert len(hints.pop_applied()) == 1
-    assert apply_frame(hints, 2, after_s * REJECTION_VALID_S, both).is_rejected.tolist() == [False, is_out]
 
 
 def test_rejected_blob_yields_to_a_measured_marker() -> None:

@@ -37,10 +37,7 @@ from carpus.core.tracking.filter.palm_state import (
 )
 from carpus.core.tracking.filter.predicted_measurement import predict_measurement
 from carpus.core.tracking.filter.soft_tissue import (
-    CUP,
     HOME,
-    STILL,
-    DigitSpeeds,
     SoftTissue,
     joint_driven_modes,
     resting_and_moving_modes,
@@ -48,7 +45,7 @@ from carpus.core.tracking.filter.soft_tissue import (
     stationary_covariance,
 )
 from carpus.core.tracking.filter.unscented import UnscentedParameters
-from carpus.core.tracking.smoother.palm_smoother import FilterStep, PalmTrajectory, smooth_palm
+from carpus.core.tracking.smoother.palm_smoother import FilterStep, smooth_palm
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
 MOTION = PalmMotion(MotionNoise(), single_moving_mode(SoftTissue()), np.array([0.5, 4.0]))
@@ -83,12 +80,6 @@ def coasting(estimate: PalmEstimate, dt_s: float) -> PalmEstimate:
     value[TURN] = 0.0
     value[POSITION] = estimate.position_m + dt_s * estimate.velocity_m_s
     return PalmEstimate(estimate.rotation_w2_w0 @ so3.exp(dt_s * estimate.rate_rad_s), value, estimate.covariance)
-
-
-def test_palm_estimate_add_error_inverts_compute_error() -> None:
-    estimate = moving()
-    error = 0.1 * np.random.default_rng(1).normal(size=SIZE)
-    assert np.allclose(estimate.compute_error(estimate.add_error(error, estimate.covariance)), error, atol=1e-12)
 
 
 @pytest.mark.parametrize("dt_s", [0.005, 1.0 / 30.0, 0.5])
@@ -138,69 +129,6 @@ def test_soft_tissue_reaches_its_stationary_covariance() -> None:
     assert (sd_mm[2:, 0] > sd_mm[2:, 1]).all(), "skin glides along the ray more than across"
 
 
-def modes_after(seconds: float, mode: int) -> ModeMixture:
-    """All modes after so long in one, the hand at rest, its skin displaced by a millimetre."""
-    nominal = np.zeros(SIZE)
-    nominal[SKIN] = 0.001
-    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], RESTING.modes)
-    for _ in range(round(30 * seconds)):
-        mixture = propagate_mixture(mixture, palm_transition(np.zeros(3), RESTING, 1.0 / 30.0), nominal)
-    own = [int(np.flatnonzero(RESTING.tissue_of == mode)[0])]
-    return ModeMixture(mixture.mean[:, own] + nominal, mixture.covariance[:, own], np.ones((1, 1)))
-
-
-def test_soft_tissue_modes_keep_reset_or_drive_displacement() -> None:
-    home, still, cup = (modes_after(2.0, mode) for mode in (HOME, STILL, CUP))
-    sd_m = [np.sqrt(np.diagonal(mixture.covariance[0, 0])[SKIN]) for mixture in (home, still, cup)]
-    assert home.mean[0, 0, SKIN] == pytest.approx(0.0, abs=1e-9)
-    assert still.mean[0, 0, SKIN] == pytest.approx(0.001, rel=1e-3)
-    assert sd_m[0].max() < 2e-5
-    assert sd_m[1].max() < 2e-4, "it does not creep away: else slow noise of the depths becomes skin"
-    assert sd_m[2][6:].reshape(4, 3)[2:, 2].min() > 2e-3, "a closing arch takes ring and little knuckle down"
-    assert sd_m[2][:6].max() < 2e-4, "and leaves wrist and thumb"
-
-
-def pushed_by(digits: DigitSpeeds, turning_rad_s: float, seconds: float) -> FloatArray:
-    """Standard deviation (21,) of tissue away from home that nothing was wrong with, after joints turned so long."""
-    rate, mixture = (
-        np.array([0.0, turning_rad_s, 0.0]),
-        ModeMixture.from_gaussian(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], 4),
-    )
-    for _ in range(round(60 * seconds)):
-        mixture = propagate_mixture(mixture, palm_transition(rate, FOLLOWING, 1.0 / 60.0, None, digits), np.zeros(SIZE))
-    away = np.flatnonzero(FOLLOWING.tissue_of != HOME)[0]
-    assert np.linalg.eigvalsh(mixture.covariance[0, away][SKIN, SKIN]).min() > 0.0
-    return np.asarray(np.sqrt(np.diagonal(mixture.covariance[0, away])[np.r_[SKIN, RELIEF]]))
-
-
-def test_soft_tissue_joint_driven_moves_with_the_joints() -> None:
-    stationary = np.sqrt(np.diagonal(stationary_covariance(SoftTissue()))[np.r_[SKIN, RELIEF]])
-    rest = pushed_by(DigitSpeeds(), 0.0, 2.0) / stationary
-    assert rest[:18].max() < 0.15, "while they rest it creeps, and no more"
-    bent = pushed_by(DigitSpeeds(fingers=1.5), 0.0, 1.0) / stationary
-    assert bent[6:18] == pytest.approx(0.93, abs=0.02), "90 degrees of the knuckles take the skin over them anywhere"
-    assert bent[:6] == pytest.approx(rest[:6], rel=0.5), "and neither the wrist's nor the thumb's"
-    slowly = pushed_by(DigitSpeeds(fingers=0.5), 0.0, 3.0) / stationary
-    assert slowly[6:18] == pytest.approx(bent[6:18], abs=0.01), "it matters how far, not how fast"
-    assert (pushed_by(DigitSpeeds(thumb=1.5), 0.0, 1.0) / stationary)[3:6].min() > 0.9
-    assert (pushed_by(DigitSpeeds(), 1.5, 1.0) / stationary)[:3].min() > 0.9
-
-
-def test_soft_tissue_leaves_home_while_joints_turn() -> None:
-    rest, grasp = (
-        palm_transition(np.zeros(3), FOLLOWING, 1.0 / 30.0, None, digits).switch
-        for digits in (DigitSpeeds(), DigitSpeeds(0, 2))
-    )
-    for switch in (rest, grasp):
-        assert switch.sum(axis=1) == pytest.approx(1.0)
-        assert switch.min() >= 0.0
-    home = FOLLOWING.tissue_of == HOME
-    assert grasp[home][:, ~home].sum() > 20.0 * rest[home][:, ~home].sum()
-    assert grasp[~home][:, home].sum() == pytest.approx(rest[~home][:, home].sum())
-    assert FOLLOWING.initial_probability.sum() == pytest.approx(1.0)
-    assert FOLLOWING.initial_probability[home].sum() > 0.9
-
-
 def test_tissue_noise_coming_home_is_driven() -> None:
     home, away = (int(np.flatnonzero((FOLLOWING.tissue_of == HOME) == is_home)[0]) for is_home in (True, False))
     stayed, came = np.zeros((2, FOLLOWING.modes, FOLLOWING.modes))
@@ -208,52 +136,6 @@ def test_tissue_noise_coming_home_is_driven() -> None:
     step = palm_transition(np.zeros(3), FOLLOWING, 1.0 / 30.0)
     rest, push = (FOLLOWING.tissue_noise(went, step) for went in (stayed, came))
     np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT_TISSUE, SOFT_TISSUE], atol=1e-15)
-
-
-def test_palm_smoother_tissue_uses_the_frames_digit_speeds() -> None:
-    vague = np.full(FOLLOWING.modes, 1.0 / FOLLOWING.modes)
-    speeds = DigitSpeeds(fingers=2.0), DigitSpeeds(), DigitSpeeds()
-    steps = [FilterStep(k / 30.0, moving(0), vague, k > 0, None, digits) for k, digits in enumerate(speeds)]
-    walk = PalmTrajectory(steps, FOLLOWING)
-    fast, rest = (walk.compute_transition(frame, moving(0), moving(0), 1.0 / 30.0) for frame in (0, 1))
-    knuckles = slice(SKIN.start + 6, SKIN.stop)
-    fast_m2, rest_m2 = (np.diagonal(step.noise[0])[knuckles] for step in (fast, rest))
-    for went, digits, noise in zip(walk.mode_transitions, speeds, (fast, rest), strict=False):
-        assert went is not None
-        step = palm_transition(moving(0).rate_rad_s, FOLLOWING, 1.0 / 30.0, None, digits)
-        pushed = FOLLOWING.tissue_noise(went, step)
-        np.testing.assert_allclose(noise.noise[0, SOFT_TISSUE, SOFT_TISSUE], pushed)
-    assert (fast_m2 > 1.5 * rest_m2).all()
-
-
-def test_palm_smoother_later_frames_tell_the_mode() -> None:
-    """Named by the last frame alone: the frame before cannot have been the arch's unless it is likely to stay so."""
-    cup = int(np.flatnonzero(RESTING.tissue_of == CUP)[0])
-    sure = np.full(RESTING.modes, 1e-6)
-    sure[cup] = 1.0 - 1e-6 * (RESTING.modes - 1)
-    vague = np.full(RESTING.modes, 1.0 / RESTING.modes)
-    steps = [FilterStep(k / 30.0, moving(0), sure if k == 9 else vague, k > 0) for k in range(10)]
-    went = PalmTrajectory(steps, RESTING).mode_transitions
-    assert went[9] is None
-    now = [float(joint.sum(axis=0)[cup]) for joint in went if joint is not None]
-    assert now[8] == pytest.approx(1.0, abs=1e-4)
-    assert now == sorted(now), "the longer before, the less is told"
-    assert all(joint.sum() == pytest.approx(1.0) for joint in went if joint is not None)
-
-
-def test_palm_measurement_is_the_projection_and_its_slope() -> None:
-    estimate = replace(moving(3), covariance=1e-12 * np.eye(SIZE))
-    linearised = linearised_about(estimate, VIEW, UnscentedParameters())
-    discs = VIEW.discs_cam_m(estimate)
-    expected = np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
-    assert np.allclose(linearised.value[0], expected, atol=1e-6)
-    step = 1e-6
-    for i in np.r_[POSE, SHAPE, SKIN, RELIEF, RATE]:
-        error = np.zeros(SIZE)
-        error[i] = step
-        there = VIEW.discs_cam_m(estimate.add_error(error, estimate.covariance))
-        moved = np.column_stack((CAMERA.project(there), there[:, 2])).ravel()
-        assert np.allclose(linearised.slope[0][:, i], (moved - expected) / step, rtol=2e-4, atol=2e-2), i
 
 
 def test_palm_measurement_is_filterpys_unscented_transform() -> None:
@@ -321,19 +203,6 @@ def test_palm_smoother_gap_is_a_straight_line() -> None:
         assert np.linalg.eigvalsh(estimate.covariance).min() > 0.0
 
 
-def test_palm_smoother_does_not_pass_a_new_track() -> None:
-    steps = [FilterStep(0.1 * k, moving(k), np.full(2, 0.5), k not in (0, 2)) for k in range(4)]
-    found = smooth_palm(steps, MOTION)
-    assert found[0] is not steps[0].estimate
-    assert found[1] is steps[1].estimate
-    steps[1] = replace(steps[1], estimate=None)
-    found = smooth_palm(steps, MOTION)
-    assert found[0] is steps[0].estimate
-    assert found[1] is None
-    assert found[2] is not steps[2].estimate
-    assert found[3] is steps[3].estimate
-
-
 def test_palm_smoother_resting_tissue_is_not_averaged_away() -> None:
     """What displaced tissue has wrong comes again in every picture: looking back states more than if all were new, in
     the same proportion everywhere, never more than live, and reads the same angles."""
@@ -371,14 +240,3 @@ def test_unobserved_turns_knuckles_alone_hide_turn_about_their_line() -> None:
         > 0.98
     )
     assert np.trace(unseen) == pytest.approx(1.0)
-
-
-def test_unobserved_turns_of_two_or_fewer_discs() -> None:
-    line = (PALM_M[1] - PALM_M[0]) * [1.0, 1.0, 0.0]
-    unseen = find_unobserved_turns(PALM_M[:2], 0.008)
-    assert unseen is not None
-    np.testing.assert_allclose(unseen, np.outer(line, line) / (line @ line), atol=1e-12)
-    for few in (PALM_M[:1], PALM_M[:0]):
-        found = find_unobserved_turns(few, 0.008)
-        assert found is not None
-        np.testing.assert_array_equal(found, np.eye(3))

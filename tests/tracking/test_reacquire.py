@@ -10,15 +10,12 @@ import pytest
 
 from carpus.core.model import so3
 from carpus.core.model.types import Detections, Side
-from carpus.core.tracking.association import reacquire
 from carpus.core.tracking.association.reacquire import FoundPalm, TurnLimits, find_palm, is_other_hand
-from carpus.core.tracking.association.track_manager import MAX_TURN_RAD
 from carpus.core.tracking.filter.palm_state import SKIN, PalmView
 from carpus.core.tracking.filter.soft_tissue import SoftTissue, stationary_covariance
 from tests.suites import few
 from tests.tracking.hands import (
     CAMERA,
-    CMC1,
     FROM_ABOVE,
     MCP5,
     MIDDLE_M,
@@ -85,35 +82,6 @@ def test_find_palm_four_or_five_markers_are_enough(side: Side, hidden: tuple[int
     assert found_right >= 8
 
 
-def test_find_palm_four_ill_fitting_blobs_give_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each lies within millimetres of its place, but across the finger no skin glides so far."""
-    four = blobs(Pose(), hidden=(CMC1, MCP5))
-    assert search_palm(four) is not None
-    pixel = four.pixel.copy()
-    pixel[2, 0] += 525.0 * 0.005 / four.depth_m[2]  # MCP3
-    found = search_palm(replace(four, pixel=pixel))
-    assert found is None
-    monkeypatch.setattr(reacquire, "MISFIT_PROBABILITY", 1.0 - 1e-12)
-    assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW) is not None
-
-
-def test_find_palm_three_markers_and_far_clutter_give_none() -> None:
-    rng = np.random.default_rng(31)
-    for _ in range(20):
-        seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
-        assert search_palm(seen) is None
-
-
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("hidden", range(6))
-def test_find_palm_five_markers_of_the_other_hand_give_none(side: Side, hidden: int) -> None:
-    other: Side = "left" if side == "right" else "right"
-    rng = np.random.default_rng(45)
-    for _ in range(8):
-        pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
-        assert search_palm(blobs(pose, rng, side=other, hidden=[hidden]), side) is None
-
-
 @pytest.mark.parametrize("hidden", [(), (WRIST,), (MCP5,)])
 def test_is_other_hand_separates_the_hands(hidden: tuple[int, ...]) -> None:
     """By whichever of its blobs were named, and however the hand lies; nothing of this palm is said to be the other."""
@@ -128,15 +96,6 @@ def test_is_other_hand_separates_the_hands(hidden: tuple[int, ...]) -> None:
             told[side] += is_other_hand(seen, is_named, view("right"))
     assert told["left"] == 20
     assert told["right"] == 0
-
-
-def test_find_palm_other_hand_in_view_is_no_obstacle() -> None:
-    rng = np.random.default_rng(47)
-    own = blobs(Pose(), rng, hidden=(CMC1,))
-    other = blobs(Pose(position_m=np.array([0.0, 0.2, 0.0])), rng, side="left")
-    found = search_palm(combine_motions(own, other))
-    assert found is not None
-    assert np.linalg.norm(found.position_m) < 0.004
 
 
 def test_find_palm_four_markers_are_labelled_right_or_not_at_all() -> None:
@@ -154,21 +113,6 @@ def test_find_palm_four_markers_are_labelled_right_or_not_at_all() -> None:
                 right, wrong = right + is_right, wrong + (not is_right)
     assert wrong <= 1
     assert right > 100
-
-
-@pytest.mark.parametrize(("turned_deg", "is_one"), [(60.0, True), (106.0, True), (112.0, False), (170.0, False)])
-def test_find_palm_beyond_turn_limits_gives_none(turned_deg: float, is_one: bool) -> None:
-    turned, most_rad = blobs(Pose(np.array([turned_deg, 0.0, 0.0]))), MAX_TURN_RAD
-    assert search_palm(turned) is not None
-    assert (search_palm(turned, about=TurnLimits(np.eye(3), most_rad, most_rad)) is not None) == is_one
-
-
-def test_find_palm_all_markers_override_the_predicted_turn() -> None:
-    turned = Pose(np.array([0.0, 60.0, 0.0]))
-    about = TurnLimits(np.eye(3), 0.5, 1.9)
-    assert search_palm(blobs(turned), about=about) is not None
-    assert search_palm(blobs(turned, hidden=[WRIST]), about=about) is None
-    assert search_palm(blobs(turned, hidden=[WRIST])) is not None
 
 
 def test_find_palm_palmar_side_gives_none() -> None:

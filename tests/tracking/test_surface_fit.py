@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from carpus.core.model import so3
-from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.model.hand.dorsal_surface import DorsalSurface, fit_dorsal_surface
 from carpus.core.model.types import FloatArray, SurfaceSamples
 from carpus.core.tracking.association.palm_association import Measurements, update_palm
@@ -30,7 +29,6 @@ from carpus.core.tracking.filter.surface_fit import (
     SurfaceMeasurement,
     SurfaceSettings,
     fit_surface,
-    surface_calibration_covariance,
 )
 from carpus.core.tracking.filter.unscented import UnscentedParameters
 from tests.suites import few
@@ -104,12 +102,6 @@ def measure_readings(
     return found
 
 
-def fit_readings(surface: DorsalSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
-    """From a pose 3 degrees and a millimetre off."""
-    off = build_estimate(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
-    return measure_readings(surface, samples, settings, off)
-
-
 @pytest.mark.parametrize("seed", few(range(5), 2))
 def test_surface_fit_wrong_pose_measures_its_error(surface: DorsalSurface, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -148,17 +140,6 @@ def test_surface_fit_lasting_deformation_does_not_keep_turning_the_hand(surface:
     assert turned / (turned + relief) == pytest.approx(turn_sd**2 / (turn_sd**2 + relief_sd**2), abs=0.02)
 
 
-def test_surface_calibration_covariance_is_a_share_of_one_frames(surface: DorsalSurface) -> None:
-    settings = SurfaceSettings()
-    found = surface_calibration_covariance(surface, VIEW, settings)
-    one = fit_readings(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
-    ratio = np.diag(found) / (np.diag(one.covariance) / settings.goes_on)
-    assert (ratio < 2.0 * settings.stays**2).all()
-    assert (ratio > 0.5 * settings.stays**2).all()
-    further = replace(VIEW, translation_w0_cam_m=1.3 * MIDDLE_M)
-    assert (np.diag(surface_calibration_covariance(surface, further, settings)) > 2.0 * np.diag(found)).all()
-
-
 @pytest.mark.parametrize("shared", [0.0, 1.0])
 def test_surface_fit_depth_noise_scatters_as_stated(surface: DorsalSurface, shared: float) -> None:
     """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
@@ -178,70 +159,10 @@ def test_surface_fit_depth_noise_scatters_as_stated(surface: DorsalSurface, shar
     assert np.std(found, axis=0) == pytest.approx(np.mean(stated, axis=0), rel=0.25)
 
 
-def test_surface_fit_covariance_follows_the_sensor(surface: DorsalSurface) -> None:
-    """Errors alike over 80 pixels tilt all of it; those of a wide window average less than those of a narrow one."""
-
-    def get_stated_sd(sensor: DepthSensor) -> FloatArray:
-        view = replace(VIEW, camera=replace(VIEW.camera, sensor=sensor))
-        found = measure_readings(surface, settings=SurfaceSettings(turn_sd_rad=0.0, up_sd_m=0.0), view=view)
-        return np.sqrt(np.diag(found.covariance))
-
-    depth_m = float(np.median(READINGS.depth_m))
-    stays_m = float(AZURE_KINECT.bias_sd_m(np.array(depth_m)))
-    even = replace(AZURE_KINECT, stays_px=0.0)
-    tilt_rad = stays_m / (80.0 * depth_m / VIEW.camera.fx_px)
-    assert get_stated_sd(AZURE_KINECT) == pytest.approx(np.hypot(get_stated_sd(even), [tilt_rad, tilt_rad, stays_m]))
-    assert (get_stated_sd(replace(even, patch_px=11.0)) > 1.5 * get_stated_sd(even)).all()
-    assert (get_stated_sd(D435) > 1.2 * get_stated_sd(PRIMESENSE)).all()
-
-
-def test_surface_fit_finger_over_the_hand_does_not_tilt_it(surface: DorsalSurface) -> None:
-    column = ALL_READINGS.pixel[:, 0]
-    depth = np.where((column > 300) & (column < 315), ALL_READINGS.depth_m - 0.03, ALL_READINGS.depth_m)
-    found = measure_readings(surface, SurfaceSamples(ALL_READINGS.pixel, depth))
-    assert np.abs(np.degrees(found.value[:2])).max() < 0.3
-
-
 def test_surface_fit_covered_hand_gives_none(surface: DorsalSurface) -> None:
     covered = SurfaceSamples(ALL_READINGS.pixel, ALL_READINGS.depth_m - 0.05)
     for samples in (covered, SurfaceSamples(np.empty((0, 2)), np.empty(0))):
         assert fit_surface(HERE, samples, surface, VIEW, SurfaceSettings()) is None
-
-
-def test_surface_fit_far_readings_have_no_weight_near_ones_less(
-    surface: DorsalSurface,
-) -> None:
-    clean, settings = READINGS, SurfaceSettings()
-    one_side = clean.pixel[:, 1] > np.quantile(clean.pixel[:, 1], 0.85)
-    without = fit_readings(surface, SurfaceSamples(clean.pixel[~one_side], clean.depth_m[~one_side]), settings)
-    far = fit_readings(surface, SurfaceSamples(clean.pixel, clean.depth_m - 0.03 * one_side), settings)
-    assert far.count == without.count
-    assert far.value == pytest.approx(without.value, abs=1e-9)
-    whole = fit_readings(surface, clean, settings).value
-    near = SurfaceSamples(clean.pixel, clean.depth_m - 0.006 * one_side)
-    robust, plain = (
-        fit_readings(surface, near, replace(settings, huber_m=at_m)).value for at_m in (settings.huber_m, 1.0)
-    )
-    assert np.abs(robust - whole).max() < 0.8 * np.abs(plain - whole).max()
-
-
-@pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
-def test_surface_update_beyond_max_nis_is_left_out(surface: DorsalSurface, off_sd: float, heard: bool) -> None:
-    """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
-    found = measure_readings(surface)
-    covariance = 1e-12 * np.eye(SIZE)
-    covariance[TURN, TURN] = 0.01**2 * np.eye(3)
-    expected = np.linalg.inv(found.slope @ covariance @ found.slope.T + found.covariance)
-    tilt = np.array([0.0, off_sd / np.sqrt(expected[1, 1]), 0.0])
-    mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), covariance[None], 2)
-    update = update_by_surface(mixture, replace(found, value=tilt))
-    assert (update.nis[0] <= found.max_nis) == heard
-    if heard:
-        levelled = update.mixture
-        gain = covariance @ found.slope.T @ expected
-        assert levelled.merge()[0][0, TURN] == pytest.approx((gain @ tilt)[TURN], rel=1e-4)
-        left = covariance - gain @ found.slope @ covariance
-        assert np.allclose(levelled.covariance[0, :, TURN, TURN], left[TURN, TURN], atol=1e-9)
 
 
 def test_dorsal_surface_too_few_points_gives_none() -> None:

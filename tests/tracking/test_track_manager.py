@@ -11,8 +11,6 @@ from carpus.core.model import so3
 from carpus.core.model.types import LossReason, TrackStatus
 from carpus.core.tracking.association.reacquire import FoundPalm
 from carpus.core.tracking.association.track_manager import (
-    CONFIRMATION_S,
-    MAX_RATE_RAD_S,
     MAX_TURN_RAD,
     MIN_PALM_MARKERS,
     PROBATION_S,
@@ -108,35 +106,3 @@ def test_track_lost_keeps_and_logs_the_first_reason(caplog: pytest.LogCaptureFix
     assert track.loss_reason is LossReason.TOO_FEW_MARKERS
     assert len(caplog.records) == 1
     assert LossReason.TOO_FEW_MARKERS.value in caplog.text
-
-
-def test_track_four_markers_among_fingers_need_confirmation() -> None:
-    assert manager().try_initiate(build_found(4), 0.0)
-    assert manager(amid_digits=True).try_initiate(build_found(5), 0.0)
-    step_s = 0.4 * CONFIRMATION_S
-
-    def start_track(*turned_rad: float, counts: tuple[int, ...] = (4, 4, 4, 4)) -> list[bool]:
-        track = manager(amid_digits=True)
-        track.drop_track(0.0)
-        out = []
-        for k, (turn, count) in enumerate(zip(turned_rad, counts, strict=True)):
-            track.start_frame(k * step_s)
-            out.append(track.try_initiate(build_found(count, turn), k * step_s) if count else False)
-        return out
-
-    assert start_track(0.0, 0.1, 0.2, 0.3) == [False, False, False, True]
-    assert not any(start_track(0.0, 0.1, 0.1 + 1.1 * TURN_SLACK_RAD, 0.1 + 1.1 * TURN_SLACK_RAD))
-    assert not any(start_track(0.0, 0.0, 0.0, 0.0, counts=(4, 4, 0, 4))), "not seen for a picture it begins anew"
-
-
-def test_turn_limits_grow_with_time_up_to_the_maximum() -> None:
-    track, turned = manager(), so3.exp(np.array([0.0, 0.4, 0.0]))
-    update_track(track, 0.0, 6)
-    capped_s = (MAX_TURN_RAD - TURN_SLACK_RAD) / MAX_RATE_RAD_S
-    at = [track.turn_limits(turned, gone_s) for gone_s in (0.0, 0.05, 0.99 * capped_s, 1.01 * capped_s, 9.0)]
-    most = [TURN_SLACK_RAD + gone_s * MAX_RATE_RAD_S for gone_s in (0.0, 0.05, 0.99 * capped_s)]
-    assert [one.max_rad for one in at] == pytest.approx([*most, MAX_TURN_RAD, MAX_TURN_RAD])
-    assert all(one.max_tilt_rad == MAX_TURN_RAD for one in at)
-    assert all(one.rotation_w2_w0 is turned for one in at[:3])
-    anyhow = track.widest_turn_limits()
-    assert all(np.array_equal(one.rotation_w2_w0, np.eye(3)) for one in (*at[3:], anyhow)), "no longer as foreseen"

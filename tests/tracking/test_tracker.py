@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.model.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
+from carpus.core.model.types import Detections, Side, TrackedFrame, TrackStatus
 from carpus.core.tracking.association import consistency
 from carpus.core.tracking.filter.palm_state import SHAPE
 from carpus.core.tracking.filter.settings import TrackerSettings
@@ -25,7 +25,6 @@ from tests.tracking.hands import (
     Pose,
     angles_deg,
     blobs,
-    build_rotation,
     calibration,
     combine_motions,
     discs_cam_m,
@@ -59,24 +58,6 @@ def statuses(frames: list[TrackedFrame]) -> list[TrackStatus]:
     return [frame.status for frame in frames]
 
 
-def test_tracker_step_needs_no_prediction() -> None:
-    """What was predicted before a picture came spares work and decides nothing."""
-    walk = seen(swing(1, 30.0, 1.0), 12)
-    bare, asked, misled = (Tracker(calibration(), CAMERA, RIGID) for _ in range(3))
-    for k, (time_s, found) in enumerate(walk):
-        frames = (
-            bare.step(k, time_s, found),
-            _asked_for(asked, time_s).step(k, time_s, found),
-            _asked_for(misled, time_s + 0.2).step(k, time_s, found),
-        )
-        assert all(np.array_equal(frames[0].kinematics.angles_rad, frame.kinematics.angles_rad) for frame in frames)
-
-
-def _asked_for(tracker: Tracker, time_s: float) -> Tracker:
-    assert tracker.predict_measurement(time_s) is not None
-    return tracker
-
-
 def hold_still(_time_s: float) -> Pose:
     return Pose()
 
@@ -100,21 +81,6 @@ def test_tracker_angles_follow_both_hands(which: int, amplitude_deg: float, hz: 
     assert np.all(np.sqrt((error**2).mean(axis=0)) < [0.3, 0.9, 1.2])
     assert np.ptp(angles_deg(frames)[:, which]) == pytest.approx(2.0 * amplitude_deg, rel=0.1)
     assert all(named_rightly(frame, motion(t), side) for frame, t in zip(frames, times(120), strict=True))
-
-
-@pytest.mark.parametrize("hidden", [(0,), (3,), (1, 5), (2, 4)])
-def test_tracker_covered_markers_are_tolerated(hidden: tuple[int, ...]) -> None:
-    motion = swing(1, 40.0, 0.4)
-    rng = np.random.default_rng(1)
-    frames = track([(t, blobs(motion(t), rng, hidden=hidden if t > 1.0 else ())) for t in times(120)])
-    error = angles_deg(frames) - truth_deg(motion, times(120))
-    assert set(statuses(frames)) == {TrackStatus.TRACKED}
-    assert np.abs(error).max() < 5.0
-    last = frames[-1]
-    assert np.isnan(last.marker_measured_px[list(hidden)]).all()
-    assert np.isfinite(last.marker_position_cam_m).all()
-    there = discs_cam_m(motion(times(120)[-1]))
-    assert np.linalg.norm(last.marker_position_cam_m - there, axis=1).max() < 0.004, "hidden ones too"
 
 
 @pytest.mark.parametrize("hz", [0.4, 1.0])
@@ -173,70 +139,6 @@ def test_tracker_turned_palm_is_not_the_hidden_hand() -> None:
     assert set(statuses(frames[:20] + frames[50:])) == {TrackStatus.TRACKED}
 
 
-def test_tracker_lone_blob_is_not_associated_after_long_hiding() -> None:
-    """Something blue lies where a disc might be while a sleeve covers the hand for a second."""
-    rng, moving = np.random.default_rng(6), swing(0, 20.0, 0.4)
-    thing_px = [CAMERA.project(discs_cam_m(Pose())[WRIST]) + [9.0, 6.0]]
-    seen_at = [
-        (t, blobs(moving(t), rng, hidden=ALL, false_px=thing_px, false_depth_m=0.705) if 20 <= k < 50
-         else blobs(moving(t), rng))
-        for k, t in enumerate(times(60))
-    ]  # fmt: skip
-    frames = track(seen_at)
-    assert np.isnan([frame.marker_measured_px for frame in frames[31:50]]).all()
-    assert frames[-1].status is TrackStatus.TRACKED
-    assert np.abs(angles_deg(frames[-1:])[0] - moving(59 * DT_S).angles_deg).max() < 2.0
-
-
-@pytest.mark.parametrize("shown", [(), (WRIST,), (WRIST, CMC1)])
-def test_tracker_motion_while_hidden_is_covered_by_the_sd(
-    shown: tuple[int, ...],
-) -> None:
-    rng = np.random.default_rng(8)
-    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
-    hidden = [disc for disc in range(6) if disc not in shown]
-    for i in range(60):
-        at_s = i * DT_S
-        # At rest for a second, then off while hidden: 30 degrees in half a second.
-        flexed_deg = float(np.interp(i, [31, 46], [0.0, 30.0]))
-        pose = Pose(np.array([0.0, flexed_deg, 0.0]))
-        frame = tracker.step(i, at_s, blobs(pose, rng, hidden=hidden if 30 <= i < 50 else ()))
-        off = np.abs(frame.kinematics.angles_rad - np.radians(pose.angles_deg)) / frame.kinematics.angles_sd_rad
-        assert off.max() < 3.0, i
-    assert frame.status is TrackStatus.TRACKED
-    assert named_rightly(frame, pose)
-
-
-def test_tracker_jump_in_sight_is_followed_within_three_frames() -> None:
-    rng = np.random.default_rng(4)
-    there = shift_pose(Pose(np.array([-15.0, 30.0, 10.0])), [0.05, -0.06, 0.02])
-    frames = track([(t, blobs(Pose() if k < 20 else there, rng)) for k, t in enumerate(times(40))])
-    late = frames[23:]
-    assert set(statuses(late)) == {TrackStatus.TRACKED}
-    assert all(named_rightly(frame, there) for frame in late)
-    assert np.abs(angles_deg(late) - there.angles_deg).max() < 5.0
-
-
-def test_tracker_false_blobs_near_markers_are_not_associated() -> None:
-    motion, rng = swing(0, 20.0, 0.4), np.random.default_rng(5)
-
-    def beside_px(time_s: float) -> FloatArray:
-        """Two radii away, moving along."""
-        return CAMERA.project(discs_cam_m(motion(time_s)))[[2, 5]] + [[9.0, -6.0], [-8.0, 7.0]]
-
-    tracked = track((t, blobs(motion(t), rng, false_px=beside_px(t), false_depth_m=0.70)) for t in times(120))
-    assert set(statuses(tracked)) == {TrackStatus.TRACKED}
-    assert all(named_rightly(frame, motion(t)) for frame, t in zip(tracked, times(120), strict=True))
-
-
-def test_tracker_false_blobs_do_not_replace_covered_markers() -> None:
-    rng = np.random.default_rng(6)
-    covered = {"hidden": [MCP3], "false_px": [CAMERA.project(discs_cam_m(Pose()))[MCP3] + [10.0, 10.0]]}
-    tracked = track((t, blobs(Pose(), rng, **(covered if k >= 20 else {}))) for k, t in enumerate(times(60)))
-    assert np.isnan([frame.marker_measured_px[MCP3] for frame in tracked[20:]]).all()
-    assert np.abs(angles_deg(tracked)).max() < 3.0
-
-
 def test_tracker_frames_without_depth_use_the_pixels() -> None:
     motion = swing(1, 30.0, 0.4)
     rng = np.random.default_rng(7)
@@ -259,29 +161,6 @@ def test_tracker_use_depth_false_ignores_depth() -> None:
     assert np.array_equal(angles_deg(with_depths), angles_deg(without))
     error = angles_deg(with_depths) - truth_deg(motion, times(60))
     assert np.sqrt((error[:, 0] ** 2).mean()) < 0.5, "deviation is a measurement of the picture"
-
-
-@pytest.mark.parametrize(
-    ("start_deg", "flexes_deg", "reads_deg"),
-    [([25.0, 0.0, 0.0], 30.0, [25.0, 30.0, 0.0]), ([0.0, 30.0, 0.0], -30.0, [0.0, 0.0, 0.0])],
-    ids=["deviated", "flexed"],
-)
-@pytest.mark.parametrize("side", SIDES)
-def test_tracker_start_angles_are_added_as_rotations(
-    side: Side, start_deg: list[float], flexes_deg: float, reads_deg: list[float]
-) -> None:
-    """A hand calibrated deviated by 25 that then flexes by 30 about its own axis: R_start R, not the other order; one
-    calibrated flexed that straightens."""
-    tracker = Tracker(calibration(side, start_angles_rad=np.radians(start_deg)), CAMERA, TrackerSettings())
-
-    def turning(time_s: float) -> Pose:
-        return Pose(np.array([0.0, flexes_deg * min(1.0, max(0.0, time_s - 0.2) / 1.5), 0.0]))
-
-    frames = track(seen(turning, 75, side=side), tracker=tracker)
-    assert angles_deg(frames)[3] == pytest.approx(start_deg, abs=1.0)
-    expected = build_rotation(*start_deg, side) @ build_rotation(0.0, flexes_deg, 0.0, side)
-    assert np.allclose(frames[-1].kinematics.rotation_w2_w0, expected, atol=0.03)
-    assert angles_deg(frames)[-1] == pytest.approx(reads_deg, abs=1.5)
 
 
 def test_tracker_lens_distortion_is_removed_and_restored() -> None:
@@ -332,12 +211,6 @@ def test_tracker_restart_does_not_link_to_the_old_track() -> None:
     assert get_shape_sd(on, 15) < 0.9 * get_shape_sd(again, 15)
 
 
-def test_tracker_without_history_records_no_steps() -> None:
-    tracker = Tracker(calibration(), CAMERA, TrackerSettings(), keep_history=False)
-    track(seen(hold_still, 10), tracker=tracker)
-    assert tracker.record.history == []
-
-
 def test_tracker_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
     filtered_error, smoothed_error = [], []
     for seed, (which, amplitude_deg, hz) in enumerate([(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 40.0, 0.5), (0, 20.0, 1.7)]):
@@ -363,27 +236,6 @@ def test_tracker_smoothing_bridges_a_covered_stretch() -> None:
         assert np.abs(smoothed[60:80, which]).max() < 0.5 * np.abs(error[60:80, which]).max()
         # And what was measured before it is not pulled away.
         assert np.abs(smoothed[50:60, which]).max() < 1.0
-
-
-def test_tracker_direct_share_is_that_of_the_last_second() -> None:
-    rng = np.random.default_rng(10)
-    frames = track([(t, blobs(Pose(), rng, hidden=(1, 2) if k >= 30 else ())) for k, t in enumerate(times(75))])
-    assert frames[29].measured_share == pytest.approx([1.0] * 3)
-    assert frames[45].measured_share == pytest.approx([1.0 - 16 / 31 / 3] * 3, abs=0.02)
-    assert frames[74].measured_share == pytest.approx([4 / 6] * 3)
-
-
-def test_tracker_gap_between_frames_keeps_the_track() -> None:
-    """After a drop at 15 pictures a second with only the knuckles in view, the prediction still counts."""
-    errors = []
-    for seed in range(6):
-        rng = np.random.default_rng(seed)
-        motion = swing(1, 20.0, 0.3)
-        at = [k / 15.0 for k in range(75) if k not in (40, 41)]
-        frames = track([(t, blobs(motion(t), rng, hidden=(WRIST, 1) if 2.6 < t < 3.4 else ())) for t in at], RIGID)
-        blind = [k for k, t in enumerate(at) if 2.7 < t < 3.4]
-        errors.append(np.abs(angles_deg(frames) - truth_deg(motion, at))[blind].max())
-    assert np.median(errors) < 8.0
 
 
 @pytest.mark.parametrize("missing", few([15, 40, 3, 8, 30], 2))

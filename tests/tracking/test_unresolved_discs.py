@@ -9,7 +9,6 @@ import pytest
 
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.digits.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
-from carpus.core.tracking.digits.digit_update import compute_disc_areas
 from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.tracking.test_fingers import update_digits_once
 
@@ -81,12 +80,3 @@ def test_single_blob_measures_its_disc_alone() -> None:
         assert measured[CHAIN, DIP, :2] == pytest.approx(scene.blobs.value[blob, :2])
         assert (sd[CHAIN, DIP, :2] < 1.0).all()
         assert np.isnan(measured[CHAIN, TIP]).all()
-
-
-def test_disc_area_of_a_possibly_merged_blob_is_not_learnt() -> None:
-    trial, _ = update_digits_once(1e-4, (0.0, 0.0))
-    scene, names, _ = build_scene(6.0, DIP)
-    named = replace(trial.update, assignment=names)
-    learnt = compute_disc_areas(named, scene.area_px, np.zeros((5, 3)), np.full((5, 3), 5e5))
-    assert np.isnan(learnt[CHAIN]).all()
-    assert np.isfinite(learnt[1]).all()
