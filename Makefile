@@ -57,7 +57,6 @@ validation: setup-test          ## resources/validation.md: agreement and retest
 
 torture: thorough               ## kills, damaged files, bad disks: what is lost and let in (an hour or two)
 	CARPUS_TORTURE=100 $(PY) -m pytest -q -rP --timeout 0 tests/torture
-	$(PY) -m tests.torture.spreadsheets
 
 screenshots: setup-test         ## every screen, light and dark, into out/screenshots
 	$(PY) -m tests.screenshots

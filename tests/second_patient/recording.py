@@ -1,10 +1,9 @@
-"""A recording of the second patient: a TUM folder with camera file, clicks and true values."""
+"""A recording of the second patient: a TUM folder with camera file, clicks, and what of its discs can be seen."""
 
 from __future__ import annotations
 
 import dataclasses
 import hashlib
-import json
 import shutil
 import tempfile
 from pathlib import Path
@@ -13,6 +12,8 @@ import cv2
 import numpy as np
 import platformdirs
 
+from carpus.core.calibration.clicks_file import write_clicks
+from carpus.core.calibration.result import Clicks
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, SIMULATED_REMARK
 from carpus.core.model.types import FloatArray, Side
@@ -22,9 +23,9 @@ from tests.second_patient.look import color_of, depth_of, look_of
 from tests.second_patient.motions import SECONDS, Motion, Row, motion_of
 from tests.second_patient.patient import Patient, made_patient
 from tests.second_patient.sensor import exposed, read_depth, sensor_of
-from tests.second_patient.truth import Truth, read_visible_share, truth_of, write_truth
+from tests.second_patient.truth import Truth, truth_of
 
-CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
+CLICKS_FILE, VISIBLE_FILE = "calibration.json", "visible_share.npy"
 # Read when this is imported: a file edited while its recording is drawn must not name what it did not draw.
 _SOURCE = b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("[!_]*.py")))
 
@@ -115,21 +116,12 @@ def recorded(take: Take, folder: Path) -> Truth:
             if not cv2.imwrite(str(folder / name), picture, _PNG):
                 raise OSError(f"{folder / name} could not be written")
     truth = dataclasses.replace(truth, visible_share=share)
-    clicks = clicks_px(take)
-    markers = {name: [float(u), float(v)] for name, (u, v) in zip(truth.protocol.markers, clicks, strict=True)}
-    told = {"hand": truth.side, "protocol": truth.protocol.name, "markers": markers}
-    (folder / CLICKS_FILE).write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+    np.save(folder / VISIBLE_FILE, share)
+    write_clicks(folder / CLICKS_FILE, Clicks(truth.side, truth.protocol, clicks_px(take)))
     write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False, simulated=True)
     for kind, title, name in (("rgb", "color images", COLOR_LIST), ("depth", "depth maps", DEPTH_LIST)):
         text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
         (folder / name).write_text(text, encoding="utf-8")
-    row = take.row
-    write_truth(
-        folder / TRUTH_FILE,
-        truth,
-        clicks,
-        {"row": row.name, "motion": row.motion, "seed": take.seed, "rigid": row.rigid, "side": truth.side},
-    )
     return truth
 
 
@@ -145,8 +137,8 @@ def kept_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path,
     key = hashlib.sha256(drawn).hexdigest()[:20]
     root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "second_patient"
     folder = root / key
-    if (folder / TRUTH_FILE).exists():
-        return folder, dataclasses.replace(take.truth, visible_share=read_visible_share(folder / TRUTH_FILE))
+    if (folder / VISIBLE_FILE).exists():
+        return folder, dataclasses.replace(take.truth, visible_share=np.load(folder / VISIBLE_FILE))
     root.mkdir(parents=True, exist_ok=True)
     part = Path(tempfile.mkdtemp(prefix=f"{key}.", dir=root))
     try:

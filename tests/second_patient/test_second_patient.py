@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import json
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +17,7 @@ from carpus.core.session.reader import read_session
 from tests.second_patient import recording
 from tests.second_patient.discs import NAMES, PALM
 from tests.second_patient.motions import ROWS, Row, row_named
-from tests.second_patient.recording import CLICKS_FILE, TRUTH_FILE, Take, recorded, take_of
+from tests.second_patient.recording import CLICKS_FILE, Take, recorded, take_of
 from tests.sources import ROOT, SOURCES, nodes
 
 pytestmark = pytest.mark.xdist_group("second patient")
@@ -94,11 +93,6 @@ def test_truth_goes_round(take: Take) -> None:
     cam = rigid.translation_w0_cam_m + carried @ rigid.rotation_w0_cam.T
     assert np.abs(cam - rigid.disc_position_cam_m).max() < 2e-5
     assert np.abs(np.degrees(rigid.angles_rad)).max() > 20.0
-    step = np.diff(rigid.position_m, axis=0) / np.diff(rigid.timestamp_s)[:, None]
-    assert np.allclose(step, 0.5 * (rigid.velocity_m_s[1:] + rigid.velocity_m_s[:-1]), atol=2e-3)
-    swing = np.swapaxes(rigid.rotation_w2_w0[:-1], 1, 2) @ rigid.rotation_w2_w0[1:]
-    rate = np.stack((swing[:, 2, 1], swing[:, 0, 2], swing[:, 1, 0]), axis=1) / np.diff(rigid.timestamp_s)[:, None]
-    assert np.allclose(rate, 0.5 * (rigid.angular_velocity_rad_s[1:] + rigid.angular_velocity_rad_s[:-1]), atol=0.05)
 
 
 def test_fingers_angles_are_the_chains_of_the_reference(take: Take) -> None:
@@ -152,15 +146,9 @@ def test_second_patient_starts_still_and_stays_in_frame(row: Row, monkeypatch: p
 
 
 @pytest.mark.thorough
-def test_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
+def test_recording_is_tracked_like_its_truth(tmp_path: Path) -> None:
     folder = tmp_path / "take"
     truth = recorded(take_of(row_named("rest, fingers open and close"), 12, seconds=0.9), folder)
-    assert json.loads((folder / CLICKS_FILE).read_text())["protocol"] == "wrist6"
-    stored = read_session(folder / TRUTH_FILE)
-    assert np.allclose(stored.motion.angles_rad, truth.angles_rad)
-    assert np.allclose(stored.timestamp_s, truth.timestamp_s)
-    wrist = stored.calibration.translation_w0_cam_m + stored.motion.position_m @ stored.calibration.rotation_w0_cam.T
-    assert np.allclose(wrist, stored.markers.position_cam_m[:, 0], atol=1e-4)
     output = tmp_path / "session.h5"
     source = TumFolder(folder)
     track_recording(source, read_clicks(folder / CLICKS_FILE), output, TrackSettings())

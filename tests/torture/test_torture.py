@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.torture import kills, mutations, store_kills, two_programs, write_kills
+from tests.torture import kills, mutations, store_kills, write_kills
 from tests.torture.readers import read_files
 
 TIMES = int(os.environ.get("CARPUS_TORTURE", "1"))
@@ -75,7 +75,3 @@ def test_program_starts_with_all_of_them_in_its_folder(tmp_path: Path) -> None:
     assert started.returncode == 0, started.stderr
     told_again, set_apart = map(int, started.stdout.split())
     assert (told_again, set_apart > 0) == (0, True)
-
-
-def test_two_programs_on_failing_server_lose_no_change(tmp_path: Path) -> None:
-    print(two_programs.line(40 * TIMES, 2.0 * TIMES, 0.4, tmp_path / "clinic"))
