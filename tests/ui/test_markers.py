@@ -354,6 +354,25 @@ def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking
         assert marking.screen.picture.no_marker_words == "Already the wrist"
 
 
+def test_label_grabbed_by_its_words_follows_the_mouse_and_moves_to_the_marker(qtbot: QtBot, marking: Marking) -> None:
+    discs_px, picture = marking.begin().disc_px, marking.screen.picture
+    marking.click(*discs_px[:3])
+    picture.grab()
+    name, free = WRIST6.markers[1], discs_px[4]
+    on_label = picture._label_boxes[name].center().toPoint()
+    qtbot.mouseClick(picture, Qt.MouseButton.LeftButton, pos=on_label)
+    np.testing.assert_allclose(marking.clicking.confirmed_px[name], discs_px[1])
+    assert marking.clicking.current == name, "a click on a label only selects its marker"
+    qtbot.mousePress(picture, Qt.MouseButton.LeftButton, pos=on_label)
+    qtbot.mouseMove(picture, marking.at(free))
+    picture.set_cursor(free)  # offscreen, a moved mouse may say nothing
+    with painted_texts(marking.screen) as painted:
+        picture.grab()
+    assert "Thumb CMC?" in [one.text for one in painted]
+    qtbot.mouseRelease(picture, Qt.MouseButton.LeftButton, pos=marking.at(free))
+    np.testing.assert_allclose(marking.clicking.confirmed_px[name], free)
+
+
 def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, marking: Marking) -> None:
     marking.begin()
     marking.judge_all()

@@ -268,6 +268,24 @@ def test_keys_zoom_about_the_cursor_and_show_all(view: SessionChart) -> None:
     assert view.zoom_range is None
 
 
+def test_session_chart_zoomed_to_repetitions_greys_what_lies_before_and_after(view: SessionChart) -> None:
+    plot = view._plot
+    some = plot.repetitions[2:5]
+    view.show_plot(replace(plot, repetitions=some, current=1))
+    view.show_repetitions()
+    assert view.zoom_range == pytest.approx((some[0].start_s - 1.0, some[-1].end_s + 1.0))
+    for window in (view.zoom_range, None):
+        view.show_window(window)
+        before, after, during = view._plot.visible_curves(1, 600)
+        assert (before.token, after.token, during.token) == ("border", "border", "flexion")
+        step_s = during.series.max_step_s
+        assert during.series.time_s[[0, -1]] == pytest.approx([some[0].start_s, some[-1].end_s], abs=step_s)
+        assert before.series.time_s[-1] == pytest.approx(some[0].start_s, abs=step_s)
+        assert after.series.time_s[0] == pytest.approx(some[-1].end_s, abs=step_s)
+    view.show_window((some[0].start_s, some[-1].end_s))
+    assert [one.token for one in view._plot.visible_curves(1, 600)] == ["flexion"]
+
+
 def test_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: SessionChart) -> None:
     panel = view.panels()[0][0]
     view.set_time(8.0)

@@ -100,7 +100,7 @@ class MotionPlot(SessionPlot):
         ]
 
     def visible_curves(self, key: int, points: int) -> list:  # type: ignore[type-arg]
-        return [self._curve(series, token, points) for _, token, series in self.all_series(key)]
+        return [one for _, token, series in self.all_series(key) for one in self._curves(series, token, points)]
 
 
 MINUS = "\N{MINUS SIGN}"

@@ -184,10 +184,20 @@ class SessionPlot:
 
     def visible_curves(self, key: int, points: int) -> list[Curve]:
         """Return the curves of a panel over the visible time, of about ``points`` points each."""
-        return [self._curve(self.series(key), CURVE_TOKENS[key], points)]
+        return self._curves(self.series(key), CURVE_TOKENS[key], points)
 
-    def _curve(self, series: Series, token: str, points: int) -> Curve:
-        return Curve(decimate(slice_time(series, *self.visible_s), max(MIN_POINTS, points)), token)
+    def _curves(self, series: Series, token: str, points: int) -> list[Curve]:
+        """Return a curve in its colour during the repetitions, and what is visible before and after them in grey."""
+        start_s, end_s = self.visible_s
+        first_s, last_s = start_s, end_s
+        if self.repetitions:
+            first_s, last_s = self.repetitions[0].start_s, max(repetition.end_s for repetition in self.repetitions)
+        parts = (start_s, min(first_s, end_s), "border"), (max(last_s, start_s), end_s, "border")
+        return [
+            Curve(decimate(slice_time(series, low_s, high_s), max(MIN_POINTS, points)), shown)
+            for low_s, high_s, shown in (*parts, (max(first_s, start_s), min(last_s, end_s), token))
+            if low_s < high_s
+        ]
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
         value, sd = read_wrist_angle(self.curves, key, time_s)
@@ -254,7 +264,7 @@ class HandPlot(SessionPlot):
             series = None if series is None else slice_time(series, *self.visible_s)
             if series is None or (not self.finger and bool(series.predicted[np.isfinite(series.value)].all())):
                 continue
-            out.append(Curve(decimate(series, max(MIN_POINTS, points)), figure.token))
+            out += self._curves(series, figure.token, points)
         return out
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
@@ -361,6 +371,11 @@ class SessionChart(ZoomChart):
     def clear(self) -> None:
         self._plot = self._window = None
         self.refresh()
+
+    def show_repetitions(self) -> None:
+        """Zoom to the repetitions; what lies before and after them is reached by panning or zooming out."""
+        if self._plot is not None:
+            self.show_window(self._plot.repetition_span_s)
 
     def show_single(self, on: bool) -> None:
         """Show the trained angle alone, for large text."""
@@ -607,7 +622,10 @@ class SessionChart(ZoomChart):
         if self._plot is None:
             return
         if event.double():
-            self.show_window(self._plot.repetition_span_s if self._plot.window_s is None else None)
+            if self._plot.window_s is None:
+                self.show_repetitions()
+            else:
+                self.show_all()
         elif not self._find_edge(event.scenePos()):
             self.cursor_moved.emit(self.to_time(event.scenePos().x()))
 
@@ -645,5 +663,6 @@ def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, box: Q
     """Paint the chart into a box on paper."""
     chart = SessionChart(Theme("light"))
     chart.show_plot(plot)
+    chart.show_repetitions()
     chart.render_on_paper(painter, style, box)
     chart.deleteLater()

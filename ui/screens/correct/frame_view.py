@@ -69,9 +69,7 @@ class CorrectionFrameView(FrameView):
             return
         self.setFocus(Qt.FocusReason.MouseFocusReason)
         pixel = self.to_pixel(event.position())
-        name = self.edits.find_marker(self.row, pixel, GRAB_RADIUS_PX / self.scale) or self._find_label(
-            event.position()
-        )
+        name = self._find_label(event.position())
         self._cursor_px = self._pressed_px = pixel
         if name:
             self._dragged = name
@@ -81,10 +79,19 @@ class CorrectionFrameView(FrameView):
         self.update()
 
     def _find_label(self, point: QPointF) -> str:
-        return next((name for name, plate in self.label_boxes.items() if plate.contains(point)), "")
+        """Return the marker whose ring or label is at a widget position, empty for none."""
+        if self.edits is None or self.row < 0:
+            return ""
+        near = self.edits.find_marker(self.row, self.to_pixel(point), GRAB_RADIUS_PX / self.scale)
+        return near or next((name for name, plate in self.label_boxes.items() if plate.contains(point)), "")
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         self._cursor_px = self.to_pixel(event.position())
+        is_over = not self._dragged and self._find_label(event.position())
+        shapes = Qt.CursorShape
+        self.setCursor(
+            shapes.ClosedHandCursor if self._dragged else shapes.OpenHandCursor if is_over else shapes.ArrowCursor
+        )
         self.update()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:

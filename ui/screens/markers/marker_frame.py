@@ -81,7 +81,8 @@ class MarkerFrameView(FrameView):
         self.questioned_blobs: list[tuple[tuple[float, ...], str]] = []
         self.blobs_px: FloatArray = np.empty((0, 2))
         self.no_marker_words = ""
-        self._is_dragging = False
+        self._dragged = ""
+        self._label_boxes: dict[str, QRectF] = {}
         self._is_keyboard_cursor = False
         self.overlay = lambda painter, _: self._paint_marks(painter)
         self.setMouseTracking(True)
@@ -120,24 +121,40 @@ class MarkerFrameView(FrameView):
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         self._is_keyboard_cursor = False
         self.set_cursor(self.to_pixel(event.position()))
+        if not self._dragged:
+            self._update_mouse_shape(event.position())
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() != Qt.MouseButton.LeftButton or self.labels is None or self.image is None:
             return
         self.setFocus(Qt.FocusReason.MouseFocusReason)
         pixel = self.to_pixel(event.position())
-        name = self.labels.find_near(pixel, GRAB_PX / self.scale)
+        self._dragged = self._find_label(event.position())
         self.set_cursor(pixel)
-        if name:
-            self._is_dragging = True
-            self.label_grabbed.emit(name)
+        if self._dragged:
+            self.setCursor(Qt.CursorShape.ClosedHandCursor)
+            self.label_grabbed.emit(self._dragged)
         else:
             self.clicked.emit(self.cursor_px)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        if self._is_dragging:
-            self._is_dragging = False
+        name, self._dragged = self._dragged, ""
+        box = self._label_boxes.get(name)
+        if name and not (box is not None and box.contains(event.position())):  # a click on a label only selects it
             self.clicked.emit(self.to_pixel(event.position()))
+        self._update_mouse_shape(event.position())
+        self.update()
+
+    def _find_label(self, point: QPointF) -> str:
+        """Return the marker whose ring or label is at a widget position, empty for none."""
+        if self.labels is None:
+            return ""
+        near = self.labels.find_near(self.to_pixel(point), GRAB_PX / self.scale)
+        return near or next((name for name, box in self._label_boxes.items() if box.contains(point)), "")
+
+    def _update_mouse_shape(self, point: QPointF) -> None:
+        shape = Qt.CursorShape.OpenHandCursor if self._find_label(point) else Qt.CursorShape.ArrowCursor
+        self.setCursor(shape)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         step = ARROWS.get(Qt.Key(event.key()))
@@ -175,14 +192,20 @@ class MarkerFrameView(FrameView):
         if self.cursor_px is None:
             self._paint_labels(painter, rings, "")
             return
-        proposed = ""
-        if self.found_marker is not None and clicking.missing and not self._is_labelled(clicking):
-            at = self.to_screen(*map(float, self.found_marker.pixel))
-            radius = self._ring_px(self.found_marker.width_px) + 4
+        proposed = self._dragged
+        if not proposed and self.found_marker is not None and clicking.missing and not self._is_labelled(clicking):
+            proposed = clicking.current
+        if proposed:
+            found = self.found_marker
+            at = self.to_screen(*map(float, self.cursor_px if found is None else found.pixel))
+            radius = MIN_RING_PX if found is None else self._ring_px(found.width_px) + 4
+            rings = [ring for ring in rings if ring[0] != proposed]
+            if self._dragged and proposed in clicking.label_px:
+                start = self.to_screen(*map(float, clicking.label_px[proposed]))
+                draw_with_halo(painter, ON_PICTURE_PROPOSED, 2.0, lambda: painter.drawLine(start, at), dash=True)
             draw_with_halo(
                 painter, ON_PICTURE_PROPOSED, 2.5, lambda: painter.drawEllipse(at, radius, radius), dash=True
             )
-            proposed = clicking.current
             rings.append((proposed, at, radius))
         self._paint_labels(painter, rings, proposed)
         if self._is_keyboard_cursor:
@@ -295,7 +318,10 @@ class MarkerFrameView(FrameView):
 
     def _paint_labels(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
         painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
-        for one in self.label_plates(rings, proposed):
+        placed = self.label_plates(rings, proposed)
+        if not self._dragged and self.labels is not None:
+            self._label_boxes = {one.name: one.plate for one in placed if one.name in self.labels.label_px}
+        for one in placed:
             if one.line is not None:
                 draw_with_halo(painter, ON_PICTURE_LINE, 1.5, partial(painter.drawLine, one.line))
             if one.name in self.wrong_labels:

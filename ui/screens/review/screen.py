@@ -188,6 +188,7 @@ class ReviewScreen(FittedWidget):
         count = (n for n, repetition in enumerate(all_of_them) if repetition.is_counted)
         self.current = next(count, 0 if all_of_them else -1)  # also where all are passive
         self._refresh()
+        self.charts.curves.show_repetitions()
         self.playing.set_time(all_of_them[self.current].start_s if all_of_them else 0.0)
         self.session_shown.emit()
 
