@@ -2620,18 +2620,6 @@
         <translation>Hand im Blickfeld der Kamera, Handrücken nach oben, Finger gestreckt.</translation>
     </message>
     <message>
-        <source>At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these ranges are minimum values (≥). To see more, turn the thumb side up.</source>
-        <translation>Am Ende der Faust sind die PIP- und DIP-Gelenke verdeckt. Wiederholungen werden trotzdem gezählt, und diese Bewegungsausmaße sind Mindestwerte (≥). Um mehr zu sehen, die Daumenseite nach oben drehen.</translation>
-    </message>
-    <message>
-        <source>About half-way the PIP joints are occluded. Repetitions are still counted, and their range is a minimum value (≥). To see more, raise the wrist or turn the thumb side up.</source>
-        <translation>Etwa auf halbem Weg sind die PIP-Gelenke verdeckt. Wiederholungen werden trotzdem gezählt, und ihr Bewegungsausmaß ist ein Mindestwert (≥). Um mehr zu sehen, das Handgelenk anheben oder die Daumenseite nach oben drehen.</translation>
-    </message>
-    <message>
-        <source>Under the palm the thumb tip is occluded. This exercise trains palmar abduction of the thumb, which stays visible.</source>
-        <translation>Unter der Handfläche ist die Daumenspitze verdeckt. Geübt wird hier die Palmarabduktion des Daumens, die sichtbar bleibt.</translation>
-    </message>
-    <message>
         <source>Legal notice, in its English wording:</source>
         <translation>Rechtlicher Hinweis, im englischen Wortlaut:</translation>
     </message>
@@ -6076,10 +6064,6 @@
         <translation>{wrong}, bei einem Bilderordner nicht unterstützt</translation>
     </message>
     <message>
-        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A supination goal before thumb up is negative, such as −25°.</source>
-        <translation>0° entspricht der Stellung „Daumen oben“, 90° Pronation der flach auf dem Tisch liegenden Handfläche. Von oben gesehen sind die Marker unter etwa 25° Pronation verdeckt. Ein Supinationsziel, das „Daumen oben“ nicht erreicht, ist negativ, zum Beispiel −25°.</translation>
-    </message>
-    <message>
         <source>Backups cannot be saved there: {subject} ({detail}).</source>
         <translation>Sicherungen können dort nicht gespeichert werden: {subject} ({detail}).</translation>
     </message>
@@ -6278,6 +6262,70 @@
     <message>
         <source>Kapandji score</source>
         <translation>Kapandji-Index</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>Patient</translation>
+    </message>
+    <message>
+        <source>Diagnosis or operation</source>
+        <translation>Diagnose oder Operation</translation>
+    </message>
+    <message>
+        <source>Since</source>
+        <translation>Seit</translation>
+    </message>
+    <message>
+        <source>Last session</source>
+        <translation>Letzte Sitzung</translation>
+    </message>
+    <message>
+        <source>About half-way the PIP joints are occluded. Their range is a minimum value (≥).</source>
+        <translation>Etwa ab der Hälfte sind die PIP-Gelenke verdeckt. Ihr Bewegungsausmaß ist ein Mindestwert (≥).</translation>
+    </message>
+    <message>
+        <source>At the end of a fist the PIP and DIP joints are occluded. Their ranges are minimum values (≥).</source>
+        <translation>Am Ende des Faustschlusses sind PIP und DIP verdeckt. Ihre Bewegungsausmaße sind Mindestwerte (≥).</translation>
+    </message>
+    <message>
+        <source>Behind the cup the thumb may be occluded. The results say for how long.</source>
+        <translation>Hinter dem Becher kann der Daumen verdeckt sein. Die Ergebnisse zeigen, wie lange.</translation>
+    </message>
+    <message>
+        <source>Below about 25° of pronation the markers are occluded. Only the visible part is measured.</source>
+        <translation>Unter etwa 25° Pronation sind die Marker verdeckt. Nur der sichtbare Teil wird gemessen.</translation>
+    </message>
+    <message>
+        <source>Movement of the forearm appears in the angle.</source>
+        <translation>Bewegungen des Unterarms erscheinen im Winkel.</translation>
+    </message>
+    <message>
+        <source>Occluded joints are not measured.</source>
+        <translation>Verdeckte Gelenke werden nicht gemessen.</translation>
+    </message>
+    <message>
+        <source>The abduction of a flexed finger is unreliable. Keep the fingers straight.</source>
+        <translation>Die Abduktion eines gebeugten Fingers ist unzuverlässig. Finger gestreckt halten.</translation>
+    </message>
+    <message>
+        <source>Under the palm the thumb tip is occluded. Palmar abduction of the thumb stays visible.</source>
+        <translation>Unter der Handfläche ist die Daumenspitze verdeckt. Die palmare Abduktion des Daumens bleibt sichtbar.</translation>
+    </message>
+    <message>
+        <source>Exercise</source>
+        <translation>Übung</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>Remark</source>
+        <translation>Anmerkung</translation>
+    </message>
+    <message>
+        <source>Analysed</source>
+        <translation>Ausgewertet</translation>
     </message>
 </context>
 <context>
@@ -7777,33 +7825,6 @@ von oben</translation>
     <message>
         <source>The licences are legal texts and are shown in their original language.</source>
         <translation>Die Lizenzen sind Rechtstexte und stehen in ihrer Originalsprache.</translation>
-    </message>
-</context>
-<context>
-    <name>ListHeader</name>
-    <message>
-        <source>Patient</source>
-        <translation>Patient</translation>
-    </message>
-    <message>
-        <source>Hand</source>
-        <translation>Hand</translation>
-    </message>
-    <message>
-        <source>Diagnosis or operation</source>
-        <translation>Diagnose oder Operation</translation>
-    </message>
-    <message>
-        <source>Since</source>
-        <translation>Seit</translation>
-    </message>
-    <message>
-        <source>Last session</source>
-        <translation>Zuletzt</translation>
-    </message>
-    <message>
-        <source>Sessions</source>
-        <translation>Sitzungen</translation>
     </message>
 </context>
 <context>

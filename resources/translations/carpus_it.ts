@@ -2620,18 +2620,6 @@
         <translation>Mano davanti alla telecamera, dorso in su, dita estese.</translation>
     </message>
     <message>
-        <source>At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these ranges are minimum values (≥). To see more, turn the thumb side up.</source>
-        <translation>Alla fine del pugno le articolazioni IFP e IFD sono nascoste. Le ripetizioni si contano comunque, e queste escursioni sono valori minimi (≥). Per vedere di più, girare in su il lato del pollice.</translation>
-    </message>
-    <message>
-        <source>About half-way the PIP joints are occluded. Repetitions are still counted, and their range is a minimum value (≥). To see more, raise the wrist or turn the thumb side up.</source>
-        <translation>Circa a metà le articolazioni IFP sono nascoste. Le ripetizioni si contano comunque, e la loro escursione è un valore minimo (≥). Per vedere di più, alzare il polso o girare in su il lato del pollice.</translation>
-    </message>
-    <message>
-        <source>Under the palm the thumb tip is occluded. This exercise trains palmar abduction of the thumb, which stays visible.</source>
-        <translation>Sotto il palmo la punta del pollice è nascosta. Qui si esercita l’abduzione palmare del pollice, che resta visibile.</translation>
-    </message>
-    <message>
         <source>Legal notice, in its English wording:</source>
         <translation>Avvertenza legale, nel testo inglese:</translation>
     </message>
@@ -6076,10 +6064,6 @@
         <translation>{wrong}, non supportato per una cartella di immagini</translation>
     </message>
     <message>
-        <source>0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are occluded below about 25° of pronation. A supination goal before thumb up is negative, such as −25°.</source>
-        <translation>0° corrisponde al pollice in alto, 90° di pronazione al palmo piatto sul tavolo. Visti dall’alto, i marcatori sono nascosti sotto circa 25° di pronazione. Un obiettivo di supinazione che non arriva al pollice in alto è negativo, per esempio −25°.</translation>
-    </message>
-    <message>
         <source>Backups cannot be saved there: {subject} ({detail}).</source>
         <translation>Le copie di sicurezza non possono essere salvate lì: {subject} ({detail}).</translation>
     </message>
@@ -6278,6 +6262,70 @@
     <message>
         <source>Kapandji score</source>
         <translation>Indice di Kapandji</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>Paziente</translation>
+    </message>
+    <message>
+        <source>Diagnosis or operation</source>
+        <translation>Diagnosi o intervento</translation>
+    </message>
+    <message>
+        <source>Since</source>
+        <translation>Da</translation>
+    </message>
+    <message>
+        <source>Last session</source>
+        <translation>Ultima seduta</translation>
+    </message>
+    <message>
+        <source>About half-way the PIP joints are occluded. Their range is a minimum value (≥).</source>
+        <translation>Circa a metà le PIP sono nascoste. La loro ampiezza è un valore minimo (≥).</translation>
+    </message>
+    <message>
+        <source>At the end of a fist the PIP and DIP joints are occluded. Their ranges are minimum values (≥).</source>
+        <translation>Alla fine del pugno PIP e DIP sono nascoste. Le loro ampiezze sono valori minimi (≥).</translation>
+    </message>
+    <message>
+        <source>Behind the cup the thumb may be occluded. The results say for how long.</source>
+        <translation>Dietro il bicchiere il pollice può essere nascosto. I risultati dicono per quanto tempo.</translation>
+    </message>
+    <message>
+        <source>Below about 25° of pronation the markers are occluded. Only the visible part is measured.</source>
+        <translation>Sotto circa 25° di pronazione i marcatori sono nascosti. Si misura solo la parte visibile.</translation>
+    </message>
+    <message>
+        <source>Movement of the forearm appears in the angle.</source>
+        <translation>I movimenti dell’avambraccio entrano nell’angolo.</translation>
+    </message>
+    <message>
+        <source>Occluded joints are not measured.</source>
+        <translation>Le articolazioni nascoste non si misurano.</translation>
+    </message>
+    <message>
+        <source>The abduction of a flexed finger is unreliable. Keep the fingers straight.</source>
+        <translation>L’abduzione di un dito flesso non è affidabile. Tenere le dita diritte.</translation>
+    </message>
+    <message>
+        <source>Under the palm the thumb tip is occluded. Palmar abduction of the thumb stays visible.</source>
+        <translation>Sotto il palmo la punta del pollice è nascosta. L’abduzione palmare del pollice resta visibile.</translation>
+    </message>
+    <message>
+        <source>Exercise</source>
+        <translation>Esercizio</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Valore</translation>
+    </message>
+    <message>
+        <source>Remark</source>
+        <translation>Nota</translation>
+    </message>
+    <message>
+        <source>Analysed</source>
+        <translation>Analizzate</translation>
     </message>
 </context>
 <context>
@@ -7777,33 +7825,6 @@ dall’alto</translation>
     <message>
         <source>The licences are legal texts and are shown in their original language.</source>
         <translation>Le licenze sono testi legali e restano nella lingua originale.</translation>
-    </message>
-</context>
-<context>
-    <name>ListHeader</name>
-    <message>
-        <source>Patient</source>
-        <translation>Paziente</translation>
-    </message>
-    <message>
-        <source>Hand</source>
-        <translation>Mano</translation>
-    </message>
-    <message>
-        <source>Diagnosis or operation</source>
-        <translation>Diagnosi o intervento</translation>
-    </message>
-    <message>
-        <source>Since</source>
-        <translation>Da</translation>
-    </message>
-    <message>
-        <source>Last session</source>
-        <translation>Ultima seduta</translation>
-    </message>
-    <message>
-        <source>Sessions</source>
-        <translation>Sedute</translation>
     </message>
 </context>
 <context>

@@ -459,6 +459,10 @@ class FakeStore:
     def list_archived_names(self) -> list[str]:
         return list(self.in_archive)
 
+    def get(self, patient_id: str) -> Patient:
+        practice = Patient("practice", "right", patient_id=PRACTICE_PATIENT)
+        return next(row for row in (*self.rows, practice) if row.patient_id == patient_id)
+
     def card(self, patient_id: str) -> PatientCard:
         if patient_id == PRACTICE_PATIENT:
             return PatientCard(Patient("practice", "right", patient_id=PRACTICE_PATIENT))

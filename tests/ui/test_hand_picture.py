@@ -89,7 +89,7 @@ def test_hand_picture_without_consent_or_frames_is_not_saved(qtbot: QtBot, revie
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert not wanted
     screen.open_hand_image_dialog()
-    qtbot.mouseClick(sheet.consent_check, Qt.MouseButton.LeftButton)
+    sheet.consent_check.click()
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert wanted[0].row == screen.frame_view.row
     assert wanted[0].words.endswith("°")

@@ -131,7 +131,7 @@ class Button(QPushButton):
             body = "accent_pressed" if self.isDown() else "accent_hover" if self.underMouse() else "accent"
             return color(body), color("on_accent"), None, color("on_accent")
         body = "sunken" if self.isDown() or self.isChecked() else "canvas" if self.underMouse() else "surface"
-        text = "text" if self.isEnabled() else "text2"
+        text = "text" if self.isEnabled() else "border" if self._kind == "quiet" else "text2"
         if self._kind == "quiet":
             clear = QColor(0, 0, 0, 0)
             lit = self.isDown() or self.underMouse() or self.isChecked()
@@ -225,13 +225,3 @@ def press_default(button: QPushButton | None) -> bool:
         return False
     button.click()
     return True
-
-
-class CheckButton(Button):
-    """Checkable button with a plus or a check; leaves Enter to the dialog."""
-
-    def __init__(self, theme: Theme, words: str) -> None:
-        super().__init__(theme, words, "quiet", icon="plus", height_px=38)
-        self.on_enter = "pass"
-        self.setCheckable(True)
-        self.toggled.connect(lambda on: self.set_label(words, icon="check" if on else "plus"))

@@ -9,9 +9,8 @@ from itertools import takewhile
 from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLineEdit, QPlainTextEdit, QSpinBox, QWidget
 
-from carpus.ui.kit.button import CheckButton
 from carpus.ui.kit.field import ChoiceRow, Combo, LabelledField
 from carpus.ui.kit.layouts import row_layout
 from carpus.ui.kit.theme import Theme
@@ -55,7 +54,7 @@ def limit_length(max_length: int, message: str) -> Validator:
 _WIDGET_ACCESS: Sequence[tuple[type[QWidget], Callable[[Any], Any], Callable[[Any, Any], object], str]] = (
     (ChoiceRow, ChoiceRow.value, ChoiceRow.choose, "chosen"),
     (Combo, Combo.currentData, Combo.choose, "currentIndexChanged"),
-    (CheckButton, CheckButton.isChecked, CheckButton.setChecked, "toggled"),
+    (QCheckBox, QCheckBox.isChecked, QCheckBox.setChecked, "toggled"),
     (QSpinBox, QSpinBox.value, QSpinBox.setValue, "valueChanged"),
     (QLineEdit, lambda line: " ".join(line.text().split()), QLineEdit.setText, "textChanged"),
     (QPlainTextEdit, lambda text: text.toPlainText().strip(), QPlainTextEdit.setPlainText, "textChanged"),

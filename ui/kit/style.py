@@ -29,6 +29,13 @@ QComboBox::down-arrow, QDateEdit::down-arrow {{ image: url({chevron}); width: 16
 QComboBox QAbstractItemView {{ background: {surface}; color: {text}; border: 1px solid {border}; outline: 0;
   selection-background-color: {soft}; selection-color: {text}; padding: 4px; }}
 QComboBox QAbstractItemView::item {{ min-height: {row}px; padding: 0 8px; }}
+QCheckBox {{ color: {text}; spacing: 10px; min-height: {row}px; font-weight: 500; }}
+QCheckBox:disabled {{ color: {border}; }}
+QCheckBox::indicator {{ width: {box}px; height: {box}px; border: 2px solid {border}; border-radius: 4px;
+  background: {surface}; }}
+QCheckBox::indicator:hover {{ border-color: {accent}; }}
+QCheckBox::indicator:checked {{ background: {accent}; border-color: {accent}; image: url({check}); }}
+QCheckBox::indicator:disabled {{ border-color: {line}; }}
 QSpinBox::up-button, QSpinBox::down-button {{ width: 0; border: 0; }}
 QAbstractSpinBox QLineEdit, QComboBox QLineEdit {{ border: 0; background: transparent; min-height: 0; padding: 0; }}
 QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ width: 0; border: 0; }}
@@ -90,10 +97,15 @@ def apply_style(application: QApplication, theme: Theme) -> None:
     application.setFont(font(14 * theme.text_scale))
     colors = {name: getattr(tokens, name) for name in _SHEET_TOKENS}
     sizes = {
-        "pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36), "card": CARD_RADIUS_PX,
+        "pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36), "box": theme.px(16),
+        "card": CARD_RADIUS_PX,
         "ring": CONTROL_RADIUS_PX + FOCUS_OUTSIDE_PX, "badge": theme.px(34),
         "pill": theme.px(40) // 2, "dim": DIM_ALPHA[theme.name],
     }  # fmt: skip
     surfaces = "".join(_TOKEN_RULES.format(name=one.name, value=getattr(tokens, one.name)) for one in fields(tokens))
-    with as_file(files("carpus.resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:
-        application.setStyleSheet(surfaces + _SHEET.format(**colors, **sizes, chevron=chevron.as_posix()))
+    with as_file(files("carpus.resources").joinpath("icons")) as icons:
+        images = {
+            "chevron": (icons / f"chevron-down-{theme.name}.svg").as_posix(),
+            "check": (icons / f"check-{theme.name}.svg").as_posix(),
+        }
+        application.setStyleSheet(surfaces + _SHEET.format(**colors, **sizes, **images))

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QListView, QWidget
 
 from carpus.ui.kit.card import ColorFill, Separator
 from carpus.ui.kit.cells import Cell, TableColumn, cell_text
 from carpus.ui.kit.layouts import clear_layout, column_layout, grid_layout, row_layout
-from carpus.ui.kit.text import MEDIUM, REGULAR, Icon, PlainText
+from carpus.ui.kit.text import MEDIUM, REGULAR, ElidedText, Icon, PlainText
 from carpus.ui.kit.theme import Theme
 
 # A longer text does not widen its column: it wraps.
@@ -154,3 +154,34 @@ class Table(QWidget):
 
 def _to_cell(cell: str | Cell, column: TableColumn) -> Cell:
     return cell if isinstance(cell, Cell) else Cell(cell, column.weight, column.token)
+
+
+class ListHeader(QWidget):
+    """Column headings above a list that paints its own rows; they stay above them next to a scroll bar too."""
+
+    def __init__(
+        self,
+        theme: Theme,
+        rows: QListView,
+        names: Sequence[str],
+        place: Callable[[float, Theme, float], Sequence[tuple[float, float]]],
+    ) -> None:
+        """Take the ends of the columns from ``place``, by width, theme and width of the last heading."""
+        super().__init__()
+        self._theme, self._rows, self._place = theme, rows, place
+        self._names = [ElidedText(theme, name, 12, MEDIUM, "text2") for name in names]
+        for name in self._names:
+            name.setParent(self)
+        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self._update_columns())
+        theme.on_change(self, lambda: self.setFixedHeight(theme.px(28)))
+        theme.changed.connect(self._update_columns)
+
+    def _update_columns(self) -> None:
+        bar = self._rows.verticalScrollBar()
+        width = self.width() - (bar.sizeHint().width() if bar.maximum() else 0)
+        last_px = self._names[-1].fontMetrics().horizontalAdvance(self._names[-1].text()) + 2
+        for name, (left, right) in zip(self._names, self._place(width, self._theme, last_px), strict=True):
+            name.setGeometry(round(left), 0, max(round(right) - round(left), 0), self.height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._update_columns()

@@ -45,6 +45,12 @@ def exercise_name(exercise_id: str) -> str:
     return exercise_id if known is None else translate_phrase(known.name)
 
 
+def exercise_limit(exercise_id: str) -> str:
+    """Return what the values of an exercise do not tell; empty for an unknown one."""
+    known = find_exercise(exercise_id)
+    return "" if known is None else translate_phrase(known.limit)
+
+
 def protocol_name(protocol: MarkerProtocol) -> str:
     """Return the name of a marker protocol with its number of markers."""
     count = len(protocol.markers)

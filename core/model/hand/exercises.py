@@ -48,6 +48,7 @@ STILL_NAMES = (phrase("Radial–ulnar deviation"), phrase("Up and down"), phrase
 AXIS_TICK_DEG = (40.0, 80.0, 80.0)
 AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)  # Outermost tick and end of the fixed axis of each angle on every screen and page.
 
+_FOREARM_LIMIT = phrase("Movement of the forearm appears in the angle.")
 _RETURN_CUE, _TASK_TITLE = phrase("Come back to the middle"), phrase("Additional measures")
 
 # Measures besides ranges: paths of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the
@@ -64,7 +65,7 @@ class Exercise:
     must stay within a ball of 15 mm. ``digits`` that move, thumb 1 to little finger 5, need their markers. ``joint`` is
     the trained joint angle of the whole hand by its name in every file; of a fist MCP, whose markers stay in view
     longest. ``instruction`` is read by the therapist, ``position`` says how the arm lies before the start,
-    ``visibility_note`` what the camera will not see. ``adult_cues`` and ``child_cues`` are shown to the patient for the
+    ``limit`` what its values do not tell. ``adult_cues`` and ``child_cues`` are shown to the patient for the
     positive and the negative direction. ``simulated_motion`` is used for practice. ``has_free_dip``: DIP flexion
     usually does not follow PIP flexion. ``has_total_motion``: the sum of a finger's flexion is its total active motion.
     ``is_task``: the task measures come before the ranges.
@@ -81,7 +82,7 @@ class Exercise:
     name: Phrase
     instruction: Phrase
     position: Phrase
-    visibility_note: str = ""
+    limit: Phrase
     adult_cues: tuple[str, str]
     child_cues: tuple[str, str]
     return_cue: Phrase = _RETURN_CUE
@@ -114,6 +115,7 @@ EXERCISES = (
         name=phrase("Wrist flexion–extension"),
         instruction=phrase("Bend the wrist up, then down, as far as is comfortable. Keep the forearm still."),
         position=phrase("Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed."),
+        limit=_FOREARM_LIMIT,
         adult_cues=(phrase("Bend your hand down"), phrase("Lift your hand up")),
         child_cues=(phrase("Down"), phrase("Up")),
         simulated_motion="flexion",
@@ -123,6 +125,7 @@ EXERCISES = (
         name=phrase("Radial–ulnar deviation"),
         instruction=phrase("Tilt the hand towards the thumb, then towards the little finger. Keep the forearm still."),
         position=phrase("Palm flat on a smooth sheet, forearm strapped."),
+        limit=_FOREARM_LIMIT,
         adult_cues=(phrase("Tilt your hand towards your thumb"), phrase("Tilt your hand towards your little finger")),
         child_cues=(phrase("To the thumb"), phrase("To the little finger")),
         simulated_motion="deviation",
@@ -132,11 +135,7 @@ EXERCISES = (
         name=phrase("Pronation–supination"),
         instruction=phrase("Turn the palm up as far as the markers stay visible, then back."),
         position=phrase("Elbow at the side, forearm free, palm down under the camera."),
-        visibility_note=phrase(
-            "0° is thumb up, palm flat on the table is 90° pronation. Seen from above, the markers are "
-            "occluded below about 25° of pronation. A supination goal before thumb up is negative, such as "
-            "−25°."
-        ),
+        limit=phrase("Below about 25° of pronation the markers are occluded. Only the visible part is measured."),
         adult_cues=(phrase("Turn your palm up"), phrase("Turn your palm down")),
         child_cues=(phrase("Turn up"), phrase("Turn down")),
         return_cue=phrase("Turn your hand back"), simulated_motion="palm_up",
@@ -146,10 +145,7 @@ EXERCISES = (
         name=phrase("Full fist"),
         instruction=phrase("Close all fingers into a full fist, then open flat."),
         position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
-        visibility_note=phrase(
-            "At the end of a fist the PIP and DIP joints are occluded. Repetitions are still counted, and these "
-            "ranges are minimum values (≥). To see more, turn the thumb side up."
-        ),
+        limit=phrase("At the end of a fist the PIP and DIP joints are occluded. Their ranges are minimum values (≥)."),
         adult_cues=(phrase("Close your hand to a fist"),) * 2, child_cues=(phrase("Close"),) * 2,
         return_cue=phrase("Open your hand"), simulated_motion="fist",
         task_measures=("together",), task_title=phrase("Finger coordination"),
@@ -159,10 +155,7 @@ EXERCISES = (
         name=phrase("Hook fist"),
         instruction=phrase("Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten."),
         position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
-        visibility_note=phrase(
-            "About half-way the PIP joints are occluded. Repetitions are still counted, and their range is a "
-            "minimum value (≥). To see more, raise the wrist or turn the thumb side up."
-        ),
+        limit=phrase("About half-way the PIP joints are occluded. Their range is a minimum value (≥)."),
         adult_cues=(phrase("Bend your fingers to a hook"),) * 2, child_cues=(phrase("Hook"),) * 2,
         return_cue=phrase("Straighten your fingers"), simulated_motion="hook",
         has_free_dip=True,
@@ -174,6 +167,7 @@ EXERCISES = (
         name=phrase("Spread the fingers"),
         instruction=phrase("Spread the fingers wide, then close them."),
         position=phrase("Palm flat on the table, fingers straight and closed."),
+        limit=phrase("The abduction of a flexed finger is unreliable. Keep the fingers straight."),
         adult_cues=(phrase("Spread your fingers wide"),) * 2, child_cues=(phrase("Wide"),) * 2,
         return_cue=phrase("Close your fingers"), simulated_motion="abduction",
         has_total_motion=False,
@@ -184,10 +178,7 @@ EXERCISES = (
         name=phrase("Thumb opposition"),
         instruction=phrase("Touch each fingertip with the thumb in turn. Abduct the thumb fully in between."),
         position=phrase("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
-        visibility_note=phrase(
-            "Under the palm the thumb tip is occluded. This exercise trains palmar abduction of the thumb, which "
-            "stays visible."
-        ),
+        limit=phrase("Under the palm the thumb tip is occluded. Palmar abduction of the thumb stays visible."),
         adult_cues=(phrase("Open your thumb wide"),) * 2, child_cues=(phrase("Thumb wide"),) * 2,
         return_cue=phrase("Touch the next fingertip"), simulated_motion="opposition",
         has_total_motion=False,
@@ -199,6 +190,7 @@ EXERCISES = (
         name=phrase("Reach and grasp"),
         instruction=phrase("Reach, take the cup, lift it a little, put it back, return."),
         position=phrase("Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away."),
+        limit=phrase("Behind the cup the thumb may be occluded. The results say for how long."),
         adult_cues=(phrase("Take the cup, lift it a little, put it back"),) * 2,
         child_cues=(phrase("Take the cup"),) * 2,
         simulated_motion="reach_grasp",
@@ -211,6 +203,7 @@ EXERCISES = (
         name=phrase("Free movement of the fingers"),
         instruction=phrase("Move the fingers freely. All joint angles are recorded; no repetitions are counted."),
         position=phrase("Hand in view of the camera, back of the hand up, fingers straight."),
+        limit=phrase("Occluded joints are not measured."),
         adult_cues=(phrase("Move your fingers as you like"),) * 2, child_cues=(phrase("Move your fingers"),) * 2,
         simulated_motion="fingers",
         task_measures=("reaches",),
@@ -220,6 +213,7 @@ EXERCISES = (
         name=phrase("Free movement"),
         instruction=phrase("Move the wrist freely. All three angles are recorded; no repetitions are counted."),
         position=phrase("Hand in view of the camera, back of the hand up."),
+        limit=_FOREARM_LIMIT,
         adult_cues=(phrase("Move your hand as you like"),) * 2, child_cues=(phrase("Move your hand"),) * 2,
         simulated_motion="mixed",
         task_measures=("reaches",),

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, QLocale, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QCheckBox, QWidget
 
 from carpus.core.formats.export import FORMATS
 from carpus.core.formats.output_files import MACHINE_DIALECT
-from carpus.ui.kit.button import Button, CheckButton
+from carpus.ui.kit.button import Button
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import Combo, LabelledField
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
@@ -50,7 +50,7 @@ class ExportDialog(Dialog):
         self.title = Text(theme, self.tr("Export this session"), 20, SEMIBOLD, wrap=True)
         self.words = Text(theme, self.tr("Existing files are never overwritten."), 14, token="text2", wrap=True)
         fill(body, self.title, self.words, 8)
-        self.format_ticks: dict[str, CheckButton] = {}
+        self.format_ticks: dict[str, QCheckBox] = {}
         for name in FORMATS:
             words = (
                 QCoreApplication.translate(TRANSLATION_CONTEXT, str(FORMAT_NAMES[name]))
@@ -120,8 +120,8 @@ class ExportDialog(Dialog):
         else:
             super().dismiss()
 
-    def _add_tick(self, words: str) -> CheckButton:
-        tick = CheckButton(self._theme, words)
+    def _add_tick(self, words: str) -> QCheckBox:
+        tick = QCheckBox(words)
         self.card.body.addLayout(row_layout(tick, STRETCH))
         return tick
 

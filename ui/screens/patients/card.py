@@ -47,6 +47,7 @@ class PatientCardView(Card):
         self._weeks = Text(theme, "", 16, SEMIBOLD)
         self._photo = Photo(theme)
         self._exercise = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self._limit = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._last_session = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._task_summary = Text(theme, "", 14, MEDIUM, wrap=True)
         self._warning = Text(theme, "", 14, MEDIUM, "warn", wrap=True)
@@ -81,6 +82,7 @@ class PatientCardView(Card):
             self._photo,
             14,
             self._exercise,
+            self._limit,
             2,
             self._last_session,
             12,
@@ -142,6 +144,7 @@ class PatientCardView(Card):
         )
         none = self.tr("No analysed session yet") if card.has_sessions else self.tr("No session yet")
         self._exercise.setText(terms.exercise_name(row.last_exercise) if row.last_exercise else none)
+        self._limit.show_text(terms.exercise_limit(row.last_exercise) if row.last_exercise else "")
         self._last_session.setText(self._last_words(card, practice))
         self._task_summary.show_text(card.task_summary)
         self._warning.setText(" ".join(card.warnings))

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QStringListModel, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QCompleter, QLineEdit, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QCheckBox, QCompleter, QLineEdit, QPlainTextEdit, QWidget
 
 from carpus.core.model.errors import CarpusFault, NameUnsuited, PseudonymTaken
 from carpus.core.model.names import MAX_NAME_CHARACTERS, fold_name, normalize_name
 from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
-from carpus.ui.kit.button import Button, CheckButton, is_enter_key
+from carpus.ui.kit.button import Button, is_enter_key
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import ChoiceRow, DateField
 from carpus.ui.kit.forms import Field, Form, limit_length, require_choice
@@ -49,7 +49,7 @@ class PatientForm(Dialog):
         self._taken_names: frozenset[str] = frozenset()
         self._save_words = ""
         self._title = Text(theme, "", 20, SEMIBOLD)
-        self.listed_tick = CheckButton(theme, self.tr("In the clinic’s &list"))
+        self.listed_tick = QCheckBox(self.tr("In the clinic’s &list"))
         self.weeks_text = Text(theme, "", 14, token="text2")
         self._error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.remove_button = Button(theme, self.tr("Archi&ve or delete…"), "quiet", icon="trash-2", height_px=40)

@@ -9,14 +9,13 @@ from types import MappingProxyType
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QResizeEvent
-from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
+from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from carpus.core.model.names import fold_name
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
 from carpus.ui.kit.fonts import MEDIUM, font
-from carpus.ui.kit.text import ElidedText
 from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.shell.name_display import NameDisplay
@@ -88,12 +87,12 @@ def row_cells(row: Patient, today: date, found_by: str = "") -> tuple[str, str, 
     number of sessions.
     """
     side = terms.side_name(row.side)
-    if row.patient_id == PRACTICE_PATIENT:
-        return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
-    about = " · ".join(part for part in (found_by, row.diagnosis) if part)
+    is_practice = row.patient_id == PRACTICE_PATIENT
+    diagnosis = tr("Try everything without a patient") if is_practice else row.diagnosis
+    about = " · ".join(part for part in (found_by, diagnosis) if part)
     since = numbers.format_weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
-        return row.pseudonym, side, about, since, tr("No analysed session yet"), "", ""
+        return row.pseudonym, side, about, since, "" if is_practice else tr("No analysed session yet"), "", ""
     when = row.last_session
     return (
         row.pseudonym, side, about, since, numbers.format_short_date(when), numbers.format_days_ago(when, today),
@@ -192,35 +191,18 @@ class PatientRowPainter(QStyledItemDelegate):
         painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter), shown)
 
 
-class ListHeader(QWidget):
-    """Column headings aligned with the rows, also next to a scroll bar."""
+def header_columns() -> list[str]:
+    """Return the headings of the columns."""
+    return [
+        tr("Patient"), tr("Hand"), tr("Diagnosis or operation"), tr("Since"), tr("Last session"), tr("Sessions"),
+    ]  # fmt: skip
 
-    def __init__(self, theme: Theme, rows: QListView) -> None:
-        super().__init__()
-        self._theme, self._rows = theme, rows
-        names = (
-            self.tr("Patient"), self.tr("Hand"), self.tr("Diagnosis or operation"), self.tr("Since"),
-            self.tr("Last session"), self.tr("Sessions"),
-        )  # fmt: skip
-        self._names = [ElidedText(theme, name, 12, MEDIUM, "text2") for name in names]
-        for name in self._names:
-            name.setParent(self)
-        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self._update_columns())
-        theme.on_change(self, lambda: self.setFixedHeight(theme.px(28)))
-        theme.changed.connect(self._update_columns)
 
-    def _update_columns(self) -> None:
-        bar = self._rows.verticalScrollBar()
-        width = self.width() - (bar.sizeHint().width() if bar.maximum() else 0)
-        end = width - RIGHT_PAD_PX
-        count = self._names[-1].fontMetrics().horizontalAdvance(self._names[-1].text()) + 2
-        edges = [round(share * width) for share in column_edges(self._theme.text_scale)]
-        lefts = [*edges, end - count]
-        for name, left, right in zip(self._names, lefts, [*(edge - 8 for edge in lefts[1:]), end], strict=True):
-            name.setGeometry(left, 0, max(right - left, 0), self.height())
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._update_columns()
+def place_headings(width: float, theme: Theme, last_px: float) -> list[tuple[float, float]]:
+    """Return left and right end of each heading; the last one, ``last_px`` wide, ends above the counts."""
+    end = width - RIGHT_PAD_PX
+    lefts = [*(share * width for share in column_edges(theme.text_scale)), end - last_px]
+    return list(zip(lefts, [*(left - 8 for left in lefts[1:]), end], strict=True))
 
 
 class PatientList(QListView):

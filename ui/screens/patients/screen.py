@@ -20,11 +20,12 @@ from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import KeyCaps, Separator
 from carpus.ui.kit.field import SearchField
 from carpus.ui.kit.layouts import STRETCH, column_layout, fill, row_layout, scroll_page
+from carpus.ui.kit.table import ListHeader
 from carpus.ui.kit.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.screens.patients.card import PatientCardView
 from carpus.ui.screens.patients.patient_form import PatientForm
-from carpus.ui.screens.patients.patient_list import ListHeader, PatientList
+from carpus.ui.screens.patients.patient_list import PatientList, header_columns, place_headings
 from carpus.ui.screens.welcome.panel import WelcomePanel
 from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS
@@ -65,7 +66,7 @@ class PatientsScreen(QWidget):
         self.search = SearchField(theme, self._search_words, self.tr("Ctrl+F"))
         self.new_button = Button(theme, self.tr("New patient"), icon="plus", hint=self.tr("Ctrl+N"))
         self.list = PatientList(theme, today, names)
-        self.header = ListHeader(theme, self.list)
+        self.header = ListHeader(theme, self.list, header_columns(), place_headings)
         self.card = PatientCardView(theme, today, names)
         self.date_text = Text(theme, "", 14, REGULAR, "text2")
         self._date_timer = QTimer(self, interval=DATE_CHECK_INTERVAL_MS)
@@ -149,9 +150,9 @@ class PatientsScreen(QWidget):
 
     def refresh(self, selected_id: str = "") -> None:
         self.refresh_date()
-        practice = Patient(self.tr("Practice patient"), "right", patient_id=PRACTICE_PATIENT)
         was_away = not self._offline_view.isHidden()
         try:
+            practice = replace(self._store.register.get(PRACTICE_PATIENT), pseudonym=self.tr("Practice patient"))
             rows, archived = (*self._store.list_patients(), practice), tuple(self._store.list_archived_names())
         except ServerUnavailable:
             self._show_offline(selected_id or self._current_patient_id())
@@ -216,14 +217,13 @@ class PatientsScreen(QWidget):
         self.form.edit_patient(None, taken, name if isinstance(name, str) else "")
 
     def change_patient(self, patient_id: str) -> None:
-        row = next(row for row in self._rows if row.patient_id == patient_id)
-        others = (other.pseudonym for other in self._rows if other is not row)
+        row = self._store.register.get(patient_id)  # a search may have found it beyond the rows of the list
+        others = (other.pseudonym for other in self._rows if other.patient_id != patient_id)
         taken = frozenset(name.casefold() for name in (*others, *self._archived_names))
         self.form.edit_patient(row, taken)
 
     def _show_saved(self, chosen: str) -> None:
-        self.search.clear()
-        self.refresh(chosen)
+        self.show_patient(self._store.register.get(chosen))
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _apply_filter(self, selected_id: str) -> None:

@@ -7,12 +7,12 @@ from dataclasses import replace
 from datetime import date, timedelta
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QLineEdit, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QLineEdit, QPlainTextEdit, QWidget
 
 from carpus.core.model.hand.exercises import Exercise
 from carpus.core.records.values import HomePlan
 from carpus.ui.kit import numbers
-from carpus.ui.kit.button import Button, CheckButton
+from carpus.ui.kit.button import Button
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import ChoiceRow, Combo, number_field
 from carpus.ui.kit.forms import Field, Form, limit_length
@@ -85,9 +85,9 @@ class HomeDialog(Dialog):
         words = self.tr("One page for the patient, without values or diagnosis. Up to {count} exercises.")
         self.add_heading(self.tr("Home exercise sheet"), words.format(count=MAX_TASKS), gap=8)
         grid = QGridLayout()
-        self.exercise_checks: dict[str, CheckButton] = {}
+        self.exercise_checks: dict[str, QCheckBox] = {}
         for number, exercise in enumerate(DRAWABLE_EXERCISES):
-            tick = self.exercise_checks[exercise.id] = CheckButton(theme, terms.exercise_name(exercise.id))
+            tick = self.exercise_checks[exercise.id] = QCheckBox(terms.exercise_name(exercise.id))
             tick.toggled.connect(self._check)
             grid.addWidget(tick, number // 3, number % 3)
         self.appointment = AppointmentBox()
@@ -185,7 +185,7 @@ class LetterDialog(Dialog):
         self.recipients.setPlaceholderText(self.tr("Previous recipients"))
         self.recipients.setAccessibleName(self.tr("Previous recipients"))
         lines = self.tr("Name and address, up to {count} lines").format(count=MAX_ADDRESS_LINES)
-        self.name_check = CheckButton(theme, self.tr("Print the patient’s real name"))
+        self.name_check = QCheckBox(self.tr("Print the patient’s real name"))
         self.form = Form(
             theme,
             [

@@ -8,13 +8,13 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent
-from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QWidget
 
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.results.report_form import MAX_SENTENCES, SECTIONS, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit import numbers
-from carpus.ui.kit.button import Button, CheckButton
+from carpus.ui.kit.button import Button
 from carpus.ui.kit.field import Combo
 from carpus.ui.kit.layouts import column_layout, fill
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
@@ -67,9 +67,9 @@ class ReportPanel(QWidget):
             "quality": self.tr("Reliability of the values"), "speed": self.tr("Pain, note"),
             "by_hand": self.tr("Manual measurements"), "motion": self.tr("Motion page"),
         }  # fmt: skip
-        self.section_checks: dict[str, CheckButton] = {}
+        self.section_checks: dict[str, QCheckBox] = {}
         for name in SECTIONS:
-            self.section_checks[name] = tick = CheckButton(theme, names[name])
+            self.section_checks[name] = tick = QCheckBox(names[name])
             tick.toggled.connect(self._update_sections)
             column.addWidget(tick)
         words = self.tr("Warnings, method and the legal sentence always stay.")

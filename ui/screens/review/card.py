@@ -54,7 +54,7 @@ class ReviewCard(Card):
         self.count_text = ElidedText(
             theme, "", 14, REGULAR, "text2"
         )  # one line: what it says comes when all has its place
-        self.repeat_button = Button(theme, self.tr("Measure again"), "quiet", icon="plus")
+        self.repeat_button = Button(theme, self.tr("Measure again"), "quiet", icon="rotate-ccw")
         self.include_button = Button(theme, self.tr("Exclude"), "quiet")
         self.include_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # Space stays with the player after a click
         self.include_button.setToolTip(self.tr("The session is kept but not analysed. It can be included again."))
@@ -121,7 +121,7 @@ class ReviewCard(Card):
         """Give the tables the rows they need, or let them scroll so that the curves keep their height."""
         self.report_button.set_label(self.report_button.text(), hint="" if tight else "Ctrl+P")
         self.export_button.set_label(self.export_button.text(), hint="" if tight else "Ctrl+E")
-        self.repeat_button.set_label(self.repeat_button.text(), icon="" if tight else "plus")
+        self.repeat_button.set_label(self.repeat_button.text(), icon="" if tight else "rotate-ccw")
         # With large text what was left out, and why, has a line of its own.
         direction = QBoxLayout.Direction
         self._heading.setDirection(direction.TopToBottom if tight else direction.LeftToRight)

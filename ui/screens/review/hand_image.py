@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QImage, QPainter
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QCheckBox, QWidget
 
 from carpus.core.model.hand.exercises import Exercise
 from carpus.core.model.types import ByteImage
 from carpus.core.results.hand_cutout import AngleOverlay, angle_overlay, cut_out_hand
 from carpus.core.session.values import Session
-from carpus.ui.kit.button import Button, CheckButton
+from carpus.ui.kit.button import Button
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import DARK, ON_PICTURE_LINE, Theme
@@ -100,7 +100,7 @@ class HandImageDialog(Dialog):
         words = self.tr("The hand is not visible here, or its marker labels are uncertain. Choose another moment.")
         self._refusal = Text(theme, words, 14, SEMIBOLD, "warn", wrap=True)
         body.addWidget(self._refusal)
-        self.consent_check = CheckButton(theme, self.tr("The patient has agreed"))
+        self.consent_check = QCheckBox(self.tr("The patient has agreed"))
         body.addWidget(self.consent_check)
         self.accept_button = Button(theme, self.tr("Save…"), "primary", height_px=44)
         self.close_button = self.add_buttons(self.accept_button)

@@ -16,10 +16,18 @@ from carpus.ui.kit.button import ENTER_KEY, Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.keys import KEYS, bind_key
 from carpus.ui.kit.layouts import ScrollArea, column_layout, row_layout
+from carpus.ui.kit.table import ListHeader
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 from carpus.ui.screens.sessions.dialogs import ChoiceDialog, ExcludeDialog
-from carpus.ui.screens.sessions.session_list import SessionLine, SessionList, remark, row_cells
+from carpus.ui.screens.sessions.session_list import (
+    SessionLine,
+    SessionList,
+    header_columns,
+    place_headings,
+    remark,
+    row_cells,
+)
 from carpus.ui.words import terms
 
 if TYPE_CHECKING:  # it reads and writes files
@@ -53,8 +61,10 @@ class SessionsScreen(QWidget):
         self.empty_text = Text(theme, self.tr("No session yet."), 16, REGULAR, "text2")
         self.notice_layout = QVBoxLayout()
         self.list = SessionList(theme)
+        self.header = ListHeader(theme, self.list, header_columns(), place_headings)
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.exercise_text = Text(theme, "", 20, SEMIBOLD, wrap=True)
+        self.limit_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.value_text = Text(theme, "", 28, SEMIBOLD, wrap=True)
         self.facts_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.remark_text = Text(theme, "", 14, SEMIBOLD, "warn", wrap=True)
@@ -77,7 +87,7 @@ class SessionsScreen(QWidget):
             self.title,
             self.notice_layout,
             self.empty_text,
-            (self.list, 1),
+            (column_layout(self.header, (self.list, 1), gap=0), 1),
             (self.archive_button, 0, Qt.AlignmentFlag.AlignLeft),
             gap=12,
         )
@@ -85,7 +95,7 @@ class SessionsScreen(QWidget):
         self._card = Card(self._theme, 20)
         body = self._card.body
         body.setSpacing(10)
-        for widget in (self.exercise_text, self.value_text, self.facts_text, self.remark_text):
+        for widget in (self.exercise_text, self.limit_text, self.value_text, self.facts_text, self.remark_text):
             body.addWidget(widget)
         body.addStretch(1)
         for button in (
@@ -144,6 +154,7 @@ class SessionsScreen(QWidget):
         self.archive_button.setVisible(archived > 0)
         self.archive_button.set_label(self.tr("In the archi&ve: {n}").format(n=archived))
         self.empty_text.setVisible(not lines)
+        self.header.setVisible(bool(lines))
         self.list.setVisible(bool(lines))
         row = max(0, self.list.session_model.find_row(selected_id))
         if lines:
@@ -176,6 +187,7 @@ class SessionsScreen(QWidget):
         if line is None:
             return
         self.exercise_text.setText(terms.exercise_name(line.entry.exercise))
+        self.limit_text.setText(terms.exercise_limit(line.entry.exercise))
         self.value_text.setText(line.main_value or ("–" if line.is_damaged else self.tr("Reading…")))
         facts = (
             row_cells(line, self.list.session_model.lines)[0], terms.hand_name(line.entry.hand),

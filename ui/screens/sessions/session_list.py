@@ -21,7 +21,7 @@ from carpus.ui.words import terms
 ROW_PX = 58
 TICK_PX, TICK_LEFT_PX = 20, 18
 MAX_TICKED = 2
-COLUMNS = (0.062, 0.242, 0.490, 0.680, 0.760, 0.985)
+COLUMNS = (0.062, 0.242, 0.490, 0.672, 0.768, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main value, repetitions, remark; the last is the end."""
 TWO_LINE_MAX_WIDTH_PX, TWO_LINE_EDGES = 720, (0.42, 0.84, 1.0)
 """In a narrower list (text at 100 %) date, value and repetitions stand above exercise and remark: right edges as
@@ -200,6 +200,17 @@ def _cell_boxes(box: QRectF, theme: Theme, *, has_remark: bool) -> list[QRectF]:
     )
     what = QRectF(left, lower, (0.66 if has_remark else 1.0) * whole - 8, high)
     return [day, what, figure, counted, QRectF(what.right() + 8, lower, whole - what.width() - 16, high)]
+
+
+def header_columns() -> list[str]:
+    """Return the headings of the columns."""
+    return [tr("Date"), tr("Exercise"), tr("Value"), tr("Analysed"), tr("Remark")]
+
+
+def place_headings(width: float, theme: Theme, _last_px: float) -> list[tuple[float, float]]:
+    """Return left and right end of each heading; none for what stands in a second line."""
+    boxes = _cell_boxes(QRectF(0, 0, width, 2), theme, has_remark=False)
+    return [(box.left(), box.right() if box.top() < 1 else box.left()) for box in boxes]
 
 
 class SessionList(QListView):

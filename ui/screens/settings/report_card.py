@@ -7,10 +7,10 @@ from pathlib import Path
 
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, Qt, Signal
 from PySide6.QtGui import QImage, QImageReader, QPixmap
-from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QPlainTextEdit
+from PySide6.QtWidgets import QCheckBox, QFileDialog, QLabel, QLineEdit, QPlainTextEdit
 
 from carpus.core.results.report_form import MAX_ADDRESS_CHARACTERS, MAX_ADDRESS_LINES, MAX_NAME_CHARACTERS, ReportForm
-from carpus.ui.kit.button import Button, CheckButton
+from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.forms import Field, Form
@@ -66,7 +66,7 @@ class ReportCard(Card):
         lines = self.tr("Address, up to four lines")
         papers = [("a4", "A4"), ("letter", self.tr("US Letter"))]
         name = QLineEdit(maxLength=MAX_NAME_CHARACTERS)
-        names = CheckButton(theme, self.tr("Print real name, birth date and record number"))
+        names = QCheckBox(self.tr("Print real name, birth date and record number"))
         return [
             Field("name", self.tr("Clinic name"), name, change_signal="editingFinished"),
             Field(

@@ -6,13 +6,13 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QApplication, QButtonGroup, QFileDialog, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QButtonGroup, QCheckBox, QFileDialog, QStackedWidget, QVBoxLayout, QWidget
 
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.model.rounding import format_rounded
 from carpus.core.platform.about import is_newer
 from carpus.core.platform.version import __version__
-from carpus.ui.kit.button import Button, CheckButton
+from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.forms import Field, Form
@@ -100,7 +100,7 @@ class SettingsScreen(QWidget):
                     "Shows path and axes, speeds, the movement page in reports, all export formats, angle order and "
                     "streaming. It changes no values."
                 ),
-                [Field("research", "", CheckButton(theme, self.tr("For research")))],
+                [Field("research", "", QCheckBox(self.tr("For research")))],
             ),
             (
                 "research", self.tr("Angle order"),
@@ -127,9 +127,7 @@ class SettingsScreen(QWidget):
             for field in fields:
                 one = self.form.labelled_widgets[field.name]
                 field.widget.setAccessibleName(field.widget.accessibleName() or title)
-                fill(
-                    card.body, 0 if field is fields[0] else 8, (one, 0, narrow) if isinstance(one, CheckButton) else one
-                )
+                fill(card.body, 0 if field is fields[0] else 8, (one, 0, narrow) if isinstance(one, QCheckBox) else one)
             self._pages[part].addWidget(card)
             if part == "looks":
                 card.body.addWidget(self.language_note)

@@ -62,7 +62,6 @@ class ExerciseScreen(QWidget):
         self._build_lists()
         self.sets_button = Button(theme, self.tr("Exercise sets…"), "plain", height_px=40)
         self.problem_label = Text(theme, "", 14, token="bad", wrap=True)
-        self.visibility_label = Text(theme, "", 14, token="text2", wrap=True)
         self.proposal_label = Text(theme, "", 14, token="text2", wrap=True)
         self.proposal_button = Button(theme, self.tr("Use as goals"), "plain", height_px=36)
         self.disk_space_label = caption(theme, wrap=True)
@@ -120,7 +119,7 @@ class ExerciseScreen(QWidget):
         self._card.body.addWidget(Text(theme, self.tr("This recording"), 20, SEMIBOLD))
         side, repetitions, targets, *others = self.form.layout_rows()
         body = column_layout(
-            side, repetitions, targets, self.problem_label, self.visibility_label, self.proposal_label,
+            side, repetitions, targets, self.problem_label, self.proposal_label,
             (self.proposal_button, 0, Qt.AlignmentFlag.AlignLeft), *others, self.disk_space_label, STRETCH, gap=16,
         )  # fmt: skip
         fill(self._card.body, (scroll_column(body), 1), self.primary_button)
@@ -251,7 +250,6 @@ class ExerciseScreen(QWidget):
         parts["is_dip_free"].setVisible(self._find_protocol().has_fingers)
         exercises = [part.exercise for part in chosen.parts] if chosen is not None else [exercise]
         self.form["is_dip_free"].choose(any(one.has_free_dip for one in exercises))
-        self.visibility_label.show_text(translate_phrase(exercise.visibility_note) if single else "")
         self._validate()
 
     def show_history(self, patient_id: str, history: Sequence[SessionResults]) -> None:
@@ -314,7 +312,7 @@ class ExerciseScreen(QWidget):
 def _list_options(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[str, str, str]]:
     """Return value, name and description of each exercise and set of a protocol."""
     single = [
-        (item.id, terms.exercise_name(item.id), translate_phrase(item.instruction))
+        (item.id, terms.exercise_name(item.id), "\n".join(map(translate_phrase, (item.instruction, item.limit))))
         for item in exercises_for_protocol(protocol)
     ]
     several = [
