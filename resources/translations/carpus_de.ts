@@ -7564,6 +7564,31 @@
     </message>
 </context>
 <context>
+    <name>FingerGrid</name>
+    <message>
+        <source>ext.</source>
+        <translation>Ext.</translation>
+    </message>
+    <message>
+        <source>flex.</source>
+        <translation>Flex.</translation>
+    </message>
+    <message>
+        <source>Tip to
+palm, cm</source>
+        <translation>FKHA
+cm</translation>
+    </message>
+    <message>
+        <source>Finger joints, goniometer</source>
+        <translation>Fingergelenke, Goniometer</translation>
+    </message>
+    <message>
+        <source>Measured by Carpus on this day</source>
+        <translation>Von Carpus an diesem Tag gemessen</translation>
+    </message>
+</context>
+<context>
     <name>FrameView</name>
     <message>
         <source>Camera image</source>
@@ -10802,31 +10827,6 @@ von oben</translation>
     <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
         <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben das Pseudonym ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
-    </message>
-</context>
-<context>
-    <name>FingerGrid</name>
-    <message>
-        <source>ext.</source>
-        <translation>Ext.</translation>
-    </message>
-    <message>
-        <source>flex.</source>
-        <translation>Flex.</translation>
-    </message>
-    <message>
-        <source>Tip to
-palm, cm</source>
-        <translation>FKHA
-cm</translation>
-    </message>
-    <message>
-        <source>Finger joints, goniometer</source>
-        <translation>Fingergelenke, Goniometer</translation>
-    </message>
-    <message>
-        <source>Measured by Carpus on this day</source>
-        <translation>Von Carpus an diesem Tag gemessen</translation>
     </message>
 </context>
 </TS>

@@ -7564,6 +7564,31 @@
     </message>
 </context>
 <context>
+    <name>FingerGrid</name>
+    <message>
+        <source>ext.</source>
+        <translation>est.</translation>
+    </message>
+    <message>
+        <source>flex.</source>
+        <translation>fless.</translation>
+    </message>
+    <message>
+        <source>Tip to
+palm, cm</source>
+        <translation>polpa–palmo
+cm</translation>
+    </message>
+    <message>
+        <source>Finger joints, goniometer</source>
+        <translation>Articolazioni delle dita, goniometro</translation>
+    </message>
+    <message>
+        <source>Measured by Carpus on this day</source>
+        <translation>Misurato da Carpus in questo giorno</translation>
+    </message>
+</context>
+<context>
     <name>FrameView</name>
     <message>
         <source>Camera image</source>
@@ -10802,31 +10827,6 @@ dall’alto</translation>
     <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
         <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
-    </message>
-</context>
-<context>
-    <name>FingerGrid</name>
-    <message>
-        <source>ext.</source>
-        <translation>est.</translation>
-    </message>
-    <message>
-        <source>flex.</source>
-        <translation>fless.</translation>
-    </message>
-    <message>
-        <source>Tip to
-palm, cm</source>
-        <translation>polpa–palmo
-cm</translation>
-    </message>
-    <message>
-        <source>Finger joints, goniometer</source>
-        <translation>Articolazioni delle dita, goniometro</translation>
-    </message>
-    <message>
-        <source>Measured by Carpus on this day</source>
-        <translation>Misurato da Carpus in questo giorno</translation>
     </message>
 </context>
 </TS>
