@@ -166,7 +166,7 @@ def track(
         DIP at two thirds of the PIP angle, or measured.
     use_depth : bool
         False for colour only.
-    profile : {"slow", "standard", "brisk"}
+    profile : {"standard", "slow", "brisk"}
         How fast the hand moves.
     lost_after_s : float
         Time without three palm markers after which the hand is lost.

@@ -47,6 +47,9 @@ REFERENCE = {
     "carpus.core.model.errors": ("CarpusFault",),
 }  # fmt: skip
 """Functions of ``import carpus``, and the classes that they take and return."""
+LOGO = "resources/carpus.svg"
+SEARCH_FRAME = "iframe-worker.js"
+"""The plugin ``offline`` would load it from the net, which a folder without one has not."""
 COMMANDS = {
     "Without a command, and to try": ("demo", "review"),
     "Recordings and sessions": ("simulate", "record", "track", "recover", "info", "verify"),
@@ -76,6 +79,8 @@ def lay_out() -> None:
         page.write_text(page.read_text(encoding="utf-8").replace(".ipynb)", ".md)"), encoding="utf-8")
     else:
         shutil.copytree(ROOT / "resources/tutorials", PAGES / "resources/tutorials")
+    shutil.copy(ROOT / "installer" / SEARCH_FRAME, PAGES)
+    shutil.copy(ROOT / LOGO, PAGES / LOGO)
     (PAGES / "python.md").write_text(reference(), encoding="utf-8")
     (PAGES / "commands.md").write_text(command_page(), encoding="utf-8")
 
@@ -148,10 +153,11 @@ def guide_pages() -> tuple[str, ...]:
 
 
 def config() -> dict[str, object]:
-    """What MkDocs is told."""
+    """Return the settings of MkDocs."""
     options = {
         "docstring_style": "numpy", "show_signature_annotations": True, "separate_signature": True,
         "show_root_heading": True, "show_root_full_path": False, "show_source": False, "heading_level": 2,
+        "merge_init_into_class": True, "line_length": 88,
     }  # fmt: skip
     python = {"paths": [str(SOURCE)], "options": options}
     return {
@@ -159,8 +165,16 @@ def config() -> dict[str, object]:
         "docs_dir": str(PAGES),
         "site_dir": str(SITE),
         "use_directory_urls": False,  # read from a folder, without a server
-        "theme": {"name": "material", "font": False, "features": ["navigation.tabs", "search.suggest"]},
+        "theme": {
+            "name": "material",
+            "font": False,
+            "logo": LOGO,
+            "favicon": LOGO,
+            "palette": {"primary": "teal"},
+            "features": ["navigation.tabs", "search.suggest", "toc.integrate"],
+        },
         "plugins": ["search", "offline", {"mkdocstrings": {"handlers": {"python": python}}}],
+        "extra": {"polyfills": [SEARCH_FRAME]},
         "markdown_extensions": ["tables", "toc", "attr_list"],
         "validation": {
             "nav": {"omitted_files": "warn", "not_found": "warn"},
@@ -177,6 +191,7 @@ def main() -> int:
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--config-file", str(CONFIG)]
     done = subprocess.run(command, check=False)
     if done.returncode == 0:
+        (SITE / "404.html").unlink()  # for a server; in a folder it finds neither style nor page
         print(f"{SITE / 'index.html'}: {sum(1 for _ in SITE.rglob('*.html'))} pages")
     return done.returncode
 

@@ -20,16 +20,20 @@ def write_page(notebook: nbformat.NotebookNode, page: Path) -> None:
     lines: list[str] = []
     for cell in notebook.cells:
         lines += [cell.source if cell.cell_type == "markdown" else f"```python\n{cell.source}\n```", ""]
+        printed = "".join(output["text"] for output in cell.get("outputs", []) if output.output_type == "stream")
+        # Of a progress bar the last state.
+        text = "\n".join(line.rpartition("\r")[2] for line in printed.replace("\r\n", "\n").rstrip().split("\n"))
+        lines += ["```text", text, "```", ""] if printed.strip() else []
         for output in cell.get("outputs", []):
-            data = output.get("data", {"text/plain": output.get("text", "")})
+            data = output.get("data", {})
             if "image/png" in data:
                 picture = page.with_name(f"{page.stem}-{len(lines)}.png")
                 picture.write_bytes(base64.b64decode(data["image/png"]))
                 lines += [f"![What the cell above draws]({picture.name})", ""]
             elif "text/html" in data:
-                lines += [data["text/html"].replace("\n\n", "\n"), ""]
-            else:
-                lines += ["```text", data.get("text/plain", "").rstrip(), "```", ""]
+                lines += [data["text/html"].replace("\n\n", "\n").replace(' border="1" class="dataframe"', ""), ""]
+            elif "text/plain" in data:
+                lines += ["```text", data["text/plain"].rstrip(), "```", ""]
     page.write_text("\n".join(lines), encoding="utf-8")
 
 

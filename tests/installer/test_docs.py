@@ -63,6 +63,12 @@ def test_pictures_of_the_guide_are_found_and_no_warning_is_kept_quiet(docs: Modu
     assert "--quiet" not in Path(docs.__file__).read_text(), "MkDocs counts only the warnings that it says"
 
 
+def test_search_of_a_folder_loads_nothing_from_the_net(docs: ModuleType) -> None:
+    (frame,) = docs.config()["extra"]["polyfills"]
+    assert (docs.PAGES / frame).is_file()
+    assert "iframe-worker" in frame, "else the plugin adds its own address"
+
+
 def test_citation_names_version_and_day_of_last_release() -> None:
     cited = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     released = re.findall(

@@ -81,9 +81,14 @@ class Comparison:
 
     Attributes
     ----------
-    excluded_count : frames of ``frame_count`` that are predicted, doubtful or lost
-    unused : what was not used, each with its reason
-    remarks : what to check before the values are believed; those of one angle begin with its name
+    frame_count, excluded_count : int
+        All frames, and those of them that are predicted, doubtful or lost and so left out.
+    overlap_s, rate_hz : float
+        Time that both recorded, and frames a second of the reference.
+    unused : tuple of str
+        What was not used, with the reason.
+    remarks : tuple of str
+        What to check before you trust the values; those of one angle begin with its name.
     """
 
     kind: str

@@ -32,10 +32,15 @@ class Agreement:
 
     Attributes
     ----------
-    effective_count : number of independent pairs
-    bias, sd, limits : of the differences; limits are bias ± 1.96 sd
-    icc, icc_3_1 : ICC(2,1), absolute agreement, and ICC(3,1), consistency
-    cmc : of the whole waveform, NaN for single readings and if the two have nothing in common
+    effective_count : float
+        Number of independent pairs.
+    bias, sd, limits : float, float, pair of float
+        Mean and standard deviation of the differences; limits of agreement, bias ± 1.96 sd.
+    icc, icc_3_1 : float
+        ICC(2,1), absolute agreement, and ICC(3,1), consistency.
+    cmc : float
+        Coefficient of multiple correlation of the whole waveform; NaN for single readings and if the two have nothing
+        in common.
     """
 
     count: int
