@@ -175,6 +175,53 @@ MEASURES: tuple[ManualMeasure, ...] = (
 )
 
 
+@dataclass(frozen=True, slots=True)
+class Questionnaire:
+    """Items of a questionnaire by number; their texts are under licence and stay on paper.
+
+    ``part`` is the number of items that count twice as much as the rest; 0 where the score is the mean from 0 to 100.
+    """
+
+    item_count: int
+    min_answer: int
+    max_answer: int
+    min_answered: int
+    part: int = 0
+
+    def parse_answers(self, text: str) -> list[float] | None:
+        """Return the answers typed so far, NaN for ``-``; None if one is impossible.
+
+        >>> QUESTIONNAIRES["QUICK_DASH"].parse_answers("12-")
+        [1.0, 2.0, nan]
+        """
+        words = text.split() if self.max_answer > 9 else "".join(text.split())
+        possible = {"-", *map(str, range(self.min_answer, self.max_answer + 1))}
+        if len(words) > self.item_count or not possible.issuperset(words):
+            return None
+        return [math.nan if word == "-" else float(word) for word in words]
+
+    def compute_score(self, answers: Sequence[float]) -> float:
+        """Return the score; NaN if items lack or too few are answered.
+
+        >>> QUESTIONNAIRES["QUICK_DASH"].compute_score([5.0] * 10 + [math.nan])
+        100.0
+        """
+        answered = [one for one in answers if math.isfinite(one)]
+        if len(answers) != self.item_count or len(answered) < self.min_answered:
+            return math.nan
+        if self.part:
+            return sum(answers[: self.part]) + sum(answers[self.part :]) / 2.0
+        return 25.0 * (statistics.fmean(answered) - 1.0)
+
+
+QUESTIONNAIRES: Mapping[str, Questionnaire] = {
+    "QUICK_DASH": Questionnaire(11, 1, 5, 10),
+    "DASH": Questionnaire(30, 1, 5, 27),
+    "PRWE": Questionnaire(15, 0, 10, 15, 5),
+}
+"""Published scoring: DASH and QuickDASH (sum / n - 1) x 25; PRWE pain (5 items) plus half of function (10 items)."""
+
+
 def find_manual_measure(measure_id: str) -> ManualMeasure:
     """Return a measure by its id. Raises KeyError for an unknown one."""
     for measure in MEASURES:

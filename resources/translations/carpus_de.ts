@@ -6327,6 +6327,50 @@
         <source>Analysed</source>
         <translation>Ausgewertet</translation>
     </message>
+    <message>
+        <source>no opposition</source>
+        <translation>keine Opposition</translation>
+    </message>
+    <message>
+        <source>index finger, side of the middle phalanx</source>
+        <translation>Zeigefinger, Seite des Mittelglieds</translation>
+    </message>
+    <message>
+        <source>index finger, side of the distal phalanx</source>
+        <translation>Zeigefinger, Seite des Endglieds</translation>
+    </message>
+    <message>
+        <source>tip of the index finger</source>
+        <translation>Spitze des Zeigefingers</translation>
+    </message>
+    <message>
+        <source>tip of the middle finger</source>
+        <translation>Spitze des Mittelfingers</translation>
+    </message>
+    <message>
+        <source>tip of the ring finger</source>
+        <translation>Spitze des Ringfingers</translation>
+    </message>
+    <message>
+        <source>tip of the little finger</source>
+        <translation>Spitze des Kleinfingers</translation>
+    </message>
+    <message>
+        <source>little finger, DIP crease</source>
+        <translation>Kleinfinger, DIP-Beugefalte</translation>
+    </message>
+    <message>
+        <source>little finger, PIP crease</source>
+        <translation>Kleinfinger, PIP-Beugefalte</translation>
+    </message>
+    <message>
+        <source>little finger, proximal crease</source>
+        <translation>Kleinfinger, Grundgelenk-Beugefalte</translation>
+    </message>
+    <message>
+        <source>distal palmar crease</source>
+        <translation>distale Hohlhandfalte</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -8273,6 +8317,10 @@ von oben</translation>
         <source>Manual measurements, {day}</source>
         <translation>Manuelle Messungen, {day}</translation>
     </message>
+    <message>
+        <source>Proposed, recording of {day}: at least {score}</source>
+        <translation>Vorschlag, Aufnahme vom {day}: mindestens {score}</translation>
+    </message>
 </context>
 <context>
     <name>ManualValueChart</name>
@@ -8474,6 +8522,26 @@ von oben</translation>
     <message>
         <source>mean {value}</source>
         <translation>Mittel {value}</translation>
+    </message>
+    <message>
+        <source>or {count} answers, {least}–{most}</source>
+        <translation>oder {count} Antworten, {least}–{most}</translation>
+    </message>
+    <message>
+        <source>{name}: answers by number</source>
+        <translation>{name}: Antworten als Zahlen</translation>
+    </message>
+    <message>
+        <source>Answers of the paper form in order, - for none. Only the score is saved.</source>
+        <translation>Antworten des Papierbogens der Reihe nach, - für keine. Nur die Punktzahl wird gespeichert.</translation>
+    </message>
+    <message>
+        <source>not an answer</source>
+        <translation>keine Antwort</translation>
+    </message>
+    <message>
+        <source>{count} of {all}</source>
+        <translation>{count} von {all}</translation>
     </message>
 </context>
 <context>

@@ -6327,6 +6327,50 @@
         <source>Analysed</source>
         <translation>Analizzate</translation>
     </message>
+    <message>
+        <source>no opposition</source>
+        <translation>nessuna opposizione</translation>
+    </message>
+    <message>
+        <source>index finger, side of the middle phalanx</source>
+        <translation>indice, lato della falange media</translation>
+    </message>
+    <message>
+        <source>index finger, side of the distal phalanx</source>
+        <translation>indice, lato della falange distale</translation>
+    </message>
+    <message>
+        <source>tip of the index finger</source>
+        <translation>punta dell’indice</translation>
+    </message>
+    <message>
+        <source>tip of the middle finger</source>
+        <translation>punta del medio</translation>
+    </message>
+    <message>
+        <source>tip of the ring finger</source>
+        <translation>punta dell’anulare</translation>
+    </message>
+    <message>
+        <source>tip of the little finger</source>
+        <translation>punta del mignolo</translation>
+    </message>
+    <message>
+        <source>little finger, DIP crease</source>
+        <translation>mignolo, piega IFD</translation>
+    </message>
+    <message>
+        <source>little finger, PIP crease</source>
+        <translation>mignolo, piega IFP</translation>
+    </message>
+    <message>
+        <source>little finger, proximal crease</source>
+        <translation>mignolo, piega prossimale</translation>
+    </message>
+    <message>
+        <source>distal palmar crease</source>
+        <translation>piega palmare distale</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -8273,6 +8317,10 @@ dall’alto</translation>
         <source>Manual measurements, {day}</source>
         <translation>Misure manuali, {day}</translation>
     </message>
+    <message>
+        <source>Proposed, recording of {day}: at least {score}</source>
+        <translation>Proposta, registrazione del {day}: almeno {score}</translation>
+    </message>
 </context>
 <context>
     <name>ManualValueChart</name>
@@ -8474,6 +8522,26 @@ dall’alto</translation>
     <message>
         <source>mean {value}</source>
         <translation>media {value}</translation>
+    </message>
+    <message>
+        <source>or {count} answers, {least}–{most}</source>
+        <translation>o {count} risposte, {least}–{most}</translation>
+    </message>
+    <message>
+        <source>{name}: answers by number</source>
+        <translation>{name}: risposte in cifre</translation>
+    </message>
+    <message>
+        <source>Answers of the paper form in order, - for none. Only the score is saved.</source>
+        <translation>Risposte del modulo cartaceo in ordine, - per nessuna. Viene salvato solo il punteggio.</translation>
+    </message>
+    <message>
+        <source>not an answer</source>
+        <translation>non è una risposta</translation>
+    </message>
+    <message>
+        <source>{count} of {all}</source>
+        <translation>{count} di {all}</translation>
     </message>
 </context>
 <context>

@@ -14,6 +14,7 @@ from sqlalchemy import update
 
 from carpus.core.measures.manual_measurements import (
     MEASURES,
+    QUESTIONNAIRES,
     ManualValue,
     compute_change,
     current_values,
@@ -76,6 +77,22 @@ def test_current_values_hold_the_total_of_a_finger_measured_whole(flexion_deg: l
     assert total.value == pytest.approx(sum(flexion_deg) - max(-extension, 0.0)), "hyperextension counts as 0"
     taken_back = [*entries, replace(entries[4], trials=())]
     assert all(not one.measure.startswith("TAM") for one in current_values(taken_back)), "one end is not known"
+
+
+def test_questionnaire_scores_run_from_0_to_100_and_lack_answers_as_published() -> None:
+    for name, item in QUESTIONNAIRES.items():
+        for answer, score in ((item.min_answer, 0.0), (item.max_answer, 100.0)):
+            assert item.compute_score([float(answer)] * item.item_count) == score, name
+        given = [float(item.max_answer)] * item.min_answered
+        lacking = [math.nan] * (item.item_count - item.min_answered)
+        assert item.compute_score([*given, *lacking]) == 100.0, "as many as may lack"
+        assert math.isnan(item.compute_score([*given[1:], math.nan, *lacking])), "one too few"
+        assert math.isnan(item.compute_score(given[1:])), "not all items were gone through"
+        blank = " " if item.max_answer > 9 else ""
+        assert item.parse_answers(blank.join(["-", str(item.max_answer)]))[1] == item.max_answer
+        assert item.parse_answers(f"{item.max_answer + 1}") is None
+    pain_counts_double = QUESTIONNAIRES["PRWE"].compute_score([10.0] * 5 + [0.0] * 10)
+    assert pain_counts_double == QUESTIONNAIRES["PRWE"].compute_score([0.0] * 5 + [10.0] * 10) == 50.0
 
 
 @given(first=st.floats(0, 90), last=st.floats(0, 90))

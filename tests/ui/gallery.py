@@ -86,6 +86,7 @@ from tests.ui.fakes import (
     FakeSessions,
     FakeStore,
     LateFeed,
+    figures_once,
     hand_values,
     hand_values_today,
     home_report,
@@ -594,6 +595,18 @@ class Gallery(GalleryWindow):
         for name, text in (("DIP2_EXTENSION", "-10"), ("DIP2_FLEXION", "55"), ("PIP5_FLEXION", "130")):
             screen.form.fingers.cells[name, "active"].setText(text)
         screen.form.fingers.setFocus()
+
+    def by_hand_scores(self) -> None:
+        """Kapandji score proposed from an opposition, and a questionnaire entered by its answers."""
+        screen = self.show(ManualMeasurementsScreen(self.theme, lambda: TODAY), tab=2, camera="")
+        seen = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
+        figures = [replace(seen, when=NOW, side="right", is_simulated=False)]
+        screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values_today()), tuple(figures), "MK"))
+        screen.measure_choice.choose("QUICK_DASH")
+        screen.measure_choice.activated.emit(screen.measure_choice.currentIndex())
+        screen.form.rows["QUICK_DASH"].answers_field.setText("1234-")
+        screen.form.rows["PRWE"].answers_field.setText("4 4 5 6 7 1 2 3 4 5 6 7 8 9 10")
+        screen.form.rows["PRWE"].answers_field.setFocus()
 
     def _report(self, made: Report) -> None:
         self.show(ReportScreen(self.theme, self.background), tab=3, camera="").show_report(made, "")

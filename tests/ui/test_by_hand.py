@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,6 +19,7 @@ from carpus.core.measures.manual_measurements import ManualValue, current_values
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.log import read_log
 from carpus.core.records.values import Patient
+from carpus.core.results.manual_proposals import propose_kapandji
 from carpus.core.results.progress import compute_progress
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
@@ -33,8 +35,8 @@ from carpus.ui.screens.progress.flow import write_tables
 from carpus.ui.shell.main_window import MainWindow
 from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
-from tests.ui.fakes import NOW, FakeSessions, hand_values
-from tests.ui.hand_fakes import FakeHandSessions
+from tests.ui.fakes import NOW, FakeSessions, figures_once, hand_values
+from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.printed import words_of
 
 TODAY = NOW.date()
@@ -193,6 +195,32 @@ def test_finger_grid_chosen_from_other_measures_replaces_the_list_of_joints(scre
     assert screen.form.has_fingers
     assert screen.focusWidget() is screen.form.fingers
     assert screen.measure_choice.findData("MCP2_FLEXION") < 0
+
+
+def test_scores_are_proposed_or_worked_out_and_saved_only_when_chosen(
+    screen: ManualMeasurementsScreen, qtbot: QtBot
+) -> None:
+    seen = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    screen.show_record(ManualRecord("Linden 42", seen.side, (), (replace(seen, when=NOW, is_simulated=False),), ""))
+    row = screen.form.rows["KAPANDJI"]
+    (_, choice), answers = row.fields[0], screen.form.rows["PRWE"].answers_field
+    assert choice.currentText() == "Proposed, recording of 20 Nov: at least 6"
+    assert not screen.has_unsaved, "a proposal is no value"
+    assert not any(cell.is_measured for cell in screen.form.fingers.cells.values()), "no joint was bent to its end"
+    choice.setFocus()
+    QTest.keyClicks(choice, "7")
+    answers.setText("4 4 5 6 7 1 2 3 4 5 6 7 8 9")
+    assert screen.form.rows["PRWE"].fields[0][1].is_empty
+    assert screen.form.rows["PRWE"].side_text.text() == "14 of 15"
+    answers.setText(answers.text() + " 10")
+    with qtbot.waitSignal(screen.save_requested) as caught:
+        screen.save_button.click()
+    assert caught.args[0] == [
+        ManualValue("PRWE", "", "", TODAY, (53.5,)),
+        ManualValue("KAPANDJI", "", seen.side, TODAY, (7.0,)),
+    ]
+    seen = replace(seen, when=NOW + timedelta(days=1), is_simulated=False)
+    assert propose_kapandji([seen], seen.side, TODAY) is None, "of a day to come"
 
 
 @pytest.fixture

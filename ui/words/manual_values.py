@@ -116,6 +116,16 @@ def history_words(values: Sequence[ManualValue], keys: Sequence[MeasureKey], day
     return tr("Previous entries for this day:") + "\n" + "\n".join(lines) if lines else ""
 
 
+def kapandji_stages() -> tuple[str, ...]:
+    """Return what the tip of the thumb reaches at each Kapandji score, from 0 (Kapandji 1986)."""
+    return (
+        tr("no opposition"), tr("index finger, side of the middle phalanx"),
+        tr("index finger, side of the distal phalanx"), tr("tip of the index finger"), tr("tip of the middle finger"),
+        tr("tip of the ring finger"), tr("tip of the little finger"), tr("little finger, DIP crease"),
+        tr("little finger, PIP crease"), tr("little finger, proximal crease"), tr("distal palmar crease"),
+    )  # fmt: skip
+
+
 def direction_words(measure: ManualMeasure) -> str:
     """Say which direction of a score is better."""
     return {"less": tr("lower is better"), "more": tr("higher is better"), "": ""}[measure.better_direction]

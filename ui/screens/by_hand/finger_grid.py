@@ -33,8 +33,8 @@ from carpus.core.measures.manual_measurements import (
     find_manual_measure,
 )
 from carpus.core.model.types import Side
-from carpus.core.results.measure import Measure, negate_measure
-from carpus.core.results.session_results import SessionResults
+from carpus.core.results.manual_proposals import CellKey
+from carpus.core.results.measure import Measure
 from carpus.ui.kit import numbers
 from carpus.ui.kit.field import parse_number
 from carpus.ui.kit.text import REGULAR, SEMIBOLD
@@ -47,29 +47,6 @@ from carpus.ui.words.marker_words import finger_name
 ROW_PX, HEAD_PX = 30, 46
 JOINT_COLUMNS = ("MCP", "PIP", "DIP")
 TOTAL_COLUMN, PALM_COLUMN = 6, 7
-CellKey = tuple[str, Mode]
-
-
-def find_measured_cells(sessions: Sequence[SessionResults], side: Side, day: date) -> dict[CellKey, Measure]:
-    """Return what Carpus measured of a hand's joints on a day, extension above zero in hyperextension.
-
-    The smallest angle is an extension only in an exercise that opens the hand as well. A later session replaces an
-    earlier one.
-    """
-    found: dict[CellKey, Measure] = {}
-    for session in sessions:
-        if (session.side, session.when.date()) != (side, day) or session.is_simulated or session.is_excluded:
-            continue
-        for mode, results in zip(BOTH_MODES, (session, session.passive_results()), strict=True):
-            if results is None:
-                continue
-            for joint in (joint for joints in FINGER_JOINTS.values() for joint in joints):
-                flexion, extension = (results.find(f"{joint}_flexion", end) for end in ("flexion", "extension"))
-                if flexion is not None and flexion.count:
-                    found[f"{joint}_FLEXION", mode] = flexion
-                if extension is not None and extension.count and session.exercise.has_total_motion:
-                    found[f"{joint}_EXTENSION", mode] = negate_measure(extension)
-    return found
 
 
 class FingerCell(QTableWidgetItem):

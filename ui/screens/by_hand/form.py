@@ -9,11 +9,13 @@ from datetime import date
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLineEdit, QWidget
 
 from carpus.core.measures.manual_measurements import (
+    KAPANDJI,
     MAX_LOCATION_LENGTH,
     MEASURES,
+    QUESTIONNAIRES,
     ManualMeasure,
     ManualValue,
     MeasureKey,
@@ -24,14 +26,15 @@ from carpus.core.measures.manual_measurements import (
     value_on_day,
 )
 from carpus.core.model.types import Side
+from carpus.core.results.manual_proposals import CellKey
 from carpus.core.results.measure import Measure
 from carpus.ui.kit import numbers
 from carpus.ui.kit.card import Separator
-from carpus.ui.kit.field import NumberField, add_inside
+from carpus.ui.kit.field import Combo, NumberField, add_inside
 from carpus.ui.kit.layouts import grid_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.by_hand.finger_grid import CellKey, FingerGrid
+from carpus.ui.screens.by_hand.finger_grid import FingerGrid
 from carpus.ui.words import terms
 from carpus.ui.words.fingers import LOWER_BOUND
 from carpus.ui.words.manual_values import (
@@ -40,6 +43,7 @@ from carpus.ui.words.manual_values import (
     entry_warning,
     group_names,
     history_words,
+    kapandji_stages,
     measure_name,
     mode_name,
     unit_name,
@@ -67,35 +71,65 @@ class MeasureRow(QObject):
         fields: list[tuple[Mode, int]] = [
             (way, number) for way in measure.modes for number in range(measure.trial_count)
         ]
-        self.fields: list[tuple[Mode, ValueField]] = []
+        self.fields: list[tuple[Mode, ValueField | KapandjiChoice]] = []
         for way, number in fields:
             which = mode_name(way) or (f"{number + 1}" if measure.trial_count > 1 else "")
-            field = ValueField(theme, measure, f"{name} {which}".strip(), FIELD_PX[measure.kind])
+            field = (
+                KapandjiChoice(theme, name) if measure.id == KAPANDJI
+                else ValueField(theme, measure, f"{name} {which}".strip(), FIELD_PX[measure.kind])
+            )  # fmt: skip
             field.textChanged.connect(lambda _: self._on_edited())
             self.fields.append((way, field))
         self.location_field = QLineEdit(maxLength=MAX_LOCATION_LENGTH, placeholderText=self.tr("location"))
         self.location_field.setAccessibleName(self.tr("{name}: location of the measurement").format(name=name))
         self.location_field.textChanged.connect(lambda _: self._on_edited())
+        self._questionnaire = QUESTIONNAIRES.get(measure.id)
+        self.answers_field = QLineEdit()
+        self.answers_field.textChanged.connect(lambda _: self._count_answers())
         self.widgets: list[QWidget] = []
         self.side_text = Text(theme, "", 14, SEMIBOLD)
-        self.other_hand_text = Text(theme, "", 14, REGULAR, "text2")
+        self.other_hand_text = Text(theme, "", 14, REGULAR, "text2", wrap=measure.kind == "score")
         self.last_text = Text(theme, "", 14, REGULAR, "text2")
         self._carpus_measure: Measure | None = None
 
     def add_to_grid(self, theme: Theme, grid: QGridLayout, grid_row: int) -> None:
-        extra_widgets: dict[str, QWidget] = {
-            "size": self.location_field,
-            "score": Text(theme, direction_words(self.measure), 12, MEDIUM, "text2"),
-        }
-        shown = [(0, self.name), *((1 + number, field) for number, (_, field) in enumerate(self.fields))]
-        shown += [(CARPUS_COLUMN, self.side_text), (OTHER_HAND_COLUMN, self.other_hand_text)]
-        for column, widget in shown:
-            grid.addWidget(widget, grid_row, column)
+        shown: list[tuple[int, int, QWidget]] = [(0, 1, self.name)]
+        if self.measure.id == KAPANDJI:
+            shown.append((1, OTHER_HAND_COLUMN, self.fields[0][1]))
+        else:
+            shown += [(1 + number, 1, field) for number, (_, field) in enumerate(self.fields)]
+            shown += [(CARPUS_COLUMN, 1, self.side_text), (OTHER_HAND_COLUMN, 1, self.other_hand_text)]
+        if self.measure.kind == "size":
+            shown.append((2, 2, self.location_field))
+        if self._questionnaire is not None:
+            words = self.tr("or {count} answers, {least}–{most}")
+            facts = self._questionnaire
+            self.answers_field.setPlaceholderText(
+                words.format(count=facts.item_count, least=facts.min_answer, most=facts.max_answer)
+            )
+            self.answers_field.setAccessibleName(self.tr("{name}: answers by number").format(name=self.name.text()))
+            self.answers_field.setToolTip(
+                self.tr("Answers of the paper form in order, - for none. Only the score is saved.")
+            )
+            shown.append((2, 2, self.answers_field))
+        for column, columns, widget in shown:
+            grid.addWidget(widget, grid_row, column, 1, columns)
         grid.addWidget(self.last_text, grid_row, LAST_COLUMN, Qt.AlignmentFlag.AlignRight)
-        self.widgets = [self.last_text, *(widget for _, widget in shown)]
-        if self.measure.kind in extra_widgets:
-            self.widgets.append(extra_widgets[self.measure.kind])
-            grid.addWidget(self.widgets[-1], grid_row, 2, 1, 2)
+        self.widgets = [self.last_text, *(widget for _, _, widget in shown)]
+
+    def _count_answers(self) -> None:
+        """Put the score of the answers typed into the field, once they are complete."""
+        facts, text = self._questionnaire, self.answers_field.text()
+        self.side_text.setText("")
+        if facts is None or not text.strip():
+            return
+        answers = facts.parse_answers(text)
+        score = math.nan if answers is None else facts.compute_score(answers)
+        self.fields[0][1].set_value(round(score, self.measure.decimals))
+        if answers is None:
+            self.side_text.setText(self.tr("not an answer"))
+        elif not math.isfinite(score):
+            self.side_text.setText(self.tr("{count} of {all}").format(count=len(answers), all=facts.item_count))
 
     def keys(self, side: Side) -> list[MeasureKey]:
         return [(self.measure.id, way, side if self.measure.is_per_hand else "") for way in self.measure.modes]
@@ -115,6 +149,7 @@ class MeasureRow(QObject):
         last = [previous_value(values, key, day) for key in self.keys(side)]
         where = stored[0] or last[0]
         self.location_field.setText(where.location if where else "")
+        self.answers_field.clear()
         for field in (*fields, self.location_field):
             field.blockSignals(False)
         words = " / ".join(value_words(self.measure, one.value) if one else "–" for one in last)
@@ -125,7 +160,7 @@ class MeasureRow(QObject):
             self.last_text.setText(" · ".join(filter(None, (self.tr("changed"), self.last_text.text()))))
         self.last_text.setToolTip(history)
         self.last_text.setAccessibleDescription(history)
-        self.other_hand_text.setText("")
+        self.other_hand_text.setText(direction_words(self.measure) if self.measure.kind == "score" else "")
         if self.measure.is_per_hand and self.measure.kind != "angle":
             other: Side = "left" if side == "right" else "right"
             found = value_on_day(values, self.keys(other)[0], day) or previous_value(values, self.keys(other)[0], day)
@@ -278,11 +313,12 @@ class ManualForm(QWidget):
         for row in rows:
             fields += (field for _, field in row.fields)
             fields += [row.location_field] if row.measure.kind == "size" else []
+            fields += [row.answers_field] if row.measure.id in QUESTIONNAIRES else []
         if self.has_fingers:
             fields.insert(sum(len(row.fields) for row in rows if row.measure.kind == "angle"), self.fingers)
         return fields
 
-    def _focus_next(self, field: ValueField) -> None:
+    def _focus_next(self, field: QWidget) -> None:
         """Move the focus to the next field; after the last one it stays."""
         fields = self._input_fields()
         following = fields[min(fields.index(field) + 1, len(fields) - 1)]
@@ -319,6 +355,38 @@ class ManualForm(QWidget):
             if not same:
                 found.append(one)
         return found
+
+
+class KapandjiChoice(Combo):
+    """Choice of a Kapandji score by what the thumb reaches; empty if not measured."""
+
+    textChanged, textEdited, next_requested = Signal(str), Signal(str), Signal()
+    error = warning = ""
+
+    def __init__(self, theme: Theme, name: str) -> None:
+        super().__init__()
+        self.setAccessibleName(name)
+        self.set_proposal("")
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.currentTextChanged.connect(self.textChanged)
+        self.textActivated.connect(self.textEdited)
+
+    def set_proposal(self, words: str) -> None:
+        """Show what a session proposes as long as nothing is chosen."""
+        stages = ((score, f"{score}: {stage}") for score, stage in enumerate(kapandji_stages()))
+        self.set_choices([(None, words), *stages], self.currentData())
+        self.setToolTip(words)
+
+    @property
+    def is_empty(self) -> bool:
+        return self.currentData() is None
+
+    def value(self) -> float:
+        return math.nan if self.is_empty else float(self.currentData())
+
+    def set_value(self, value: float) -> None:
+        """Choose a score; NaN chooses none."""
+        self.setCurrentIndex(1 + int(value) if math.isfinite(value) else 0)
 
 
 class ValueField(NumberField):

@@ -11,6 +11,7 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QBoxLayout, QDateEdit, QWidget
 
 from carpus.core.measures.manual_measurements import (
+    KAPANDJI,
     MEASURES,
     ManualMeasure,
     ManualValue,
@@ -19,6 +20,7 @@ from carpus.core.measures.manual_measurements import (
     find_manual_measure,
 )
 from carpus.core.model.types import Side
+from carpus.core.results.manual_proposals import CellKey, find_measured_cells, propose_kapandji
 from carpus.core.results.measure import Measure
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.manual_values import ManualValueChart
@@ -39,8 +41,7 @@ from carpus.ui.kit.layouts import (
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.screens.by_hand.change_rows import add_change_rows
-from carpus.ui.screens.by_hand.finger_grid import CellKey, find_measured_cells
-from carpus.ui.screens.by_hand.form import ManualForm
+from carpus.ui.screens.by_hand.form import KapandjiChoice, ManualForm
 from carpus.ui.words import terms
 from carpus.ui.words.manual_values import find_changes, group_names, measure_name
 
@@ -211,11 +212,14 @@ class ManualMeasurementsScreen(FittedWidget):
         usual = {one.id for one in MEASURES if one.is_default}
         if any(figures.joint_ranges for figures in self.record.figures):
             usual.add(_FINGERS)
+        if propose_kapandji(self.record.figures, self.side, self.current_day):
+            usual.add(KAPANDJI)
         self.form.set_measures(usual | {one.measure for one in self.record.values} | self._added_measures)
         self.form.show_values(
             self._all_values(), self.side, self.current_day, self._carpus_measures(), self._measured_cells()
         )
         self._fill_more()
+        self._show_proposal()
         day = numbers.format_short_date(self.current_day)
         self.title.setText(self.tr("Manual measurements, {day}").format(day=day))
         self._show_basis()
@@ -259,9 +263,22 @@ class ManualMeasurementsScreen(FittedWidget):
             form.rows[name].show_values(values, side, day, self._carpus_measures().get(name))
             field = form.rows[name].fields[0][1]
         self._fill_more()
+        self._show_proposal()
         self._show_basis()
         self._show_course(name)
         field.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _show_proposal(self) -> None:
+        """Propose a Kapandji score where an opposition was recorded."""
+        row = self.form.rows.get(KAPANDJI)
+        choice = None if row is None else row.fields[0][1]
+        if not isinstance(choice, KapandjiChoice):
+            return
+        found = propose_kapandji(self.record.figures, self.side, self.current_day)
+        words = self.tr("Proposed, recording of {day}: at least {score}")
+        choice.set_proposal(
+            "" if found is None else words.format(day=numbers.format_day_month(found[1]), score=found[0])
+        )
 
     def _measured_cells(self) -> dict[CellKey, Measure]:
         return find_measured_cells(self.record.figures, self.side, self.current_day)
