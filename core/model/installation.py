@@ -26,7 +26,8 @@ class Finding:
 
 CAMERAS_EXTRA = "carpus-cameras-extra"
 """The second Debian package."""
-CAMERAS_EXTRA_PACKAGES = NO_DEPENDENCY_PACKAGES = ("pyorbbecsdk2",)
+CAMERAS_EXTRA_PACKAGES = ("pyorbbecsdk2", "pyrealsense2")
+NO_DEPENDENCY_PACKAGES = ("pyorbbecsdk2",)
 """Their own requirements (an older NumPy, a second OpenCV, Open3D) are those of their examples and would replace what
 Carpus runs on: so there is no extra for them."""
 

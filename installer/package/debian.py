@@ -66,7 +66,9 @@ def extra_control(version: str, installed_bytes: int, architecture: str) -> str:
     """That of the second package; its libraries fit the Python of one version of the first."""
     needs = f"carpus (= {debian_version(version)})"
     return _control(CAMERAS_EXTRA, version, installed_bytes, architecture, needs) + (
-        "Description: Orbbec cameras for Carpus\n The maker's library for Orbbec's Femto, Gemini and Astra 2 cameras.\n"
+        "Description: RealSense and Orbbec cameras for Carpus\n"
+        " The makers' libraries for Intel's RealSense D400 series and for Orbbec's Femto,\n"
+        " Gemini and Astra 2 cameras.\n"
     )
 
 

@@ -21,15 +21,17 @@ cd /home/clinician
 as_clinician carpus --version
 as_clinician carpus doctor | tee "$out/doctor.txt" || true
 
-# --- the cameras: RealSense's library at once, Orbbec's by the second package; pip is never named --------------------
+# --- the cameras: their libraries come by the second package; pip is never named -------------------------------------
 doctor() { as_clinician carpus doctor --camera "$1" | tee "$out/doctor-$1.txt" || true; ! grep -w pip "$out/doctor-$1.txt" || fail "it says pip"; }
-doctor realsense; grep -q '^ok  *RealSense driver' "$out/doctor-realsense.txt" || fail "no RealSense driver"
-grep -q '^ok  *Camera rights' "$out/doctor-realsense.txt" || fail "no rights for RealSense"
-doctor orbbec; grep -q 'carpus-cameras-extra' "$out/doctor-orbbec.txt" || fail "the second package is not named"
+for camera in realsense orbbec; do
+    doctor $camera; grep -q 'carpus-cameras-extra' "$out/doctor-$camera.txt" || fail "the second package is not named"
+done
 apt-get install -y -qq --no-install-recommends /srv/extra.deb >/dev/null
-doctor orbbec; grep -q '^ok  *Orbbec driver' "$out/doctor-orbbec.txt" || fail "no Orbbec driver"
-grep -q '^ok  *Camera rights' "$out/doctor-orbbec.txt" || fail "no rights for Orbbec"
-say "RealSense and, by the second package ($(dpkg-query --show --showformat='${Installed-Size}' carpus-cameras-extra) kB), Orbbec are there"
+for camera in realsense orbbec; do
+    doctor $camera; grep -qi "^ok  *$camera driver" "$out/doctor-$camera.txt" || fail "no driver for $camera"
+    grep -q '^ok  *Camera rights' "$out/doctor-$camera.txt" || fail "no rights for $camera"
+done
+say "by the second package ($(dpkg-query --show --showformat='${Installed-Size}' carpus-cameras-extra) kB) RealSense and Orbbec are there"
 
 # --- what the system knows of it --------------------------------------------------------------------------------
 grep -q 'application/x-carpus-session=carpus.desktop' /usr/share/applications/mimeinfo.cache || fail "the desktop does not know the file type"
