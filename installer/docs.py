@@ -70,9 +70,6 @@ def lay_out() -> None:
         shutil.copy(path, PAGES / "resources")
     for name in ("guide", "pictures", "research-notes"):
         shutil.copytree(ROOT / "resources" / name, PAGES / "resources" / name)
-    for page in (PAGES / "resources/guide").glob("*/*.md"):  # the window looks for pictures in their own folder
-        text = page.read_text(encoding="utf-8")
-        page.write_text(re.sub(r"\]\(([\w-]+\.(?:png|jpg))\)", r"](../pictures/\1)", text), encoding="utf-8")
     if TUTORIALS.is_dir():
         shutil.copytree(TUTORIALS, PAGES / "resources/tutorials")
         page = PAGES / "resources/api.md"

@@ -30,6 +30,7 @@ def main() -> int:
     parser.add_argument("only", nargs="?", default="", help="beginning of a screen's name, such as live")
     parser.add_argument("--output", type=Path, default=FOLDER, metavar="FOLDER")
     parser.add_argument("--large-text", action="store_true", help="also at 150 %% text size")
+    parser.add_argument("--language", default="en", help="of the window: en, de or it")
     parser.add_argument("--readme", action="store_true", help=f"only the README's picture, {README_PICTURE}")
     parser.add_argument("--guide", action="store_true", help=f"only the guide's pictures and cards, into {GUIDE}")
     arguments = parser.parse_args()
@@ -46,7 +47,7 @@ def main() -> int:
     if not arguments.only and arguments.output == FOLDER:
         shutil.rmtree(arguments.output, ignore_errors=True)  # no picture of a screen that is no more
     scales = (1.0, 1.5) if arguments.large_text else (1.0,)
-    written = render_all_screens(arguments.output, scales=scales, only=arguments.only)
+    written = render_all_screens(arguments.output, scales=scales, only=arguments.only, language=arguments.language)
     print(f"{len(written)} pictures in {arguments.output}")
     return 0 if written else 1
 
@@ -73,32 +74,35 @@ def write_guide() -> int:
     from PySide6.QtCore import QRectF
     from PySide6.QtGui import QColor, QImage, QPainter
 
+    from carpus.ui.kit.language import LANGUAGES, set_window_language
     from carpus.ui.screens.help.cards import FILE_NAME, write_cards
     from tests.ui.gallery import render_all_screens
 
     gc.disable()  # as the command does: a collection while pyqtgraph builds an item ends the process
     from tests.ui.guide_drawings import paint_camera_setup, paint_marker_map
 
-    folder = GUIDE / "pictures"
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, state in GUIDE_PICTURES.items():
-        with tempfile.TemporaryDirectory() as rendered:
-            written = render_all_screens(Path(rendered), sizes=(README_SIZE,), states=(state,), themes=("light",))
-            picture = QImage(str(next(path for path in written if f"-{state}-light-" in path.name)))
-        picture.save(str(folder / f"{name}.jpg"), None, GUIDE_QUALITY)
-    for name, paint in (
-        ("discs-6", lambda painter, box: paint_marker_map(painter, box, "right", whole_hand=False, unit=2.0)),
-        ("discs-21", lambda painter, box: paint_marker_map(painter, box, "right", whole_hand=True, unit=2.0)),
-        ("camera-setup", lambda painter, box: paint_camera_setup(painter, box, 2.0)),
-    ):
-        drawn = QImage(1440, 900, QImage.Format.Format_RGB32)
-        drawn.fill(QColor("#FFFFFF"))
-        painter = QPainter(drawn)
-        paint(painter, QRectF(60, 30, 1320, 840))
-        painter.end()
-        drawn.save(str(folder / f"{name}.png"))
+    for code in LANGUAGES:
+        for name, state in GUIDE_PICTURES.items():
+            with tempfile.TemporaryDirectory() as rendered:
+                written = render_all_screens(
+                    Path(rendered), sizes=(README_SIZE,), states=(state,), themes=("light",), language=code
+                )
+                picture = QImage(str(next(path for path in written if f"-{state}-light-" in path.name)))
+            picture.save(str(GUIDE / code / f"{name}.jpg"), None, GUIDE_QUALITY)
+        for name, paint in (
+            ("discs-6", lambda painter, box: paint_marker_map(painter, box, "right", whole_hand=False, unit=2.0)),
+            ("discs-21", lambda painter, box: paint_marker_map(painter, box, "right", whole_hand=True, unit=2.0)),
+            ("camera-setup", lambda painter, box: paint_camera_setup(painter, box, 2.0)),
+        ):
+            drawn = QImage(1440, 900, QImage.Format.Format_RGB32)
+            drawn.fill(QColor("#FFFFFF"))
+            painter = QPainter(drawn)
+            paint(painter, QRectF(60, 30, 1320, 840))
+            painter.end()
+            drawn.save(str(GUIDE / code / f"{name}.png"))
+    set_window_language("en")
     write_cards(GUIDE / FILE_NAME)
-    print(f"{len(list(folder.iterdir()))} pictures and {FILE_NAME} in {GUIDE}")
+    print(f"{len(LANGUAGES) * (len(GUIDE_PICTURES) + 3)} pictures and {FILE_NAME} in {GUIDE}")
     return 0
 
 

@@ -269,7 +269,7 @@
     </message>
     <message>
         <source>{before} → {after} since {day}</source>
-        <translation>{before} → {after} seit {day}</translation>
+        <translation>{before} → {after} seit dem {day}</translation>
     </message>
     <message>
         <source>(MDC {size})</source>
@@ -1557,15 +1557,15 @@
     </message>
     <message>
         <source>TAM has improved in {count} of {all} fingers since {day}.</source>
-        <translation>Die TAM ist seit {day} bei {count} von {all} Fingern besser.</translation>
+        <translation>Die TAM ist seit dem {day} bei {count} von {all} Fingern besser.</translation>
     </message>
     <message>
         <source>{name} has improved by {size} since {day}.</source>
-        <translation>{name} ist seit {day} um {size} besser.</translation>
+        <translation>{name} ist seit dem {day} um {size} besser.</translation>
     </message>
     <message>
         <source>{name} has decreased by {size} since {day}.</source>
-        <translation>{name} hat seit {day} um {size} abgenommen.</translation>
+        <translation>{name} hat seit dem {day} um {size} abgenommen.</translation>
     </message>
     <message>
         <source>Not assessed: the joints were partly occluded.</source>
@@ -1925,11 +1925,11 @@
     </message>
     <message>
         <source>the first session on {day}</source>
-        <translation>der ersten Sitzung am {day}</translation>
+        <translation>Tag der ersten Sitzung ({day})</translation>
     </message>
     <message>
         <source>Change since {when} is not assessed: {why}.</source>
-        <translation>Änderung seit {when} nicht beurteilt: {why}.</translation>
+        <translation>Änderung seit dem {when} nicht beurteilt: {why}.</translation>
     </message>
     <message>
         <source>Partly occluded joints are not assessed.</source>
@@ -1937,7 +1937,7 @@
     </message>
     <message>
         <source>Since {when}: {changes} (MDC {limit}).</source>
-        <translation>Seit {when}: {changes} (MDC {limit}).</translation>
+        <translation>Seit dem {when}: {changes} (MDC {limit}).</translation>
     </message>
     <message>
         <source>IP</source>
@@ -2301,7 +2301,7 @@
     </message>
     <message>
         <source>Since {when}: {changes}.</source>
-        <translation>Seit {when}: {changes}.</translation>
+        <translation>Seit dem {when}: {changes}.</translation>
     </message>
     <message>
         <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
@@ -2813,7 +2813,7 @@
     </message>
     <message>
         <source>{difference} since the first</source>
-        <translation>{difference} seit der ersten</translation>
+        <translation>{difference} als bei der ersten</translation>
     </message>
     <message>
         <source>{difference}, within MDC ({limit})</source>
@@ -4297,7 +4297,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {day}.</source>
-        <translation>Seit {day} keine Änderung über den Messfehler hinaus.</translation>
+        <translation>Seit dem {day} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>{name}: no change beyond measurement error.</source>
@@ -4305,7 +4305,7 @@
     </message>
     <message>
         <source>No change beyond measurement error since {when}.</source>
-        <translation>Seit {when} keine Änderung über den Messfehler hinaus.</translation>
+        <translation>Seit dem {when} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>no change beyond MDC</source>
@@ -7663,11 +7663,11 @@ cm</translation>
     </message>
     <message>
         <source>1 marker to go</source>
-        <translation>Noch 1 Marker</translation>
+        <translation>noch 1 Marker</translation>
     </message>
     <message>
         <source>{count} markers to go</source>
-        <translation>Noch {count} Marker</translation>
+        <translation>noch {count} Marker</translation>
     </message>
     <message>
         <source>Start measuring · {left}</source>

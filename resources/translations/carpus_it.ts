@@ -2813,7 +2813,7 @@
     </message>
     <message>
         <source>{difference} since the first</source>
-        <translation>{difference} dalla prima</translation>
+        <translation>{difference} rispetto alla prima</translation>
     </message>
     <message>
         <source>{difference}, within MDC ({limit})</source>
@@ -5657,7 +5657,7 @@
     </message>
     <message>
         <source>Hand tracked well</source>
-        <translation>Mano rilevata bene</translation>
+        <translation>Mano ben rilevata</translation>
     </message>
     <message>
         <source>Use that spot</source>
@@ -5765,11 +5765,11 @@
     </message>
     <message>
         <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people. Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up.</source>
-        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti è il valore predefinito di Carpus, stabilito da esperti. Vale a parità di marcatori, lato e preparazione.</translation>
+        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti si usa il valore predefinito di Carpus, stabilito da esperti. Entrambi valgono a parità di marcatori, lato e preparazione.</translation>
     </message>
     <message>
         <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
-        <translation>MDC (errore di misura): è il valore predefinito di Carpus, stabilito da esperti e non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
+        <translation>MDC (errore di misura): valore predefinito di Carpus, stabilito da esperti e non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -7113,7 +7113,7 @@
     </message>
     <message>
         <source>Changed here: {markers}</source>
-        <translation>Cambiati qui: {markers}</translation>
+        <translation>Cambiamenti qui: {markers}</translation>
     </message>
     <message>
         <source>“{marker}” cannot be there</source>
@@ -9126,7 +9126,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>{factor}× speed</source>
-        <translation>velocità {factor}×</translation>
+        <translation>Velocità {factor}×</translation>
     </message>
     <message>
         <source>Previous frame (←)</source>

@@ -9,6 +9,7 @@ from pathlib import Path
 from carpus.core.records.values import SessionEntry
 from carpus.ui.screens.sessions.session_list import SessionLine
 from carpus.ui.screens.sessions.session_store import SessionStore
+from tests.ui.fakes import entered
 
 
 class FakeStoredSessions(SessionStore):
@@ -30,9 +31,12 @@ class FakeStoredSessions(SessionStore):
         number = int(line.entry.session_id[1:])
         if number == 4:
             return replace(line, is_damaged=True)
-        words = "mean of 9 repetitions; number 7 excluded: pain"
+        words = entered("mean of 9 repetitions; number 7 excluded: pain")
         return replace(
-            line, main_value=f"Flexion {57 - 3 * number}° ± 2°", counted_repetitions="9 / 10", counted_words=words
+            line,
+            main_value=f"{entered('Flexion')} {57 - 3 * number}° ± 2°",
+            counted_repetitions="9 / 10",
+            counted_words=words,
         )
 
     def target_patients(self, patient_id: str) -> list[tuple[str, str]]:

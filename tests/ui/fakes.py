@@ -39,6 +39,7 @@ from carpus.core.results.session_results import SessionResults, compute_session_
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, stack_states
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.ui.kit.language import current_language
 from carpus.ui.report.builders import build_session_report
 from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
 from carpus.ui.shell.view_models import (
@@ -419,13 +420,48 @@ WHY = {
 }  # fmt: skip
 
 
+ENTERED = {
+    "de": {
+        "Flexor tendon repair": "Beugesehnennaht", "Wrist sprain": "Handgelenkdistorsion",
+        "Thumb base joint replaced": "Daumensattelgelenkprothese", "Rheumatoid arthritis": "Rheumatoide Arthritis",
+        "Wrist fracture, plate": "Radiusfraktur, Platte", "Forearm fracture, plate": "Unterarmfraktur, Platte",
+        "Splint off since Monday. Forearm strapped, 10 cm wedge.":
+            "Seit Montag ohne Schiene. Unterarm fixiert, 10-cm-Keil.",
+        "10 repetitions": "10 Wiederholungen", "Flexion": "Flexion", "pain": "Schmerz",
+        "markers lost": "Marker verloren",
+        "Repetition 7 stopped for pain.": "Wiederholung 7 wegen Schmerz abgebrochen.",
+        "mean of 9 repetitions; number 7 excluded: pain":
+            "Mittel aus 9 Wiederholungen; Nummer 7 ausgeschlossen: Schmerz",
+        "13 Nov": "13. Nov.", "Saved 11:37": "Gespeichert 11:37", "212 min of disk left": "Platz für 212 min",
+    },
+    "it": {
+        "Flexor tendon repair": "Sutura dei flessori", "Wrist sprain": "Distorsione del polso",
+        "Thumb base joint replaced": "Protesi trapezio-metacarpale", "Rheumatoid arthritis": "Artrite reumatoide",
+        "Wrist fracture, plate": "Frattura del radio, placca",
+        "Forearm fracture, plate": "Frattura dell’avambraccio, placca",
+        "Splint off since Monday. Forearm strapped, 10 cm wedge.":
+            "Senza tutore da lunedì. Avambraccio fissato, cuneo di 10 cm.",
+        "10 repetitions": "10 ripetizioni", "Flexion": "Flessione", "pain": "dolore", "markers lost": "marcatori persi",
+        "Repetition 7 stopped for pain.": "Ripetizione 7 interrotta per dolore.",
+        "mean of 9 repetitions; number 7 excluded: pain": "media di 9 ripetizioni; numero 7 esclusa: dolore",
+        "13 Nov": "13 nov", "Saved 11:37": "Salvata 11:37", "212 min of disk left": "spazio per 212 min",
+    },
+}  # fmt: skip
+"""What a person entered, and what flows say elsewhere, by the window's language."""
+
+
+def entered(text: str) -> str:
+    """Return words of the data in the window's language."""
+    return ENTERED.get(current_language(), {}).get(text, text)
+
+
 def _rows() -> list[Patient]:
     def row(key: str, name: str, side: str, exercise: str, days: int, count: int) -> Patient:
         why, since = WHY.get(name, ("", 0))
         day = (NOW - timedelta(weeks=since)).date() if since else None
         onset: Onset = "operation" if since else ""
         return Patient(
-            name, side, "right", diagnosis=why, onset=onset, onset_day=day,  # type: ignore[arg-type]
+            name, side, "right", diagnosis=entered(why), onset=onset, onset_day=day,  # type: ignore[arg-type]
             patient_id=key, session_count=count, last_session=NOW - timedelta(days=days), last_exercise=exercise,
         )  # fmt: skip
 
@@ -470,8 +506,8 @@ class FakeStore:
         if row.last_session is None:
             return PatientCard(row)
         results = [_result("flexion", 55, 21, "improved"), _result("extension", 43, 5, "no_change")]
-        note = "Splint off since Monday. Forearm strapped, 10 cm wedge."
-        return PatientCard(row, results, "10 repetitions", note, row.last_session, picture())
+        note = entered("Splint off since Monday. Forearm strapped, 10 cm wedge.")
+        return PatientCard(row, results, entered("10 repetitions"), note, row.last_session, picture())
 
     def suggest_pseudonym(self) -> str:
         return f"Alder {51 + len(self.added)}"

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import numpy as np
-from PySide6.QtCore import QEvent, QLocale
+from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.calibration.card.checks import CheckStatus
@@ -34,6 +34,7 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.fonts import load_fonts
+from carpus.ui.kit.language import current_language, set_window_language
 from carpus.ui.kit.theme import Theme, ThemeName
 from carpus.ui.picture.movement_guide import GuideScene
 from carpus.ui.report.builders import build_progress_report, build_session_report
@@ -86,6 +87,7 @@ from tests.ui.fakes import (
     FakeSessions,
     FakeStore,
     LateFeed,
+    entered,
     figures_once,
     hand_values,
     hand_values_today,
@@ -159,6 +161,11 @@ ScreenT = TypeVar("ScreenT", bound=QWidget)
 DialogT = TypeVar("DialogT", bound=Dialog)
 
 
+def _translate(text: str, context: str = "") -> str:
+    """Return a text of the window, or parts of it with dots between them, in the window's language."""
+    return " · ".join(QCoreApplication.translate(context, part) for part in text.split(" · "))
+
+
 class GalleryWindow:
     """One window in one theme and size, in which one thing after the other is shown."""
 
@@ -168,7 +175,11 @@ class GalleryWindow:
         self.shell = MainWindow(self.theme)
         self.background = Background()
         self.sessions = FakeSessions()
-        self.sessions.kept["session-7"] = RepetitionChoices({6: "pain"})
+        self.sessions.kept["session-7"] = RepetitionChoices({6: entered("pain")})
+        if current_language() != "en":
+            last = self.sessions.sessions["session-7"]
+            events = tuple(replace(one, text=entered(one.text)) for one in last.events)
+            self.sessions.sessions["session-7"] = replace(last, events=events)
         self.over: list[Dialog] = []
         self.shell.resize(*size)
         self.shell.show()
@@ -191,14 +202,14 @@ class GalleryWindow:
     def place(self, steps: int = -1, tab: int = -1, where: str = "Right hand", camera: str = "Camera ready") -> None:
         bar = self.shell.top_bar
         bar.show()
-        bar.show_session("Linden 42" if steps >= 0 or tab >= 0 or where else "", where)
+        bar.show_session("Linden 42" if steps >= 0 or tab >= 0 or where else "", _translate(where))
         if steps >= 0:
-            bar.show_navigation(STEPS, steps, is_steps=True)
+            bar.show_navigation([_translate(name, "TopBarController") for name in STEPS], steps, is_steps=True)
         elif tab >= 0:
-            bar.show_navigation(TABS, tab)
+            bar.show_navigation([_translate(name, "TopBarController") for name in TABS], tab)
         else:
             bar.show_navigation()
-        bar.camera.show_state("good" if camera else "none", camera)
+        bar.camera.show_state("good" if camera else "none", _translate(camera, "TopBarController"))
         bar.disk.show_state("none", "")
         bar.recording_pill.show_state("off", 0)
         bar.show_recording(False)
@@ -327,7 +338,7 @@ class Gallery(GalleryWindow):
     def _markers(self, clicks: int, *findings: CalibrationFinding) -> tuple[MarkersScreen, FakeCalibrator]:
         calibrator = FakeCalibrator()
         calibrator.findings = findings
-        screen = self._begin_markers(calibrator, picture(), "13 Nov")
+        screen = self._begin_markers(calibrator, picture(), entered("13 Nov"))
         for pixel in calibrator.disc_px[:clicks]:
             screen.picture.clicked.emit(pixel + 1.0)
         self.settle()
@@ -364,7 +375,7 @@ class Gallery(GalleryWindow):
 
     def sessions_list(self) -> None:
         sessions = FakeStoredSessions()
-        sessions.exclude("s2", "markers lost")
+        sessions.exclude("s2", entered("markers lost"))
         self.show(SessionsScreen(self.theme, self.background, sessions), tab=0).show_patient(
             "linden", "Linden 42", "s1"
         )
@@ -402,7 +413,7 @@ class Gallery(GalleryWindow):
         for _ in range(2 * 20):
             screen.draw()
         bar = self.shell.top_bar
-        bar.disk.show_state("none", "212 min of disk left", icon="hard-drive")
+        bar.disk.show_state("none", entered("212 min of disk left"), icon="hard-drive")
         bar.recording_pill.show_state("recording", 84.0)
         bar.show_recording(True)
         self.settle()
@@ -476,7 +487,7 @@ class Gallery(GalleryWindow):
         at_s: float = 20.6,
     ) -> ReviewScreen:  # fmt: skip
         screen = ReviewScreen(self.theme, self.background, store or self.sessions)
-        self.show(screen, tab=1, camera=SAVED).load_session("linden", session_id, may_repeat=True)
+        self.show(screen, tab=1, camera=entered(SAVED)).load_session("linden", session_id, may_repeat=True)
         self.settle()
         if finger >= 0:
             screen.charts.finger.buttons()[finger].click()
@@ -519,7 +530,7 @@ class Gallery(GalleryWindow):
     def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectionScreen:
         """With ``wrong_px``, where the middle knuckle was taken to be."""
         store = FakeCorrections(self.sessions, pictures=pictures)
-        screen = self.show(CorrectionScreen(self.theme, self.background, store), tab=1, camera=SAVED)
+        screen = self.show(CorrectionScreen(self.theme, self.background, store), tab=1, camera=entered(SAVED))
         session = self.sessions.session("session-7")
         if wrong_px is not None:
             measured = session.markers.measured_px.copy()
@@ -538,7 +549,7 @@ class Gallery(GalleryWindow):
 
     def correct_results(self) -> None:
         self.review()
-        self.place(tab=1, camera=SAVED)
+        self.place(tab=1, camera=entered(SAVED))
         self.shell.top_bar.reanalysis_button.show_text("New result: choose", "Choose")
         sheet = self.sheet(ResultsDialog)
         words = difference_words(
@@ -560,7 +571,7 @@ class Gallery(GalleryWindow):
     def comparison(self) -> ComparisonScreen:
         """The healthy hand of the same day."""
         store = FakeSessions()
-        store.kept["session-7"] = RepetitionChoices({6: "pain"})
+        store.kept["session-7"] = RepetitionChoices({6: entered("pain")})
         left = session(NOW - timedelta(hours=1), 1.25, session_id="session-left", side="left")
         store.sessions["session-left"] = left
         return self._comparison(store, "session-7", "session-left")
@@ -705,7 +716,7 @@ class Gallery(GalleryWindow):
 
     def _board(self) -> CameraCalibrationScreen:
         self.place(where="")
-        self.shell.top_bar.show_session("Camera calibration", "")
+        self.shell.top_bar.show_session(_translate("Camera calibration", "CameraCalibrationFlow"), "")
         return self.show(CameraCalibrationScreen(self.theme))
 
     def board(self) -> None:
@@ -726,7 +737,7 @@ class Gallery(GalleryWindow):
 
     def _card(self, status: CheckStatus) -> CheckCardScreen:
         self.place(where="")
-        self.shell.top_bar.show_session("Check card", "")
+        self.shell.top_bar.show_session(_translate("Check card", "CheckCardFlow"), "")
         screen = CheckCardScreen(self.theme)
         screen.set_camera_connected(True)
         self.show(screen).show_status(status)
@@ -750,13 +761,13 @@ STATES = tuple(name for name in vars(Gallery) if not name.startswith("_"))
 
 def render_all_screens(
     folder: Path, *, sizes: tuple[tuple[int, int], ...] = SIZES, scales: tuple[float, ...] = (1.0,), only: str = "",
-    states: tuple[str, ...] = (), themes: tuple[ThemeName, ...] = ("light", "dark"),
+    states: tuple[str, ...] = (), themes: tuple[ThemeName, ...] = ("light", "dark"), language: str = "en",
 ) -> list[Path]:  # fmt: skip
     """Write every state, those whose name begins with ``only``, or just ``states``; the paths written."""
     application = QApplication.instance() or QApplication(["carpus"])
     assert isinstance(application, QApplication)
     application.setStyle("Fusion")
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+    set_window_language(language)
     load_fonts()
     folder.mkdir(parents=True, exist_ok=True)
     written = []

@@ -8,8 +8,8 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 from carpus.core.model.hand.protocols import PALM_MARKERS, SITES
 from carpus.core.model.types import Side
 from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD, font
+from carpus.ui.kit.language import current_language
 from carpus.ui.kit.theme import LIGHT
-from carpus.ui.kit.translate import tr
 from carpus.ui.picture.hand_drawing import MARKER_POSITIONS, SIZE, hand_outline, placement
 from carpus.ui.words.marker_words import marker_title
 
@@ -20,6 +20,15 @@ _LABELS = {
     "MCP5": (1, -0.28),
 }  # fmt: skip
 """Side of a label, and its height from the middle of the hand in halves of the drawing."""
+_CAPTIONS = {
+    "en": ("70 to 80 cm,", "at least 60 cm", "camera, straight down", "safety cord", "forearm rests, still",
+           "plain table, nothing blue"),
+    "de": ("70 bis 80 cm,", "mindestens 60 cm", "Kamera, senkrecht", "Sicherungsschnur", "Unterarm liegt ruhig",
+           "heller Tisch, nichts Blaues"),
+    "it": ("da 70 a 80 cm,", "almeno 60 cm", "telecamera, verticale", "cordino", "avambraccio fermo",
+           "tavolo chiaro, niente di blu"),
+}  # fmt: skip
+"""Distances, camera, cord, forearm and table, by language."""
 
 
 def paint_marker_map(painter: QPainter, box: QRectF, side: Side, *, whole_hand: bool, unit: float) -> None:
@@ -122,14 +131,15 @@ def paint_camera_setup(painter: QPainter, box: QRectF, unit: float) -> None:
         painter.drawLine(to_page(0.30, y), to_page(0.315, y + 0.025 * turn))
     painter.setFont(font(15 * unit, SEMIBOLD))
     painter.setPen(QColor(LIGHT.text))
-    _paint_caption(painter, to_page(0.28, 0.42), tr("70 to 80 cm,"), -1)
-    _paint_caption(painter, to_page(0.28, 0.48), tr("at least 60 cm"), -1)
+    words = _CAPTIONS[current_language()]
+    _paint_caption(painter, to_page(0.28, 0.42), words[0], -1)
+    _paint_caption(painter, to_page(0.28, 0.48), words[1], -1)
     painter.setFont(font(13 * unit, MEDIUM))
     painter.setPen(QColor(LIGHT.text2))
-    _paint_caption(painter, to_page(0.62, 0.145), tr("camera, straight down"), 1)
-    _paint_caption(painter, to_page(0.62, 0.195), tr("safety cord"), 1)
-    _paint_caption(painter, to_page(0.33, 0.91), tr("forearm rests, still"), 0)
-    _paint_caption(painter, to_page(0.64, 0.91), tr("plain table, nothing blue"), 0)
+    _paint_caption(painter, to_page(0.62, 0.145), words[2], 1)
+    _paint_caption(painter, to_page(0.62, 0.195), words[3], 1)
+    _paint_caption(painter, to_page(0.33, 0.91), words[4], 0)
+    _paint_caption(painter, to_page(0.64, 0.91), words[5], 0)
 
 
 def _paint_caption(painter: QPainter, at: QPointF, words: str, side: int) -> None:

@@ -25,7 +25,7 @@ ASKED = ("discs", "camera", "calibration", "exercises", "figures", "limits", "tr
 
 
 def test_guide_pages_match_the_list() -> None:
-    assert {path.name for path in GUIDE.iterdir() if path.is_dir()} == {*LANGUAGES, "pictures"}
+    assert {path.name for path in GUIDE.iterdir() if path.is_dir()} == {*LANGUAGES}
     for code in LANGUAGES:
         assert {path.stem for path in (GUIDE / code).glob("*.md")} == set(guide.PAGES)
     assert set(ASKED) <= set(guide.PAGES)
@@ -82,10 +82,12 @@ def _english(page: str) -> str:
 
 
 def test_guide_pictures_match_the_files() -> None:
-    shown = {name for page in guide.PAGES for name in guide.page_pictures(page)}
-    assert {path.name for path in (GUIDE / "pictures").iterdir()} == shown
-    for name in shown:
-        assert QImage(guide.picture_path(name)).width() >= 1000
+    for code in LANGUAGES:
+        with use_language(code):
+            shown = {name for page in guide.PAGES for name in guide.page_pictures(page)}
+            assert {path.name for path in (GUIDE / code).iterdir() if path.suffix != ".md"} == shown
+            for name in shown:
+                assert QImage(guide.picture_path(name)).width() >= 1000
 
 
 def test_help_screen_opens_page_links_and_pictures(theme: Theme, show: Show[HelpScreen]) -> None:

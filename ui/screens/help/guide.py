@@ -6,6 +6,7 @@ import html
 import re
 from functools import lru_cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 
 from carpus.ui.kit import language
 from carpus.ui.kit.fonts import TEXT_FAMILY
@@ -35,14 +36,17 @@ def load_page(page: str) -> str:
 
 @lru_cache(maxsize=len(language.LANGUAGES) * len(PAGES))
 def _read_page(code: str, page: str) -> str:
-    guides = files("carpus.resources") / "guide"
-    written = code if (guides / code).is_dir() else DEFAULT_LANGUAGE
-    return (guides / written / f"{page}.md").read_text("utf-8")
+    return (_folder(code) / f"{page}.md").read_text("utf-8")
 
 
 def picture_path(name: str) -> str:
-    """Return the path of a picture of the guide."""
-    return str(files("carpus.resources").joinpath("guide", "pictures", name))
+    """Return the path of a picture of the guide in the current language."""
+    return str(_folder(language.current_language()) / name)
+
+
+def _folder(code: str) -> Traversable:
+    guides = files("carpus.resources") / "guide"
+    return guides / (code if (guides / code).is_dir() else DEFAULT_LANGUAGE)
 
 
 def page_title(page: str) -> str:
