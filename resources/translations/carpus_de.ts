@@ -6285,7 +6285,7 @@
     </message>
     <message>
         <source>At the end of a fist the PIP and DIP joints are occluded. Their ranges are minimum values (≥).</source>
-        <translation>Am Ende des Faustschlusses sind PIP und DIP verdeckt. Ihre Bewegungsausmaße sind Mindestwerte (≥).</translation>
+        <translation>Am Ende des Faustschlusses sind die PIP- und DIP-Gelenke verdeckt. Ihre Bewegungsausmaße sind Mindestwerte (≥).</translation>
     </message>
     <message>
         <source>Behind the cup the thumb may be occluded. The results say for how long.</source>
@@ -6297,7 +6297,7 @@
     </message>
     <message>
         <source>Movement of the forearm appears in the angle.</source>
-        <translation>Bewegungen des Unterarms erscheinen im Winkel.</translation>
+        <translation>Bewegungen des Unterarms verändern den Winkel.</translation>
     </message>
     <message>
         <source>Occluded joints are not measured.</source>
@@ -6309,7 +6309,7 @@
     </message>
     <message>
         <source>Under the palm the thumb tip is occluded. Palmar abduction of the thumb stays visible.</source>
-        <translation>Unter der Handfläche ist die Daumenspitze verdeckt. Die palmare Abduktion des Daumens bleibt sichtbar.</translation>
+        <translation>Unter der Handfläche ist die Daumenspitze verdeckt. Die Palmarabduktion des Daumens bleibt sichtbar.</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -8221,7 +8221,7 @@ von oben</translation>
     </message>
     <message>
         <source>Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day ({sign} = minimum), not saved here; type over it to enter a goniometer value.</source>
-        <translation>Extension: − Streckdefizit, + Überstreckung. Getönt und kursiv: von Carpus an diesem Tag gemessen ({sign} = mindestens), wird hier nicht gespeichert; für einen Goniometerwert überschreiben. FKHA: Fingerkuppen-Hohlhand-Abstand.</translation>
+        <translation>Extension: − Streckdefizit, + Überstreckung. Getönt und kursiv: von Carpus an diesem Tag gemessen ({sign} = Mindestwert), wird hier nicht gespeichert; für einen Goniometerwert überschreiben. FKHA: Fingerkuppen-Hohlhand-Abstand.</translation>
     </message>
 </context>
 <context>

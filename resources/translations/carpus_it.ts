@@ -6237,7 +6237,7 @@
     </message>
     <message>
         <source>{finger}, fingertip to palm</source>
-        <translation>{finger}, distanza polpastrello-palmo</translation>
+        <translation>{finger}, distanza polpa-palmo</translation>
     </message>
     <message>
         <source>Finger joints, goniometer (°)</source>
@@ -6281,15 +6281,15 @@
     </message>
     <message>
         <source>About half-way the PIP joints are occluded. Their range is a minimum value (≥).</source>
-        <translation>Circa a metà le PIP sono nascoste. La loro ampiezza è un valore minimo (≥).</translation>
+        <translation>Circa a metà le articolazioni IFP sono nascoste. La loro escursione è un valore minimo (≥).</translation>
     </message>
     <message>
         <source>At the end of a fist the PIP and DIP joints are occluded. Their ranges are minimum values (≥).</source>
-        <translation>Alla fine del pugno PIP e DIP sono nascoste. Le loro ampiezze sono valori minimi (≥).</translation>
+        <translation>Alla fine del pugno le articolazioni IFP e IFD sono nascoste. Le loro escursioni sono valori minimi (≥).</translation>
     </message>
     <message>
         <source>Behind the cup the thumb may be occluded. The results say for how long.</source>
-        <translation>Dietro il bicchiere il pollice può essere nascosto. I risultati dicono per quanto tempo.</translation>
+        <translation>Dietro il bicchiere il pollice può essere nascosto. I risultati indicano per quanto tempo.</translation>
     </message>
     <message>
         <source>Below about 25° of pronation the markers are occluded. Only the visible part is measured.</source>
@@ -6297,7 +6297,7 @@
     </message>
     <message>
         <source>Movement of the forearm appears in the angle.</source>
-        <translation>I movimenti dell’avambraccio entrano nell’angolo.</translation>
+        <translation>I movimenti dell’avambraccio alterano l’angolo.</translation>
     </message>
     <message>
         <source>Occluded joints are not measured.</source>
@@ -6305,7 +6305,7 @@
     </message>
     <message>
         <source>The abduction of a flexed finger is unreliable. Keep the fingers straight.</source>
-        <translation>L’abduzione di un dito flesso non è affidabile. Tenere le dita diritte.</translation>
+        <translation>L’abduzione di un dito flesso non è affidabile. Tenere le dita estese.</translation>
     </message>
     <message>
         <source>Under the palm the thumb tip is occluded. Palmar abduction of the thumb stays visible.</source>
@@ -6321,7 +6321,7 @@
     </message>
     <message>
         <source>Remark</source>
-        <translation>Nota</translation>
+        <translation>Osservazione</translation>
     </message>
     <message>
         <source>Analysed</source>
@@ -8221,7 +8221,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day ({sign} = minimum), not saved here; type over it to enter a goniometer value.</source>
-        <translation>Estensione: − deficit, + iperestensione. Colorato e in corsivo: misurato da Carpus in questo giorno ({sign} = almeno), non viene salvato qui; sovrascrivere per inserire un valore del goniometro.</translation>
+        <translation>Estensione: − deficit, + iperestensione. Colorato e in corsivo: misurato da Carpus in questo giorno ({sign} = minimo), non viene salvato qui; sovrascrivere per inserire un valore del goniometro.</translation>
     </message>
 </context>
 <context>

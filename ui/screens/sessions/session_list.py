@@ -23,7 +23,7 @@ TICK_PX, TICK_LEFT_PX = 20, 18
 MAX_TICKED = 2
 COLUMNS = (0.062, 0.242, 0.490, 0.672, 0.768, 0.985)
 """Left edges as shares of the width: date, exercise and hand, main value, repetitions, remark; the last is the end."""
-TWO_LINE_MAX_WIDTH_PX, TWO_LINE_EDGES = 720, (0.42, 0.84, 1.0)
+TWO_LINE_MAX_WIDTH_PX, TWO_LINE_EDGES = 830, (0.42, 0.84, 1.0)
 """In a narrower list (text at 100 %) date, value and repetitions stand above exercise and remark: right edges as
 shares of what is right of the tick."""
 
