@@ -10,6 +10,7 @@ from carpus.app.command_line import output_type, print_message
 from carpus.app.session_commands import log_created_files
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.model.errors import OutputExists
+from carpus.core.model.phrase import LANGUAGES
 from carpus.core.results.ranges import with_angle_order
 from carpus.core.results.report_form import PAPERS
 from carpus.core.session.reader import read_session
@@ -29,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="order of the wrist's angles: the papers' zyx, or isb (flexion first); as in the settings without it",
     )
     parser.add_argument("--paper", choices=PAPERS, help="as chosen in the window without it")
-    parser.add_argument("--language", choices=("en", "de", "it"), default="", help="of the report; English without it")
+    parser.add_argument("--language", choices=tuple(LANGUAGES), default="", help="of the report; English without it")
 
 
 def run(arguments: argparse.Namespace) -> int:

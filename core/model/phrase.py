@@ -8,6 +8,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+LANGUAGES = {"en": "English", "de": "Deutsch", "it": "Italiano"}
+"""Languages of window and reports by their own names."""
+
 
 class Phrase(str):
     """English sentence with its template and facts, which may be :class:`Phrase` themselves."""

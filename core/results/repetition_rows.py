@@ -262,7 +262,7 @@ def _measure_repetition(
     own = tuple(one for one, end_s in zip(beside, ends_s, strict=True) if window.start_s < end_s <= window.end_s)
     start_s, end_s = edges_s or _onset_and_offset_s(trained.counting_signal, rep, own)
     turns_high = own[0].stroke.is_rising if own and edges_s is None else None
-    peak_s, is_high = _find_peak(trained.counting_signal, window, turns_high)
+    peak_s, is_high = _find_peak(trained.counting_signal, window, turns_high, is_chosen=edges_s is not None)
     measured = trained.measure_range((window,))
     known = measured.repetitions == 1 and len(measured.arc.values) == 1 and not window.cut
     whole = () if window.cut else own
@@ -346,11 +346,11 @@ def _place_edge_s(smooth: Signal, stroke: Stroke, *, is_leaving: bool) -> float:
     return float(part.time_s[edge]) if seen else math.nan
 
 
-def _find_peak(smooth: Signal, window: Repetition, turns_high: bool | None) -> tuple[float, bool]:
+def _find_peak(smooth: Signal, window: Repetition, turns_high: bool | None, *, is_chosen: bool) -> tuple[float, bool]:
     """Return the time of the peak, the middle of a hold, and whether it is a maximum.
 
-    NaN where a gap or the cut borders on it: the angle may have gone further. Without ``turns_high`` the peak is
-    furthest from the start.
+    NaN where a gap, the cut, or an edge of a window that a person has chosen borders on it: the angle may have gone
+    further. Without ``turns_high`` the peak is furthest from the start.
     """
     part = smooth.crop(window.start_s, window.end_s)
     known = part.value[part.is_finite]
@@ -365,6 +365,8 @@ def _find_peak(smooth: Signal, window: Repetition, turns_high: bool | None) -> t
     first_s, last_s = float(part.time_s[held.start]), float(part.time_s[held.stop - 1])
     near_s = 1.5 / part.rate_hz
     cut = min(abs(first_s - window.cut_s), abs(last_s - window.cut_s)) <= near_s
+    if is_chosen and (held.start == 0 or held.stop == len(away)):
+        return math.nan, turns_high
     if cut or not part.is_finite[max(held.start - 1, 0) : held.stop + 1].all():
         return math.nan, turns_high
     return float(part.time_s[held].mean()), turns_high

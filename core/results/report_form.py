@@ -12,9 +12,6 @@ PAPERS: tuple[Paper, ...] = get_args(Paper)
 PAPER_PT: dict[Paper, tuple[float, float]] = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
 """Width and height in points."""
 LETTER_COUNTRIES = ("US", "CA")
-SECTIONS = ("diagnosis", "table", "curves", "quality", "speed", "by_hand", "motion")
-"""Sections of a session report that may be excluded. Identity, sentences, warnings, method, legal sentence and origin
-always stay, and ``quality`` if something is not as it should be."""
 DEFAULT_EXCLUDED = frozenset({"diagnosis"})
 """Excluded until the clinic wants it."""
 MAX_SENTENCES = 60

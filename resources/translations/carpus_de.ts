@@ -6371,6 +6371,30 @@
         <source>distal palmar crease</source>
         <translation>distale Hohlhandfalte</translation>
     </message>
+    <message>
+        <source>complete list on the next page</source>
+        <translation>vollständige Liste auf der nächsten Seite</translation>
+    </message>
+    <message>
+        <source>The therapist’s comment is on the last {count} pages.</source>
+        <translation>Der therapeutische Kommentar steht auf den letzten {count} Seiten.</translation>
+    </message>
+    <message>
+        <source>Curves and repetitions</source>
+        <translation>Kurven und Wiederholungen</translation>
+    </message>
+    <message>
+        <source>Motion page</source>
+        <translation>Bewegungsseite</translation>
+    </message>
+    <message>
+        <source>Reliability of the values</source>
+        <translation>Zuverlässigkeit der Werte</translation>
+    </message>
+    <message>
+        <source>Table</source>
+        <translation>Tabelle</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -9759,40 +9783,12 @@ von oben</translation>
         <translation>Teile des Berichts</translation>
     </message>
     <message>
-        <source>Diagnosis or operation</source>
-        <translation>Diagnose oder Operation</translation>
-    </message>
-    <message>
-        <source>Table</source>
-        <translation>Tabelle</translation>
-    </message>
-    <message>
-        <source>Curves and repetitions</source>
-        <translation>Kurven und Wiederholungen</translation>
-    </message>
-    <message>
-        <source>Reliability of the values</source>
-        <translation>Zuverlässigkeit der Werte</translation>
-    </message>
-    <message>
-        <source>Motion page</source>
-        <translation>Bewegungsseite</translation>
-    </message>
-    <message>
         <source>Warnings, method and the legal sentence always stay.</source>
         <translation>Warnungen, Verfahren und der rechtliche Hinweis bleiben immer.</translation>
     </message>
     <message>
         <source>Use these parts for all reports</source>
         <translation>Für alle Berichte so verwenden</translation>
-    </message>
-    <message>
-        <source>Manual measurements</source>
-        <translation>Manuelle Messungen</translation>
-    </message>
-    <message>
-        <source>Pain, note</source>
-        <translation>Schmerz, Notiz</translation>
     </message>
 </context>
 <context>

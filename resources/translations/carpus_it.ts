@@ -6371,6 +6371,30 @@
         <source>distal palmar crease</source>
         <translation>piega palmare distale</translation>
     </message>
+    <message>
+        <source>complete list on the next page</source>
+        <translation>elenco completo nella pagina seguente</translation>
+    </message>
+    <message>
+        <source>The therapist’s comment is on the last {count} pages.</source>
+        <translation>Il commento del terapista è nelle ultime {count} pagine.</translation>
+    </message>
+    <message>
+        <source>Curves and repetitions</source>
+        <translation>Curve e ripetizioni</translation>
+    </message>
+    <message>
+        <source>Motion page</source>
+        <translation>Pagina del movimento</translation>
+    </message>
+    <message>
+        <source>Reliability of the values</source>
+        <translation>Affidabilità dei valori</translation>
+    </message>
+    <message>
+        <source>Table</source>
+        <translation>Tabella</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -9759,40 +9783,12 @@ dall’alto</translation>
         <translation>Parti della relazione</translation>
     </message>
     <message>
-        <source>Diagnosis or operation</source>
-        <translation>Diagnosi o intervento</translation>
-    </message>
-    <message>
-        <source>Table</source>
-        <translation>Tabella</translation>
-    </message>
-    <message>
-        <source>Curves and repetitions</source>
-        <translation>Curve e ripetizioni</translation>
-    </message>
-    <message>
-        <source>Reliability of the values</source>
-        <translation>Affidabilità dei valori</translation>
-    </message>
-    <message>
-        <source>Motion page</source>
-        <translation>Pagina del movimento</translation>
-    </message>
-    <message>
         <source>Warnings, method and the legal sentence always stay.</source>
         <translation>Avvisi, metodo e avvertenza legale restano sempre.</translation>
     </message>
     <message>
         <source>Use these parts for all reports</source>
         <translation>Usa queste parti per tutte le relazioni</translation>
-    </message>
-    <message>
-        <source>Manual measurements</source>
-        <translation>Misure manuali</translation>
-    </message>
-    <message>
-        <source>Pain, note</source>
-        <translation>Dolore, nota</translation>
     </message>
 </context>
 <context>

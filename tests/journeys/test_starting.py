@@ -16,6 +16,7 @@ from carpus.app.commands import desktop
 from carpus.app.desktop import folder_window, log, window
 from carpus.app.desktop.single_instance import SingleInstance
 from carpus.app.settings import load_settings
+from carpus.core.model.phrase import LANGUAGES
 from carpus.ui.kit import language
 from carpus.ui.kit.text import Text
 
@@ -107,7 +108,7 @@ def test_language_change_reopens_window_at_settings(
         if len(shown) == 1:
             desktop.controller.navigator.open_screen("settings")
             qtbot.waitUntil(lambda: not desktop.find_language_obstacle())
-            german = desktop.preferences.screen.form["language"].buttons()[list(language.LANGUAGES).index("de")]
+            german = desktop.preferences.screen.form["language"].buttons()[list(LANGUAGES).index("de")]
             with monkeypatch.context() as measuring:
                 measuring.setattr(type(desktop.controller), "is_at_work", True)
                 german.click()

@@ -223,6 +223,14 @@ def test_repetition_moved_edges_exclude_cut() -> None:
     assert reasons({0: (1.2, 5.0)}) == ["cut_by_gap", HIDDEN]
 
 
+@pytest.mark.parametrize(("edges_s", "peak_s"), [((1.0, 5.0), 3.0), ((1.0, 2.5), math.nan), ((3.5, 5.0), math.nan)])
+def test_peak_at_chosen_edge_is_unknown(edges_s: tuple[float, float], peak_s: float) -> None:
+    whole = RepetitionAnalysis((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 3.0, True), Stroke(3.0, 5.0, False)))
+    trained = trained_in([0.0, 1.0, 3.0, 5.0, 7.0], [0.0, 0.0, 50.0, 0.0, 0.0], whole)
+    (one,) = measure_repetitions(trained, RepetitionChoices(edges_s={0: edges_s}))
+    assert one.row.peak_s == pytest.approx(peak_s, abs=0.2, nan_ok=True)
+
+
 def test_peak_is_at_turn_when_return_goes_further() -> None:
     whole = RepetitionAnalysis((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 2.4, True), Stroke(2.4, 5.0, False)))
     trained = trained_in([0.0, 1.0, 2.0, 2.8, 4.4, 5.5], [0.0, 0.0, 50.0, 50.0, -60.0, -60.0], whole)

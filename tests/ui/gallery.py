@@ -39,7 +39,7 @@ from carpus.ui.kit.theme import Theme, ThemeName
 from carpus.ui.picture.movement_guide import GuideScene
 from carpus.ui.report.builders import build_progress_report, build_session_report
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.report import Report
+from carpus.ui.report.page import Report
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
 from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen

@@ -11,7 +11,8 @@ from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.errors import OutputNotWritable
-from carpus.ui.kit.language import LANGUAGES, load_texts, use_language
+from carpus.core.model.phrase import LANGUAGES
+from carpus.ui.kit.language import load_texts, use_language
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.help import guide
 from carpus.ui.screens.help.cards import write_cards

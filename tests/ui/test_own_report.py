@@ -10,20 +10,28 @@ from pathlib import Path
 import pytest
 from PySide6.QtGui import QColor, QImage, QPageSize
 from PySide6.QtPrintSupport import QPrinter
+from PySide6.QtWidgets import QVBoxLayout
 
 from carpus.app.session_commands import read_report_form
+from carpus.core.measures.manual_measurements import ManualValue
 from carpus.core.model.errors import ConcurrentChange
+from carpus.core.model.phrase import phrase
 from carpus.core.records.clinic_records import read_form, save_form
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
-from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
+from carpus.core.results.report_form import PAPER_PT, PAPERS, Letterhead, Paper, ReportForm
+from carpus.ui.kit import numbers
+from carpus.ui.kit.cells import TableColumn
 from carpus.ui.kit.language import use_language
+from carpus.ui.kit.layouts import STRETCH
+from carpus.ui.report import session_page
 from carpus.ui.report.builders import build_progress_report, build_session_report, write_session_report
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
+from carpus.ui.report.page import column, legal_line, paged_table
+from carpus.ui.report.page import layout_pages as pages_of_report
 from carpus.ui.report.pdf import write_report
-from carpus.ui.report.report import layout_pages as pages_of_report
-from carpus.ui.report.session_page import SessionReport
+from carpus.ui.report.session_page import SECTIONS, ReportSection, SessionReport
 from carpus.ui.screens.report.panel import fill_sentence
 from carpus.ui.screens.report.screen import PAGE_SIZES, make_printer, print_pages
 from carpus.ui.screens.settings.report_card import LogoError, logo_png
@@ -70,8 +78,43 @@ def test_report_is_not_cut_on_a4_or_letter(paper: Paper, tmp_path: Path) -> None
     assert tool("pdfimages", "-list", str(path)).count("image") >= 1
 
 
+def test_report_last_pages_are_the_comment_behind_any_other(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    rows = [(f"Row {number}", "5°") for number in range(130)]
+
+    def make_pages(shown: SessionReport) -> list[QVBoxLayout]:
+        tables = paged_table(shown.form, (TableColumn(), TableColumn()), ("Row", "Value"), rows)
+        return [column(one, STRETCH, legal_line()) for one in tables]
+
+    section = ReportSection("rows", phrase("Rows"), make_pages=make_pages)
+    monkeypatch.setattr(session_page, "SECTIONS", (*SECTIONS, section))
+    path = write_session_report(report(comment=LONG), tmp_path / "x.pdf")
+    words, pages = tool("pdftotext", "-layout", str(path), "-").split("\f"), pages_of(path)
+    of_rows = [number for number, page in enumerate(words, 1) if "Row 1" in page or "Row 9" in page]
+    of_comment = [number for number, page in enumerate(words, 1) if "of what the therapist says" in page]
+    assert of_comment == [pages - 2, pages - 1, pages]
+    assert "The therapist’s comment is on the last 3 pages." in words[0]
+    assert len(of_rows) > 1
+    assert max(of_rows) < pages - 2
+    told = re.findall(r"Row (\d+)", "".join(words))
+    assert list(map(int, told)) == list(range(130)), "each row once, in order"
+    left_out = replace(report(comment="Short."), form=ReportForm(excluded_sections=frozenset({"rows"})))
+    assert "Row 1" not in words_of(write_session_report(left_out, tmp_path / "y.pdf"))
+
+
+def test_progress_report_lists_all_manual_values_that_have_no_room(tmp_path: Path) -> None:
+    names = ("FLEXION", "EXTENSION", "RADIAL", "ULNAR", "PRONATION", "SUPINATION")
+    days = [date(2026, 8, 1) + timedelta(days=number) for number in range(70)]
+    values = [ManualValue(names[number % 6], "active", "right", day, (20.0,)) for number, day in enumerate(days)]
+    course = build_progress_report(FakeSessions().history("linden"), manual_values=values)
+    path = write_report(course, tmp_path / "x.pdf")
+    words = words_of(path)
+    assert "complete list on the next page" in words
+    assert words.count(LEGAL_SENTENCE) == pages_of(path) > 2
+    assert [day for day in days if numbers.format_date(day) not in words] == []
+
+
 def test_report_mandatory_sections_stay(tmp_path: Path) -> None:
-    made = report(form=ReportForm(excluded_sections=frozenset(SECTIONS)))
+    made = report(form=ReportForm(excluded_sections=frozenset(section.name for section in SECTIONS if section.label)))
     doubtful = replace(made, results=replace(made.results, is_simulated=True))
     words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
     sure = "How reliable are these values?"

@@ -13,6 +13,7 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QLocale
 from pytestqt.qtbot import QtBot
 
+from carpus.core.model.phrase import LANGUAGES
 from carpus.ui.kit import language
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.numbers import format_day_month
@@ -91,10 +92,10 @@ def test_window_speaks_what_is_chosen_with_qt_s_own_texts_and_dates(qtbot: QtBot
         language.set_window_language("en")
     assert QCoreApplication.translate("QPlatformTheme", "Cancel") == "Cancel"
     assert QLocale().toString(1.5, "f", 1) == "1.5"
-    assert language.system_language() in language.LANGUAGES
+    assert language.system_language() in LANGUAGES
 
 
-@pytest.mark.parametrize("code", [code for code in language.LANGUAGES if code != "en"])
+@pytest.mark.parametrize("code", [code for code in LANGUAGES if code != "en"])
 def test_translations_are_complete_with_same_placeholders(code: str, extracted: Path) -> None:
     kept = ROOT / "resources" / "translations" / f"carpus_{code}.ts"
     texts = language.parse_texts(kept.read_bytes())

@@ -14,9 +14,7 @@ from xml.etree import ElementTree
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
-LANGUAGES = {"en": "English", "de": "Deutsch", "it": "Italiano"}
-"""Languages by their own names. A new one needs a line here, one in ``_DEFAULT_LOCALES`` and its file in
-resources/translations."""
+from carpus.core.model.phrase import LANGUAGES
 
 _DEFAULT_LOCALES = {
     "en": QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom),

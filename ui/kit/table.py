@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QListView, QWidget
 
@@ -40,7 +40,7 @@ class Table(QWidget):
         self._heads: tuple[Cell, ...] = ()
         self.rows: tuple[tuple[Cell, ...], ...] = ()
         self._scale = self._requested_scale = 1.0
-        self._full_width_px, self._follows_width = 0, True
+        self._full_width_px, self._fitted_px, self._follows_width = 0, 0, True
         theme.changed.connect(self._rebuild)
 
     def show_rows(
@@ -65,8 +65,13 @@ class Table(QWidget):
 
     def fit_width(self, width_px: int) -> None:
         """Shrink the font to a width once; it then stays, whatever room there is."""
-        self._follows_width = False
+        self._follows_width, self._fitted_px = False, width_px
         self._fit(width_px)
+
+    def row_ends_px(self) -> list[int]:
+        """Return where the head ends, then every row, at the width that the table was fitted to."""
+        self._grid.setGeometry(QRect(0, 0, self._fitted_px, self._grid.heightForWidth(self._fitted_px)))
+        return [self._grid.cellRect(2 * row, 0).bottom() for row in range(len(self.rows) + 1)]
 
     def _fit(self, width_px: int) -> None:
         share = max(min(1.0, width_px / max(self._full_width_px, 1)), MIN_SCALE)

@@ -10,7 +10,7 @@ from functools import partial
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPen, QPolygonF, QTransform
-from PySide6.QtWidgets import QLayout
+from PySide6.QtWidgets import QLayout, QVBoxLayout
 
 from carpus.core.model.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
 from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg
@@ -28,7 +28,6 @@ from carpus.ui.report.page import (
     CHART,
     PAPER,
     UNIT,
-    Body,
     PaintedPart,
     RoundedBox,
     column,
@@ -110,8 +109,11 @@ class HomeReport(DerivedReport):
     def kind(self) -> str:
         return _kind()
 
-    def bodies(self) -> list[Body]:
-        return [partial(_body, self)]
+    def head(self, number: str) -> QLayout:
+        return _head(self, number)
+
+    def pages(self) -> list[QVBoxLayout]:
+        return [_page(self)]
 
 
 def build_home_progress(
@@ -150,13 +152,15 @@ def home_progress_words(progress: HomeProgress) -> str:
     return tr("You can move further than when you started.")
 
 
-def _body(home: HomeReport, number: str) -> QLayout:
+def _head(home: HomeReport, number: str) -> QLayout:
     patient = f"{home.pseudonym}, {to_mid_sentence(terms.hand_name(home.side))}"
+    day = numbers.format_long_date(home.day)
+    return page_head(day, number, tr("Your hand at home"), patient, home.printed_patient)
+
+
+def _page(home: HomeReport) -> QVBoxLayout:
     tick = label(tr("Tick a box when all rounds of the day are done."), 8.5, REGULAR, "text2")
-    parts: list[Part] = [
-        page_head(numbers.format_long_date(home.day), number, tr("Your hand at home"), patient, home.printed_patient)
-    ]
-    parts += [_task(home, task, place) for place, task in enumerate(home.tasks, 1)]
+    parts: list[Part] = [_task(home, task, place) for place, task in enumerate(home.tasks, 1)]
     parts.append((tick, 0, Qt.AlignmentFlag.AlignRight))
     if home.progress is not None:
         parts.append(_progress_box(home, home.progress))

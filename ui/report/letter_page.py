@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import date
-from functools import partial
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLayout
+from PySide6.QtWidgets import QLayout, QVBoxLayout
 
 from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
@@ -21,7 +20,6 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.report.page import (
     PAPER,
-    Body,
     body_size,
     column,
     fit_parts,
@@ -64,18 +62,18 @@ class LetterReport(DerivedReport):
     def kind(self) -> str:
         return _kind()
 
-    def bodies(self) -> list[Body]:
-        return [partial(_body, self)]
+    def head(self, number: str) -> None:
+        return None
+
+    def pages(self) -> list[QVBoxLayout]:
+        """Return the page with as little omitted as it has room for."""
+        omitted = 0
+        while omitted < MAX_OMISSIONS and fit_parts(_parts(self, omitted), *body_size(self.form))[1] < MIN_SCALE:
+            omitted += 1
+        return [_parts(self, omitted)]
 
 
-def _body(letter: LetterReport, number: str) -> QLayout:
-    omitted = 0
-    while omitted < MAX_OMISSIONS and fit_parts(_parts(letter, omitted), *body_size(letter.form))[1] < MIN_SCALE:
-        omitted += 1
-    return _parts(letter, omitted)
-
-
-def _parts(letter: LetterReport, omitted: int) -> QLayout:
+def _parts(letter: LetterReport, omitted: int) -> QVBoxLayout:
     report, results = letter.report, letter.report.results
     patient = (
         f"{printed_name(letter.printed_patient)} ({letter.pseudonym})"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QLayout
+from PySide6.QtWidgets import QVBoxLayout
 
 from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.results.session_results import SessionResults
@@ -27,12 +27,11 @@ from carpus.ui.words.task_measures import task_table, task_title
 
 
 def motion_page(
-    head: QLayout, results: SessionResults, previous: SessionResults | None, curves: WristCurves, motion: MotionCurves,
-    origin: str,
-) -> QLayout:  # fmt: skip
+    results: SessionResults, previous: SessionResults | None, curves: WristCurves, motion: MotionCurves, origin: str
+) -> QVBoxLayout:
     """Return the page under its head; ``origin`` are the digests of what it was made from."""
     is_hand = bool(motion.joint_names)
-    parts: list[Part] = [head, *_task_measure_section(results, previous)]
+    parts: list[Part] = _task_measure_section(results, previous)
     if lines := research_lines(results):
         words = ";  ".join(f"{name}: {value}" for name, value in lines)
         parts.append(paragraph(words, 8.5))

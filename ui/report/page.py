@@ -1,9 +1,11 @@
-"""Report page: parts laid out by Qt, the same on screen and paper."""
+"""A report and its pages: parts laid out by Qt, the same on screen and paper."""
 
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
+from typing import Protocol
 
 from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter, QPaintEvent, QPen, QRegion, QTextLayout, QTextOption
@@ -34,6 +36,8 @@ MARGIN_PT, TOP_PT, FOOT_PT = 42.5, 30.5, 28.5
 BODY_WIDTH_PT = PAPER_PT["a4"][0] - 2 * MARGIN_PT
 LOGO_PT = (150.0, 44.0)
 DISPLAY_FROM_PT = 20.0
+# Room for the head of a page, the title of a section and the legal sentence.
+HEAD_PT = 130.0
 # No page is laid out smaller.
 MIN_SCALE = 0.3
 
@@ -62,8 +66,6 @@ def _break_anywhere(word: re.Match[str]) -> str:
     return "\u200b".join(word[0])
 
 
-# Lays out a page, given its number as text.
-Body = Callable[[str], QLayout]
 PAPER = _Paper()
 CHART: PlotStyle = paper_style(UNIT)
 
@@ -136,12 +138,11 @@ def page_head(kind: str, number: str, who: str, what: str, printed_patient: Pati
     return column(top, 9.0, name, *below, 4.0, rule())
 
 
-def session_page_head(
-    newest: SessionResults, who: str, kind: str, number: str, printed_patient: Patient | None = None
-) -> QLayout:
+def exercise_head(report: Report, title: str, number: str) -> QLayout:
     """Return the head of a page about an exercise of one hand."""
+    newest = report.sessions[-1]
     what = f"{terms.exercise_name(newest.exercise.id)}, {to_mid_sentence(terms.hand_name(newest.side))}"
-    return page_head(kind, number, who, what, printed_patient)
+    return page_head(title, number, report.pseudonym, what, report.printed_patient)
 
 
 def fact_row(pairs: Sequence[tuple[str, str]]) -> QLayout:
@@ -165,6 +166,26 @@ def table(
     made.show_rows(columns, heads, rows)
     made.fit_width(PAPER.px(BODY_WIDTH_PT))
     return made
+
+
+def paged_table(
+    form: ReportForm,
+    columns: Sequence[TableColumn],
+    heads: Sequence[str | Cell],
+    rows: Sequence[Sequence[str | Cell]],
+    size: float = 9.0,
+    pitch: float = 3.0,
+) -> list[Table]:
+    """Return a table as one for each page that it needs, below the page's head and a title."""
+    room = body_size(form)[1] - PAPER.px(HEAD_PT)
+    ends = table(columns, heads, rows, size, pitch).row_ends_px()
+    tables, first = list[Table](), 0
+    while first < len(rows):
+        start = ends[first] - ends[0]
+        last = max(bisect_right(ends, room + start) - 1, first + 1)
+        tables.append(table(columns, heads, rows[first:last], size, pitch))
+        first = last
+    return tables
 
 
 def value_rows(lines: Sequence[tuple[str, str, str]]) -> QLayout:
@@ -252,6 +273,37 @@ def _watermark_words() -> str:
     return tr("SIMULATED")
 
 
+class Report(Protocol):
+    """Report that can be shown, printed and saved."""
+
+    @property
+    def form(self) -> ReportForm: ...
+
+    @property
+    def language(self) -> str:
+        """Language by two letters; empty for the window's."""
+
+    @property
+    def kind(self) -> str:
+        """Kind in a word, for the file name."""
+
+    @property
+    def pseudonym(self) -> str: ...
+
+    @property
+    def printed_patient(self) -> Patient | None:
+        """Patient whose real name is printed beside the pseudonym; None for the pseudonym alone."""
+
+    @property
+    def sessions(self) -> Sequence[SessionResults]: ...
+
+    def head(self, number: str) -> QLayout | None:
+        """Return the head of a page, given its number in words; None for pages without one."""
+
+    def pages(self) -> Sequence[QVBoxLayout]:
+        """Return what each page has below its head."""
+
+
 class Page:
     """Parts under the clinic's letterhead, scaled down if there is too much."""
 
@@ -304,6 +356,19 @@ class Page:
         box = QRectF(-2000.0, -400.0, 4000.0, 800.0)
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, self._watermark)
         painter.restore()
+
+
+def layout_pages(report: Report) -> list[Page]:
+    """Lay the pages out in the report's language; call it in the window's thread only."""
+    with use_language(report.language):
+        laid_out, is_simulated = report.pages(), any(results.is_simulated for results in report.sessions)
+        pages, count = [], len(laid_out)
+        for number, page in enumerate(laid_out, 1):
+            words = tr("page {number} of {count}").format(number=number, count=count) if count > 1 else ""
+            if (head := report.head(words)) is not None:
+                page.insertLayout(0, head)
+            pages.append(Page(report.form, page, simulated=is_simulated))
+        return pages
 
 
 def body_size(form: ReportForm) -> tuple[int, int]:

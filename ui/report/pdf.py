@@ -15,8 +15,7 @@ from carpus.core.formats.output_files import open_new_file, require_folder
 from carpus.ui.kit.fonts import REGULAR, SEMIBOLD, font, load_fonts
 from carpus.ui.kit.theme import LIGHT
 from carpus.ui.kit.translate import translate_phrase
-from carpus.ui.report.page import DISPLAY_FROM_PT, Page
-from carpus.ui.report.report import Report, layout_pages
+from carpus.ui.report.page import DISPLAY_FROM_PT, Page, Report, layout_pages
 
 # Shown by PDF viewers and mail programs, so without a name.
 TITLE = "Carpus report"

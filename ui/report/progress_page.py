@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
-from PySide6.QtWidgets import QLayout
+from PySide6.QtWidgets import QLayout, QVBoxLayout
 
+from carpus.core.measures.manual_measurements import ManualChange, ManualValue, MeasureKey
 from carpus.core.records.values import Patient
 from carpus.core.results.progress import Progress
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
@@ -20,15 +20,15 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.kit.translate import tr
 from carpus.ui.report.page import (
     CHART,
-    Body,
     PaintedPart,
     column,
+    exercise_head,
     fact_row,
     legal_line,
+    paged_table,
     paragraph,
     rule,
     section_title,
-    session_page_head,
     table,
 )
 from carpus.ui.words.manual_values import change_words, day_words, find_changes, full_name, verdict_words
@@ -45,7 +45,7 @@ from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, 
 MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
 MAX_EXCLUDED = 4
 MAX_IDS = 8
-# The CSV table of manual values has all of them.
+# More of them are on a page of their own.
 MAX_MANUAL_CHANGES, MAX_DAYS = 5, 3
 CHANGE_COLUMNS = (TableColumn(MEDIUM), TableColumn(SEMIBOLD), TableColumn(), TableColumn(is_right_aligned=True))
 MANUAL_COLUMNS = (TableColumn(MEDIUM), TableColumn(), TableColumn(SEMIBOLD, is_right_aligned=True))
@@ -53,6 +53,10 @@ MANUAL_COLUMNS = (TableColumn(MEDIUM), TableColumn(), TableColumn(SEMIBOLD, is_r
 
 def _kind() -> str:
     return tr("progress")
+
+
+def _title() -> str:
+    return tr("Progress report")
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,11 +81,15 @@ class ProgressReport:
     def kind(self) -> str:
         return _kind()
 
-    def bodies(self) -> list[Body]:
-        return [partial(_body, self)]
+    def head(self, number: str) -> QLayout:
+        return exercise_head(self, _title(), number)
+
+    def pages(self) -> list[QVBoxLayout]:
+        """Return the page, and all manual measurements if there are more than it has room for."""
+        return [_first_page(self), *_manual_pages(self)]
 
 
-def _body(report: ProgressReport, number: str) -> QLayout:
+def _first_page(report: ProgressReport) -> QVBoxLayout:
     progress = report.progress
     first, newest = progress.points[0].results, progress.points[-1].results
     pairs = [
@@ -95,7 +103,6 @@ def _body(report: ProgressReport, number: str) -> QLayout:
         lambda painter, box: paint_progress_chart(painter, CHART, box, progress), MIN_CHART_PT, MAX_CHART_PT
     )
     return column(
-        session_page_head(newest, report.pseudonym, tr("Progress report"), number, report.printed_patient),
         fact_row(pairs),
         rule(),
         column(paragraph(answer, 14.0, SEMIBOLD), paragraph(basis, 9.5, REGULAR, "text2")),
@@ -151,18 +158,43 @@ def _manual_changes(progress: Progress) -> list[Part]:
     """Return the changes of each manual measure; values of a single day in one paragraph."""
     if not progress.manual_measurements:
         return []
-    changed = find_changes(progress.manual_measurements)
+    changed, rest = _split_manual_values(progress)
     rows = [(full_name(key), change_words(one), verdict_words(one)[1]) for key, one in changed[:MAX_MANUAL_CHANGES]]
     shown = table(MANUAL_COLUMNS, (), rows)
-    known = {key for key, _ in changed[:MAX_MANUAL_CHANGES]}
-    rest = [one for one in progress.manual_measurements if one.key not in known]
     words = "; ".join(
         f"{numbers.format_day_month(day)}: {day_words([one for one in rest if one.day == day])}"
         for day in sorted({one.day for one in rest})[-MAX_DAYS:]
     )
     below = [paragraph(words, 8.5)] if words else []
-    title = section_title(tr("Manual measurements"), tr("not combined with the values above"))
-    return [column(title, shown, *below, gap=2.0)]
+    aside = tr("not combined with the values above")
+    if _has_manual_pages(progress):
+        aside += "; " + tr("complete list on the next page")
+    return [column(section_title(tr("Manual measurements"), aside), shown, *below, gap=2.0)]
+
+
+def _split_manual_values(progress: Progress) -> tuple[list[tuple[MeasureKey, ManualChange]], list[ManualValue]]:
+    """Return all changes, and the values that have no line among those that are shown."""
+    changed = find_changes(progress.manual_measurements)
+    known = {key for key, _ in changed[:MAX_MANUAL_CHANGES]}
+    return changed, [one for one in progress.manual_measurements if one.key not in known]
+
+
+def _has_manual_pages(progress: Progress) -> bool:
+    """Return whether the first page has no room for all manual measurements."""
+    changed, rest = _split_manual_values(progress)
+    return len(changed) > MAX_MANUAL_CHANGES or len({one.day for one in rest}) > MAX_DAYS
+
+
+def _manual_pages(report: ProgressReport) -> list[QVBoxLayout]:
+    """Return the manual measurements of every day, on as many pages as they need."""
+    values, pages = report.progress.manual_measurements, []
+    if not _has_manual_pages(report.progress):
+        return []
+    days = sorted({one.day for one in values})
+    rows = [(numbers.format_date(day), day_words([one for one in values if one.day == day])) for day in days]
+    for shown in paged_table(report.form, (TableColumn(MEDIUM, is_wrapped=False), TableColumn()), (), rows):
+        pages.append(column(section_title(tr("Manual measurements")), shown, STRETCH, legal_line(), gap=7.0))
+    return pages
 
 
 def _comparability(progress: Progress) -> QLayout:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date
-from functools import partial
 
-from PySide6.QtWidgets import QLayout
+from PySide6.QtWidgets import QLayout, QVBoxLayout
 
 from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Side
 from carpus.core.records.values import Patient
 from carpus.core.results.motion_curves import MotionCurves
@@ -28,10 +28,10 @@ from carpus.ui.report.motion_page import motion_page
 from carpus.ui.report.page import (
     BODY_WIDTH_PT,
     PAPER,
-    Body,
     RoundedBox,
     break_lines,
     column,
+    exercise_head,
     fact_row,
     label,
     legal_line,
@@ -40,7 +40,6 @@ from carpus.ui.report.page import (
     rule,
     section_title,
     session_chart_part,
-    session_page_head,
     table,
     value_rows,
 )
@@ -66,6 +65,10 @@ MAX_COMMENT_LINES, LINES_ON_A_PAGE = 6, 52
 
 def _kind() -> str:
     return tr("report")
+
+
+def _title() -> str:
+    return tr("Session report")
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,16 +113,29 @@ class SessionReport:
     def kind(self) -> str:
         return _kind()
 
-    def bodies(self) -> list[Body]:
-        """Return the first page, the motion page, and pages for a long comment."""
-        lines = comment_lines(self.comment)
-        pages: list[Body] = [partial(_first_page, self, lines)]
-        if self.motion is not None and self.form.includes("motion"):
-            pages.append(partial(_motion_page, self, self.motion))
-        if len(lines) > MAX_COMMENT_LINES:
-            starts = range(0, len(lines), LINES_ON_A_PAGE)
-            pages += [partial(_comment_page, self, lines[start : start + LINES_ON_A_PAGE]) for start in starts]
-        return pages
+    def head(self, number: str) -> QLayout:
+        return exercise_head(self, _title(), number)
+
+    def pages(self) -> list[QVBoxLayout]:
+        """Return the pages of all sections that have content and are not excluded."""
+        shown = [one for one in SECTIONS if one.has_content(self) and self.form.includes(one.name)]
+        return [page for one in sorted(shown, key=lambda one: one.is_last) for page in one.make_pages(self)]
+
+
+@dataclass(frozen=True, slots=True)
+class ReportSection:
+    """Section of the session report.
+
+    The form may exclude a section with a ``label``, which the panel beside the report has a tick for. ``make_pages``
+    lays out pages of its own below their heads, ``is_last`` behind those of all others; other sections are parts of
+    the first page.
+    """
+
+    name: str
+    label: str = ""
+    has_content: Callable[[SessionReport], bool] = lambda report: True
+    make_pages: Callable[[SessionReport], Sequence[QVBoxLayout]] = lambda report: ()
+    is_last: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,14 +165,10 @@ class DerivedReport:
         return self.report.sessions
 
 
-def _head(report: SessionReport, number: str) -> QLayout:
-    return session_page_head(report.results, report.pseudonym, tr("Session report"), number, report.printed_patient)
-
-
-def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> QLayout:
-    results, form = report.results, report.form
+def _first_page(report: SessionReport) -> QVBoxLayout:
+    results, form, comment = report.results, report.form, comment_lines(report.comment)
     summed_up = wrist_summary if report.joints is None else hand_summary
-    parts: list[Part] = [_head(report, number), *_facts(report)]
+    parts: list[Part] = _facts(report)
     parts.append(paragraph(summed_up(results, report.previous, report.first), 10.0, SEMIBOLD))
     if form.includes("table"):
         is_hand, sessions = report.joints is not None, (results, report.previous, report.other_hand)
@@ -172,13 +184,17 @@ def _first_page(report: SessionReport, comment: Sequence[str], number: str) -> Q
         words = tr("Manual measurements, not made by Carpus: {values}.").format(values=day_words(report.manual_values))
         parts.append(paragraph(words, 8.5))
     if len(comment) > MAX_COMMENT_LINES:
-        parts.append(paragraph(tr("The therapist’s comment is on the last page."), 8.5, MEDIUM))
+        pages = math.ceil(len(comment) / LINES_ON_A_PAGE)
+        where = tr("The therapist’s comment is on the last page.")
+        if pages > 1:
+            where = tr("The therapist’s comment is on the last {count} pages.").format(count=pages)
+        parts.append(paragraph(where, 8.5, MEDIUM))
     elif comment:
         parts.append(column(paragraph(tr("Therapist’s comment"), 10.0, SEMIBOLD), comment_text(comment), gap=2.0))
     return column(*parts, *_foot(report), gap=7.0)
 
 
-def _motion_page(report: SessionReport, motion: MotionCurves, number: str) -> QLayout:
+def _motion_pages(report: SessionReport) -> list[QVBoxLayout]:
     origin = [
         pattern.format(digest=digest)
         for pattern, digest in (
@@ -192,13 +208,17 @@ def _motion_page(report: SessionReport, motion: MotionCurves, number: str) -> QL
         )
         if digest
     ]
-    results, head = report.results, _head(report, number)
-    return motion_page(head, results, report.previous, report.curves, motion, " · ".join(origin))
+    assert report.motion is not None  # its section has no content without
+    return [motion_page(report.results, report.previous, report.curves, report.motion, " · ".join(origin))]
 
 
-def _comment_page(report: SessionReport, lines: Sequence[str], number: str) -> QLayout:
-    heading = paragraph(tr("Therapist’s comment"), 11.5, SEMIBOLD)
-    return column(_head(report, number), heading, comment_text(lines), STRETCH, legal_line(), gap=9.0)
+def _comment_pages(report: SessionReport) -> list[QVBoxLayout]:
+    lines, pages = comment_lines(report.comment), []
+    for start in range(0, len(lines), LINES_ON_A_PAGE) if len(lines) > MAX_COMMENT_LINES else ():
+        heading = paragraph(tr("Therapist’s comment"), 11.5, SEMIBOLD)
+        words = comment_text(lines[start : start + LINES_ON_A_PAGE])
+        pages.append(column(heading, words, STRETCH, legal_line(), gap=9.0))
+    return pages
 
 
 def comment_lines(comment: str) -> list[str]:
@@ -316,3 +336,23 @@ def _foot(report: SessionReport) -> list[Part]:
     parts.append(tr("smoothed") if results.is_smoothed else tr("as measured live"))
     origin = paragraph(" · ".join(parts), 8.0, REGULAR, "text2")
     return [rule(), column(paragraph(how, 8.0, REGULAR, "text2"), legal_line(), origin, gap=3.0)]
+
+
+SECTIONS = (
+    ReportSection("", make_pages=lambda report: [_first_page(report)]),
+    ReportSection(
+        "diagnosis", phrase("Diagnosis or operation"), lambda report: bool(report.diagnosis or report.onset_day)
+    ),
+    ReportSection("table", phrase("Table")),
+    ReportSection("curves", phrase("Curves and repetitions")),
+    ReportSection("quality", phrase("Reliability of the values")),
+    ReportSection("speed", phrase("Pain, note")),
+    ReportSection("by_hand", phrase("Manual measurements"), lambda report: bool(report.manual_values)),
+    ReportSection("motion", phrase("Motion page"), lambda report: report.motion is not None, _motion_pages),
+    ReportSection("comment", make_pages=_comment_pages, is_last=True),
+)
+"""All sections by their name in the clinic's form.
+
+Identity, sentences, warnings, method, legal sentence and origin always stay, and ``quality`` if something is not as it
+should be.
+"""

@@ -8,6 +8,7 @@ from functools import lru_cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
+from carpus.core.model.phrase import LANGUAGES
 from carpus.ui.kit import language
 from carpus.ui.kit.fonts import TEXT_FAMILY
 from carpus.ui.kit.theme import Theme
@@ -34,7 +35,7 @@ def load_page(page: str) -> str:
     return _read_page(language.current_language(), page)
 
 
-@lru_cache(maxsize=len(language.LANGUAGES) * len(PAGES))
+@lru_cache(maxsize=len(LANGUAGES) * len(PAGES))
 def _read_page(code: str, page: str) -> str:
     return (_folder(code) / f"{page}.md").read_text("utf-8")
 

@@ -10,13 +10,14 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QLineEdit, QPlainTextEdit, QWidget
 
 from carpus.core.model.hand.exercises import Exercise
+from carpus.core.model.phrase import LANGUAGES
 from carpus.core.records.values import HomePlan
 from carpus.ui.kit import numbers
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import ChoiceRow, Combo, number_field
 from carpus.ui.kit.forms import Field, Form, limit_length
-from carpus.ui.kit.language import LANGUAGES, current_language
+from carpus.ui.kit.language import current_language
 from carpus.ui.kit.layouts import fill
 from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme

@@ -11,7 +11,7 @@ from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QWidget
 
 from carpus.core.model.hand.protocols import WRIST_ANGLES
-from carpus.core.results.report_form import MAX_SENTENCES, SECTIONS, ReportForm
+from carpus.core.results.report_form import MAX_SENTENCES, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit import numbers
 from carpus.ui.kit.button import Button
@@ -19,8 +19,8 @@ from carpus.ui.kit.field import Combo
 from carpus.ui.kit.layouts import column_layout, fill
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
-from carpus.ui.kit.translate import to_mid_sentence, tr
-from carpus.ui.report.session_page import SessionReport
+from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
+from carpus.ui.report.session_page import SECTIONS, SessionReport
 from carpus.ui.words import terms
 from carpus.ui.words.fingers import range_words
 from carpus.ui.words.ranges import has_sd, is_deficit, mean_words
@@ -61,15 +61,11 @@ class ReportPanel(QWidget):
             row.addWidget(button)
         row.addStretch(1)
         fill(column, row, 8, Text(theme, self.tr("Parts of the report"), 16, SEMIBOLD))
-        names = {
-            "diagnosis": self.tr("Diagnosis or operation"),
-            "table": self.tr("Table"), "curves": self.tr("Curves and repetitions"),
-            "quality": self.tr("Reliability of the values"), "speed": self.tr("Pain, note"),
-            "by_hand": self.tr("Manual measurements"), "motion": self.tr("Motion page"),
-        }  # fmt: skip
         self.section_checks: dict[str, QCheckBox] = {}
-        for name in SECTIONS:
-            self.section_checks[name] = tick = QCheckBox(names[name])
+        for section in SECTIONS:
+            if not section.label:
+                continue
+            self.section_checks[section.name] = tick = QCheckBox(translate_phrase(section.label))
             tick.toggled.connect(self._update_sections)
             column.addWidget(tick)
         words = self.tr("Warnings, method and the legal sentence always stay.")
@@ -111,9 +107,9 @@ class ReportPanel(QWidget):
         self.comment.setPlainText(report.comment)
         for name, tick in self.section_checks.items():
             tick.setChecked(report.form.includes(name))
-        self.section_checks["diagnosis"].setVisible(bool(report.diagnosis or report.onset_day))
-        self.section_checks["by_hand"].setVisible(bool(report.manual_values))
-        self.section_checks["motion"].setVisible(report.motion is not None)
+        for section in SECTIONS:
+            if section.label:
+                self.section_checks[section.name].setVisible(section.has_content(report))
         self._report = report
         self._preview_timer.stop()
         self._show_sentences()

@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QApplication, QButtonGroup, QCheckBox, QFileDialog, QStackedWidget, QVBoxLayout, QWidget
 
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.model.phrase import LANGUAGES
 from carpus.core.model.rounding import format_rounded
 from carpus.core.platform.about import is_newer
 from carpus.core.platform.version import __version__
@@ -16,7 +17,6 @@ from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.forms import Field, Form
-from carpus.ui.kit.language import LANGUAGES
 from carpus.ui.kit.layouts import Part, ScrollArea, ScrolledColumn, column_layout, fill, row_layout
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
