@@ -93,7 +93,7 @@ class TopBarController(QObject):
                 )
             )
         if simulated and now.patient is not None and not now.is_practice:
-            words = self.tr("Simulated hand: not {name}, excluded from analysis.")
+            words = self.tr("This is a simulated hand, not {name}. It is excluded from analysis.")
             lines.append(words.format(name=now.patient.pseudonym))
         if figures is not None and figures.is_excluded:
             lines.append(self.tr("This session is excluded from analysis."))
@@ -134,7 +134,7 @@ class TopBarController(QObject):
                 self.tr("Re-analysing {percent}").format(percent=short), short, self.tr("Progress and Stop")
             )
         elif new_results:
-            one = self.tr("New result: choose") if new_results == 1 else self.tr("{count} new results: choose")
+            one = self.tr("New result: choose one") if new_results == 1 else self.tr("{count} new results: choose")
             button.show_text(one.format(count=new_results), self.tr("Choose"), self.tr("Old and new result overlaid"))
         else:
             button.show_text("", "")
@@ -155,12 +155,14 @@ class TopBarController(QObject):
         if not counters.is_recording:
             self._lost_before_recording = lost
         if lost > self._lost_before_recording:  # of this recording: what was missed before it is missing nowhere
-            words = self.tr("{words}, {lost} dropped").format(words=words, lost=lost - self._lost_before_recording)
+            words = self.tr("{words}, {lost} frames dropped").format(
+                words=words, lost=lost - self._lost_before_recording
+            )
         elif not few:
             words = ""
         self._shell.top_bar.camera.show_state("warn" if few else "good", words)
         minutes = counters.disk_minutes_left
         if minutes < 30.0 or (counters.is_recording and minutes == minutes):  # before, pictures are not in it
             state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"
-            words = self.tr("{time} of disk left").format(time=numbers.format_recording_time(minutes))
+            words = self.tr("Space for {time}").format(time=numbers.format_recording_time(minutes))
             self._shell.top_bar.disk.show_state(state, words, icon="hard-drive")  # type: ignore[arg-type]

@@ -394,24 +394,24 @@ QUANTITIES: Mapping[str, Quantity] = {
     "thumb hidden": Quantity(
         phrase("Thumb occluded"), "share", compute=measure_thumb_coherence, exercises=("thumb beside",)
     ),
-    "coherent though hidden": Quantity(phrase("Pose plausible while occluded"), "share"),
-    "known though hidden": Quantity(phrase("Pose within 15° while occluded"), "share"),
-    "jump when seen again": Quantity(phrase("Jump on reappearance"), "mm"),
+    "coherent though hidden": Quantity(phrase("Plausible position while occluded"), "share"),
+    "known though hidden": Quantity(phrase("Position within 15° while occluded"), "share"),
+    "jump when seen again": Quantity(phrase("Position jump when visible again"), "mm"),
     "synergy": Quantity(
         phrase("Movement synergy (variance explained)"), "share", compute=measure_coordination, exercises=("together",)
     ),
-    "co-flexion": Quantity(phrase("Joint flexion, {one}–{other} (r)"), "r", 2),
-    "lag": Quantity(phrase("Lag of {other} after {one}"), "s", 2),
-    "enslaving": Quantity(phrase("Enslaving of {other} by {one}"), "share"),
+    "co-flexion": Quantity(phrase("Correlation of flexion, {one}–{other} (r)"), "r", 2),
+    "lag": Quantity(phrase("Delay of {other} after {one}"), "s", 2),
+    "enslaving": Quantity(phrase("Involuntary movement of {other} with {one}"), "share"),
     TREMOR: Quantity(phrase("Tremor, 3 to 12 Hz (rms)"), "deg", 1, measure_wrist_tremor),
     # What other modules compute; if that failed, its row has nothing in it.
     "repetitions": Quantity(phrase("Repetitions"), ""),
     "ranges": Quantity(phrase("Range of motion"), ""),
     "ranges of joints": Quantity(phrase("Range of motion, fingers"), ""),
-    "other movements": Quantity(phrase("Movement of the other angles"), ""),
+    "other movements": Quantity(phrase("Movement in the other directions"), ""),
     "speed": Quantity(phrase("Speed and smoothness"), ""),
     "quality": Quantity(phrase("Quality of the recording"), ""),
-    "grades": Quantity(phrase("Grades"), ""),
+    "grades": Quantity(phrase("Grades of finger motion"), ""),
 }
 """All task measures by their name in files, in the order in which they are shown."""
 

@@ -200,10 +200,6 @@
         <translation>{name}, nicht betroffen</translation>
     </message>
     <message>
-        <source>Shown side by side, without a comparison.</source>
-        <translation>Nebeneinander gezeigt, ohne Vergleich.</translation>
-    </message>
-    <message>
         <source>Not compared: the two sessions share no movement.</source>
         <translation>Nicht verglichen: Die beiden Sitzungen haben keine gemeinsame Bewegung.</translation>
     </message>
@@ -344,20 +340,8 @@
         <translation>Tafel näher heran</translation>
     </message>
     <message>
-        <source>More light: the image is too dark.</source>
-        <translation>Mehr Licht: Das Bild ist zu dunkel.</translation>
-    </message>
-    <message>
-        <source>Turn it less: it is nearly edge-on.</source>
-        <translation>Weniger drehen: Man sieht fast nur die Kante.</translation>
-    </message>
-    <message>
         <source>Hold still.</source>
         <translation>Stillhalten.</translation>
-    </message>
-    <message>
-        <source>Not sharp: hold still, or give it more light.</source>
-        <translation>Nicht scharf: Stillhalten oder mehr Licht geben.</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -374,10 +358,6 @@
     <message>
         <source>Calculate · {count} more images</source>
         <translation>Berechnen · noch {count} Bilder</translation>
-    </message>
-    <message>
-        <source>Calculate · more places and tilts</source>
-        <translation>Berechnen · mehr Positionen und Neigungen</translation>
     </message>
     <message>
         <source>Calculate</source>
@@ -398,10 +378,6 @@
     <message>
         <source>The camera is calibrated. {depth}</source>
         <translation>Die Kamera ist kalibriert. {depth}</translation>
-    </message>
-    <message>
-        <source>Board not visible: show all of it, flat, in even light.</source>
-        <translation>Tafel nicht sichtbar: Zeigen Sie sie ganz und flach, bei gleichmäßigem Licht.</translation>
     </message>
     <message>
         <source>Depth is correct.</source>
@@ -448,24 +424,12 @@
         <translation>Maßstab der Tiefe</translation>
     </message>
     <message>
-        <source>Colour on depth</source>
-        <translation>Ausrichtung von Farbe und Tiefe</translation>
-    </message>
-    <message>
         <source>{apart} px apart</source>
         <translation>Versatz {apart} px</translation>
     </message>
     <message>
         <source>good: below {most} px</source>
         <translation>gut: unter {most} px</translation>
-    </message>
-    <message>
-        <source>registration is off</source>
-        <translation>Ausrichtung ist aus</translation>
-    </message>
-    <message>
-        <source>This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
-        <translation>Diese Kamera meldet keine Seriennummer, daher kann ihre Kalibrierung nicht gespeichert werden. „carpus calibrate-camera --output“ schreibt eine Kameradatei, die in den Einstellungen genannt werden kann.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -628,14 +592,6 @@
         <translation>Anhalten oder fortsetzen</translation>
     </message>
     <message>
-        <source>Next angle as large number</source>
-        <translation>Nächster Winkel als große Zahl</translation>
-    </message>
-    <message>
-        <source>Next finger as large number</source>
-        <translation>Nächster Finger als große Zahl</translation>
-    </message>
-    <message>
         <source>Accept the proposed marker</source>
         <translation>Vorgeschlagenen Marker annehmen</translation>
     </message>
@@ -684,34 +640,6 @@
         <translation>Wiederholung aus- oder einschließen</translation>
     </message>
     <message>
-        <source>Move the repetition boundary earlier</source>
-        <translation>Grenze der Wiederholung früher legen</translation>
-    </message>
-    <message>
-        <source>Move the repetition boundary later</source>
-        <translation>Grenze der Wiederholung später legen</translation>
-    </message>
-    <message>
-        <source>Zoom curves in</source>
-        <translation>Kurven vergrößern</translation>
-    </message>
-    <message>
-        <source>Zoom curves out</source>
-        <translation>Kurven verkleinern</translation>
-    </message>
-    <message>
-        <source>Show whole curves</source>
-        <translation>Kurven ganz anzeigen</translation>
-    </message>
-    <message>
-        <source>Select previous session</source>
-        <translation>Vorige Sitzung auswählen</translation>
-    </message>
-    <message>
-        <source>Select next session</source>
-        <translation>Nächste Sitzung auswählen</translation>
-    </message>
-    <message>
         <source>Open the selected session</source>
         <translation>Ausgewählte Sitzung öffnen</translation>
     </message>
@@ -720,20 +648,8 @@
         <translation>Marker korrigieren</translation>
     </message>
     <message>
-        <source>Previous frame to correct</source>
-        <translation>Voriges Bild zum Korrigieren</translation>
-    </message>
-    <message>
-        <source>Next frame to correct</source>
-        <translation>Nächstes Bild zum Korrigieren</translation>
-    </message>
-    <message>
         <source>Marker not visible here</source>
         <translation>Marker hier nicht sichtbar</translation>
-    </message>
-    <message>
-        <source>Undo a step</source>
-        <translation>Einen Schritt rückgängig machen</translation>
     </message>
     <message>
         <source>Next uncertain frame</source>
@@ -742,14 +658,6 @@
     <message>
         <source>Draw the angle on the frame</source>
         <translation>Winkel ins Bild zeichnen</translation>
-    </message>
-    <message>
-        <source>This frame with the hand only</source>
-        <translation>Dieses Bild nur mit der Hand</translation>
-    </message>
-    <message>
-        <source>Tick a session to compare</source>
-        <translation>Sitzung zum Vergleichen ankreuzen</translation>
     </message>
     <message>
         <source>Compare the two ticked sessions</source>
@@ -800,28 +708,8 @@
         <translation>Schmerzwert</translation>
     </message>
     <message>
-        <source>Whole frame or hand area</source>
-        <translation>Ganzes Bild oder nur die Hand</translation>
-    </message>
-    <message>
-        <source>Open and close the patient’s view</source>
-        <translation>Patientenansicht öffnen und schließen</translation>
-    </message>
-    <message>
-        <source>Undo the last marker</source>
-        <translation>Letzten Marker zurücknehmen</translation>
-    </message>
-    <message>
         <source>Next marker</source>
         <translation>Nächster Marker</translation>
-    </message>
-    <message>
-        <source>Swap two markers</source>
-        <translation>Zwei Marker tauschen</translation>
-    </message>
-    <message>
-        <source>Click again</source>
-        <translation>Neu anklicken</translation>
     </message>
     <message>
         <source>Previous repetition</source>
@@ -868,10 +756,6 @@
         <translation>Marker passen nicht zur Hand: Hand kurz flach halten</translation>
     </message>
     <message>
-        <source>No angle known yet</source>
-        <translation>Noch kein Winkel bekannt</translation>
-    </message>
-    <message>
         <source>Hold the hand flat for a moment</source>
         <translation>Die Hand einen Moment flach halten</translation>
     </message>
@@ -910,14 +794,6 @@
     <message>
         <source>Turn the back of the fingers to the camera</source>
         <translation>Fingerrücken zur Kamera drehen</translation>
-    </message>
-    <message>
-        <source>{marker} visible only at times</source>
-        <translation>{marker} nur zeitweise sichtbar</translation>
-    </message>
-    <message>
-        <source>{count} markers visible only at times</source>
-        <translation>{count} Marker nur zeitweise sichtbar</translation>
     </message>
     <message>
         <source>Forearm moved</source>
@@ -1008,10 +884,6 @@
         <translation>Alle {count} Marker gefunden</translation>
     </message>
     <message>
-        <source>Each finger’s line runs from the wrist to its tip. To change a label, drag it to another marker.</source>
-        <translation>Die Linie jedes Fingers läuft vom Handgelenk zur Fingerspitze. Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
-    </message>
-    <message>
         <source>Are these labels correct?</source>
         <translation>Stimmen diese Bezeichnungen?</translation>
     </message>
@@ -1098,10 +970,6 @@
     <message>
         <source>Hand length</source>
         <translation>Handlänge</translation>
-    </message>
-    <message>
-        <source>{count} of {count}</source>
-        <translation>{count} von {count}</translation>
     </message>
     <message>
         <source>labels wrong</source>
@@ -1432,10 +1300,6 @@
         <translation>Sekunden nach dem ersten Bild</translation>
     </message>
     <message>
-        <source>number of the reading</source>
-        <translation>Nummer der Ablesung</translation>
-    </message>
-    <message>
         <source>Reference, adults {span}</source>
         <translation>Ref. Erwachsene {span}</translation>
     </message>
@@ -1450,10 +1314,6 @@
     <message>
         <source>Goal {angle}</source>
         <translation>Ziel {angle}</translation>
-    </message>
-    <message>
-        <source>mean, ± sd between repetitions</source>
-        <translation>Mittelwert, ± SD zwischen den Wiederholungen</translation>
     </message>
     <message>
         <source>not compared</source>
@@ -1478,10 +1338,6 @@
     <message>
         <source>Speed</source>
         <translation>Geschw.</translation>
-    </message>
-    <message>
-        <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
-        <translation>α und γ sind nur dort angegeben, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Neutralstellung sind nur β und α + γ bestimmbar.</translation>
     </message>
     <message>
         <source>no value</source>
@@ -1668,10 +1524,6 @@
         <translation>Maximalgeschwindigkeit</translation>
     </message>
     <message>
-        <source>{name}, across</source>
-        <translation>{name}, hin</translation>
-    </message>
-    <message>
         <source>Time to peak</source>
         <translation>Zeit bis zum Maximum</translation>
     </message>
@@ -1704,18 +1556,6 @@
         <translation>Handspanne, Daumen–Kleinfinger</translation>
     </message>
     <message>
-        <source>Pose plausible while occluded</source>
-        <translation>Handstellung bei Verdeckung plausibel</translation>
-    </message>
-    <message>
-        <source>Pose within 15° while occluded</source>
-        <translation>Handstellung bei Verdeckung auf 15° genau</translation>
-    </message>
-    <message>
-        <source>Jump on reappearance</source>
-        <translation>Sprung beim Wiederauftauchen</translation>
-    </message>
-    <message>
         <source>Movement synergy (variance explained)</source>
         <translation>Bewegungssynergie (erklärte Varianz)</translation>
     </message>
@@ -1734,14 +1574,6 @@
     <message>
         <source>little</source>
         <translation>Kleinf.</translation>
-    </message>
-    <message>
-        <source>Lag of {other} after {one}</source>
-        <translation>Verzögerung: {other} nach {one}</translation>
-    </message>
-    <message>
-        <source>Enslaving of {other} by {one}</source>
-        <translation>Mitbewegung {other} durch {one}</translation>
     </message>
     <message>
         <source>Largest span, {one}–{other}</source>
@@ -1908,10 +1740,6 @@
         <translation>Sie fehlt bei Fingern, deren Gelenke nie alle zugleich sichtbar waren.</translation>
     </message>
     <message>
-        <source>DIP not measured: TAM assumes two thirds of PIP.</source>
-        <translation>DIP nicht gemessen: Die TAM rechnet mit zwei Dritteln des PIP-Winkels.</translation>
-    </message>
-    <message>
         <source>PIP joints</source>
         <translation>PIP-Gelenke</translation>
     </message>
@@ -1968,10 +1796,6 @@
         <translation>Bahn des Handgelenks</translation>
     </message>
     <message>
-        <source>with the hand’s axes along it</source>
-        <translation>mit den Achsen der Hand</translation>
-    </message>
-    <message>
         <source>joint centres; dashed: marker occluded</source>
         <translation>Gelenkmitten; gestrichelt: Marker verdeckt</translation>
     </message>
@@ -1990,14 +1814,6 @@
     <message>
         <source>ZYZ angles</source>
         <translation>ZYZ-Winkel</translation>
-    </message>
-    <message>
-        <source>band: ± 1 sd; black: α + γ, with γ</source>
-        <translation>Band: ± 1 SD; schwarz: α + γ, mit γ</translation>
-    </message>
-    <message>
-        <source>mean ± sd; at the right: {day}</source>
-        <translation>Mittel ± SD; rechts: {day}</translation>
     </message>
     <message>
         <source>Progress report</source>
@@ -2026,14 +1842,6 @@
     <message>
         <source>{count} sessions: {ids}</source>
         <translation>{count} Sitzungen: {ids}</translation>
-    </message>
-    <message>
-        <source>Made by Carpus {version}</source>
-        <translation>Erstellt mit Carpus {version}</translation>
-    </message>
-    <message>
-        <source>measured by Carpus {versions}</source>
-        <translation>gemessen mit Carpus {versions}</translation>
     </message>
     <message>
         <source>{before} and {after} repetitions</source>
@@ -2104,10 +1912,6 @@
         <translation>Aktiv und passiv</translation>
     </message>
     <message>
-        <source>grey: repetitions; band: ± 1 sd of the angle</source>
-        <translation>grau: Wiederholungen; Band: ± 1 SD des Winkels</translation>
-    </message>
-    <message>
         <source>dashed: goal</source>
         <translation>gestrichelt: Ziel</translation>
     </message>
@@ -2168,16 +1972,8 @@
         <translation>Aufnahme {digest}</translation>
     </message>
     <message>
-        <source>calibrated to {size} mm</source>
-        <translation>kalibriert auf {size} mm</translation>
-    </message>
-    <message>
         <source>smoothed</source>
         <translation>geglättet</translation>
-    </message>
-    <message>
-        <source>as measured live</source>
-        <translation>wie live gemessen</translation>
     </message>
     <message>
         <source>Movement</source>
@@ -2228,10 +2024,6 @@
         <translation>am Ende der Aufnahme abgeschnitten</translation>
     </message>
     <message>
-        <source>number {number} excluded: {reason}</source>
-        <translation>Nummer {number} ausgeschlossen: {reason}</translation>
-    </message>
-    <message>
         <source>passive repetitions excluded</source>
         <translation>passive Wiederholungen ausgeschlossen</translation>
     </message>
@@ -2268,24 +2060,12 @@
         <translation>unter {angle}</translation>
     </message>
     <message>
-        <source>as intended: the hand stays in line</source>
-        <translation>wie vorgesehen: Hand bleibt in der Achse</translation>
-    </message>
-    <message>
         <source>more than intended: check the exercise technique</source>
         <translation>mehr als vorgesehen: Ausführung prüfen</translation>
     </message>
     <message>
-        <source>No range could be measured.</source>
-        <translation>Kein Bewegungsausmaß messbar.</translation>
-    </message>
-    <message>
         <source>total arc</source>
         <translation>Gesamtausmaß</translation>
-    </message>
-    <message>
-        <source>No active range was measured.</source>
-        <translation>Kein aktives Bewegungsausmaß gemessen.</translation>
     </message>
     <message>
         <source>{name} improved by {size}</source>
@@ -2304,14 +2084,6 @@
         <translation>Seit dem {when}: {changes}.</translation>
     </message>
     <message>
-        <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
-        <translation>Winkel in der Reihenfolge Radial-/Ulnarduktion, Flexion, Pro-/Supination; {zero}.</translation>
-    </message>
-    <message>
-        <source>Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.</source>
-        <translation>Winkel in der Reihenfolge der ISB: Flexion, Radial-/Ulnarduktion, Pro-/Supination; {zero}.</translation>
-    </message>
-    <message>
         <source>Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.</source>
         <translation>Finger: 0° = gestreckt; negativ = Überstreckung. Handgelenk: {zero}.</translation>
     </message>
@@ -2326,10 +2098,6 @@
     <message>
         <source>Method: {markers} markers, colour and depth camera, {distance} away.</source>
         <translation>Verfahren: {markers} Marker, Farb- und Tiefenkamera, {distance} entfernt.</translation>
-    </message>
-    <message>
-        <source>The wrist’s angles are in the order of the ISB.</source>
-        <translation>Die Winkel des Handgelenks stehen in der Reihenfolge der ISB.</translation>
     </message>
     <message>
         <source>Angles are relative to the room. They equal wrist angles only while the forearm is still.</source>
@@ -2408,20 +2176,12 @@
         <translation>{distance} (Grenze {limit})</translation>
     </message>
     <message>
-        <source>{depth} below its marker (scatter {residual})</source>
-        <translation>{depth} unter dem Marker (Streuung {residual})</translation>
-    </message>
-    <message>
         <source>Wrist rotation centre</source>
         <translation>Drehpunkt des Handgelenks</translation>
     </message>
     <message>
         <source>{angle} at most (limit {limit})</source>
         <translation>höchstens {angle} (Grenze {limit})</translation>
-    </message>
-    <message>
-        <source>Peak speed, mean ± sd</source>
-        <translation>Maximalgeschwindigkeit, Mittel ± SD</translation>
     </message>
     <message>
         <source>Smoothness (SPARC; 0 is smoothest)</source>
@@ -2490,14 +2250,6 @@
     <message>
         <source>Supination, pronation</source>
         <translation>Supination, Pronation</translation>
-    </message>
-    <message>
-        <source>Proposed from the last session:</source>
-        <translation>Vorschlag aus der letzten Sitzung:</translation>
-    </message>
-    <message>
-        <source>Proposed from the last {count} sessions:</source>
-        <translation>Vorschlag aus den letzten {count} Sitzungen:</translation>
     </message>
     <message>
         <source>{exercise}, {count} times</source>
@@ -3140,10 +2892,6 @@
         <translation>Kamera außerhalb der Toleranz: {what} (Grenzen: {most_angle}°, {most_length} mm, alle Längen {most_share} %).</translation>
     </message>
     <message>
-        <source>Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and {most_length} mm).</source>
-        <translation>Kamera innerhalb der Toleranz: höchstens {angle}° und {length} mm Abweichung (Grenzen: {most_angle}° und {most_length} mm).</translation>
-    </message>
-    <message>
         <source>The clicks for the {markers} are on one marker.</source>
         <translation>Diese Klicks liegen auf einem einzigen Marker: {markers}.</translation>
     </message>
@@ -3314,10 +3062,6 @@
     <message>
         <source>an HDF5 file, but not a session</source>
         <translation>eine HDF5-Datei, aber keine Sitzung</translation>
-    </message>
-    <message>
-        <source>angles deviate by {angle}°</source>
-        <translation>Winkel weichen um {angle}° ab</translation>
     </message>
     <message>
         <source>another computer is sending its data</source>
@@ -4292,10 +4036,6 @@
         <translation>nicht im Sitzungsordner</translation>
     </message>
     <message>
-        <source>Pauses during the movement, mean</source>
-        <translation>Pausen während der Bewegung, Mittel</translation>
-    </message>
-    <message>
         <source>No change beyond measurement error since {day}.</source>
         <translation>Seit dem {day} keine Änderung über den Messfehler hinaus.</translation>
     </message>
@@ -4310,10 +4050,6 @@
     <message>
         <source>no change beyond MDC</source>
         <translation>keine Änderung über der MDC</translation>
-    </message>
-    <message>
-        <source>Each joint at its largest flexion; ± is the SD between repetitions.</source>
-        <translation>Jedes Gelenk bei größter Flexion; ± ist die SD zwischen den Wiederholungen.</translation>
     </message>
     <message>
         <source>{sign} = minimum: the end of this movement was occluded.</source>
@@ -4368,18 +4104,6 @@
         <translation>Sie kommen weiter als zu Beginn.</translation>
     </message>
     <message>
-        <source>Your hand at home</source>
-        <translation>Ihre Hand zu Hause</translation>
-    </message>
-    <message>
-        <source>Tick a box when all rounds of the day are done.</source>
-        <translation>Kreuzen Sie ein Kästchen an, wenn alle Runden des Tages geschafft sind.</translation>
-    </message>
-    <message>
-        <source>Turn the palm up, then down. The elbow stays at your side.</source>
-        <translation>Die Handfläche nach oben drehen, dann nach unten. Der Ellbogen bleibt am Körper.</translation>
-    </message>
-    <message>
         <source>once</source>
         <translation>einmal</translation>
     </message>
@@ -4410,10 +4134,6 @@
     <message>
         <source>Next appointment</source>
         <translation>Nächster Termin</translation>
-    </message>
-    <message>
-        <source>Notes, or what to ask next time</source>
-        <translation>Notizen, oder was Sie nächstes Mal fragen möchten</translation>
     </message>
     <message>
         <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
@@ -4488,20 +4208,12 @@
         <translation>Bewegungsausmaß, Finger</translation>
     </message>
     <message>
-        <source>Movement of the other angles</source>
-        <translation>Bewegung der übrigen Winkel</translation>
-    </message>
-    <message>
         <source>Speed and smoothness</source>
         <translation>Geschwindigkeit und Gleichmäßigkeit</translation>
     </message>
     <message>
         <source>Quality of the recording</source>
         <translation>Qualität der Aufnahme</translation>
-    </message>
-    <message>
-        <source>Grades</source>
-        <translation>Bewertungen</translation>
     </message>
     <message>
         <source>Reaching movements</source>
@@ -4530,10 +4242,6 @@
     <message>
         <source>Camera {serial}: {calibrated}. {words}</source>
         <translation>Kamera {serial}: {calibrated}. {words}</translation>
-    </message>
-    <message>
-        <source>Check it again: once a week.</source>
-        <translation>Erneut prüfen (einmal in der Woche).</translation>
     </message>
     <message>
         <source>the reference contains both hands: {names} are used</source>
@@ -4664,16 +4372,8 @@
         <translation>einmal gemessen</translation>
     </message>
     <message>
-        <source>Saved for this camera, number {serial}. Earlier sessions keep their values.</source>
-        <translation>Wird für diese Kamera mit der Nummer {serial} gespeichert. Frühere Sitzungen behalten ihre Werte.</translation>
-    </message>
-    <message>
         <source>Distance: near and far missing</source>
         <translation>Abstand: nah und fern fehlen</translation>
-    </message>
-    <message>
-        <source>Places: {count} of {all} fields, {least} or more</source>
-        <translation>Positionen: {count} von {all} Feldern, mindestens {least}</translation>
     </message>
     <message>
         <source>Tilts: {side} missing</source>
@@ -4690,10 +4390,6 @@
     <message>
         <source>{px} px before</source>
         <translation>vorher {px} px</translation>
-    </message>
-    <message>
-        <source>Show the board in other places, at other tilts</source>
-        <translation>Zeigen Sie die Tafel an anderen Positionen, mit anderer Neigung</translation>
     </message>
     <message>
         <source>Hand not visible</source>
@@ -5524,10 +5220,6 @@
         <translation>Programm</translation>
     </message>
     <message>
-        <source>Not kept: {names}. Also correct a later frame.</source>
-        <translation>Nicht beibehalten: {names}. Korrigieren Sie auch ein späteres Bild.</translation>
-    </message>
-    <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
         <translation>Im neuen Ergebnis kaum sichtbar: {names}. Ihre Winkel fehlen dort.</translation>
     </message>
@@ -5596,24 +5288,12 @@
         <translation>Bilder mit verdeckten Gelenken werden nicht ausgewertet.</translation>
     </message>
     <message>
-        <source>Image taken. Now another place.</source>
-        <translation>Bild aufgenommen. Jetzt eine andere Position.</translation>
-    </message>
-    <message>
         <source>Nothing was changed. Glue the board onto something flat and stiff. Take the images again in good light.</source>
         <translation>Es wurde nichts geändert. Kleben Sie die Tafel auf etwas Flaches, Steifes, und nehmen Sie die Bilder bei gutem Licht neu auf.</translation>
     </message>
     <message>
-        <source>Nothing was changed. Turn on depth registration in the camera: “carpus doctor” shows how.</source>
-        <translation>Es wurde nichts geändert. Schalten Sie in der Kamera die Ausrichtung von Tiefe und Farbe ein: „carpus doctor“ zeigt, wie.</translation>
-    </message>
-    <message>
         <source>Depth was not checked.</source>
         <translation>Die Tiefe wurde nicht geprüft.</translation>
-    </message>
-    <message>
-        <source>too few images with depth on the board</source>
-        <translation>zu wenige Bilder mit Tiefenwerten auf der Tafel</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, fully in view, about 60 cm away.</source>
@@ -5664,24 +5344,12 @@
         <translation>Diese Stelle verwenden</translation>
     </message>
     <message>
-        <source>mean of both · one point every 0.2 s, {count} points</source>
-        <translation>Mittel beider · ein Punkt je 0,2 s, {count} Punkte</translation>
-    </message>
-    <message>
-        <source>mean of both · one point per reading, {count} readings</source>
-        <translation>Mittel beider · ein Punkt je Ablesung, {count} Ablesungen</translation>
-    </message>
-    <message>
         <source>manual, active</source>
         <translation>manuell, aktiv</translation>
     </message>
     <message>
         <source>Position</source>
         <translation>Position</translation>
-    </message>
-    <message>
-        <source>Joint flexion, {one}–{other} (r)</source>
-        <translation>Gemeinsame Flexion, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>too slow to assess</source>
@@ -5716,14 +5384,6 @@
         <translation>Therapeutischer Kommentar</translation>
     </message>
     <message>
-        <source>Markers were corrected manually. The original result is kept.</source>
-        <translation>Marker wurden manuell korrigiert. Das ursprüngliche Ergebnis bleibt erhalten.</translation>
-    </message>
-    <message>
-        <source>Manual measurements, not made by Carpus: {values}.</source>
-        <translation>Manuelle Messungen, nicht von Carpus: {values}.</translation>
-    </message>
-    <message>
         <source>The comment is too long for this letter. It is in the report.</source>
         <translation>Der Kommentar ist für diesen Brief zu lang. Er steht im Bericht.</translation>
     </message>
@@ -5734,10 +5394,6 @@
     <message>
         <source>too short</source>
         <translation>zu kurz</translation>
-    </message>
-    <message>
-        <source>each was shorter than 0.4 s</source>
-        <translation>jede war kürzer als 0,4 s</translation>
     </message>
     <message>
         <source>± = SD between repetitions. The SD of a visible angle is about {sd}.</source>
@@ -5762,14 +5418,6 @@
     <message>
         <source>Exercise set “{name}”, {number} of {count}: {part}</source>
         <translation>Übungsfolge „{name}“, {number} von {count}: {part}</translation>
-    </message>
-    <message>
-        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people. Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up.</source>
-        <translation>Die MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen. Sonst gilt die Expertenschätzung von Carpus. Beides gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
-    </message>
-    <message>
-        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
-        <translation>Die MDC (Messfehler) ist eine Expertenschätzung von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für ein Gesamtausmaß mit seinen zwei Endpunkten ist sie √2-mal so groß. Sie gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -5856,16 +5504,8 @@
         <translation>unsichtbares Zeichen</translation>
     </message>
     <message>
-        <source>{sign}: manual measurement of that day, active / passive; not combined with the other values.</source>
-        <translation>{sign}: manuelle Messung an diesem Tag, aktiv / passiv; nicht mit den anderen Werten verrechnet.</translation>
-    </message>
-    <message>
         <source>Manual</source>
         <translation>Manuell</translation>
-    </message>
-    <message>
-        <source>Check once more, then calibrate the camera. If it is still out of tolerance, do not measure with it.</source>
-        <translation>Noch einmal prüfen, dann die Kamera kalibrieren. Ist sie weiter außerhalb der Toleranz, nicht mit ihr messen.</translation>
     </message>
     <message>
         <source>0° = neutral position</source>
@@ -6040,20 +5680,8 @@
         <translation>Ein Ordner kann nicht verwendet werden: {reason}</translation>
     </message>
     <message>
-        <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
-        <translation>{movement} {goal} (Mittelwert {mean}; eine Änderung ist ab {limit} nachweisbar)</translation>
-    </message>
-    <message>
         <source>{count} pairs of one session, compared with {kind}</source>
         <translation>{count} Paare einer Sitzung, verglichen mit: {kind}</translation>
-    </message>
-    <message>
-        <source>all lengths are {share} % too long, at most by {length} mm</source>
-        <translation>alle Längen sind {share} % zu groß, höchstens um {length} mm</translation>
-    </message>
-    <message>
-        <source>all lengths are {share} % too short, at most by {length} mm</source>
-        <translation>alle Längen sind {share} % zu klein, höchstens um {length} mm</translation>
     </message>
     <message>
         <source>{count} joint angles whose names differ from {name}</source>
@@ -6072,24 +5700,12 @@
         <translation>Schmerz, Notiz</translation>
     </message>
     <message>
-        <source>{name}, mean ± sd</source>
-        <translation>{name}, Mittel ± SD</translation>
-    </message>
-    <message>
         <source>{count} per movement, {seconds} s in total</source>
         <translation>{count} je Bewegung, insgesamt {seconds} s</translation>
     </message>
     <message>
         <source>revision {digest}</source>
         <translation>Revision {digest}</translation>
-    </message>
-    <message>
-        <source>Speeds or angles</source>
-        <translation>Geschwindigkeiten oder Winkel</translation>
-    </message>
-    <message>
-        <source>Percentage of the other hand’s TAM, or of the reference value of 260° (thumb 140°) if that is not known. ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
-        <translation>Prozent der TAM der anderen Hand oder, wenn sie nicht bekannt ist, des Referenzwerts von 260° (Daumen 140°). ASSH: sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht.</translation>
     </message>
     <message>
         <source>In the middle of the nail.</source>
@@ -6216,10 +5832,6 @@
         <translation>{name}, zurück</translation>
     </message>
     <message>
-        <source>Check it again: it has been calibrated since.</source>
-        <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
-    </message>
-    <message>
         <source>invalid birth date</source>
         <translation>ungültiges Geburtsdatum</translation>
     </message>
@@ -6246,10 +5858,6 @@
     <message>
         <source>Enter a number from {least} to {most}, or leave it empty</source>
         <translation>Geben Sie eine Zahl von {least} bis {most} ein, oder lassen Sie das Feld leer</translation>
-    </message>
-    <message>
-        <source>{value}? Typical range: {low} to {high}</source>
-        <translation>{value}? Typischer Bereich: {low} bis {high}</translation>
     </message>
     <message>
         <source>removed</source>
@@ -6395,6 +6003,398 @@
         <source>Table</source>
         <translation>Tabelle</translation>
     </message>
+    <message>
+        <source>{value} is unusual. Typical range: {low} to {high}</source>
+        <translation>{value} ist ungewöhnlich. Üblicher Bereich: {low} bis {high}</translation>
+    </message>
+    <message>
+        <source>The sessions are shown side by side, but not compared.</source>
+        <translation>Nebeneinander gezeigt, ohne Vergleich.</translation>
+    </message>
+    <message>
+        <source>The image is too dark: add light.</source>
+        <translation>Mehr Licht: Das Bild ist zu dunkel.</translation>
+    </message>
+    <message>
+        <source>Tilt the board less: the camera sees it almost edge-on.</source>
+        <translation>Weniger drehen: Man sieht fast nur die Kante.</translation>
+    </message>
+    <message>
+        <source>The image is blurred: hold the board still, or add light.</source>
+        <translation>Nicht scharf: stillhalten, oder mehr Licht.</translation>
+    </message>
+    <message>
+        <source>Calculate · more positions and tilts</source>
+        <translation>Berechnen · mehr Stellen und Neigungen</translation>
+    </message>
+    <message>
+        <source>The board is not visible: show the whole board, flat, in even light.</source>
+        <translation>Keine Tafel zu sehen: Zeigen Sie sie ganz und flach, in gleichmäßigem Licht.</translation>
+    </message>
+    <message>
+        <source>Depth–colour alignment</source>
+        <translation>Tiefe und Farbe</translation>
+    </message>
+    <message>
+        <source>depth registration is off</source>
+        <translation>Registrierung ist aus</translation>
+    </message>
+    <message>
+        <source>This camera reports no serial number, so its calibration cannot be saved here. IT support can write it to a camera file with “carpus calibrate-camera --output” and enter that file in the settings.</source>
+        <translation>Diese Kamera meldet keine Seriennummer. Deshalb kann ihre Kalibrierung hier nicht gespeichert werden. Die EDV-Betreuung kann sie mit „carpus calibrate-camera --output“ in eine Kameradatei schreiben und diese in den Einstellungen angeben.</translation>
+    </message>
+    <message>
+        <source>Show the next angle as the large number</source>
+        <translation>Nächster Winkel als große Zahl</translation>
+    </message>
+    <message>
+        <source>Show the next finger as the large number</source>
+        <translation>Nächster Finger als große Zahl</translation>
+    </message>
+    <message>
+        <source>Move the start or end of the repetition earlier</source>
+        <translation>Grenze der Wiederholung früher legen</translation>
+    </message>
+    <message>
+        <source>Move the start or end of the repetition later</source>
+        <translation>Grenze der Wiederholung später legen</translation>
+    </message>
+    <message>
+        <source>Zoom in on the curves</source>
+        <translation>Kurven vergrößern</translation>
+    </message>
+    <message>
+        <source>Zoom out of the curves</source>
+        <translation>Kurven verkleinern</translation>
+    </message>
+    <message>
+        <source>Show the whole recording</source>
+        <translation>Kurven ganz zeigen</translation>
+    </message>
+    <message>
+        <source>Select the previous session</source>
+        <translation>Vorige Sitzung auswählen</translation>
+    </message>
+    <message>
+        <source>Select the next session</source>
+        <translation>Nächste Sitzung auswählen</translation>
+    </message>
+    <message>
+        <source>Previous frame (correction)</source>
+        <translation>Voriges Bild zum Korrigieren</translation>
+    </message>
+    <message>
+        <source>Next frame (correction)</source>
+        <translation>Nächstes Bild zum Korrigieren</translation>
+    </message>
+    <message>
+        <source>Undo the last step</source>
+        <translation>Einen Schritt rückgängig machen</translation>
+    </message>
+    <message>
+        <source>Save an image of the hand only</source>
+        <translation>Dieses Bild nur mit der Hand</translation>
+    </message>
+    <message>
+        <source>Tick a session for comparison</source>
+        <translation>Sitzung zum Vergleichen ankreuzen</translation>
+    </message>
+    <message>
+        <source>Show the whole image or only the hand</source>
+        <translation>Ganzes Bild oder nur die Hand</translation>
+    </message>
+    <message>
+        <source>Open or close the patient’s view</source>
+        <translation>Patientenansicht öffnen und schließen</translation>
+    </message>
+    <message>
+        <source>Undo the last click</source>
+        <translation>Letzten Marker zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Swap two labels</source>
+        <translation>Zwei Marker tauschen</translation>
+    </message>
+    <message>
+        <source>Click the marker again</source>
+        <translation>Neu anklicken</translation>
+    </message>
+    <message>
+        <source>No angle yet</source>
+        <translation>Noch kein Winkel bekannt</translation>
+    </message>
+    <message>
+        <source>{marker} often occluded</source>
+        <translation>{marker} oft verdeckt</translation>
+    </message>
+    <message>
+        <source>{count} markers often occluded</source>
+        <translation>{count} Marker oft verdeckt</translation>
+    </message>
+    <message>
+        <source>The line of each finger should run from the wrist to the fingertip. To change a label, drag it to another marker.</source>
+        <translation>Die Linie jedes Fingers läuft vom Handgelenk zur Fingerspitze. Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
+    </message>
+    <message>
+        <source>all {count} found</source>
+        <translation>alle {count} gefunden</translation>
+    </message>
+    <message>
+        <source>reading number</source>
+        <translation>Nummer der Ablesung</translation>
+    </message>
+    <message>
+        <source>mean ± SD of the repetitions</source>
+        <translation>Mittel, ± SD zwischen Wiederholungen</translation>
+    </message>
+    <message>
+        <source>α and γ are shown only where their SD is below 30° ({share} of the time). Near the neutral position, only β and α + γ can be measured.</source>
+        <translation>α und γ stehen da, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Nullstellung sind nur β und α + γ bekannt.</translation>
+    </message>
+    <message>
+        <source>{name}, across the palm</source>
+        <translation>{name}, zur Handfläche</translation>
+    </message>
+    <message>
+        <source>Plausible position while occluded</source>
+        <translation>Haltung plausibel, während verdeckt</translation>
+    </message>
+    <message>
+        <source>Position within 15° while occluded</source>
+        <translation>Haltung auf 15° genau, während verdeckt</translation>
+    </message>
+    <message>
+        <source>Position jump when visible again</source>
+        <translation>Sprung beim Wiederauftauchen</translation>
+    </message>
+    <message>
+        <source>Delay of {other} after {one}</source>
+        <translation>{other} später als {one}</translation>
+    </message>
+    <message>
+        <source>Involuntary movement of {other} with {one}</source>
+        <translation>Mitbewegung {other} durch {one}</translation>
+    </message>
+    <message>
+        <source>DIP not measured: TAM uses two thirds of the PIP flexion.</source>
+        <translation>DIP nicht gemessen: Die TAM rechnet mit zwei Dritteln des PIP-Winkels.</translation>
+    </message>
+    <message>
+        <source>with the axes of the hand along the path</source>
+        <translation>mit den Achsen der Hand</translation>
+    </message>
+    <message>
+        <source>band: ± 1 SD; black: α + γ</source>
+        <translation>Band: ± 1 SD; schwarz: α + γ, mit γ</translation>
+    </message>
+    <message>
+        <source>mean ± SD; right column: {day}</source>
+        <translation>Mittel ± SD; rechts: {day}</translation>
+    </message>
+    <message>
+        <source>Made with Carpus {version}</source>
+        <translation>Erstellt mit Carpus {version}</translation>
+    </message>
+    <message>
+        <source>measured with Carpus {versions}</source>
+        <translation>gemessen mit Carpus {versions}</translation>
+    </message>
+    <message>
+        <source>grey: repetitions; band: ± 1 SD of the angle</source>
+        <translation>grau: Wiederholungen; Band: ± 1 SD des Winkels</translation>
+    </message>
+    <message>
+        <source>marker positions within {size} mm</source>
+        <translation>Markerpositionen auf {size} mm genau</translation>
+    </message>
+    <message>
+        <source>live values, not smoothed</source>
+        <translation>Live-Werte, nicht geglättet</translation>
+    </message>
+    <message>
+        <source>repetition {number} excluded: {reason}</source>
+        <translation>Nummer {number} ausgeschlossen: {reason}</translation>
+    </message>
+    <message>
+        <source>as intended: the hand stays straight</source>
+        <translation>wie vorgesehen: Hand bleibt in der Achse</translation>
+    </message>
+    <message>
+        <source>No range of motion could be measured.</source>
+        <translation>Kein Bewegungsausmaß messbar.</translation>
+    </message>
+    <message>
+        <source>No active range of motion was measured.</source>
+        <translation>Kein aktives Bewegungsausmaß gemessen.</translation>
+    </message>
+    <message>
+        <source>Angles in the order deviation, flexion, pronation–supination; {zero}.</source>
+        <translation>Winkel in der Reihenfolge Radial-/Ulnarduktion, Flexion, Pro-/Supination; {zero}.</translation>
+    </message>
+    <message>
+        <source>Angles in the order of the ISB: flexion, deviation, pronation–supination; {zero}.</source>
+        <translation>Winkel in der Reihenfolge der ISB: Flexion, Radial-/Ulnarduktion, Pro-/Supination; {zero}.</translation>
+    </message>
+    <message>
+        <source>The wrist angles are in the order of the ISB (flexion first).</source>
+        <translation>Die Winkel des Handgelenks stehen in der Reihenfolge der ISB.</translation>
+    </message>
+    <message>
+        <source>{depth} below the wrist marker (scatter {residual})</source>
+        <translation>{depth} unter dem Marker (Streuung {residual})</translation>
+    </message>
+    <message>
+        <source>Peak speed, mean ± SD</source>
+        <translation>Maximalgeschwindigkeit, Mittel ± SD</translation>
+    </message>
+    <message>
+        <source>Suggested from the last session:</source>
+        <translation>Vorschlag aus der letzten Sitzung:</translation>
+    </message>
+    <message>
+        <source>Suggested from the last {count} sessions:</source>
+        <translation>Vorschlag aus den letzten {count} Sitzungen:</translation>
+    </message>
+    <message>
+        <source>Camera within tolerance: errors up to {angle}° and {length} mm (limits: {most_angle}° and {most_length} mm).</source>
+        <translation>Kamera innerhalb der Toleranz: höchstens {angle}° und {length} mm Abweichung (Grenzen: {most_angle}° und {most_length} mm).</translation>
+    </message>
+    <message>
+        <source>angles are wrong by {angle}°</source>
+        <translation>Winkel weichen um {angle}° ab</translation>
+    </message>
+    <message>
+        <source>Pauses during a movement, mean</source>
+        <translation>Pausen während der Bewegung, Mittel</translation>
+    </message>
+    <message>
+        <source>Largest flexion of each joint; ± is the SD between repetitions.</source>
+        <translation>Jedes Gelenk bei größter Flexion; ± ist die SD zwischen den Wiederholungen.</translation>
+    </message>
+    <message>
+        <source>Hand exercises at home</source>
+        <translation>Handübungen für zu Hause</translation>
+    </message>
+    <message>
+        <source>Tick the box of the day when you have done all its exercises.</source>
+        <translation>Kreuzen Sie das Kästchen des Tages an, wenn alle Übungen geschafft sind.</translation>
+    </message>
+    <message>
+        <source>Turn your palm up, then down. Keep your elbow at your side.</source>
+        <translation>Die Handfläche nach oben drehen, dann nach unten. Der Ellbogen bleibt am Körper.</translation>
+    </message>
+    <message>
+        <source>Notes and questions for your next appointment</source>
+        <translation>Notizen, oder was Sie nächstes Mal fragen möchten</translation>
+    </message>
+    <message>
+        <source>Movement in the other directions</source>
+        <translation>Bewegung der übrigen Winkel</translation>
+    </message>
+    <message>
+        <source>Grades of finger motion</source>
+        <translation>Bewertungen</translation>
+    </message>
+    <message>
+        <source>Check the camera again: a check is due once a week.</source>
+        <translation>Erneut prüfen: einmal in der Woche.</translation>
+    </message>
+    <message>
+        <source>Saved for the camera with serial number {serial}. Values of earlier sessions do not change.</source>
+        <translation>Wird für diese Kamera mit der Nummer {serial} gespeichert. Frühere Sitzungen behalten ihre Werte.</translation>
+    </message>
+    <message>
+        <source>Positions: {count} of {all} fields covered (at least {least} needed)</source>
+        <translation>Orte: {count} von {all} Feldern, mindestens {least}</translation>
+    </message>
+    <message>
+        <source>Show the board in other positions and at other tilts</source>
+        <translation>Zeigen Sie die Tafel an anderen Orten, anders geneigt</translation>
+    </message>
+    <message>
+        <source>Correction not kept for {names}. Correct a later frame too.</source>
+        <translation>Nicht beibehalten: {names}. Korrigieren Sie auch ein späteres Bild.</translation>
+    </message>
+    <message>
+        <source>Image taken. Move the board to another position.</source>
+        <translation>Bild aufgenommen. Jetzt eine andere Stelle.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. Turn on depth registration in the camera settings.</source>
+        <translation>Nichts wurde geändert. Schalten Sie in den Kameraeinstellungen die Registrierung von Tiefe und Farbe ein.</translation>
+    </message>
+    <message>
+        <source>too few images with depth values of the board</source>
+        <translation>zu wenige Bilder mit Tiefe auf der Tafel</translation>
+    </message>
+    <message>
+        <source>mean of Carpus and reference · one point every 0.2 s, {count} points</source>
+        <translation>Mittel beider · ein Punkt je 0,2 s, {count} Punkte</translation>
+    </message>
+    <message>
+        <source>mean of Carpus and reference · one point per reading, {count} readings</source>
+        <translation>Mittel beider · ein Punkt je Ablesung, {count} Ablesungen</translation>
+    </message>
+    <message>
+        <source>Correlation of flexion, {one}–{other} (r)</source>
+        <translation>Gemeinsame Flexion, {one}–{other} (r)</translation>
+    </message>
+    <message>
+        <source>Marker labels were corrected manually. The original result is kept.</source>
+        <translation>Marker wurden manuell korrigiert. Das ursprüngliche Ergebnis bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>Measured manually, not by Carpus: {values}.</source>
+        <translation>Manuelle Messungen, nicht von Carpus: {values}.</translation>
+    </message>
+    <message>
+        <source>each movement was shorter than 0.4 s</source>
+        <translation>jede war kürzer als 0,4 s</translation>
+    </message>
+    <message>
+        <source>This clinic measured the MDC95 (measurement error) on {date} with {count} people. Where it was not measured, Carpus uses an expert default. The MDC applies to the same markers, side and set-up.</source>
+        <translation>MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen. Sonst gilt die Expertenvorgabe von Carpus. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+    </message>
+    <message>
+        <source>Until the clinic has measured its own MDC (measurement error), Carpus uses an expert default, not a published value. For a total arc, which has two ends, the MDC is √2 times as large. It applies to the same markers, side and set-up.</source>
+        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für ein Gesamtausmaß mit seinen zwei Enden ist sie √2-mal so groß. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+    </message>
+    <message>
+        <source>{sign}: manual measurement of that day, active / passive. It is not combined with the other values.</source>
+        <translation>{sign}: manuelle Messung an diesem Tag, aktiv / passiv; nicht mit den anderen Werten verrechnet.</translation>
+    </message>
+    <message>
+        <source>Check the camera once more, then calibrate it. If it is still out of tolerance, do not measure with it.</source>
+        <translation>Noch einmal prüfen, dann die Kamera kalibrieren. Ist sie weiter außerhalb der Toleranz, nicht mit ihr messen.</translation>
+    </message>
+    <message>
+        <source>{movement} {goal} (mean {mean}; beyond measurement error from {limit})</source>
+        <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {limit} erkennbar)</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too long, by up to {length} mm</source>
+        <translation>alle Längen sind {share} % zu groß, höchstens um {length} mm</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too short, by up to {length} mm</source>
+        <translation>alle Längen sind {share} % zu klein, höchstens um {length} mm</translation>
+    </message>
+    <message>
+        <source>{name}, mean ± SD</source>
+        <translation>{name}, Mittel ± SD</translation>
+    </message>
+    <message>
+        <source>Show speeds or angles</source>
+        <translation>Geschwindigkeiten oder Winkel</translation>
+    </message>
+    <message>
+        <source>Percentage of the other hand’s TAM or, if not known, of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
+        <translation>Prozent der TAM der anderen Hand oder, wenn sie nicht bekannt ist, des Referenzwerts von 260° (Daumen 140°). ASSH: sehr gut ab 100 %, gut über 75 %, mäßig über 50 %, sonst schlecht.</translation>
+    </message>
+    <message>
+        <source>Check the camera again: it has been calibrated since the last check.</source>
+        <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -6430,10 +6430,6 @@
         <translation>Sicherung</translation>
     </message>
     <message>
-        <source>then verified</source>
-        <translation>dann geprüft</translation>
-    </message>
-    <message>
         <source>Daily at 12:00</source>
         <translation>Täglich um 12:00</translation>
     </message>
@@ -6444,10 +6440,6 @@
     <message>
         <source>Manual only</source>
         <translation>Nur manuell</translation>
-    </message>
-    <message>
-        <source>shows the changes first</source>
-        <translation>zeigt erst die Änderungen</translation>
     </message>
     <message>
         <source>the last 14, plus one per month for 2 years</source>
@@ -6480,6 +6472,14 @@
     <message>
         <source>Backs up the whole data folder: patients, sessions, images and log. You can continue measuring.</source>
         <translation>Sichert den ganzen Datenordner: Patienten, Sitzungen, Bilder und Protokoll. Sie können dabei messen.</translation>
+    </message>
+    <message>
+        <source>The backup is verified afterwards.</source>
+        <translation>Die Sicherung wird danach geprüft.</translation>
+    </message>
+    <message>
+        <source>The changes are shown first.</source>
+        <translation>Die Änderungen werden zuerst gezeigt.</translation>
     </message>
 </context>
 <context>
@@ -6681,10 +6681,6 @@
         <translation>&amp;Weiter</translation>
     </message>
     <message>
-        <source>Leave the guide</source>
-        <translation>Verlassen</translation>
-    </message>
-    <message>
         <source>Esc</source>
         <translation>Esc</translation>
     </message>
@@ -6699,6 +6695,10 @@
     <message>
         <source>&amp;Done</source>
         <translation>&amp;Fertig</translation>
+    </message>
+    <message>
+        <source>End the tour</source>
+        <translation>Rundgang beenden</translation>
     </message>
 </context>
 <context>
@@ -6926,10 +6926,6 @@
         <translation>Drucken Sie beide Seiten mit 100 %: Jedes Lineal muss 100 mm lang sein. Kleben Sie die erste Seite flach auf steifen Karton. Falten Sie den Keil, und kleben Sie ihn auf das gestrichelte Feld.</translation>
     </message>
     <message>
-        <source>A check is valid for one week. If all lengths deviate by the same share, the depth or the print size is wrong.</source>
-        <translation>Eine Prüfung gilt eine Woche. Weichen alle Längen um denselben Prozentsatz ab, stimmt die Tiefe oder die Druckgröße nicht.</translation>
-    </message>
-    <message>
         <source>Check now, 30 seconds</source>
         <translation>Jetzt prüfen, 30 Sekunden</translation>
     </message>
@@ -6960,6 +6956,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>Noch nicht geprüft</translation>
+    </message>
+    <message>
+        <source>A check is valid for one week. If all lengths are wrong by the same percentage, the depth or the print size is wrong.</source>
+        <translation>Eine Prüfung gilt eine Woche. Weichen alle Längen um denselben Anteil ab, stimmt die Tiefe oder die Druckgröße nicht.</translation>
     </message>
 </context>
 <context>
@@ -7006,10 +7006,6 @@
         <translation>Sitzung wird gelesen…</translation>
     </message>
     <message>
-        <source>No comparison: one of the two sessions could not be read.</source>
-        <translation>Kein Vergleich: Eine der beiden Sitzungen konnte nicht gelesen werden.</translation>
-    </message>
-    <message>
         <source>Repetition {number}</source>
         <translation>Wiederholung {number}</translation>
     </message>
@@ -7020,6 +7016,10 @@
     <message>
         <source>Differences</source>
         <translation>Unterschiede</translation>
+    </message>
+    <message>
+        <source>The sessions cannot be compared, because one of them could not be read.</source>
+        <translation>Kein Vergleich: Eine der beiden Sitzungen konnte nicht gelesen werden.</translation>
     </message>
 </context>
 <context>
@@ -7084,10 +7084,6 @@
         <translation>Bild bei {time}</translation>
     </message>
     <message>
-        <source>Drag “{marker}” to its marker</source>
-        <translation>Ziehen Sie „{marker}“ auf seinen Marker</translation>
-    </message>
-    <message>
         <source>Which label is wrong?</source>
         <translation>Welche Bezeichnung ist falsch?</translation>
     </message>
@@ -7116,16 +7112,8 @@
         <translation>„{one}“ und „{other}“ scheinen vertauscht</translation>
     </message>
     <message>
-        <source>The angles would be wrong from there on. Swap the two labels?</source>
-        <translation>Die Winkel wären ab dort falsch. Die beiden Bezeichnungen tauschen?</translation>
-    </message>
-    <message>
         <source>Swap the labels</source>
         <translation>Bezeichnungen tauschen</translation>
-    </message>
-    <message>
-        <source>It is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
-        <translation>Die Stelle liegt {size} mm neben der Position, die zu den anderen Markern passt. Vielleicht ist es ein anderer Marker oder keiner.</translation>
     </message>
     <message>
         <source>Undo the last step</source>
@@ -7142,6 +7130,18 @@
     <message>
         <source>“{marker}” cannot be there</source>
         <translation>„{marker}“ kann dort nicht sein</translation>
+    </message>
+    <message>
+        <source>Drag the label “{marker}” to its marker</source>
+        <translation>Ziehen Sie „{marker}“ auf seinen Marker</translation>
+    </message>
+    <message>
+        <source>All later angles would be wrong. Swap the two labels?</source>
+        <translation>Die Winkel wären ab dort falsch. Die beiden Bezeichnungen tauschen?</translation>
+    </message>
+    <message>
+        <source>This spot is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
+        <translation>Die Stelle liegt {size} mm neben der Position, die zu den anderen Markern passt. Vielleicht ist es ein anderer Marker oder keiner.</translation>
     </message>
 </context>
 <context>
@@ -7208,10 +7208,6 @@
         <translation>Nicht rückgängig zu machen</translation>
     </message>
     <message>
-        <source>Removes it from all lists and results. Everything can be restored.</source>
-        <translation>Entfernt alles aus allen Listen und Ergebnissen. Alles lässt sich wiederherstellen.</translation>
-    </message>
-    <message>
         <source>Delete this session permanently?</source>
         <translation>Diese Sitzung endgültig löschen?</translation>
     </message>
@@ -7236,14 +7232,6 @@
         <translation>Kopien an anderen Orten.</translation>
     </message>
     <message>
-        <source>Delete yourself: reports and exports saved elsewhere ({n}): {path}.</source>
-        <translation>Bitte selbst löschen: anderswo gespeicherte Berichte und Exporte ({n}): {path}.</translation>
-    </message>
-    <message>
-        <source>Check yourself: files outside the patient’s folder ({n}): {path}.</source>
-        <translation>Bitte selbst prüfen: Dateien außerhalb des Patientenordners ({n}): {path}.</translation>
-    </message>
-    <message>
         <source>The log records the deletion, without a name.</source>
         <translation>Das Protokoll verzeichnet die Löschung, ohne Namen.</translation>
     </message>
@@ -7266,6 +7254,18 @@
     <message>
         <source>The patient’s entry: real name, notes, manual measurements. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
         <translation>Der Eintrag des Patienten: echter Name, Notizen, manuelle Messungen. Alle Sitzungen ({count}): Winkel, Bilder, Notizen ({size} MB, Dateien: {files}).</translation>
+    </message>
+    <message>
+        <source>Archiving removes it from all lists and results. Everything can be restored.</source>
+        <translation>Entfernt alles aus Listen und Ergebnissen. Alles lässt sich wiederherstellen.</translation>
+    </message>
+    <message>
+        <source>Delete reports and exports saved elsewhere yourself ({n}): {path}.</source>
+        <translation>Bitte selbst löschen: anderswo gespeicherte Berichte und Exporte ({n}): {path}.</translation>
+    </message>
+    <message>
+        <source>Check these files outside the patient’s folder yourself ({n}): {path}.</source>
+        <translation>Bitte selbst prüfen: Dateien außerhalb des Patientenordners ({n}): {path}.</translation>
     </message>
 </context>
 <context>
@@ -7325,20 +7325,12 @@
 <context>
     <name>ExcludeDialog</name>
     <message>
-        <source>It stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
-        <translation>Sie bleibt in der Liste und lässt sich öffnen, wird aber nicht ausgewertet. Sie können sie wieder einschließen.</translation>
-    </message>
-    <message>
         <source>Exclude this session?</source>
         <translation>Diese Sitzung ausschließen?</translation>
     </message>
     <message>
         <source>wrong exercise</source>
         <translation>falsche Übung</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>Probedurchgang</translation>
     </message>
     <message>
         <source>Exclude</source>
@@ -7360,6 +7352,14 @@
         <source>Another reason</source>
         <translation>Anderer Grund</translation>
     </message>
+    <message>
+        <source>The session stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
+        <translation>Sie bleibt in der Liste und lässt sich öffnen, wird aber nicht ausgewertet. Sie können sie wieder einschließen.</translation>
+    </message>
+    <message>
+        <source>practice run</source>
+        <translation>Probe</translation>
+    </message>
 </context>
 <context>
     <name>ExclusionDialog</name>
@@ -7376,20 +7376,8 @@
         <translation>Passiv</translation>
     </message>
     <message>
-        <source>Passive, and all after it</source>
-        <translation>Passiv, auch alle danach</translation>
-    </message>
-    <message>
-        <source>Excluded from the results; still shown on the curves and mentioned in the report.</source>
-        <translation>Aus den Ergebnissen ausgeschlossen; in den Kurven weiter gezeigt und im Bericht erwähnt.</translation>
-    </message>
-    <message>
         <source>other movement</source>
         <translation>andere Bewegung</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>Probedurchgang</translation>
     </message>
     <message>
         <source>Another reason</source>
@@ -7406,6 +7394,18 @@
     <message>
         <source>Exclude</source>
         <translation>Ausschließen</translation>
+    </message>
+    <message>
+        <source>Passive from here on</source>
+        <translation>Passiv, und alle danach</translation>
+    </message>
+    <message>
+        <source>Excluded from the results, but still shown on the curves and mentioned in the report.</source>
+        <translation>Aus den Ergebnissen ausgeschlossen; in den Kurven weiter gezeigt und im Bericht erwähnt.</translation>
+    </message>
+    <message>
+        <source>practice run</source>
+        <translation>Probe</translation>
     </message>
 </context>
 <context>
@@ -7451,10 +7451,6 @@
         <translation>Ja</translation>
     </message>
     <message>
-        <source>Next: the camera</source>
-        <translation>Weiter: Kamera</translation>
-    </message>
-    <message>
         <source>Which exercise?</source>
         <translation>Welche Übung?</translation>
     </message>
@@ -7475,10 +7471,6 @@
         <translation>Auch Video speichern</translation>
     </message>
     <message>
-        <source>Needed to see and correct markers later: {size} MB per minute; space for {time}.</source>
-        <translation>Nötig, um Marker später zu sehen und zu korrigieren: {size} MB je Minute, Platz für {time}.</translation>
-    </message>
-    <message>
         <source>Goal, {movement}</source>
         <translation>Ziel, {movement}</translation>
     </message>
@@ -7493,6 +7485,14 @@
     <message>
         <source>This recording</source>
         <translation>Diese Aufnahme</translation>
+    </message>
+    <message>
+        <source>Next: camera</source>
+        <translation>Weiter: Kamera</translation>
+    </message>
+    <message>
+        <source>Needed to see and correct markers later. Uses {size} MB per minute; space for {time}.</source>
+        <translation>Nötig, um Marker später zu sehen und zu korrigieren: {size} MB je Minute, Platz für {time}.</translation>
     </message>
 </context>
 <context>
@@ -7611,14 +7611,6 @@
         <translation>Gelenkwinkel der letzten zehn Sekunden, je Finger</translation>
     </message>
     <message>
-        <source>coupled to the PIP</source>
-        <translation>ans PIP gekoppelt</translation>
-    </message>
-    <message>
-        <source>coupled</source>
-        <translation>gekoppelt</translation>
-    </message>
-    <message>
         <source>Last 10 s</source>
         <translation>Letzte 10 s</translation>
     </message>
@@ -7629,6 +7621,14 @@
     <message>
         <source>Abduction</source>
         <translation>Abduktion</translation>
+    </message>
+    <message>
+        <source>inferred from PIP</source>
+        <translation>aus dem PIP abgeleitet</translation>
+    </message>
+    <message>
+        <source>inferred</source>
+        <translation>abgeleitet</translation>
     </message>
 </context>
 <context>
@@ -7686,14 +7686,6 @@ cm</translation>
         <translation>Marker werden geprüft…</translation>
     </message>
     <message>
-        <source>1 marker to go</source>
-        <translation>noch 1 Marker</translation>
-    </message>
-    <message>
-        <source>{count} markers to go</source>
-        <translation>noch {count} Marker</translation>
-    </message>
-    <message>
         <source>Start measuring · {left}</source>
         <translation>Messung starten · {left}</translation>
     </message>
@@ -7749,6 +7741,14 @@ cm</translation>
         <source>Click the markers</source>
         <translation>Marker anklicken</translation>
     </message>
+    <message>
+        <source>1 marker left to click</source>
+        <translation>Noch 1 Marker</translation>
+    </message>
+    <message>
+        <source>{count} markers left to click</source>
+        <translation>Noch {count} Marker</translation>
+    </message>
 </context>
 <context>
     <name>HandDrawing</name>
@@ -7772,10 +7772,6 @@ von oben</translation>
 <context>
     <name>HandImageDialog</name>
     <message>
-        <source>The hand alone, with its angle. Face and room are removed, and there is no name. If the movement is not in the image plane, the angle is given in words only.</source>
-        <translation>Die Hand allein mit ihrem Winkel. Gesicht und Raum sind entfernt, es steht kein Name dabei. Liegt die Bewegung nicht in der Bildebene, steht der Winkel nur in Worten da.</translation>
-    </message>
-    <message>
         <source>Image of the hand</source>
         <translation>Bild der Hand</translation>
     </message>
@@ -7795,6 +7791,10 @@ von oben</translation>
         <source>Save…</source>
         <translation>Speichern…</translation>
     </message>
+    <message>
+        <source>The image shows only the hand and its angle. Face, room and name are removed. If the hand does not move in the image plane, the angle is only written, not drawn.</source>
+        <translation>Die Hand allein mit ihrem Winkel. Gesicht und Raum sind entfernt, es steht kein Name dabei. Liegt die Bewegung nicht in der Bildebene, steht der Winkel nur in Worten da.</translation>
+    </message>
 </context>
 <context>
     <name>HelpScreen</name>
@@ -7805,14 +7805,6 @@ von oben</translation>
     <message>
         <source>Esc</source>
         <translation>Esc</translation>
-    </message>
-    <message>
-        <source>Cards to print…</source>
-        <translation>Karten zum Drucken…</translation>
-    </message>
-    <message>
-        <source>Show me around</source>
-        <translation>Rundgang</translation>
     </message>
     <message>
         <source>Keys</source>
@@ -7826,6 +7818,14 @@ von oben</translation>
         <source>Save the cards</source>
         <translation>Karten speichern</translation>
     </message>
+    <message>
+        <source>Print cards…</source>
+        <translation>Karten drucken…</translation>
+    </message>
+    <message>
+        <source>&amp;Guide me through a first session</source>
+        <translation>Durch eine erste Sitzung &amp;führen</translation>
+    </message>
 </context>
 <context>
     <name>HomeDialog</name>
@@ -7838,24 +7838,12 @@ von oben</translation>
         <translation>Eine Seite für den Patienten, ohne Werte und Diagnose. Bis zu {count} Übungen.</translation>
     </message>
     <message>
-        <source>&amp;Times</source>
-        <translation>&amp;Wie oft</translation>
-    </message>
-    <message>
-        <source>&amp;Rounds a day</source>
-        <translation>&amp;Runden je Tag</translation>
-    </message>
-    <message>
         <source>Ne&amp;xt appointment</source>
         <translation>Nächster &amp;Termin</translation>
     </message>
     <message>
         <source>T&amp;ime</source>
         <translation>&amp;Uhrzeit</translation>
-    </message>
-    <message>
-        <source>A &amp;line for the patient, no names</source>
-        <translation>Eine &amp;Zeile für den Patienten, keine Namen</translation>
     </message>
     <message>
         <source>Language of the patient</source>
@@ -7870,8 +7858,20 @@ von oben</translation>
         <translation>Uhrzeit: {count} Zeichen zu viel</translation>
     </message>
     <message>
-        <source>Line: {count} characters too long</source>
-        <translation>Zeile: {count} Zeichen zu viel</translation>
+        <source>&amp;Repetitions</source>
+        <translation>&amp;Wiederholungen</translation>
+    </message>
+    <message>
+        <source>Times a &amp;day</source>
+        <translation>Mal am Ta&amp;g</translation>
+    </message>
+    <message>
+        <source>&amp;Message to the patient (no names)</source>
+        <translation>&amp;Mitteilung an den Patienten (keine Namen)</translation>
+    </message>
+    <message>
+        <source>Message: {count} characters too long</source>
+        <translation>Mitteilung: {count} Zeichen zu lang</translation>
     </message>
 </context>
 <context>
@@ -7939,12 +7939,12 @@ von oben</translation>
         <translation>jetzt</translation>
     </message>
     <message>
-        <source>Moving</source>
-        <translation>Bewegen</translation>
+        <source>Speed</source>
+        <translation>Geschwindigkeit</translation>
     </message>
     <message>
-        <source>Turning</source>
-        <translation>Drehen</translation>
+        <source>Rotation</source>
+        <translation>Rotation</translation>
     </message>
 </context>
 <context>
@@ -8037,10 +8037,6 @@ von oben</translation>
         <translation>Schließen Sie die Kamera wieder an</translation>
     </message>
     <message>
-        <source>Movement is being drawn</source>
-        <translation>Bewegung wird gezeichnet</translation>
-    </message>
-    <message>
         <source>Recording can start in a moment</source>
         <translation>Die Aufnahme kann gleich beginnen</translation>
     </message>
@@ -8067,6 +8063,10 @@ von oben</translation>
     <message>
         <source>Speeds</source>
         <translation>Geschwindigkeiten</translation>
+    </message>
+    <message>
+        <source>Preparing the simulated hand</source>
+        <translation>Simulierte Hand wird vorbereitet</translation>
     </message>
 </context>
 <context>
@@ -8221,7 +8221,7 @@ von oben</translation>
         <translation>Fertig</translation>
     </message>
     <message>
-        <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names. They are shown from the patient list.</source>
+        <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names: those shown here come from the patient list.</source>
         <translation>Einträge kommen nur hinzu und werden nie geändert. Das Protokoll schützt vor Versehen, nicht vor jemandem mit vollem Zugriff auf diesen Computer. Es speichert keine Namen. Sie werden aus der Patientenliste angezeigt.</translation>
     </message>
 </context>
@@ -8314,24 +8314,12 @@ von oben</translation>
         <translation>Die Carpus-Sitzung dieses Tages ist simuliert und wird nicht gezeigt.</translation>
     </message>
     <message>
-        <source>Manual and Carpus values stay separate</source>
-        <translation>Manuelle Werte und Carpus-Werte bleiben getrennt</translation>
-    </message>
-    <message>
         <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
         <translation>Sie werden weder gemittelt noch voneinander abgezogen. Veränderung wird nur innerhalb einer Methode beurteilt.</translation>
     </message>
     <message>
-        <source>Not saved yet, including values of the other hand or another day.</source>
-        <translation>Noch nicht gespeichert, einschließlich der Werte der anderen Hand oder eines anderen Tages.</translation>
-    </message>
-    <message>
         <source>Values are saved with initials and time. Later changes stay visible.</source>
         <translation>Werte werden mit Kürzel und Zeit gespeichert. Spätere Änderungen bleiben sichtbar.</translation>
-    </message>
-    <message>
-        <source>By {initials}.</source>
-        <translation>Von {initials}.</translation>
     </message>
     <message>
         <source>Other measures…</source>
@@ -8345,13 +8333,21 @@ von oben</translation>
         <source>Proposed, recording of {day}: at least {score}</source>
         <translation>Vorschlag, Aufnahme vom {day}: mindestens {score}</translation>
     </message>
+    <message>
+        <source>Manual and Carpus values are kept separate</source>
+        <translation>Manuelle und Carpus-Werte bleiben getrennt</translation>
+    </message>
+    <message>
+        <source>Some values of this or another hand or day are not saved yet.</source>
+        <translation>Einige Werte dieser oder einer anderen Hand oder eines anderen Tages sind noch nicht gespeichert.</translation>
+    </message>
+    <message>
+        <source>Entered by {initials}.</source>
+        <translation>Eingetragen von {initials}.</translation>
+    </message>
 </context>
 <context>
     <name>ManualValueChart</name>
-    <message>
-        <source>{name} over the days</source>
-        <translation>{name} im Verlauf der Tage</translation>
-    </message>
     <message>
         <source>Carpus, mean</source>
         <translation>Carpus, Mittel</translation>
@@ -8383,6 +8379,10 @@ von oben</translation>
     <message>
         <source>manual, passive</source>
         <translation>manuell, passiv</translation>
+    </message>
+    <message>
+        <source>{name} over time</source>
+        <translation>{name} über die Tage</translation>
     </message>
 </context>
 <context>
@@ -8426,10 +8426,6 @@ von oben</translation>
 <context>
     <name>MarkersFlow</name>
     <message>
-        <source>The labels given on this image would be lost.</source>
-        <translation>Die Bezeichnungen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
-    </message>
-    <message>
         <source>Stay here, or go back to the camera.</source>
         <translation>Hier bleiben oder zurück zur Kamera.</translation>
     </message>
@@ -8450,20 +8446,24 @@ von oben</translation>
         <translation>Öffnen Sie sie erneut mit deckungsgleicher Tiefe und Farbe, und klicken Sie die Marker dann neu an.</translation>
     </message>
     <message>
-        <source>Leave it as it is</source>
-        <translation>So lassen</translation>
-    </message>
-    <message>
-        <source>Open it again</source>
-        <translation>Noch einmal öffnen</translation>
-    </message>
-    <message>
         <source>Leave this screen?</source>
         <translation>Diese Seite verlassen?</translation>
     </message>
     <message>
         <source>The recording was not changed. It does not say whether depth and colour are aligned.</source>
         <translation>Die Aufnahme wurde nicht verändert. Sie gibt nicht an, ob Tiefe und Farbe deckungsgleich sind.</translation>
+    </message>
+    <message>
+        <source>The labels on this image would be lost.</source>
+        <translation>Die Bezeichnungen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
+    </message>
+    <message>
+        <source>Do not change it</source>
+        <translation>So lassen</translation>
+    </message>
+    <message>
+        <source>Open the recording again</source>
+        <translation>Noch einmal öffnen</translation>
     </message>
 </context>
 <context>
@@ -8605,10 +8605,6 @@ von oben</translation>
 <context>
     <name>NoteDialog</name>
     <message>
-        <source>What happened? No names.</source>
-        <translation>Was ist geschehen? Keine Namen.</translation>
-    </message>
-    <message>
         <source>Note</source>
         <translation>Notiz</translation>
     </message>
@@ -8641,11 +8637,15 @@ von oben</translation>
         <translation>Pause</translation>
     </message>
     <message>
-        <source>Active from here</source>
+        <source>What happened? Enter no names.</source>
+        <translation>Was ist geschehen? Keine Namen.</translation>
+    </message>
+    <message>
+        <source>Active from here on</source>
         <translation>Aktiv ab hier</translation>
     </message>
     <message>
-        <source>Passive from here</source>
+        <source>Passive from here on</source>
         <translation>Passiv ab hier</translation>
     </message>
 </context>
@@ -8687,10 +8687,6 @@ von oben</translation>
         <translation>vorhergesagt</translation>
     </message>
     <message>
-        <source>coupled to the PIP</source>
-        <translation>ans PIP gekoppelt</translation>
-    </message>
-    <message>
         <source>of {asked}</source>
         <translation>von {asked}</translation>
     </message>
@@ -8710,6 +8706,10 @@ von oben</translation>
         <source>Repetitions</source>
         <translation>Wiederholungen</translation>
     </message>
+    <message>
+        <source>inferred from PIP</source>
+        <translation>aus dem PIP abgeleitet</translation>
+    </message>
 </context>
 <context>
     <name>PainDialog</name>
@@ -8718,12 +8718,12 @@ von oben</translation>
         <translation>Schmerz jetzt, 0 (keiner) bis 10 (stärkster)</translation>
     </message>
     <message>
-        <source>At 5 or more, or 2 more than before: stop the exercise. Keys: 0 to 9; 1 and 0 for 10.</source>
-        <translation>Ab 5, oder bei 2 mehr als zuvor: Beenden Sie die Übung. Tasten: 0 bis 9; 1 und 0 für 10.</translation>
-    </message>
-    <message>
         <source>Close</source>
         <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>If pain is 5 or more, or has risen by 2, stop the exercise. Keys: 0 to 9. For 10, press 1, then 0.</source>
+        <translation>Ab 5, oder bei 2 mehr als zuvor: Beenden Sie die Übung. Tasten: 0 bis 9; 1 und 0 für 10.</translation>
     </message>
 </context>
 <context>
@@ -8767,10 +8767,6 @@ von oben</translation>
 </context>
 <context>
     <name>PatientCardView</name>
-    <message>
-        <source>Start session, same set-up</source>
-        <translation>Sitzung starten, gleicher Aufbau</translation>
-    </message>
     <message>
         <source>&amp;Edit…</source>
         <translation>&amp;Bearbeiten…</translation>
@@ -8839,6 +8835,10 @@ von oben</translation>
         <source>{ordinal} session</source>
         <translation>{ordinal} Sitzung</translation>
     </message>
+    <message>
+        <source>Start session with same set-up</source>
+        <translation>Sitzung starten, gleicher Aufbau</translation>
+    </message>
 </context>
 <context>
     <name>PatientForm</name>
@@ -8857,14 +8857,6 @@ von oben</translation>
     <message>
         <source>Not known</source>
         <translation>Unbekannt</translation>
-    </message>
-    <message>
-        <source>In the clinic’s &amp;list</source>
-        <translation>In der &amp;Liste der Einrichtung</translation>
-    </message>
-    <message>
-        <source>Name: {count} characters too long</source>
-        <translation>Name: {count} Zeichen zu viel</translation>
     </message>
     <message>
         <source>Real name: {count} characters too long</source>
@@ -8897,18 +8889,6 @@ von oben</translation>
     <message>
         <source>Save changes</source>
         <translation>Änderungen speichern</translation>
-    </message>
-    <message>
-        <source>Enter a name.</source>
-        <translation>Geben Sie einen Namen ein.</translation>
-    </message>
-    <message>
-        <source>“{name}” is already in use. Choose another name.</source>
-        <translation>„{name}“ ist schon vergeben. Wählen Sie einen anderen Namen.</translation>
-    </message>
-    <message>
-        <source>&amp;Name in Carpus</source>
-        <translation>&amp;Name in Carpus</translation>
     </message>
     <message>
         <source>Affected hand</source>
@@ -8995,8 +8975,28 @@ von oben</translation>
         <translation>Seit: {problem}</translation>
     </message>
     <message>
-        <source>The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
-        <translation>Der Name in Carpus ist ein Pseudonym, das laut genannt werden kann: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in dieser Liste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
+        <source>Save in diagnosis &amp;list</source>
+        <translation>In Diagnose&amp;liste speichern</translation>
+    </message>
+    <message>
+        <source>Pseudonym: {count} characters too long</source>
+        <translation>Pseudonym: {count} Zeichen zu lang</translation>
+    </message>
+    <message>
+        <source>Enter a pseudonym.</source>
+        <translation>Geben Sie ein Pseudonym ein.</translation>
+    </message>
+    <message>
+        <source>The pseudonym “{name}” is already in use. Choose another one.</source>
+        <translation>Das Pseudonym „{name}“ ist schon vergeben. Wählen Sie ein anderes.</translation>
+    </message>
+    <message>
+        <source>Pseudo&amp;nym</source>
+        <translation>Pseudo&amp;nym</translation>
+    </message>
+    <message>
+        <source>The pseudonym is shown on all screens and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in the patient list and are never in a session file or an export.</source>
+        <translation>Das Pseudonym steht auf allen Bildschirmen und kann laut gesagt werden: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in der Patientenliste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
     </message>
 </context>
 <context>
@@ -9176,12 +9176,12 @@ von oben</translation>
         <translation>Wiederholung…</translation>
     </message>
     <message>
-        <source>Passive or excluded (X); [ and ] select another</source>
-        <translation>Passiv oder ausgeschlossen (X); [ und ] wählen eine andere</translation>
-    </message>
-    <message>
         <source>frame</source>
         <translation>Bild</translation>
+    </message>
+    <message>
+        <source>Mark as passive or excluded (X). [ and ] select another repetition.</source>
+        <translation>Passiv oder ausgeschlossen (X); [ und ] wählen eine andere</translation>
     </message>
 </context>
 <context>
@@ -9226,10 +9226,6 @@ von oben</translation>
         <translation>Ändern…</translation>
     </message>
     <message>
-        <source>Do not use</source>
-        <translation>Nicht verwenden</translation>
-    </message>
-    <message>
         <source>Test the folders</source>
         <translation>Ordner prüfen</translation>
     </message>
@@ -9252,6 +9248,10 @@ von oben</translation>
     <message>
         <source>No folder chosen</source>
         <translation>Kein Ordner gewählt</translation>
+    </message>
+    <message>
+        <source>Turn off</source>
+        <translation>Ausschalten</translation>
     </message>
 </context>
 <context>
@@ -9276,7 +9276,7 @@ von oben</translation>
         <translation>Kamera {distance} cm entfernt</translation>
     </message>
     <message>
-        <source>Click opens the session</source>
+        <source>Click to open the session</source>
         <translation>Ein Klick öffnet die Sitzung</translation>
     </message>
 </context>
@@ -9433,10 +9433,6 @@ von oben</translation>
         <translation>{n} Sitzungen, die letzte am {last}, Aufbewahrung bis {until}</translation>
     </message>
     <message>
-        <source>Records past retention</source>
-        <translation>Abgelaufene Aufbewahrung</translation>
-    </message>
-    <message>
         <source>Excluded from all lists and results. Everything can be restored.</source>
         <translation>Von allen Listen und Ergebnissen ausgeschlossen. Alles lässt sich wiederherstellen.</translation>
     </message>
@@ -9572,6 +9568,10 @@ von oben</translation>
         <source>from the command line</source>
         <translation>über die Befehlszeile</translation>
     </message>
+    <message>
+        <source>Records past their retention period</source>
+        <translation>Fällige Unterlagen</translation>
+    </message>
 </context>
 <context>
     <name>RecordingControls</name>
@@ -9658,16 +9658,16 @@ von oben</translation>
         <translation>{n} Jahre</translation>
     </message>
     <message>
-        <source>Records past r&amp;etention…</source>
-        <translation>Abgelau&amp;fene Aufbewahrung…</translation>
-    </message>
-    <message>
         <source>&amp;Archive…</source>
         <translation>&amp;Archiv…</translation>
     </message>
     <message>
         <source>&amp;Log…</source>
         <translation>&amp;Protokoll…</translation>
+    </message>
+    <message>
+        <source>Past r&amp;etention period…</source>
+        <translation>&amp;Fällige Unterlagen…</translation>
     </message>
 </context>
 <context>
@@ -9763,10 +9763,6 @@ von oben</translation>
         <translation>Teil eines Satzes eingeben</translation>
     </message>
     <message>
-        <source>These placeholders take the session’s values: {places}</source>
-        <translation>Diese Platzhalter werden durch Werte der Sitzung ersetzt: {places}</translation>
-    </message>
-    <message>
         <source>Insert</source>
         <translation>Einfügen</translation>
     </message>
@@ -9783,12 +9779,16 @@ von oben</translation>
         <translation>Teile des Berichts</translation>
     </message>
     <message>
-        <source>Warnings, method and the legal sentence always stay.</source>
-        <translation>Warnungen, Verfahren und der rechtliche Hinweis bleiben immer.</translation>
-    </message>
-    <message>
         <source>Use these parts for all reports</source>
         <translation>Für alle Berichte so verwenden</translation>
+    </message>
+    <message>
+        <source>Placeholders for the session’s values: {places}</source>
+        <translation>Diese Platzhalter nehmen die Werte der Sitzung auf: {places}</translation>
+    </message>
+    <message>
+        <source>Warnings, method and the legal notice are always printed.</source>
+        <translation>Warnungen, Verfahren und der rechtliche Hinweis werden immer gedruckt.</translation>
     </message>
 </context>
 <context>
@@ -9842,10 +9842,6 @@ von oben</translation>
         <translation>Noch nicht gespeichert</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. Contains the patient’s real name: store it securely.</source>
-        <translation>{pages}, auch in Grau lesbar. Enthält den echten Namen des Patienten: sicher aufbewahren.</translation>
-    </message>
-    <message>
         <source>Save report</source>
         <translation>Bericht speichern</translation>
     </message>
@@ -9858,12 +9854,16 @@ von oben</translation>
         <translation>Gespeichert</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. Contains the pseudonym, not the real name.</source>
-        <translation>{pages}, auch in Grau lesbar. Enthält das Pseudonym, nicht den echten Namen.</translation>
-    </message>
-    <message>
         <source>Send to practice system</source>
         <translation>An Praxissoftware senden</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in black and white. Contains the patient’s real name: store it securely.</source>
+        <translation>{pages}, in Grau lesbar. Enthält den echten Namen: sicher aufbewahren.</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in black and white. Contains the pseudonym, not the real name.</source>
+        <translation>{pages}, auch in Grau lesbar. Enthält das Pseudonym, nicht den echten Namen.</translation>
     </message>
 </context>
 <context>
@@ -9900,10 +9900,6 @@ von oben</translation>
         <translation>Neue Analyse: {percent} %</translation>
     </message>
     <message>
-        <source>You can continue working. The old result stays until you choose the new one. Stop keeps the old result.</source>
-        <translation>Sie können weiterarbeiten. Das alte Ergebnis bleibt, bis Sie das neue wählen. „Stopp“ behält das alte Ergebnis.</translation>
-    </message>
-    <message>
         <source>Continue working</source>
         <translation>Weiterarbeiten</translation>
     </message>
@@ -9918,6 +9914,10 @@ von oben</translation>
     <message>
         <source>Use the new result?</source>
         <translation>Das neue Ergebnis verwenden?</translation>
+    </message>
+    <message>
+        <source>You can continue working. The old result stays until you choose the new one. “Stop” keeps the old result.</source>
+        <translation>Sie können weiterarbeiten. Das alte Ergebnis bleibt, bis Sie das neue wählen. Stopp behält das alte Ergebnis.</translation>
     </message>
 </context>
 <context>
@@ -10008,14 +10008,6 @@ von oben</translation>
         <translation>Ab jetzt wird dieses Ergebnis verwendet.</translation>
     </message>
     <message>
-        <source>The others stay as they were.</source>
-        <translation>Die anderen bleiben, wie sie waren.</translation>
-    </message>
-    <message>
-        <source>It was saved again as the newest.</source>
-        <translation>Es wurde noch einmal als neuestes gespeichert.</translation>
-    </message>
-    <message>
         <source>Continue</source>
         <translation>Weiter</translation>
     </message>
@@ -10024,7 +10016,15 @@ von oben</translation>
         <translation>Bild speichern</translation>
     </message>
     <message>
-        <source>no frame of it was saved</source>
+        <source>The other results were not changed.</source>
+        <translation>Die anderen bleiben, wie sie waren.</translation>
+    </message>
+    <message>
+        <source>It was saved again as the newest result.</source>
+        <translation>Es wurde noch einmal als neuestes gespeichert.</translation>
+    </message>
+    <message>
+        <source>no frame of this session was saved</source>
         <translation>es wurde kein Bild davon gespeichert</translation>
     </message>
 </context>
@@ -10055,10 +10055,6 @@ von oben</translation>
         <translation>Hier nicht gemessen</translation>
     </message>
     <message>
-        <source>Towards the camera: measured, not drawn</source>
-        <translation>Zur Kamera hin: gemessen, nicht gezeichnet</translation>
-    </message>
-    <message>
         <source>Repetition {number} of {count} · {time}</source>
         <translation>Wiederholung {number} von {count} · {time}</translation>
     </message>
@@ -10069,6 +10065,10 @@ von oben</translation>
     <message>
         <source>Image of the hand alone (F)</source>
         <translation>Bild der Hand allein (F)</translation>
+    </message>
+    <message>
+        <source>Moves towards the camera: not drawn</source>
+        <translation>Zur Kamera hin: gemessen, nicht gezeichnet</translation>
     </message>
 </context>
 <context>
@@ -10126,10 +10126,6 @@ von oben</translation>
         <translation>Auswertung öffnen</translation>
     </message>
     <message>
-        <source>Compare in &amp;progress</source>
-        <translation>Im &amp;Verlauf vergleichen</translation>
-    </message>
-    <message>
         <source>&amp;Move to another patient…</source>
         <translation>Zu anderem &amp;Patienten…</translation>
     </message>
@@ -10158,10 +10154,6 @@ von oben</translation>
         <translation>Au&amp;sschließen…</translation>
     </message>
     <message>
-        <source>It will move from {name}’s progress to the other patient’s.</source>
-        <translation>Sie wechselt vom Verlauf von {name} in den des anderen Patienten.</translation>
-    </message>
-    <message>
         <source>Which patient does this session belong to?</source>
         <translation>Zu welchem Patienten gehört diese Sitzung?</translation>
     </message>
@@ -10178,24 +10170,32 @@ von oben</translation>
         <translation>Übung ändern</translation>
     </message>
     <message>
-        <source>Tick two to compare them</source>
-        <translation>Zwei ankreuzen zum Vergleichen</translation>
-    </message>
-    <message>
-        <source>Tick one more to compare</source>
-        <translation>Noch eine ankreuzen</translation>
-    </message>
-    <message>
-        <source>Compare the 2 ticked</source>
-        <translation>Die 2 angekreuzten vergleichen</translation>
-    </message>
-    <message>
         <source>Which exercise was it?</source>
         <translation>Welche Übung war es?</translation>
     </message>
     <message>
         <source>In the archi&amp;ve: {n}</source>
         <translation>&amp;Im Archiv: {n}</translation>
+    </message>
+    <message>
+        <source>Show &amp;progress</source>
+        <translation>&amp;Verlauf zeigen</translation>
+    </message>
+    <message>
+        <source>The session will move from {name}’s progress to the other patient’s.</source>
+        <translation>Sie wechselt vom Verlauf von {name} in den des anderen Patienten.</translation>
+    </message>
+    <message>
+        <source>Tick two sessions to compare</source>
+        <translation>Zwei ankreuzen zum Vergleichen</translation>
+    </message>
+    <message>
+        <source>Tick one more session to compare</source>
+        <translation>Noch eine ankreuzen</translation>
+    </message>
+    <message>
+        <source>Compare the 2 ticked sessions</source>
+        <translation>Die 2 angekreuzten vergleichen</translation>
     </message>
 </context>
 <context>
@@ -10295,14 +10295,6 @@ von oben</translation>
         <translation>Start mit freien Händen: Verwenden Sie ein Pedal oder einen Presenter (Bild ab). Vor einem automatischen Start läuft ein Countdown. Die Leertaste bricht ihn ab.</translation>
     </message>
     <message>
-        <source>A second screen or window shows the patient what to do. Open it while measuring. Choose with the exercise whether it addresses a child or an adult.</source>
-        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt dem Patienten, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
-    </message>
-    <message>
-        <source>As in the papers: deviation first</source>
-        <translation>Wie in den Veröffentlichungen: Radial-/Ulnarduktion zuerst</translation>
-    </message>
-    <message>
         <source>Calculate from test–retest sessions…</source>
         <translation>Aus Test-Retest-Sitzungen berechnen…</translation>
     </message>
@@ -10341,10 +10333,6 @@ von oben</translation>
     <message>
         <source>Appearance</source>
         <translation>Darstellung</translation>
-    </message>
-    <message>
-        <source>Demo: settings apply until it is closed.</source>
-        <translation>Demo: Die Einstellungen gelten nur bis zum Schließen.</translation>
     </message>
     <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
@@ -10399,16 +10387,8 @@ von oben</translation>
         <translation>Sprache</translation>
     </message>
     <message>
-        <source>Shows path and axes, speeds, the movement page in reports, all export formats, angle order and streaming. It changes no values.</source>
-        <translation>Zeigt Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Exportformate, Winkelreihenfolge und Streaming. Werte ändern sich nicht.</translation>
-    </message>
-    <message>
         <source>Angle order</source>
         <translation>Winkelreihenfolge</translation>
-    </message>
-    <message>
-        <source>Order of the wrist angles in review, progress and reports. Session files keep the order of the papers. Sessions with different orders are not compared.</source>
-        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die der Veröffentlichungen. Sitzungen mit verschiedener Reihenfolge werden nicht verglichen.</translation>
     </message>
     <message>
         <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>
@@ -10474,6 +10454,26 @@ von oben</translation>
         <source>Reading the sessions…</source>
         <translation>Sitzungen werden gelesen…</translation>
     </message>
+    <message>
+        <source>A second screen or window shows the patient what to do. Open it while measuring. For each exercise, choose whether it speaks to a child or an adult.</source>
+        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
+    </message>
+    <message>
+        <source>As published: deviation first</source>
+        <translation>Wie in den Veröffentlichungen: Radial-/Ulnarduktion zuerst</translation>
+    </message>
+    <message>
+        <source>In the demo, settings apply until it is closed.</source>
+        <translation>Demo: Einstellungen gelten, bis sie geschlossen wird.</translation>
+    </message>
+    <message>
+        <source>Shows path and axes, speeds, the motion page in reports, all export formats, angle order and streaming. Values do not change.</source>
+        <translation>Zeigt Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Exportformate, Winkelreihenfolge und Streaming. Werte ändern sich nicht.</translation>
+    </message>
+    <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
+        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die der Veröffentlichungen. Sitzungen mit verschiedener Reihenfolge werden nicht verglichen.</translation>
+    </message>
 </context>
 <context>
     <name>StartAngleDialog</name>
@@ -10509,7 +10509,7 @@ von oben</translation>
         <translation>Klicken Sie einen Finger an, der sich nicht ganz strecken lässt (Tasten 1 bis 5).</translation>
     </message>
     <message>
-        <source>A bent finger is measured from its own resting position, with less certainty.</source>
+        <source>A bent finger is measured from its own resting position, which is less accurate.</source>
         <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, mit geringerer Sicherheit.</translation>
     </message>
 </context>
@@ -10561,10 +10561,6 @@ von oben</translation>
         <translation>Einstellungen (Strg+,)</translation>
     </message>
     <message>
-        <source>After the recording</source>
-        <translation>Nach der Aufnahme</translation>
-    </message>
-    <message>
         <source>Hide names (Ctrl+D)</source>
         <translation>Namen ausblenden (Strg+D)</translation>
     </message>
@@ -10583,6 +10579,10 @@ von oben</translation>
     <message>
         <source>Show names (Ctrl+D)</source>
         <translation>Namen einblenden (Strg+D)</translation>
+    </message>
+    <message>
+        <source>Available after the recording</source>
+        <translation>Nach der Aufnahme</translation>
     </message>
 </context>
 <context>
@@ -10648,10 +10648,6 @@ von oben</translation>
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>New result: choose</source>
-        <translation>Neues Ergebnis: wählen</translation>
-    </message>
-    <message>
         <source>{count} new results: choose</source>
         <translation>{count} neue Ergebnisse: wählen</translation>
     </message>
@@ -10666,14 +10662,6 @@ von oben</translation>
     <message>
         <source>{count} fps (below {least})</source>
         <translation>{count} fps (unter {least})</translation>
-    </message>
-    <message>
-        <source>{time} of disk left</source>
-        <translation>Platz für {time}</translation>
-    </message>
-    <message>
-        <source>Simulated hand: not {name}, excluded from analysis.</source>
-        <translation>Simulierte Hand: nicht {name}, von der Auswertung ausgeschlossen.</translation>
     </message>
     <message>
         <source>This session is excluded from analysis.</source>
@@ -10692,12 +10680,24 @@ von oben</translation>
         <translation>Alt und neu übereinander</translation>
     </message>
     <message>
-        <source>{words}, {lost} dropped</source>
-        <translation>{words}, {lost} ausgefallen</translation>
-    </message>
-    <message>
         <source>The clinic’s server does not answer. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
         <translation>Der Server der Einrichtung antwortet nicht. Bis dahin lassen sich Patienten und Sitzungen weder zeigen noch ändern. Messen ist weiter möglich.</translation>
+    </message>
+    <message>
+        <source>New result: choose one</source>
+        <translation>Neues Ergebnis: wählen</translation>
+    </message>
+    <message>
+        <source>Space for {time}</source>
+        <translation>Platz für {time}</translation>
+    </message>
+    <message>
+        <source>This is a simulated hand, not {name}. It is excluded from analysis.</source>
+        <translation>Simulierte Hand: nicht {name}, von der Auswertung ausgeschlossen.</translation>
+    </message>
+    <message>
+        <source>{words}, {lost} frames dropped</source>
+        <translation>{words}, {lost} ausgefallen</translation>
     </message>
 </context>
 <context>
@@ -10885,12 +10885,12 @@ von oben</translation>
         <translation>„{name}“ messen</translation>
     </message>
     <message>
-        <source>Measure without the list</source>
-        <translation>Ohne die Liste messen</translation>
-    </message>
-    <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
         <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben das Pseudonym ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
+    </message>
+    <message>
+        <source>Measure without the patient list</source>
+        <translation>Ohne die Liste messen</translation>
     </message>
 </context>
 </TS>

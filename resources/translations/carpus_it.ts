@@ -200,10 +200,6 @@
         <translation>{name}, non colpita</translation>
     </message>
     <message>
-        <source>Shown side by side, without a comparison.</source>
-        <translation>Mostrate affiancate, senza confronto.</translation>
-    </message>
-    <message>
         <source>Not compared: the two sessions share no movement.</source>
         <translation>Non confrontate: le due sedute non hanno movimenti in comune.</translation>
     </message>
@@ -344,20 +340,8 @@
         <translation>Avvicinare la tavola</translation>
     </message>
     <message>
-        <source>More light: the image is too dark.</source>
-        <translation>Più luce: l’immagine è troppo scura.</translation>
-    </message>
-    <message>
-        <source>Turn it less: it is nearly edge-on.</source>
-        <translation>Girarla meno: si vede quasi di taglio.</translation>
-    </message>
-    <message>
         <source>Hold still.</source>
         <translation>Tenere ferma.</translation>
-    </message>
-    <message>
-        <source>Not sharp: hold still, or give it more light.</source>
-        <translation>Non nitida: tenerla ferma o dare più luce.</translation>
     </message>
     <message>
         <source>Distance</source>
@@ -374,10 +358,6 @@
     <message>
         <source>Calculate · {count} more images</source>
         <translation>Calcola · mancano {count} immagini</translation>
-    </message>
-    <message>
-        <source>Calculate · more places and tilts</source>
-        <translation>Calcola · più posizioni e inclinazioni</translation>
     </message>
     <message>
         <source>Calculate</source>
@@ -398,10 +378,6 @@
     <message>
         <source>The camera is calibrated. {depth}</source>
         <translation>La telecamera è calibrata. {depth}</translation>
-    </message>
-    <message>
-        <source>Board not visible: show all of it, flat, in even light.</source>
-        <translation>Tavola non visibile: mostrarla per intero, ben piana, con luce uniforme.</translation>
     </message>
     <message>
         <source>Depth is correct.</source>
@@ -448,24 +424,12 @@
         <translation>Scala della profondità</translation>
     </message>
     <message>
-        <source>Colour on depth</source>
-        <translation>Allineamento colore-profondità</translation>
-    </message>
-    <message>
         <source>{apart} px apart</source>
         <translation>scarto {apart} px</translation>
     </message>
     <message>
         <source>good: below {most} px</source>
         <translation>buono: sotto {most} px</translation>
-    </message>
-    <message>
-        <source>registration is off</source>
-        <translation>allineamento profondità-colore non attivo</translation>
-    </message>
-    <message>
-        <source>This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera --output” writes a camera file that the settings can name.</source>
-        <translation>Questa telecamera non comunica un numero di serie, quindi la sua calibrazione non può essere salvata. “carpus calibrate-camera --output” scrive un file della telecamera, che si può indicare nelle impostazioni.</translation>
     </message>
     <message>
         <source>Not calibrated and not checked yet.</source>
@@ -628,14 +592,6 @@
         <translation>Pausa o ripresa</translation>
     </message>
     <message>
-        <source>Next angle as large number</source>
-        <translation>Angolo seguente come numero grande</translation>
-    </message>
-    <message>
-        <source>Next finger as large number</source>
-        <translation>Dito seguente come numero grande</translation>
-    </message>
-    <message>
         <source>Accept the proposed marker</source>
         <translation>Accetta il marcatore proposto</translation>
     </message>
@@ -684,34 +640,6 @@
         <translation>Escludi o includi una ripetizione</translation>
     </message>
     <message>
-        <source>Move the repetition boundary earlier</source>
-        <translation>Anticipa il limite della ripetizione</translation>
-    </message>
-    <message>
-        <source>Move the repetition boundary later</source>
-        <translation>Posticipa il limite della ripetizione</translation>
-    </message>
-    <message>
-        <source>Zoom curves in</source>
-        <translation>Ingrandisci le curve</translation>
-    </message>
-    <message>
-        <source>Zoom curves out</source>
-        <translation>Riduci le curve</translation>
-    </message>
-    <message>
-        <source>Show whole curves</source>
-        <translation>Mostra le curve intere</translation>
-    </message>
-    <message>
-        <source>Select previous session</source>
-        <translation>Seleziona la seduta precedente</translation>
-    </message>
-    <message>
-        <source>Select next session</source>
-        <translation>Seleziona la seduta seguente</translation>
-    </message>
-    <message>
         <source>Open the selected session</source>
         <translation>Apri la seduta selezionata</translation>
     </message>
@@ -720,20 +648,8 @@
         <translation>Correggi un marcatore</translation>
     </message>
     <message>
-        <source>Previous frame to correct</source>
-        <translation>Fotogramma precedente da correggere</translation>
-    </message>
-    <message>
-        <source>Next frame to correct</source>
-        <translation>Fotogramma seguente da correggere</translation>
-    </message>
-    <message>
         <source>Marker not visible here</source>
         <translation>Marcatore qui non visibile</translation>
-    </message>
-    <message>
-        <source>Undo a step</source>
-        <translation>Annulla un passo</translation>
     </message>
     <message>
         <source>Next uncertain frame</source>
@@ -742,14 +658,6 @@
     <message>
         <source>Draw the angle on the frame</source>
         <translation>Disegna l’angolo sul fotogramma</translation>
-    </message>
-    <message>
-        <source>This frame with the hand only</source>
-        <translation>Questo fotogramma con la sola mano</translation>
-    </message>
-    <message>
-        <source>Tick a session to compare</source>
-        <translation>Seleziona una seduta da confrontare</translation>
     </message>
     <message>
         <source>Compare the two ticked sessions</source>
@@ -800,28 +708,8 @@
         <translation>Punteggio del dolore</translation>
     </message>
     <message>
-        <source>Whole frame or hand area</source>
-        <translation>Fotogramma intero o area della mano</translation>
-    </message>
-    <message>
-        <source>Open and close the patient’s view</source>
-        <translation>Apri e chiudi la vista del paziente</translation>
-    </message>
-    <message>
-        <source>Undo the last marker</source>
-        <translation>Annulla l’ultimo marcatore</translation>
-    </message>
-    <message>
         <source>Next marker</source>
         <translation>Marcatore seguente</translation>
-    </message>
-    <message>
-        <source>Swap two markers</source>
-        <translation>Scambia due marcatori</translation>
-    </message>
-    <message>
-        <source>Click again</source>
-        <translation>Rifai il clic</translation>
     </message>
     <message>
         <source>Previous repetition</source>
@@ -868,10 +756,6 @@
         <translation>I marcatori non corrispondono: tenere un momento la mano piatta</translation>
     </message>
     <message>
-        <source>No angle known yet</source>
-        <translation>Ancora nessun angolo noto</translation>
-    </message>
-    <message>
         <source>Hold the hand flat for a moment</source>
         <translation>Tenere la mano piatta per un momento</translation>
     </message>
@@ -910,14 +794,6 @@
     <message>
         <source>Turn the back of the fingers to the camera</source>
         <translation>Girare il dorso delle dita verso la telecamera</translation>
-    </message>
-    <message>
-        <source>{marker} visible only at times</source>
-        <translation>A tratti: {marker}</translation>
-    </message>
-    <message>
-        <source>{count} markers visible only at times</source>
-        <translation>{count} marcatori visibili a tratti</translation>
     </message>
     <message>
         <source>Forearm moved</source>
@@ -1008,10 +884,6 @@
         <translation>Trovati tutti i {count} marcatori</translation>
     </message>
     <message>
-        <source>Each finger’s line runs from the wrist to its tip. To change a label, drag it to another marker.</source>
-        <translation>La linea di ogni dito va dal polso alla punta. Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
-    </message>
-    <message>
         <source>Are these labels correct?</source>
         <translation>Queste etichette sono giuste?</translation>
     </message>
@@ -1098,10 +970,6 @@
     <message>
         <source>Hand length</source>
         <translation>Lunghezza</translation>
-    </message>
-    <message>
-        <source>{count} of {count}</source>
-        <translation>{count} su {count}</translation>
     </message>
     <message>
         <source>labels wrong</source>
@@ -1432,10 +1300,6 @@
         <translation>secondi dal primo fotogramma</translation>
     </message>
     <message>
-        <source>number of the reading</source>
-        <translation>numero della lettura</translation>
-    </message>
-    <message>
         <source>Reference, adults {span}</source>
         <translation>Rif. adulti {span}</translation>
     </message>
@@ -1450,10 +1314,6 @@
     <message>
         <source>Goal {angle}</source>
         <translation>Obiettivo {angle}</translation>
-    </message>
-    <message>
-        <source>mean, ± sd between repetitions</source>
-        <translation>media, ± DS fra ripetizioni</translation>
     </message>
     <message>
         <source>not compared</source>
@@ -1478,10 +1338,6 @@
     <message>
         <source>Speed</source>
         <translation>Velocità</translation>
-    </message>
-    <message>
-        <source>α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and α + γ are known.</source>
-        <translation>α e γ sono indicati solo dove la loro DS resta sotto 30° ({share} del tempo): vicino alla posizione neutra si possono determinare solo β e α + γ.</translation>
     </message>
     <message>
         <source>no value</source>
@@ -1668,10 +1524,6 @@
         <translation>Velocità massima</translation>
     </message>
     <message>
-        <source>{name}, across</source>
-        <translation>{name}, andata</translation>
-    </message>
-    <message>
         <source>Time to peak</source>
         <translation>Tempo al picco</translation>
     </message>
@@ -1704,18 +1556,6 @@
         <translation>Apertura della mano, pollice–mignolo</translation>
     </message>
     <message>
-        <source>Pose plausible while occluded</source>
-        <translation>Posizione plausibile quando nascosta</translation>
-    </message>
-    <message>
-        <source>Pose within 15° while occluded</source>
-        <translation>Posizione entro 15° quando nascosta</translation>
-    </message>
-    <message>
-        <source>Jump on reappearance</source>
-        <translation>Salto alla ricomparsa</translation>
-    </message>
-    <message>
         <source>Movement synergy (variance explained)</source>
         <translation>Sinergia di movimento (varianza spiegata)</translation>
     </message>
@@ -1734,14 +1574,6 @@
     <message>
         <source>little</source>
         <translation>mignolo</translation>
-    </message>
-    <message>
-        <source>Lag of {other} after {one}</source>
-        <translation>Ritardo: {other} dopo {one}</translation>
-    </message>
-    <message>
-        <source>Enslaving of {other} by {one}</source>
-        <translation>Trascinamento di {other} da {one}</translation>
     </message>
     <message>
         <source>Largest span, {one}–{other}</source>
@@ -1908,10 +1740,6 @@
         <translation>Manca per le dita le cui articolazioni non erano mai tutte visibili contemporaneamente.</translation>
     </message>
     <message>
-        <source>DIP not measured: TAM assumes two thirds of PIP.</source>
-        <translation>IFD non misurata: per il TAM si assumono due terzi dell’angolo IFP.</translation>
-    </message>
-    <message>
         <source>PIP joints</source>
         <translation>Articolazioni IFP</translation>
     </message>
@@ -1968,10 +1796,6 @@
         <translation>Percorso del polso</translation>
     </message>
     <message>
-        <source>with the hand’s axes along it</source>
-        <translation>con gli assi della mano lungo il percorso</translation>
-    </message>
-    <message>
         <source>joint centres; dashed: marker occluded</source>
         <translation>centri articolari; tratteggio: marcatore nascosto</translation>
     </message>
@@ -1990,14 +1814,6 @@
     <message>
         <source>ZYZ angles</source>
         <translation>Angoli ZYZ</translation>
-    </message>
-    <message>
-        <source>band: ± 1 sd; black: α + γ, with γ</source>
-        <translation>fascia: ± 1 DS; nero: α + γ, con γ</translation>
-    </message>
-    <message>
-        <source>mean ± sd; at the right: {day}</source>
-        <translation>media ± DS; a destra: {day}</translation>
     </message>
     <message>
         <source>Progress report</source>
@@ -2026,14 +1842,6 @@
     <message>
         <source>{count} sessions: {ids}</source>
         <translation>{count} sedute: {ids}</translation>
-    </message>
-    <message>
-        <source>Made by Carpus {version}</source>
-        <translation>Prodotto con Carpus {version}</translation>
-    </message>
-    <message>
-        <source>measured by Carpus {versions}</source>
-        <translation>misurato con Carpus {versions}</translation>
     </message>
     <message>
         <source>{before} and {after} repetitions</source>
@@ -2104,10 +1912,6 @@
         <translation>Attivo e passivo</translation>
     </message>
     <message>
-        <source>grey: repetitions; band: ± 1 sd of the angle</source>
-        <translation>grigio: ripetizioni; fascia: ± 1 DS dell’angolo</translation>
-    </message>
-    <message>
         <source>dashed: goal</source>
         <translation>tratteggio: obiettivo</translation>
     </message>
@@ -2168,16 +1972,8 @@
         <translation>registrazione {digest}</translation>
     </message>
     <message>
-        <source>calibrated to {size} mm</source>
-        <translation>calibrata a {size} mm</translation>
-    </message>
-    <message>
         <source>smoothed</source>
         <translation>con smoothing</translation>
-    </message>
-    <message>
-        <source>as measured live</source>
-        <translation>valori misurati dal vivo</translation>
     </message>
     <message>
         <source>Movement</source>
@@ -2228,10 +2024,6 @@
         <translation>tagliata alla fine della registrazione</translation>
     </message>
     <message>
-        <source>number {number} excluded: {reason}</source>
-        <translation>numero {number} esclusa: {reason}</translation>
-    </message>
-    <message>
         <source>passive repetitions excluded</source>
         <translation>ripetizioni passive escluse</translation>
     </message>
@@ -2268,24 +2060,12 @@
         <translation>sotto {angle}</translation>
     </message>
     <message>
-        <source>as intended: the hand stays in line</source>
-        <translation>come previsto: la mano resta in asse</translation>
-    </message>
-    <message>
         <source>more than intended: check the exercise technique</source>
         <translation>più del previsto: controllare l’esecuzione</translation>
     </message>
     <message>
-        <source>No range could be measured.</source>
-        <translation>Nessuna escursione misurabile.</translation>
-    </message>
-    <message>
         <source>total arc</source>
         <translation>arco totale</translation>
-    </message>
-    <message>
-        <source>No active range was measured.</source>
-        <translation>Nessuna escursione attiva misurata.</translation>
     </message>
     <message>
         <source>{name} improved by {size}</source>
@@ -2304,14 +2084,6 @@
         <translation>Rispetto al giorno {when}: {changes}.</translation>
     </message>
     <message>
-        <source>Angles in the order deviation, flexion, pro/supination; {zero}.</source>
-        <translation>Angoli nell’ordine deviazione, flessione, prono-supinazione; {zero}.</translation>
-    </message>
-    <message>
-        <source>Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.</source>
-        <translation>Angoli nell’ordine ISB: flessione, deviazione, prono-supinazione; {zero}.</translation>
-    </message>
-    <message>
         <source>Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.</source>
         <translation>Dita: 0° = dito esteso; negativo = iperestensione. Polso: {zero}.</translation>
     </message>
@@ -2326,10 +2098,6 @@
     <message>
         <source>Method: {markers} markers, colour and depth camera, {distance} away.</source>
         <translation>Metodo: {markers} marcatori, telecamera a colori e di profondità, a {distance}.</translation>
-    </message>
-    <message>
-        <source>The wrist’s angles are in the order of the ISB.</source>
-        <translation>Gli angoli del polso sono nell’ordine ISB.</translation>
     </message>
     <message>
         <source>Angles are relative to the room. They equal wrist angles only while the forearm is still.</source>
@@ -2408,20 +2176,12 @@
         <translation>{distance} (limite {limit})</translation>
     </message>
     <message>
-        <source>{depth} below its marker (scatter {residual})</source>
-        <translation>{depth} sotto il marcatore (dispersione {residual})</translation>
-    </message>
-    <message>
         <source>Wrist rotation centre</source>
         <translation>Centro di rotazione del polso</translation>
     </message>
     <message>
         <source>{angle} at most (limit {limit})</source>
         <translation>al massimo {angle} (limite {limit})</translation>
-    </message>
-    <message>
-        <source>Peak speed, mean ± sd</source>
-        <translation>Velocità massima, media ± DS</translation>
     </message>
     <message>
         <source>Smoothness (SPARC; 0 is smoothest)</source>
@@ -2490,14 +2250,6 @@
     <message>
         <source>Supination, pronation</source>
         <translation>Supinazione, pronazione</translation>
-    </message>
-    <message>
-        <source>Proposed from the last session:</source>
-        <translation>Proposta dall’ultima seduta:</translation>
-    </message>
-    <message>
-        <source>Proposed from the last {count} sessions:</source>
-        <translation>Proposta dalle ultime {count} sedute:</translation>
     </message>
     <message>
         <source>{exercise}, {count} times</source>
@@ -3140,10 +2892,6 @@
         <translation>Telecamera fuori tolleranza: {what} (limiti: {most_angle}°, {most_length} mm, tutte le lunghezze {most_share} %).</translation>
     </message>
     <message>
-        <source>Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and {most_length} mm).</source>
-        <translation>Telecamera entro la tolleranza: scarto massimo {angle}° e {length} mm (limiti: {most_angle}° e {most_length} mm).</translation>
-    </message>
-    <message>
         <source>The clicks for the {markers} are on one marker.</source>
         <translation>I clic sono sullo stesso marcatore: {markers}.</translation>
     </message>
@@ -3314,10 +3062,6 @@
     <message>
         <source>an HDF5 file, but not a session</source>
         <translation>un file HDF5, ma non è una seduta</translation>
-    </message>
-    <message>
-        <source>angles deviate by {angle}°</source>
-        <translation>gli angoli si scostano di {angle}°</translation>
     </message>
     <message>
         <source>another computer is sending its data</source>
@@ -4292,10 +4036,6 @@
         <translation>non è nella cartella delle sedute</translation>
     </message>
     <message>
-        <source>Pauses during the movement, mean</source>
-        <translation>Pause durante il movimento, media</translation>
-    </message>
-    <message>
         <source>No change beyond measurement error since {day}.</source>
         <translation>Nessun cambiamento oltre l’errore di misura rispetto al giorno {day}.</translation>
     </message>
@@ -4310,10 +4050,6 @@
     <message>
         <source>no change beyond MDC</source>
         <translation>nessun cambiamento oltre l’MDC</translation>
-    </message>
-    <message>
-        <source>Each joint at its largest flexion; ± is the SD between repetitions.</source>
-        <translation>Ogni articolazione alla massima flessione; ± è la DS fra le ripetizioni.</translation>
     </message>
     <message>
         <source>{sign} = minimum: the end of this movement was occluded.</source>
@@ -4368,18 +4104,6 @@
         <translation>Riesce a muovere la mano più di quando ha iniziato.</translation>
     </message>
     <message>
-        <source>Your hand at home</source>
-        <translation>La Sua mano a casa</translation>
-    </message>
-    <message>
-        <source>Tick a box when all rounds of the day are done.</source>
-        <translation>Segni una casella quando ha fatto tutti i giri del giorno.</translation>
-    </message>
-    <message>
-        <source>Turn the palm up, then down. The elbow stays at your side.</source>
-        <translation>Girare il palmo in su, poi in giù. Il gomito resta al fianco.</translation>
-    </message>
-    <message>
         <source>once</source>
         <translation>una volta</translation>
     </message>
@@ -4410,10 +4134,6 @@
     <message>
         <source>Next appointment</source>
         <translation>Prossimo appuntamento</translation>
-    </message>
-    <message>
-        <source>Notes, or what to ask next time</source>
-        <translation>Note, o domande per la prossima volta</translation>
     </message>
     <message>
         <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
@@ -4488,20 +4208,12 @@
         <translation>Escursione articolare, dita</translation>
     </message>
     <message>
-        <source>Movement of the other angles</source>
-        <translation>Movimento degli altri angoli</translation>
-    </message>
-    <message>
         <source>Speed and smoothness</source>
         <translation>Velocità e fluidità</translation>
     </message>
     <message>
         <source>Quality of the recording</source>
         <translation>Qualità della registrazione</translation>
-    </message>
-    <message>
-        <source>Grades</source>
-        <translation>Valutazioni</translation>
     </message>
     <message>
         <source>Reaching movements</source>
@@ -4530,10 +4242,6 @@
     <message>
         <source>Camera {serial}: {calibrated}. {words}</source>
         <translation>Telecamera {serial}: {calibrated}. {words}</translation>
-    </message>
-    <message>
-        <source>Check it again: once a week.</source>
-        <translation>Controllarla di nuovo (una volta alla settimana).</translation>
     </message>
     <message>
         <source>the reference contains both hands: {names} are used</source>
@@ -4664,16 +4372,8 @@
         <translation>misurata una volta</translation>
     </message>
     <message>
-        <source>Saved for this camera, number {serial}. Earlier sessions keep their values.</source>
-        <translation>Viene salvata per questa telecamera, numero {serial}. Le sedute precedenti mantengono i loro valori.</translation>
-    </message>
-    <message>
         <source>Distance: near and far missing</source>
         <translation>Distanza: mancano vicino e lontano</translation>
-    </message>
-    <message>
-        <source>Places: {count} of {all} fields, {least} or more</source>
-        <translation>Posizioni: {count} riquadri su {all}, almeno {least}</translation>
     </message>
     <message>
         <source>Tilts: {side} missing</source>
@@ -4690,10 +4390,6 @@
     <message>
         <source>{px} px before</source>
         <translation>prima {px} px</translation>
-    </message>
-    <message>
-        <source>Show the board in other places, at other tilts</source>
-        <translation>Mostrare la tavola in altre posizioni, con altre inclinazioni</translation>
     </message>
     <message>
         <source>Hand not visible</source>
@@ -5524,10 +5220,6 @@
         <translation>Programma</translation>
     </message>
     <message>
-        <source>Not kept: {names}. Also correct a later frame.</source>
-        <translation>Non mantenute: {names}. Correggere anche un fotogramma successivo.</translation>
-    </message>
-    <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
         <translation>Quasi mai visibili nel nuovo risultato: {names}. Lì mancano i loro angoli.</translation>
     </message>
@@ -5596,24 +5288,12 @@
         <translation>I fotogrammi con articolazioni nascoste non vengono analizzati.</translation>
     </message>
     <message>
-        <source>Image taken. Now another place.</source>
-        <translation>Immagine acquisita. Ora un’altra posizione.</translation>
-    </message>
-    <message>
         <source>Nothing was changed. Glue the board onto something flat and stiff. Take the images again in good light.</source>
         <translation>Non è stato modificato nulla. Incollare la tavola su qualcosa di piano e rigido, e rifare le immagini con buona luce.</translation>
     </message>
     <message>
-        <source>Nothing was changed. Turn on depth registration in the camera: “carpus doctor” shows how.</source>
-        <translation>Non è stato modificato nulla. Attivare l’allineamento profondità-colore della telecamera: “carpus doctor” indica come.</translation>
-    </message>
-    <message>
         <source>Depth was not checked.</source>
         <translation>La profondità non è stata controllata.</translation>
-    </message>
-    <message>
-        <source>too few images with depth on the board</source>
-        <translation>troppo poche immagini con valori di profondità sulla tavola</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, fully in view, about 60 cm away.</source>
@@ -5664,24 +5344,12 @@
         <translation>Usa quel punto</translation>
     </message>
     <message>
-        <source>mean of both · one point every 0.2 s, {count} points</source>
-        <translation>media di entrambi · un punto ogni 0,2 s, {count} punti</translation>
-    </message>
-    <message>
-        <source>mean of both · one point per reading, {count} readings</source>
-        <translation>media di entrambi · un punto per lettura, {count} letture</translation>
-    </message>
-    <message>
         <source>manual, active</source>
         <translation>manuale, attivo</translation>
     </message>
     <message>
         <source>Position</source>
         <translation>Posizione</translation>
-    </message>
-    <message>
-        <source>Joint flexion, {one}–{other} (r)</source>
-        <translation>Flessione congiunta, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>too slow to assess</source>
@@ -5716,14 +5384,6 @@
         <translation>Commento del terapista</translation>
     </message>
     <message>
-        <source>Markers were corrected manually. The original result is kept.</source>
-        <translation>I marcatori sono stati corretti manualmente. Il risultato originale è conservato.</translation>
-    </message>
-    <message>
-        <source>Manual measurements, not made by Carpus: {values}.</source>
-        <translation>Misure manuali, non eseguite da Carpus: {values}.</translation>
-    </message>
-    <message>
         <source>The comment is too long for this letter. It is in the report.</source>
         <translation>Il commento è troppo lungo per questa lettera. Si trova nella relazione.</translation>
     </message>
@@ -5734,10 +5394,6 @@
     <message>
         <source>too short</source>
         <translation>troppo breve</translation>
-    </message>
-    <message>
-        <source>each was shorter than 0.4 s</source>
-        <translation>ognuna più breve di 0,4 s</translation>
     </message>
     <message>
         <source>± = SD between repetitions. The SD of a visible angle is about {sd}.</source>
@@ -5762,14 +5418,6 @@
     <message>
         <source>Exercise set “{name}”, {number} of {count}: {part}</source>
         <translation>Sequenza “{name}”, {number} di {count}: {part}</translation>
-    </message>
-    <message>
-        <source>MDC95 (measurement error) was measured by this clinic on {date} with {count} people. Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up.</source>
-        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti si usa il valore predefinito di Carpus, stabilito da esperti. Entrambi valgono a parità di marcatori, lato e preparazione.</translation>
-    </message>
-    <message>
-        <source>MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for the same markers, side and set-up.</source>
-        <translation>MDC (errore di misura): valore predefinito di Carpus, stabilito da esperti e non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -5856,16 +5504,8 @@
         <translation>carattere invisibile</translation>
     </message>
     <message>
-        <source>{sign}: manual measurement of that day, active / passive; not combined with the other values.</source>
-        <translation>{sign}: misura manuale di quel giorno, attiva / passiva; non combinata con gli altri valori.</translation>
-    </message>
-    <message>
         <source>Manual</source>
         <translation>Manuale</translation>
-    </message>
-    <message>
-        <source>Check once more, then calibrate the camera. If it is still out of tolerance, do not measure with it.</source>
-        <translation>Ripetere il controllo, poi calibrare la telecamera. Se è ancora fuori tolleranza, non misurare con essa.</translation>
     </message>
     <message>
         <source>0° = neutral position</source>
@@ -6040,20 +5680,8 @@
         <translation>Una cartella non può essere usata: {reason}</translation>
     </message>
     <message>
-        <source>{movement} {goal} (mean {mean}; detectable change from {limit})</source>
-        <translation>{movement} {goal} (media {mean}; un cambiamento è rilevabile da {limit})</translation>
-    </message>
-    <message>
         <source>{count} pairs of one session, compared with {kind}</source>
         <translation>{count} coppie di una seduta, rispetto a: {kind}</translation>
-    </message>
-    <message>
-        <source>all lengths are {share} % too long, at most by {length} mm</source>
-        <translation>tutte le lunghezze sono maggiori del {share} %, al massimo di {length} mm</translation>
-    </message>
-    <message>
-        <source>all lengths are {share} % too short, at most by {length} mm</source>
-        <translation>tutte le lunghezze sono minori del {share} %, al massimo di {length} mm</translation>
     </message>
     <message>
         <source>{count} joint angles whose names differ from {name}</source>
@@ -6072,24 +5700,12 @@
         <translation>Dolore, nota</translation>
     </message>
     <message>
-        <source>{name}, mean ± sd</source>
-        <translation>{name}, media ± DS</translation>
-    </message>
-    <message>
         <source>{count} per movement, {seconds} s in total</source>
         <translation>{count} per movimento, {seconds} s in tutto</translation>
     </message>
     <message>
         <source>revision {digest}</source>
         <translation>revisione {digest}</translation>
-    </message>
-    <message>
-        <source>Speeds or angles</source>
-        <translation>Velocità o angoli</translation>
-    </message>
-    <message>
-        <source>Percentage of the other hand’s TAM, or of the reference value of 260° (thumb 140°) if that is not known. ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
-        <translation>Percentuale del TAM dell’altra mano o, se non è noto, del valore di riferimento di 260° (pollice 140°). ASSH: ottimo da 100 %, buono oltre 75 %, discreto oltre 50 %, altrimenti scarso.</translation>
     </message>
     <message>
         <source>In the middle of the nail.</source>
@@ -6216,10 +5832,6 @@
         <translation>{name}, ritorno</translation>
     </message>
     <message>
-        <source>Check it again: it has been calibrated since.</source>
-        <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
-    </message>
-    <message>
         <source>invalid birth date</source>
         <translation>data di nascita non valida</translation>
     </message>
@@ -6246,10 +5858,6 @@
     <message>
         <source>Enter a number from {least} to {most}, or leave it empty</source>
         <translation>Inserire un numero da {least} a {most}, o lasciare vuoto</translation>
-    </message>
-    <message>
-        <source>{value}? Typical range: {low} to {high}</source>
-        <translation>{value}? Valori tipici: da {low} a {high}</translation>
     </message>
     <message>
         <source>removed</source>
@@ -6395,6 +6003,398 @@
         <source>Table</source>
         <translation>Tabella</translation>
     </message>
+    <message>
+        <source>{value} is unusual. Typical range: {low} to {high}</source>
+        <translation>{value} è insolito. Intervallo tipico: da {low} a {high}</translation>
+    </message>
+    <message>
+        <source>The sessions are shown side by side, but not compared.</source>
+        <translation>Mostrate affiancate, senza confronto.</translation>
+    </message>
+    <message>
+        <source>The image is too dark: add light.</source>
+        <translation>Più luce: l’immagine è troppo scura.</translation>
+    </message>
+    <message>
+        <source>Tilt the board less: the camera sees it almost edge-on.</source>
+        <translation>Girarla meno: si vede quasi di taglio.</translation>
+    </message>
+    <message>
+        <source>The image is blurred: hold the board still, or add light.</source>
+        <translation>Non nitida: tenerla ferma o dare più luce.</translation>
+    </message>
+    <message>
+        <source>Calculate · more positions and tilts</source>
+        <translation>Calcola · più posizioni e inclinazioni</translation>
+    </message>
+    <message>
+        <source>The board is not visible: show the whole board, flat, in even light.</source>
+        <translation>Tavola non vista: mostrarla tutta, piatta, con luce uniforme.</translation>
+    </message>
+    <message>
+        <source>Depth–colour alignment</source>
+        <translation>Profondità e colore</translation>
+    </message>
+    <message>
+        <source>depth registration is off</source>
+        <translation>allineamento profondità-colore non attivo</translation>
+    </message>
+    <message>
+        <source>This camera reports no serial number, so its calibration cannot be saved here. IT support can write it to a camera file with “carpus calibrate-camera --output” and enter that file in the settings.</source>
+        <translation>Questa telecamera non indica un numero di serie, quindi la calibrazione non può essere salvata qui. Il supporto informatico può scriverla in un file con “carpus calibrate-camera --output” e indicare quel file nelle impostazioni.</translation>
+    </message>
+    <message>
+        <source>Show the next angle as the large number</source>
+        <translation>Angolo seguente come numero grande</translation>
+    </message>
+    <message>
+        <source>Show the next finger as the large number</source>
+        <translation>Dito seguente come numero grande</translation>
+    </message>
+    <message>
+        <source>Move the start or end of the repetition earlier</source>
+        <translation>Anticipa il limite della ripetizione</translation>
+    </message>
+    <message>
+        <source>Move the start or end of the repetition later</source>
+        <translation>Posticipa il limite della ripetizione</translation>
+    </message>
+    <message>
+        <source>Zoom in on the curves</source>
+        <translation>Ingrandisci le curve</translation>
+    </message>
+    <message>
+        <source>Zoom out of the curves</source>
+        <translation>Riduci le curve</translation>
+    </message>
+    <message>
+        <source>Show the whole recording</source>
+        <translation>Mostra le curve intere</translation>
+    </message>
+    <message>
+        <source>Select the previous session</source>
+        <translation>Seleziona la seduta precedente</translation>
+    </message>
+    <message>
+        <source>Select the next session</source>
+        <translation>Seleziona la seduta seguente</translation>
+    </message>
+    <message>
+        <source>Previous frame (correction)</source>
+        <translation>Fotogramma precedente da correggere</translation>
+    </message>
+    <message>
+        <source>Next frame (correction)</source>
+        <translation>Fotogramma seguente da correggere</translation>
+    </message>
+    <message>
+        <source>Undo the last step</source>
+        <translation>Annulla un passo</translation>
+    </message>
+    <message>
+        <source>Save an image of the hand only</source>
+        <translation>Questo fotogramma con la sola mano</translation>
+    </message>
+    <message>
+        <source>Tick a session for comparison</source>
+        <translation>Seleziona una seduta da confrontare</translation>
+    </message>
+    <message>
+        <source>Show the whole image or only the hand</source>
+        <translation>Fotogramma intero o area della mano</translation>
+    </message>
+    <message>
+        <source>Open or close the patient’s view</source>
+        <translation>Apri e chiudi la vista del paziente</translation>
+    </message>
+    <message>
+        <source>Undo the last click</source>
+        <translation>Annulla l’ultimo marcatore</translation>
+    </message>
+    <message>
+        <source>Swap two labels</source>
+        <translation>Scambia due marcatori</translation>
+    </message>
+    <message>
+        <source>Click the marker again</source>
+        <translation>Rifai il clic</translation>
+    </message>
+    <message>
+        <source>No angle yet</source>
+        <translation>Ancora nessun angolo noto</translation>
+    </message>
+    <message>
+        <source>{marker} often occluded</source>
+        <translation>{marker} spesso coperto</translation>
+    </message>
+    <message>
+        <source>{count} markers often occluded</source>
+        <translation>{count} marcatori spesso coperti</translation>
+    </message>
+    <message>
+        <source>The line of each finger should run from the wrist to the fingertip. To change a label, drag it to another marker.</source>
+        <translation>La linea di ogni dito va dal polso alla punta. Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
+    </message>
+    <message>
+        <source>all {count} found</source>
+        <translation>trovati tutti ({count})</translation>
+    </message>
+    <message>
+        <source>reading number</source>
+        <translation>numero della lettura</translation>
+    </message>
+    <message>
+        <source>mean ± SD of the repetitions</source>
+        <translation>media, ± DS fra ripetizioni</translation>
+    </message>
+    <message>
+        <source>α and γ are shown only where their SD is below 30° ({share} of the time). Near the neutral position, only β and α + γ can be measured.</source>
+        <translation>α e γ sono indicati dove la loro DS resta sotto 30° ({share} del tempo): vicino alla posizione neutra sono noti solo β e α + γ.</translation>
+    </message>
+    <message>
+        <source>{name}, across the palm</source>
+        <translation>{name}, attraverso il palmo</translation>
+    </message>
+    <message>
+        <source>Plausible position while occluded</source>
+        <translation>Posizione plausibile mentre è nascosto</translation>
+    </message>
+    <message>
+        <source>Position within 15° while occluded</source>
+        <translation>Posizione entro 15° mentre è nascosto</translation>
+    </message>
+    <message>
+        <source>Position jump when visible again</source>
+        <translation>Salto alla ricomparsa</translation>
+    </message>
+    <message>
+        <source>Delay of {other} after {one}</source>
+        <translation>{other} dopo {one}: ritardo</translation>
+    </message>
+    <message>
+        <source>Involuntary movement of {other} with {one}</source>
+        <translation>Trascinamento di {other} da {one}</translation>
+    </message>
+    <message>
+        <source>DIP not measured: TAM uses two thirds of the PIP flexion.</source>
+        <translation>IFD non misurata: il TAM assume due terzi della IFP.</translation>
+    </message>
+    <message>
+        <source>with the axes of the hand along the path</source>
+        <translation>con gli assi della mano lungo il percorso</translation>
+    </message>
+    <message>
+        <source>band: ± 1 SD; black: α + γ</source>
+        <translation>fascia: ± 1 DS; nero: α + γ, con γ</translation>
+    </message>
+    <message>
+        <source>mean ± SD; right column: {day}</source>
+        <translation>media ± DS; a destra: {day}</translation>
+    </message>
+    <message>
+        <source>Made with Carpus {version}</source>
+        <translation>Prodotto da Carpus {version}</translation>
+    </message>
+    <message>
+        <source>measured with Carpus {versions}</source>
+        <translation>misurato da Carpus {versions}</translation>
+    </message>
+    <message>
+        <source>grey: repetitions; band: ± 1 SD of the angle</source>
+        <translation>grigio: ripetizioni; fascia: ± 1 DS dell’angolo</translation>
+    </message>
+    <message>
+        <source>marker positions within {size} mm</source>
+        <translation>posizioni dei marcatori entro {size} mm</translation>
+    </message>
+    <message>
+        <source>live values, not smoothed</source>
+        <translation>valori dal vivo, non filtrati</translation>
+    </message>
+    <message>
+        <source>repetition {number} excluded: {reason}</source>
+        <translation>numero {number} esclusa: {reason}</translation>
+    </message>
+    <message>
+        <source>as intended: the hand stays straight</source>
+        <translation>come previsto: la mano resta in asse</translation>
+    </message>
+    <message>
+        <source>No range of motion could be measured.</source>
+        <translation>Nessuna escursione misurabile.</translation>
+    </message>
+    <message>
+        <source>No active range of motion was measured.</source>
+        <translation>Nessuna escursione attiva misurata.</translation>
+    </message>
+    <message>
+        <source>Angles in the order deviation, flexion, pronation–supination; {zero}.</source>
+        <translation>Angoli nell’ordine deviazione, flessione, prono-supinazione; {zero}.</translation>
+    </message>
+    <message>
+        <source>Angles in the order of the ISB: flexion, deviation, pronation–supination; {zero}.</source>
+        <translation>Angoli nell’ordine ISB: flessione, deviazione, prono-supinazione; {zero}.</translation>
+    </message>
+    <message>
+        <source>The wrist angles are in the order of the ISB (flexion first).</source>
+        <translation>Gli angoli del polso sono nell’ordine ISB.</translation>
+    </message>
+    <message>
+        <source>{depth} below the wrist marker (scatter {residual})</source>
+        <translation>{depth} sotto il marcatore (dispersione {residual})</translation>
+    </message>
+    <message>
+        <source>Peak speed, mean ± SD</source>
+        <translation>Velocità massima, media ± DS</translation>
+    </message>
+    <message>
+        <source>Suggested from the last session:</source>
+        <translation>Proposta dall’ultima seduta:</translation>
+    </message>
+    <message>
+        <source>Suggested from the last {count} sessions:</source>
+        <translation>Proposta dalle ultime {count} sedute:</translation>
+    </message>
+    <message>
+        <source>Camera within tolerance: errors up to {angle}° and {length} mm (limits: {most_angle}° and {most_length} mm).</source>
+        <translation>Telecamera entro la tolleranza: scarto massimo {angle}° e {length} mm (limiti: {most_angle}° e {most_length} mm).</translation>
+    </message>
+    <message>
+        <source>angles are wrong by {angle}°</source>
+        <translation>gli angoli si scostano di {angle}°</translation>
+    </message>
+    <message>
+        <source>Pauses during a movement, mean</source>
+        <translation>Pause durante il movimento, media</translation>
+    </message>
+    <message>
+        <source>Largest flexion of each joint; ± is the SD between repetitions.</source>
+        <translation>Ogni articolazione alla massima flessione; ± è la DS fra le ripetizioni.</translation>
+    </message>
+    <message>
+        <source>Hand exercises at home</source>
+        <translation>Esercizi per la mano a casa</translation>
+    </message>
+    <message>
+        <source>Tick the box of the day when you have done all its exercises.</source>
+        <translation>Segni la casella del giorno quando ha fatto tutti gli esercizi.</translation>
+    </message>
+    <message>
+        <source>Turn your palm up, then down. Keep your elbow at your side.</source>
+        <translation>Girare il palmo in su, poi in giù. Il gomito resta al fianco.</translation>
+    </message>
+    <message>
+        <source>Notes and questions for your next appointment</source>
+        <translation>Note, o che cosa chiedere la prossima volta</translation>
+    </message>
+    <message>
+        <source>Movement in the other directions</source>
+        <translation>Movimento degli altri angoli</translation>
+    </message>
+    <message>
+        <source>Grades of finger motion</source>
+        <translation>Valutazioni</translation>
+    </message>
+    <message>
+        <source>Check the camera again: a check is due once a week.</source>
+        <translation>Controllarla di nuovo: una volta alla settimana.</translation>
+    </message>
+    <message>
+        <source>Saved for the camera with serial number {serial}. Values of earlier sessions do not change.</source>
+        <translation>Viene salvata per questa telecamera, numero {serial}. Le sedute precedenti mantengono i loro valori.</translation>
+    </message>
+    <message>
+        <source>Positions: {count} of {all} fields covered (at least {least} needed)</source>
+        <translation>Posizioni: {count} riquadri su {all}, almeno {least}</translation>
+    </message>
+    <message>
+        <source>Show the board in other positions and at other tilts</source>
+        <translation>Mostrare la tavola in altri punti, inclinata in altro modo</translation>
+    </message>
+    <message>
+        <source>Correction not kept for {names}. Correct a later frame too.</source>
+        <translation>Non mantenute: {names}. Correggere anche un fotogramma successivo.</translation>
+    </message>
+    <message>
+        <source>Image taken. Move the board to another position.</source>
+        <translation>Immagine acquisita. Ora un’altra posizione.</translation>
+    </message>
+    <message>
+        <source>Nothing was changed. Turn on depth registration in the camera settings.</source>
+        <translation>Nulla è stato cambiato. Attivare l’allineamento profondità-colore nelle impostazioni della telecamera.</translation>
+    </message>
+    <message>
+        <source>too few images with depth values of the board</source>
+        <translation>troppo poche immagini con profondità sulla tavola</translation>
+    </message>
+    <message>
+        <source>mean of Carpus and reference · one point every 0.2 s, {count} points</source>
+        <translation>media di entrambi · un punto ogni 0,2 s, {count} punti</translation>
+    </message>
+    <message>
+        <source>mean of Carpus and reference · one point per reading, {count} readings</source>
+        <translation>media di entrambi · un punto per lettura, {count} letture</translation>
+    </message>
+    <message>
+        <source>Correlation of flexion, {one}–{other} (r)</source>
+        <translation>Flessione congiunta, {one}–{other} (r)</translation>
+    </message>
+    <message>
+        <source>Marker labels were corrected manually. The original result is kept.</source>
+        <translation>I marcatori sono stati corretti manualmente. Il risultato originale è conservato.</translation>
+    </message>
+    <message>
+        <source>Measured manually, not by Carpus: {values}.</source>
+        <translation>Misure manuali, non eseguite da Carpus: {values}.</translation>
+    </message>
+    <message>
+        <source>each movement was shorter than 0.4 s</source>
+        <translation>ognuna più breve di 0,4 s</translation>
+    </message>
+    <message>
+        <source>This clinic measured the MDC95 (measurement error) on {date} with {count} people. Where it was not measured, Carpus uses an expert default. The MDC applies to the same markers, side and set-up.</source>
+        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti è il valore predefinito degli esperti di Carpus. Vale a parità di marcatori, lato e preparazione.</translation>
+    </message>
+    <message>
+        <source>Until the clinic has measured its own MDC (measurement error), Carpus uses an expert default, not a published value. For a total arc, which has two ends, the MDC is √2 times as large. It applies to the same markers, side and set-up.</source>
+        <translation>MDC (errore di misura): è il valore predefinito degli esperti di Carpus, non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
+    </message>
+    <message>
+        <source>{sign}: manual measurement of that day, active / passive. It is not combined with the other values.</source>
+        <translation>{sign}: misura manuale di quel giorno, attiva / passiva; non combinata con gli altri valori.</translation>
+    </message>
+    <message>
+        <source>Check the camera once more, then calibrate it. If it is still out of tolerance, do not measure with it.</source>
+        <translation>Ripetere il controllo, poi calibrare la telecamera. Se è ancora fuori tolleranza, non misurare con essa.</translation>
+    </message>
+    <message>
+        <source>{movement} {goal} (mean {mean}; beyond measurement error from {limit})</source>
+        <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {limit})</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too long, by up to {length} mm</source>
+        <translation>tutte le lunghezze sono maggiori del {share} %, al massimo di {length} mm</translation>
+    </message>
+    <message>
+        <source>all lengths are {share} % too short, by up to {length} mm</source>
+        <translation>tutte le lunghezze sono minori del {share} %, al massimo di {length} mm</translation>
+    </message>
+    <message>
+        <source>{name}, mean ± SD</source>
+        <translation>{name}, media ± DS</translation>
+    </message>
+    <message>
+        <source>Show speeds or angles</source>
+        <translation>Velocità o angoli</translation>
+    </message>
+    <message>
+        <source>Percentage of the other hand’s TAM or, if not known, of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
+        <translation>Percentuale del TAM dell’altra mano o, se non è noto, del valore di riferimento di 260° (pollice 140°). ASSH: ottimo da 100 %, buono oltre 75 %, discreto oltre 50 %, altrimenti scarso.</translation>
+    </message>
+    <message>
+        <source>Check the camera again: it has been calibrated since the last check.</source>
+        <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -6430,10 +6430,6 @@
         <translation>Copia di sicurezza</translation>
     </message>
     <message>
-        <source>then verified</source>
-        <translation>poi verificata</translation>
-    </message>
-    <message>
         <source>Daily at 12:00</source>
         <translation>Ogni giorno alle 12:00</translation>
     </message>
@@ -6444,10 +6440,6 @@
     <message>
         <source>Manual only</source>
         <translation>Solo manuale</translation>
-    </message>
-    <message>
-        <source>shows the changes first</source>
-        <translation>mostra prima le modifiche</translation>
     </message>
     <message>
         <source>the last 14, plus one per month for 2 years</source>
@@ -6480,6 +6472,14 @@
     <message>
         <source>Backs up the whole data folder: patients, sessions, images and log. You can continue measuring.</source>
         <translation>Copia tutta la cartella dei dati: pazienti, sedute, immagini e registro. Nel frattempo si può misurare.</translation>
+    </message>
+    <message>
+        <source>The backup is verified afterwards.</source>
+        <translation>Poi la copia viene verificata.</translation>
+    </message>
+    <message>
+        <source>The changes are shown first.</source>
+        <translation>Prima si vedono le modifiche.</translation>
     </message>
 </context>
 <context>
@@ -6681,10 +6681,6 @@
         <translation>A&amp;vanti</translation>
     </message>
     <message>
-        <source>Leave the guide</source>
-        <translation>Esci dalla guida</translation>
-    </message>
-    <message>
         <source>Esc</source>
         <translation>Esc</translation>
     </message>
@@ -6699,6 +6695,10 @@
     <message>
         <source>&amp;Done</source>
         <translation>&amp;Fine</translation>
+    </message>
+    <message>
+        <source>End the tour</source>
+        <translation>Termina la visita</translation>
     </message>
 </context>
 <context>
@@ -6926,10 +6926,6 @@
         <translation>Stampare le due pagine al 100 %: ogni righello deve misurare 100 mm. Incollare la prima pagina ben piana su cartone rigido. Piegare il cuneo e incollarlo sul campo tratteggiato.</translation>
     </message>
     <message>
-        <source>A check is valid for one week. If all lengths deviate by the same share, the depth or the print size is wrong.</source>
-        <translation>Un controllo vale una settimana. Se tutte le lunghezze si scostano della stessa percentuale, è errata la profondità o la dimensione della stampa.</translation>
-    </message>
-    <message>
         <source>Check now, 30 seconds</source>
         <translation>Controlla ora, 30 secondi</translation>
     </message>
@@ -6960,6 +6956,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>Non ancora controllata</translation>
+    </message>
+    <message>
+        <source>A check is valid for one week. If all lengths are wrong by the same percentage, the depth or the print size is wrong.</source>
+        <translation>Un controllo vale una settimana. Se tutte le lunghezze deviano della stessa quota, è errata la profondità o la dimensione della stampa.</translation>
     </message>
 </context>
 <context>
@@ -7006,10 +7006,6 @@
         <translation>Lettura della seduta…</translation>
     </message>
     <message>
-        <source>No comparison: one of the two sessions could not be read.</source>
-        <translation>Nessun confronto: una delle due sedute non è leggibile.</translation>
-    </message>
-    <message>
         <source>Repetition {number}</source>
         <translation>Ripetizione {number}</translation>
     </message>
@@ -7020,6 +7016,10 @@
     <message>
         <source>Differences</source>
         <translation>Differenze</translation>
+    </message>
+    <message>
+        <source>The sessions cannot be compared, because one of them could not be read.</source>
+        <translation>Nessun confronto: una delle due sedute non è leggibile.</translation>
     </message>
 </context>
 <context>
@@ -7084,10 +7084,6 @@
         <translation>Fotogramma a {time}</translation>
     </message>
     <message>
-        <source>Drag “{marker}” to its marker</source>
-        <translation>Trascinare “{marker}” sul suo marcatore</translation>
-    </message>
-    <message>
         <source>Which label is wrong?</source>
         <translation>Quale etichetta è sbagliata?</translation>
     </message>
@@ -7116,16 +7112,8 @@
         <translation>“{one}” e “{other}” sembrano scambiati</translation>
     </message>
     <message>
-        <source>The angles would be wrong from there on. Swap the two labels?</source>
-        <translation>Gli angoli sarebbero errati da lì in poi. Scambiare le due etichette?</translation>
-    </message>
-    <message>
         <source>Swap the labels</source>
         <translation>Scambia le etichette</translation>
-    </message>
-    <message>
-        <source>It is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
-        <translation>È a {size} mm dalla posizione compatibile con gli altri marcatori. Può essere un altro marcatore, o nessuno.</translation>
     </message>
     <message>
         <source>Undo the last step</source>
@@ -7142,6 +7130,18 @@
     <message>
         <source>“{marker}” cannot be there</source>
         <translation>“{marker}” non può essere lì</translation>
+    </message>
+    <message>
+        <source>Drag the label “{marker}” to its marker</source>
+        <translation>Trascinare “{marker}” sul suo marcatore</translation>
+    </message>
+    <message>
+        <source>All later angles would be wrong. Swap the two labels?</source>
+        <translation>Gli angoli sarebbero errati da lì in poi. Scambiare le due etichette?</translation>
+    </message>
+    <message>
+        <source>This spot is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
+        <translation>È a {size} mm dalla posizione compatibile con gli altri marcatori. Può essere un altro marcatore, o nessuno.</translation>
     </message>
 </context>
 <context>
@@ -7208,10 +7208,6 @@
         <translation>Non si può annullare</translation>
     </message>
     <message>
-        <source>Removes it from all lists and results. Everything can be restored.</source>
-        <translation>Toglie tutto da ogni elenco e risultato. Tutto si può ripristinare.</translation>
-    </message>
-    <message>
         <source>Delete this session permanently?</source>
         <translation>Eliminare definitivamente questa seduta?</translation>
     </message>
@@ -7236,14 +7232,6 @@
         <translation>Copie altrove.</translation>
     </message>
     <message>
-        <source>Delete yourself: reports and exports saved elsewhere ({n}): {path}.</source>
-        <translation>Da eliminare di persona: relazioni ed esportazioni salvate altrove ({n}): {path}.</translation>
-    </message>
-    <message>
-        <source>Check yourself: files outside the patient’s folder ({n}): {path}.</source>
-        <translation>Da controllare di persona: file fuori dalla cartella del paziente ({n}): {path}.</translation>
-    </message>
-    <message>
         <source>The log records the deletion, without a name.</source>
         <translation>Il registro annota l’eliminazione, senza nome.</translation>
     </message>
@@ -7266,6 +7254,18 @@
     <message>
         <source>The patient’s entry: real name, notes, manual measurements. All sessions ({count}): angles, images, notes ({size} MB, files: {files}).</source>
         <translation>La scheda del paziente: nome vero, note, misure manuali. Tutte le sedute ({count}): angoli, immagini, note ({size} MB, file: {files}).</translation>
+    </message>
+    <message>
+        <source>Archiving removes it from all lists and results. Everything can be restored.</source>
+        <translation>Toglie tutto da elenchi e risultati. Tutto si può ripristinare.</translation>
+    </message>
+    <message>
+        <source>Delete reports and exports saved elsewhere yourself ({n}): {path}.</source>
+        <translation>Da eliminare di persona: relazioni ed esportazioni salvate altrove ({n}): {path}.</translation>
+    </message>
+    <message>
+        <source>Check these files outside the patient’s folder yourself ({n}): {path}.</source>
+        <translation>Da controllare di persona: file fuori dalla cartella del paziente ({n}): {path}.</translation>
     </message>
 </context>
 <context>
@@ -7325,20 +7325,12 @@
 <context>
     <name>ExcludeDialog</name>
     <message>
-        <source>It stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
-        <translation>Resta nell’elenco e si può aprire, ma è esclusa dall’analisi. Si può includere di nuovo.</translation>
-    </message>
-    <message>
         <source>Exclude this session?</source>
         <translation>Escludere questa seduta?</translation>
     </message>
     <message>
         <source>wrong exercise</source>
         <translation>esercizio sbagliato</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>prova</translation>
     </message>
     <message>
         <source>Exclude</source>
@@ -7360,6 +7352,14 @@
         <source>Another reason</source>
         <translation>Un altro motivo</translation>
     </message>
+    <message>
+        <source>The session stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
+        <translation>Resta nell’elenco e si può aprire, ma è esclusa dall’analisi. Si può includere di nuovo.</translation>
+    </message>
+    <message>
+        <source>practice run</source>
+        <translation>prova</translation>
+    </message>
 </context>
 <context>
     <name>ExclusionDialog</name>
@@ -7376,20 +7376,8 @@
         <translation>Passiva</translation>
     </message>
     <message>
-        <source>Passive, and all after it</source>
-        <translation>Passiva, e tutte le seguenti</translation>
-    </message>
-    <message>
-        <source>Excluded from the results; still shown on the curves and mentioned in the report.</source>
-        <translation>Esclusa dai risultati; resta visibile nelle curve e viene citata nella relazione.</translation>
-    </message>
-    <message>
         <source>other movement</source>
         <translation>altro movimento</translation>
-    </message>
-    <message>
-        <source>trial</source>
-        <translation>prova</translation>
     </message>
     <message>
         <source>Another reason</source>
@@ -7406,6 +7394,18 @@
     <message>
         <source>Exclude</source>
         <translation>Escludi</translation>
+    </message>
+    <message>
+        <source>Passive from here on</source>
+        <translation>Passiva, e tutte le seguenti</translation>
+    </message>
+    <message>
+        <source>Excluded from the results, but still shown on the curves and mentioned in the report.</source>
+        <translation>Esclusa dai risultati; resta visibile nelle curve e viene citata nella relazione.</translation>
+    </message>
+    <message>
+        <source>practice run</source>
+        <translation>prova</translation>
     </message>
 </context>
 <context>
@@ -7451,10 +7451,6 @@
         <translation>Sì</translation>
     </message>
     <message>
-        <source>Next: the camera</source>
-        <translation>Avanti: la telecamera</translation>
-    </message>
-    <message>
         <source>Which exercise?</source>
         <translation>Quale esercizio?</translation>
     </message>
@@ -7475,10 +7471,6 @@
         <translation>Salvare anche il video</translation>
     </message>
     <message>
-        <source>Needed to see and correct markers later: {size} MB per minute; space for {time}.</source>
-        <translation>Serve per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
-    </message>
-    <message>
         <source>Goal, {movement}</source>
         <translation>Obiettivo, {movement}</translation>
     </message>
@@ -7493,6 +7485,14 @@
     <message>
         <source>This recording</source>
         <translation>Questa registrazione</translation>
+    </message>
+    <message>
+        <source>Next: camera</source>
+        <translation>Avanti: la telecamera</translation>
+    </message>
+    <message>
+        <source>Needed to see and correct markers later. Uses {size} MB per minute; space for {time}.</source>
+        <translation>Serve per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
     </message>
 </context>
 <context>
@@ -7611,14 +7611,6 @@
         <translation>Angoli articolari degli ultimi dieci secondi, per dito</translation>
     </message>
     <message>
-        <source>coupled to the PIP</source>
-        <translation>accoppiata alla IFP</translation>
-    </message>
-    <message>
-        <source>coupled</source>
-        <translation>accoppiata</translation>
-    </message>
-    <message>
         <source>Last 10 s</source>
         <translation>Ultimi 10 s</translation>
     </message>
@@ -7629,6 +7621,14 @@
     <message>
         <source>Abduction</source>
         <translation>Abduzione</translation>
+    </message>
+    <message>
+        <source>inferred from PIP</source>
+        <translation>dedotta dalla IFP</translation>
+    </message>
+    <message>
+        <source>inferred</source>
+        <translation>dedotta</translation>
     </message>
 </context>
 <context>
@@ -7686,14 +7686,6 @@ cm</translation>
         <translation>Controllo dei marcatori…</translation>
     </message>
     <message>
-        <source>1 marker to go</source>
-        <translation>manca 1 marcatore</translation>
-    </message>
-    <message>
-        <source>{count} markers to go</source>
-        <translation>mancano {count} marcatori</translation>
-    </message>
-    <message>
         <source>Start measuring · {left}</source>
         <translation>Inizia a misurare · {left}</translation>
     </message>
@@ -7749,6 +7741,14 @@ cm</translation>
         <source>Click the markers</source>
         <translation>Clic sui marcatori</translation>
     </message>
+    <message>
+        <source>1 marker left to click</source>
+        <translation>manca 1 marcatore</translation>
+    </message>
+    <message>
+        <source>{count} markers left to click</source>
+        <translation>mancano {count} marcatori</translation>
+    </message>
 </context>
 <context>
     <name>HandDrawing</name>
@@ -7772,10 +7772,6 @@ dall’alto</translation>
 <context>
     <name>HandImageDialog</name>
     <message>
-        <source>The hand alone, with its angle. Face and room are removed, and there is no name. If the movement is not in the image plane, the angle is given in words only.</source>
-        <translation>La sola mano con il suo angolo. Viso e stanza sono rimossi e non c’è alcun nome. Se il movimento non è nel piano dell’immagine, l’angolo è indicato solo a parole.</translation>
-    </message>
-    <message>
         <source>Image of the hand</source>
         <translation>Immagine della mano</translation>
     </message>
@@ -7795,6 +7791,10 @@ dall’alto</translation>
         <source>Save…</source>
         <translation>Salva…</translation>
     </message>
+    <message>
+        <source>The image shows only the hand and its angle. Face, room and name are removed. If the hand does not move in the image plane, the angle is only written, not drawn.</source>
+        <translation>La sola mano con il suo angolo. Viso e stanza sono rimossi e non c’è alcun nome. Se il movimento non è nel piano dell’immagine, l’angolo è indicato solo a parole.</translation>
+    </message>
 </context>
 <context>
     <name>HelpScreen</name>
@@ -7805,14 +7805,6 @@ dall’alto</translation>
     <message>
         <source>Esc</source>
         <translation>Esc</translation>
-    </message>
-    <message>
-        <source>Cards to print…</source>
-        <translation>Schede da stampare…</translation>
-    </message>
-    <message>
-        <source>Show me around</source>
-        <translation>Visita guidata</translation>
     </message>
     <message>
         <source>Keys</source>
@@ -7826,6 +7818,14 @@ dall’alto</translation>
         <source>Save the cards</source>
         <translation>Salva le schede</translation>
     </message>
+    <message>
+        <source>Print cards…</source>
+        <translation>Stampa schede…</translation>
+    </message>
+    <message>
+        <source>&amp;Guide me through a first session</source>
+        <translation>&amp;Guidami in una prima seduta</translation>
+    </message>
 </context>
 <context>
     <name>HomeDialog</name>
@@ -7838,24 +7838,12 @@ dall’alto</translation>
         <translation>Una pagina per il paziente, senza valori né diagnosi. Fino a {count} esercizi.</translation>
     </message>
     <message>
-        <source>&amp;Times</source>
-        <translation>&amp;Quante volte</translation>
-    </message>
-    <message>
-        <source>&amp;Rounds a day</source>
-        <translation>&amp;Giri al giorno</translation>
-    </message>
-    <message>
         <source>Ne&amp;xt appointment</source>
         <translation>Prossimo &amp;appuntamento</translation>
     </message>
     <message>
         <source>T&amp;ime</source>
         <translation>&amp;Ora</translation>
-    </message>
-    <message>
-        <source>A &amp;line for the patient, no names</source>
-        <translation>Una &amp;riga per il paziente, senza nomi</translation>
     </message>
     <message>
         <source>Language of the patient</source>
@@ -7870,8 +7858,20 @@ dall’alto</translation>
         <translation>Ora: {count} caratteri di troppo</translation>
     </message>
     <message>
-        <source>Line: {count} characters too long</source>
-        <translation>Riga: {count} caratteri di troppo</translation>
+        <source>&amp;Repetitions</source>
+        <translation>&amp;Ripetizioni</translation>
+    </message>
+    <message>
+        <source>Times a &amp;day</source>
+        <translation>Volte al &amp;giorno</translation>
+    </message>
+    <message>
+        <source>&amp;Message to the patient (no names)</source>
+        <translation>&amp;Messaggio al paziente (senza nomi)</translation>
+    </message>
+    <message>
+        <source>Message: {count} characters too long</source>
+        <translation>Messaggio: {count} caratteri di troppo</translation>
     </message>
 </context>
 <context>
@@ -7939,11 +7939,11 @@ dall’alto</translation>
         <translation>ora</translation>
     </message>
     <message>
-        <source>Moving</source>
-        <translation>Spostamento</translation>
+        <source>Speed</source>
+        <translation>Velocità</translation>
     </message>
     <message>
-        <source>Turning</source>
+        <source>Rotation</source>
         <translation>Rotazione</translation>
     </message>
 </context>
@@ -8037,10 +8037,6 @@ dall’alto</translation>
         <translation>Ricollegare la telecamera</translation>
     </message>
     <message>
-        <source>Movement is being drawn</source>
-        <translation>Disegno del movimento</translation>
-    </message>
-    <message>
         <source>Recording can start in a moment</source>
         <translation>La registrazione può iniziare tra un attimo</translation>
     </message>
@@ -8067,6 +8063,10 @@ dall’alto</translation>
     <message>
         <source>Speeds</source>
         <translation>Velocità</translation>
+    </message>
+    <message>
+        <source>Preparing the simulated hand</source>
+        <translation>Preparazione della mano simulata</translation>
     </message>
 </context>
 <context>
@@ -8221,7 +8221,7 @@ dall’alto</translation>
         <translation>Fine</translation>
     </message>
     <message>
-        <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names. They are shown from the patient list.</source>
+        <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names: those shown here come from the patient list.</source>
         <translation>Nel registro si possono solo aggiungere voci. Protegge dagli errori, non da chi ha pieno accesso a questo computer. Non contiene nomi. Quelli mostrati vengono dall’elenco dei pazienti.</translation>
     </message>
 </context>
@@ -8314,24 +8314,12 @@ dall’alto</translation>
         <translation>La seduta Carpus di questo giorno è simulata e non viene mostrata.</translation>
     </message>
     <message>
-        <source>Manual and Carpus values stay separate</source>
-        <translation>I valori manuali e quelli di Carpus restano separati</translation>
-    </message>
-    <message>
         <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
         <translation>Non se ne calcola né la media né la differenza. Il cambiamento si valuta solo all’interno dello stesso metodo.</translation>
     </message>
     <message>
-        <source>Not saved yet, including values of the other hand or another day.</source>
-        <translation>Non ancora salvati, compresi valori dell’altra mano o di un altro giorno.</translation>
-    </message>
-    <message>
         <source>Values are saved with initials and time. Later changes stay visible.</source>
         <translation>I valori si salvano con iniziali e ora. Le modifiche successive restano visibili.</translation>
-    </message>
-    <message>
-        <source>By {initials}.</source>
-        <translation>Inseriti da {initials}.</translation>
     </message>
     <message>
         <source>Other measures…</source>
@@ -8345,13 +8333,21 @@ dall’alto</translation>
         <source>Proposed, recording of {day}: at least {score}</source>
         <translation>Proposta, registrazione del {day}: almeno {score}</translation>
     </message>
+    <message>
+        <source>Manual and Carpus values are kept separate</source>
+        <translation>I valori manuali e quelli di Carpus restano separati</translation>
+    </message>
+    <message>
+        <source>Some values of this or another hand or day are not saved yet.</source>
+        <translation>Alcuni valori di questa mano o dell’altra, o di un altro giorno, non sono ancora salvati.</translation>
+    </message>
+    <message>
+        <source>Entered by {initials}.</source>
+        <translation>Inseriti da {initials}.</translation>
+    </message>
 </context>
 <context>
     <name>ManualValueChart</name>
-    <message>
-        <source>{name} over the days</source>
-        <translation>{name} nel corso dei giorni</translation>
-    </message>
     <message>
         <source>Carpus, mean</source>
         <translation>Carpus, media</translation>
@@ -8383,6 +8379,10 @@ dall’alto</translation>
     <message>
         <source>manual, passive</source>
         <translation>manuale, passivo</translation>
+    </message>
+    <message>
+        <source>{name} over time</source>
+        <translation>{name} nei giorni</translation>
     </message>
 </context>
 <context>
@@ -8426,10 +8426,6 @@ dall’alto</translation>
 <context>
     <name>MarkersFlow</name>
     <message>
-        <source>The labels given on this image would be lost.</source>
-        <translation>Le etichette date su questa immagine andrebbero perse.</translation>
-    </message>
-    <message>
         <source>Stay here, or go back to the camera.</source>
         <translation>Restare qui, o tornare alla telecamera.</translation>
     </message>
@@ -8450,20 +8446,24 @@ dall’alto</translation>
         <translation>Riaprirla con la profondità allineata al colore, poi fare di nuovo clic sui marcatori.</translation>
     </message>
     <message>
-        <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
-    </message>
-    <message>
-        <source>Open it again</source>
-        <translation>Riapri</translation>
-    </message>
-    <message>
         <source>Leave this screen?</source>
         <translation>Uscire da questa schermata?</translation>
     </message>
     <message>
         <source>The recording was not changed. It does not say whether depth and colour are aligned.</source>
         <translation>La registrazione non è stata modificata. Non indica se profondità e colore sono allineati.</translation>
+    </message>
+    <message>
+        <source>The labels on this image would be lost.</source>
+        <translation>Le etichette date su questa immagine andrebbero perse.</translation>
+    </message>
+    <message>
+        <source>Do not change it</source>
+        <translation>Lascia così</translation>
+    </message>
+    <message>
+        <source>Open the recording again</source>
+        <translation>Riapri</translation>
     </message>
 </context>
 <context>
@@ -8605,10 +8605,6 @@ dall’alto</translation>
 <context>
     <name>NoteDialog</name>
     <message>
-        <source>What happened? No names.</source>
-        <translation>Che cosa è successo? Niente nomi.</translation>
-    </message>
-    <message>
         <source>Note</source>
         <translation>Nota</translation>
     </message>
@@ -8641,11 +8637,15 @@ dall’alto</translation>
         <translation>Riposo</translation>
     </message>
     <message>
-        <source>Active from here</source>
+        <source>What happened? Enter no names.</source>
+        <translation>Che cosa è successo? Niente nomi.</translation>
+    </message>
+    <message>
+        <source>Active from here on</source>
         <translation>Attivo da qui</translation>
     </message>
     <message>
-        <source>Passive from here</source>
+        <source>Passive from here on</source>
         <translation>Passivo da qui</translation>
     </message>
 </context>
@@ -8687,10 +8687,6 @@ dall’alto</translation>
         <translation>stimato</translation>
     </message>
     <message>
-        <source>coupled to the PIP</source>
-        <translation>accoppiata alla IFP</translation>
-    </message>
-    <message>
         <source>of {asked}</source>
         <translation>su {asked}</translation>
     </message>
@@ -8710,6 +8706,10 @@ dall’alto</translation>
         <source>Repetitions</source>
         <translation>Ripetizioni</translation>
     </message>
+    <message>
+        <source>inferred from PIP</source>
+        <translation>dedotta dalla IFP</translation>
+    </message>
 </context>
 <context>
     <name>PainDialog</name>
@@ -8718,12 +8718,12 @@ dall’alto</translation>
         <translation>Dolore ora, da 0 (nessuno) a 10 (massimo)</translation>
     </message>
     <message>
-        <source>At 5 or more, or 2 more than before: stop the exercise. Keys: 0 to 9; 1 and 0 for 10.</source>
-        <translation>Da 5 in su, o se aumenta di 2: fermare l’esercizio. Tasti: da 0 a 9; 1 e 0 per 10.</translation>
-    </message>
-    <message>
         <source>Close</source>
         <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>If pain is 5 or more, or has risen by 2, stop the exercise. Keys: 0 to 9. For 10, press 1, then 0.</source>
+        <translation>Da 5 in su, o se aumenta di 2: fermare l’esercizio. Tasti: da 0 a 9; 1 e 0 per 10.</translation>
     </message>
 </context>
 <context>
@@ -8767,10 +8767,6 @@ dall’alto</translation>
 </context>
 <context>
     <name>PatientCardView</name>
-    <message>
-        <source>Start session, same set-up</source>
-        <translation>Inizia seduta, stessa preparazione</translation>
-    </message>
     <message>
         <source>&amp;Edit…</source>
         <translation>&amp;Modifica…</translation>
@@ -8839,6 +8835,10 @@ dall’alto</translation>
         <source>{ordinal} session</source>
         <translation>{ordinal} seduta</translation>
     </message>
+    <message>
+        <source>Start session with same set-up</source>
+        <translation>Inizia seduta, stessa preparazione</translation>
+    </message>
 </context>
 <context>
     <name>PatientForm</name>
@@ -8857,14 +8857,6 @@ dall’alto</translation>
     <message>
         <source>Not known</source>
         <translation>Non nota</translation>
-    </message>
-    <message>
-        <source>In the clinic’s &amp;list</source>
-        <translation>Nell’elen&amp;co del centro</translation>
-    </message>
-    <message>
-        <source>Name: {count} characters too long</source>
-        <translation>Nome: {count} caratteri di troppo</translation>
     </message>
     <message>
         <source>Real name: {count} characters too long</source>
@@ -8897,18 +8889,6 @@ dall’alto</translation>
     <message>
         <source>Save changes</source>
         <translation>Salva le modifiche</translation>
-    </message>
-    <message>
-        <source>Enter a name.</source>
-        <translation>Inserire un nome.</translation>
-    </message>
-    <message>
-        <source>“{name}” is already in use. Choose another name.</source>
-        <translation>“{name}” è già usato. Scegliere un altro nome.</translation>
-    </message>
-    <message>
-        <source>&amp;Name in Carpus</source>
-        <translation>&amp;Nome in Carpus</translation>
     </message>
     <message>
         <source>Affected hand</source>
@@ -8995,8 +8975,28 @@ dall’alto</translation>
         <translation>Dal: {problem}</translation>
     </message>
     <message>
-        <source>The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this list and are never in a session file or an export.</source>
-        <translation>Il nome in Carpus è uno pseudonimo e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano in questo elenco, mai in un file di seduta o in un’esportazione.</translation>
+        <source>Save in diagnosis &amp;list</source>
+        <translation>Salva nell’elen&amp;co diagnosi</translation>
+    </message>
+    <message>
+        <source>Pseudonym: {count} characters too long</source>
+        <translation>Pseudonimo: {count} caratteri di troppo</translation>
+    </message>
+    <message>
+        <source>Enter a pseudonym.</source>
+        <translation>Inserire uno pseudonimo.</translation>
+    </message>
+    <message>
+        <source>The pseudonym “{name}” is already in use. Choose another one.</source>
+        <translation>Lo pseudonimo “{name}” è già usato. Sceglierne un altro.</translation>
+    </message>
+    <message>
+        <source>Pseudo&amp;nym</source>
+        <translation>Pseudo&amp;nimo</translation>
+    </message>
+    <message>
+        <source>The pseudonym is shown on all screens and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in the patient list and are never in a session file or an export.</source>
+        <translation>Lo pseudonimo compare in tutte le schermate e si può dire ad alta voce: nessun nome vero, nessuna iniziale, nessuna data di nascita. Nome vero, data di nascita, numero di cartella, sesso e diagnosi sono facoltativi. Restano nell’elenco dei pazienti, mai in un file di seduta o in un’esportazione.</translation>
     </message>
 </context>
 <context>
@@ -9176,12 +9176,12 @@ dall’alto</translation>
         <translation>Ripetizione…</translation>
     </message>
     <message>
-        <source>Passive or excluded (X); [ and ] select another</source>
-        <translation>Passiva o esclusa (X); [ e ] selezionano un’altra</translation>
-    </message>
-    <message>
         <source>frame</source>
         <translation>fotogramma</translation>
+    </message>
+    <message>
+        <source>Mark as passive or excluded (X). [ and ] select another repetition.</source>
+        <translation>Passiva o esclusa (X); [ e ] selezionano un’altra</translation>
     </message>
 </context>
 <context>
@@ -9226,10 +9226,6 @@ dall’alto</translation>
         <translation>Cambia…</translation>
     </message>
     <message>
-        <source>Do not use</source>
-        <translation>Non usare</translation>
-    </message>
-    <message>
         <source>Test the folders</source>
         <translation>Verifica le cartelle</translation>
     </message>
@@ -9252,6 +9248,10 @@ dall’alto</translation>
     <message>
         <source>No folder chosen</source>
         <translation>Nessuna cartella scelta</translation>
+    </message>
+    <message>
+        <source>Turn off</source>
+        <translation>Disattiva</translation>
     </message>
 </context>
 <context>
@@ -9276,7 +9276,7 @@ dall’alto</translation>
         <translation>Telecamera a {distance} cm</translation>
     </message>
     <message>
-        <source>Click opens the session</source>
+        <source>Click to open the session</source>
         <translation>Un clic apre la seduta</translation>
     </message>
 </context>
@@ -9433,10 +9433,6 @@ dall’alto</translation>
         <translation>{n} sedute, ultima: {last}; scadenza della conservazione: {until}</translation>
     </message>
     <message>
-        <source>Records past retention</source>
-        <translation>Conservazione scaduta</translation>
-    </message>
-    <message>
         <source>Excluded from all lists and results. Everything can be restored.</source>
         <translation>Escluso da elenchi e risultati. Tutto si può ripristinare.</translation>
     </message>
@@ -9572,6 +9568,10 @@ dall’alto</translation>
         <source>from the command line</source>
         <translation>dalla riga di comando</translation>
     </message>
+    <message>
+        <source>Records past their retention period</source>
+        <translation>Scadenze</translation>
+    </message>
 </context>
 <context>
     <name>RecordingControls</name>
@@ -9658,16 +9658,16 @@ dall’alto</translation>
         <translation>{n} anni</translation>
     </message>
     <message>
-        <source>Records past r&amp;etention…</source>
-        <translation>Conservazione scadu&amp;ta…</translation>
-    </message>
-    <message>
         <source>&amp;Archive…</source>
         <translation>&amp;Archivio…</translation>
     </message>
     <message>
         <source>&amp;Log…</source>
         <translation>Re&amp;gistro…</translation>
+    </message>
+    <message>
+        <source>Past r&amp;etention period…</source>
+        <translation>Scaden&amp;ze…</translation>
     </message>
 </context>
 <context>
@@ -9763,10 +9763,6 @@ dall’alto</translation>
         <translation>Scrivere parte di una frase</translation>
     </message>
     <message>
-        <source>These placeholders take the session’s values: {places}</source>
-        <translation>Questi segnaposto vengono sostituiti dai valori della seduta: {places}</translation>
-    </message>
-    <message>
         <source>Insert</source>
         <translation>Inserisci</translation>
     </message>
@@ -9783,12 +9779,16 @@ dall’alto</translation>
         <translation>Parti della relazione</translation>
     </message>
     <message>
-        <source>Warnings, method and the legal sentence always stay.</source>
-        <translation>Avvisi, metodo e avvertenza legale restano sempre.</translation>
-    </message>
-    <message>
         <source>Use these parts for all reports</source>
         <translation>Usa queste parti per tutte le relazioni</translation>
+    </message>
+    <message>
+        <source>Placeholders for the session’s values: {places}</source>
+        <translation>Questi segnaposto prendono i valori della seduta: {places}</translation>
+    </message>
+    <message>
+        <source>Warnings, method and the legal notice are always printed.</source>
+        <translation>Avvisi, metodo e nota legale si stampano sempre.</translation>
     </message>
 </context>
 <context>
@@ -9842,10 +9842,6 @@ dall’alto</translation>
         <translation>Non ancora salvata</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. Contains the patient’s real name: store it securely.</source>
-        <translation>{pages}, leggibile anche in grigio. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
-    </message>
-    <message>
         <source>Save report</source>
         <translation>Salva la relazione</translation>
     </message>
@@ -9858,12 +9854,16 @@ dall’alto</translation>
         <translation>Salvata</translation>
     </message>
     <message>
-        <source>{pages}, readable in grey. Contains the pseudonym, not the real name.</source>
-        <translation>{pages}, leggibile anche in grigio. Contiene lo pseudonimo, non il nome vero.</translation>
-    </message>
-    <message>
         <source>Send to practice system</source>
         <translation>Invia al gestionale</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in black and white. Contains the patient’s real name: store it securely.</source>
+        <translation>{pages}, leggibile in grigio. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
+    </message>
+    <message>
+        <source>{pages}, readable in black and white. Contains the pseudonym, not the real name.</source>
+        <translation>{pages}, leggibile anche in grigio. Contiene lo pseudonimo, non il nome vero.</translation>
     </message>
 </context>
 <context>
@@ -9900,10 +9900,6 @@ dall’alto</translation>
         <translation>Rianalisi: {percent} %</translation>
     </message>
     <message>
-        <source>You can continue working. The old result stays until you choose the new one. Stop keeps the old result.</source>
-        <translation>Si può continuare a lavorare. Il vecchio risultato resta finché non si sceglie il nuovo. “Interrompi” mantiene il vecchio.</translation>
-    </message>
-    <message>
         <source>Continue working</source>
         <translation>Continua a lavorare</translation>
     </message>
@@ -9918,6 +9914,10 @@ dall’alto</translation>
     <message>
         <source>Use the new result?</source>
         <translation>Usare il nuovo risultato?</translation>
+    </message>
+    <message>
+        <source>You can continue working. The old result stays until you choose the new one. “Stop” keeps the old result.</source>
+        <translation>Si può continuare a lavorare. Il vecchio risultato resta finché non si sceglie il nuovo. Interrompi mantiene il vecchio.</translation>
     </message>
 </context>
 <context>
@@ -10008,14 +10008,6 @@ dall’alto</translation>
         <translation>Da ora si usa questo risultato.</translation>
     </message>
     <message>
-        <source>The others stay as they were.</source>
-        <translation>Gli altri restano com’erano.</translation>
-    </message>
-    <message>
-        <source>It was saved again as the newest.</source>
-        <translation>È stato salvato di nuovo come il più recente.</translation>
-    </message>
-    <message>
         <source>Continue</source>
         <translation>Continua</translation>
     </message>
@@ -10024,7 +10016,15 @@ dall’alto</translation>
         <translation>Salva l’immagine</translation>
     </message>
     <message>
-        <source>no frame of it was saved</source>
+        <source>The other results were not changed.</source>
+        <translation>Gli altri restano com’erano.</translation>
+    </message>
+    <message>
+        <source>It was saved again as the newest result.</source>
+        <translation>È stato salvato di nuovo come il più recente.</translation>
+    </message>
+    <message>
+        <source>no frame of this session was saved</source>
         <translation>non è stato salvato alcun fotogramma</translation>
     </message>
 </context>
@@ -10055,10 +10055,6 @@ dall’alto</translation>
         <translation>Qui non misurato</translation>
     </message>
     <message>
-        <source>Towards the camera: measured, not drawn</source>
-        <translation>Verso la telecamera: misurato, non disegnato</translation>
-    </message>
-    <message>
         <source>Repetition {number} of {count} · {time}</source>
         <translation>Ripetizione {number} di {count} · {time}</translation>
     </message>
@@ -10069,6 +10065,10 @@ dall’alto</translation>
     <message>
         <source>Image of the hand alone (F)</source>
         <translation>Immagine della sola mano (F)</translation>
+    </message>
+    <message>
+        <source>Moves towards the camera: not drawn</source>
+        <translation>Verso la telecamera: misurato, non disegnato</translation>
     </message>
 </context>
 <context>
@@ -10126,10 +10126,6 @@ dall’alto</translation>
         <translation>Apri nella revisione</translation>
     </message>
     <message>
-        <source>Compare in &amp;progress</source>
-        <translation>Confronta nell’&amp;andamento</translation>
-    </message>
-    <message>
         <source>&amp;Move to another patient…</source>
         <translation>Sposta a un altro &amp;paziente…</translation>
     </message>
@@ -10158,10 +10154,6 @@ dall’alto</translation>
         <translation>Es&amp;cludi…</translation>
     </message>
     <message>
-        <source>It will move from {name}’s progress to the other patient’s.</source>
-        <translation>Passa dall’andamento di {name} a quello dell’altro paziente.</translation>
-    </message>
-    <message>
         <source>Which patient does this session belong to?</source>
         <translation>A quale paziente appartiene questa seduta?</translation>
     </message>
@@ -10178,24 +10170,32 @@ dall’alto</translation>
         <translation>Cambia l’esercizio</translation>
     </message>
     <message>
-        <source>Tick two to compare them</source>
-        <translation>Selezionarne due da confrontare</translation>
-    </message>
-    <message>
-        <source>Tick one more to compare</source>
-        <translation>Selezionarne un’altra</translation>
-    </message>
-    <message>
-        <source>Compare the 2 ticked</source>
-        <translation>Confronta le 2 selezionate</translation>
-    </message>
-    <message>
         <source>Which exercise was it?</source>
         <translation>Quale esercizio era?</translation>
     </message>
     <message>
         <source>In the archi&amp;ve: {n}</source>
         <translation>Nell’archi&amp;vio: {n}</translation>
+    </message>
+    <message>
+        <source>Show &amp;progress</source>
+        <translation>Mostra l’&amp;andamento</translation>
+    </message>
+    <message>
+        <source>The session will move from {name}’s progress to the other patient’s.</source>
+        <translation>Passa dall’andamento di {name} a quello dell’altro paziente.</translation>
+    </message>
+    <message>
+        <source>Tick two sessions to compare</source>
+        <translation>Selezionarne due da confrontare</translation>
+    </message>
+    <message>
+        <source>Tick one more session to compare</source>
+        <translation>Selezionarne un’altra</translation>
+    </message>
+    <message>
+        <source>Compare the 2 ticked sessions</source>
+        <translation>Confronta le 2 selezionate</translation>
     </message>
 </context>
 <context>
@@ -10295,14 +10295,6 @@ dall’alto</translation>
         <translation>Avvio a mani libere: usare un pedale o un telecomando per presentazioni (Pag giù). L’avvio automatico è preceduto da un conto alla rovescia. La barra spaziatrice lo annulla.</translation>
     </message>
     <message>
-        <source>A second screen or window shows the patient what to do. Open it while measuring. Choose with the exercise whether it addresses a child or an adult.</source>
-        <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misurazione. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
-    </message>
-    <message>
-        <source>As in the papers: deviation first</source>
-        <translation>Come negli articoli: prima la deviazione</translation>
-    </message>
-    <message>
         <source>Calculate from test–retest sessions…</source>
         <translation>Calcola da sedute di test e retest…</translation>
     </message>
@@ -10341,10 +10333,6 @@ dall’alto</translation>
     <message>
         <source>Appearance</source>
         <translation>Aspetto</translation>
-    </message>
-    <message>
-        <source>Demo: settings apply until it is closed.</source>
-        <translation>Demo: le impostazioni valgono solo fino alla chiusura.</translation>
     </message>
     <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
@@ -10399,16 +10387,8 @@ dall’alto</translation>
         <translation>Lingua</translation>
     </message>
     <message>
-        <source>Shows path and axes, speeds, the movement page in reports, all export formats, angle order and streaming. It changes no values.</source>
-        <translation>Mostra percorso e assi, velocità, la pagina del movimento nelle relazioni, tutti i formati di esportazione, ordine degli angoli e streaming. I valori non cambiano.</translation>
-    </message>
-    <message>
         <source>Angle order</source>
         <translation>Ordine degli angoli</translation>
-    </message>
-    <message>
-        <source>Order of the wrist angles in review, progress and reports. Session files keep the order of the papers. Sessions with different orders are not compared.</source>
-        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono quello degli articoli. Sedute con ordini diversi non si confrontano.</translation>
     </message>
     <message>
         <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>
@@ -10474,6 +10454,26 @@ dall’alto</translation>
         <source>Reading the sessions…</source>
         <translation>Lettura delle sedute…</translation>
     </message>
+    <message>
+        <source>A second screen or window shows the patient what to do. Open it while measuring. For each exercise, choose whether it speaks to a child or an adult.</source>
+        <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misura. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
+    </message>
+    <message>
+        <source>As published: deviation first</source>
+        <translation>Come negli articoli: prima la deviazione</translation>
+    </message>
+    <message>
+        <source>In the demo, settings apply until it is closed.</source>
+        <translation>Demo: le impostazioni valgono fino alla chiusura.</translation>
+    </message>
+    <message>
+        <source>Shows path and axes, speeds, the motion page in reports, all export formats, angle order and streaming. Values do not change.</source>
+        <translation>Mostra percorso e assi, velocità, la pagina del movimento nelle relazioni, tutti i formati di esportazione, ordine degli angoli e streaming. I valori non cambiano.</translation>
+    </message>
+    <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
+        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono quello degli articoli. Sedute con ordini diversi non si confrontano.</translation>
+    </message>
 </context>
 <context>
     <name>StartAngleDialog</name>
@@ -10509,8 +10509,8 @@ dall’alto</translation>
         <translation>Fare clic su un dito che non si estende del tutto (tasti da 1 a 5).</translation>
     </message>
     <message>
-        <source>A bent finger is measured from its own resting position, with less certainty.</source>
-        <translation>Un dito piegato si misura dalla sua posizione di riposo, con minore certezza.</translation>
+        <source>A bent finger is measured from its own resting position, which is less accurate.</source>
+        <translation>Un dito piegato si misura dalla sua posizione di riposo, con meno sicurezza.</translation>
     </message>
 </context>
 <context>
@@ -10561,10 +10561,6 @@ dall’alto</translation>
         <translation>Impostazioni (Ctrl+,)</translation>
     </message>
     <message>
-        <source>After the recording</source>
-        <translation>Dopo la registrazione</translation>
-    </message>
-    <message>
         <source>Hide names (Ctrl+D)</source>
         <translation>Nascondi i nomi (Ctrl+D)</translation>
     </message>
@@ -10583,6 +10579,10 @@ dall’alto</translation>
     <message>
         <source>Show names (Ctrl+D)</source>
         <translation>Mostra i nomi (Ctrl+D)</translation>
+    </message>
+    <message>
+        <source>Available after the recording</source>
+        <translation>Dopo la registrazione</translation>
     </message>
 </context>
 <context>
@@ -10648,10 +10648,6 @@ dall’alto</translation>
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>New result: choose</source>
-        <translation>Nuovo risultato: scegliere</translation>
-    </message>
-    <message>
         <source>{count} new results: choose</source>
         <translation>{count} nuovi risultati: scegliere</translation>
     </message>
@@ -10666,14 +10662,6 @@ dall’alto</translation>
     <message>
         <source>{count} fps (below {least})</source>
         <translation>{count} fps (sotto {least})</translation>
-    </message>
-    <message>
-        <source>{time} of disk left</source>
-        <translation>spazio per {time}</translation>
-    </message>
-    <message>
-        <source>Simulated hand: not {name}, excluded from analysis.</source>
-        <translation>Mano simulata: non è di {name}, esclusa dall’analisi.</translation>
     </message>
     <message>
         <source>This session is excluded from analysis.</source>
@@ -10692,12 +10680,24 @@ dall’alto</translation>
         <translation>Vecchio e nuovo sovrapposti</translation>
     </message>
     <message>
-        <source>{words}, {lost} dropped</source>
-        <translation>{words}, {lost} persi</translation>
-    </message>
-    <message>
         <source>The clinic’s server does not answer. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
         <translation>Il server del centro non risponde. Fino ad allora pazienti e sedute non si possono mostrare né modificare. Si può continuare a misurare.</translation>
+    </message>
+    <message>
+        <source>New result: choose one</source>
+        <translation>Nuovo risultato: scegliere</translation>
+    </message>
+    <message>
+        <source>Space for {time}</source>
+        <translation>spazio per {time}</translation>
+    </message>
+    <message>
+        <source>This is a simulated hand, not {name}. It is excluded from analysis.</source>
+        <translation>Mano simulata: non è di {name}, esclusa dall’analisi.</translation>
+    </message>
+    <message>
+        <source>{words}, {lost} frames dropped</source>
+        <translation>{words}, {lost} persi</translation>
     </message>
 </context>
 <context>
@@ -10885,12 +10885,12 @@ dall’alto</translation>
         <translation>Misura “{name}”</translation>
     </message>
     <message>
-        <source>Measure without the list</source>
-        <translation>Misura senza l’elenco</translation>
-    </message>
-    <message>
         <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
         <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
+    </message>
+    <message>
+        <source>Measure without the patient list</source>
+        <translation>Misura senza l’elenco</translation>
     </message>
 </context>
 </TS>

@@ -42,7 +42,7 @@ def test_side_by_side_opens_from_two_ticks_and_returns(qtbot: QtBot, desktop: De
     qtbot.keyClick(shown_list, Qt.Key.Key_Space)
     qtbot.keyClick(shown_list, Qt.Key.Key_Down)
     qtbot.keyClick(shown_list, Qt.Key.Key_Space)
-    assert "Compare the 2 ticked" in journey.sessions.screen.pair_button.text()
+    assert "Compare the 2 ticked sessions" in journey.sessions.screen.pair_button.text()
     qtbot.keyClick(shown_list, Qt.Key.Key_C)
     assert journey.place == "comparison"
     qtbot.waitUntil(lambda: screen.comparison is not None)

@@ -123,7 +123,7 @@ def test_repetition_excluded_in_review_is_excluded_everywhere(tmp_path: Path, co
         save_choices(house.store, header.session_id, RepetitionChoices({0: "pain", 1: "pain"}), 0)
     assert command("report", path, "--output", tmp_path / "day.pdf").code == 0
     left = whole["arc"] - 2
-    assert f"mean of {left} repetitions; number 1 excluded: pain" in words(tmp_path / "day.pdf")
+    assert f"mean of {left} repetitions; repetition 1 excluded: pain" in words(tmp_path / "day.pdf")
     assert {row.measure: row.count for row in python_api.open_session(path).measures()}["arc"] == left
     export = ("export", path, "--format", "json")
     assert command(*export, "--output", tmp_path / "out").code == 0

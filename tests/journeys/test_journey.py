@@ -129,7 +129,7 @@ def test_whole_journey_by_mouse(
     assert journey.markers.screen.guidance.verdict_panel.states()[0] == "good"
     click(qtbot, journey.markers.screen.primary_button)
     at(qtbot, desktop.controller, "live")
-    assert desktop.shell.banner.text == f"Simulated hand: not {name}, excluded from analysis."
+    assert desktop.shell.banner.text == f"This is a simulated hand, not {name}. It is excluded from analysis."
     live = journey.live.screen
     wait(qtbot, lambda: not live.recording.is_hand_resting())
     can_move, live.recording.is_hand_resting = live.recording.is_hand_resting, lambda: True

@@ -31,7 +31,7 @@ class FakeStoredSessions(SessionStore):
         number = int(line.entry.session_id[1:])
         if number == 4:
             return replace(line, is_damaged=True)
-        words = entered("mean of 9 repetitions; number 7 excluded: pain")
+        words = entered("mean of 9 repetitions; repetition 7 excluded: pain")
         return replace(
             line,
             main_value=f"{entered('Flexion')} {57 - 3 * number}° ± 2°",

@@ -430,9 +430,9 @@ ENTERED = {
         "10 repetitions": "10 Wiederholungen", "Flexion": "Flexion", "pain": "Schmerz",
         "markers lost": "Marker verloren",
         "Repetition 7 stopped for pain.": "Wiederholung 7 wegen Schmerz abgebrochen.",
-        "mean of 9 repetitions; number 7 excluded: pain":
+        "mean of 9 repetitions; repetition 7 excluded: pain":
             "Mittel aus 9 Wiederholungen; Nummer 7 ausgeschlossen: Schmerz",
-        "13 Nov": "13. Nov.", "Saved 11:37": "Gespeichert 11:37", "212 min of disk left": "Platz für 212 min",
+        "13 Nov": "13. Nov.", "Saved 11:37": "Gespeichert 11:37", "Space for 212 min": "Platz für 212 min",
     },
     "it": {
         "Flexor tendon repair": "Sutura dei flessori", "Wrist sprain": "Distorsione del polso",
@@ -443,8 +443,8 @@ ENTERED = {
             "Senza tutore da lunedì. Avambraccio fissato, cuneo di 10 cm.",
         "10 repetitions": "10 ripetizioni", "Flexion": "Flessione", "pain": "dolore", "markers lost": "marcatori persi",
         "Repetition 7 stopped for pain.": "Ripetizione 7 interrotta per dolore.",
-        "mean of 9 repetitions; number 7 excluded: pain": "media di 9 ripetizioni; numero 7 esclusa: dolore",
-        "13 Nov": "13 nov", "Saved 11:37": "Salvata 11:37", "212 min of disk left": "spazio per 212 min",
+        "mean of 9 repetitions; repetition 7 excluded: pain": "media di 9 ripetizioni; numero 7 esclusa: dolore",
+        "13 Nov": "13 nov", "Saved 11:37": "Salvata 11:37", "Space for 212 min": "spazio per 212 min",
     },
 }  # fmt: skip
 """What a person entered, and what flows say elsewhere, by the window's language."""

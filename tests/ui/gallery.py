@@ -413,7 +413,7 @@ class Gallery(GalleryWindow):
         for _ in range(2 * 20):
             screen.draw()
         bar = self.shell.top_bar
-        bar.disk.show_state("none", entered("212 min of disk left"), icon="hard-drive")
+        bar.disk.show_state("none", entered("Space for 212 min"), icon="hard-drive")
         bar.recording_pill.show_state("recording", 84.0)
         bar.show_recording(True)
         self.settle()
@@ -550,7 +550,7 @@ class Gallery(GalleryWindow):
     def correct_results(self) -> None:
         self.review()
         self.place(tab=1, camera=entered(SAVED))
-        self.shell.top_bar.reanalysis_button.show_text("New result: choose", "Choose")
+        self.shell.top_bar.reanalysis_button.show_text("New result: choose one", "Choose")
         sheet = self.sheet(ResultsDialog)
         words = difference_words(
             ResultDifference(1240, 212, 0.3, 39.2, 3, "flexion", ("MCP3",), is_live=True), ("MCP3",)
@@ -691,7 +691,7 @@ class Gallery(GalleryWindow):
 
     pin_change = _under("patients", PinDialog, PinDialog.request_pin, is_set=True)
     records_due = _under(
-        "patients", RecordsDialog, RecordsDialog.show_records, "Records past retention",
+        "patients", RecordsDialog, RecordsDialog.show_records, "Records past their retention period",
         "The last session was more than 10 years ago. Nothing is deleted automatically.",
         [ListedRecord(name, name, KEPT, name[0] < "G") for name in ("Linden 42", "Heron 17", "Fir 12")],
     )  # fmt: skip

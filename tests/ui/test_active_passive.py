@@ -127,7 +127,7 @@ def test_passive_repetition_that_was_hidden_says_that() -> None:
     number = next(number for number, one in enumerate(figures.repetitions) if one.is_passive)
     shown = list(figures.repetitions)
     shown[number] = replace(shown[number], unmeasured_reason="hidden")
-    assert f"number {number + 1} excluded: not visible enough" in repetition_words(
+    assert f"repetition {number + 1} excluded: not visible enough" in repetition_words(
         replace(figures, repetitions=tuple(shown))
     )
 

@@ -124,7 +124,7 @@ def test_manual_form_invalid_value_is_refused_and_unusual_one_confirmed(
     assert screen.save_button.isEnabled()
     with qtbot.waitSignal(screen.save_requested) as caught:
         screen.save_button.click()
-    assert "170°?" in caught.args[1][0]
+    assert "170° is unusual" in caught.args[1][0]
     screen.measure_choice.setCurrentIndex(screen.measure_choice.findData("TIP_PINCH"))
     screen.measure_choice.activated.emit(screen.measure_choice.currentIndex())
     assert active.value() == 170.0, "what is written stays when a row is added"
@@ -283,7 +283,7 @@ def test_manual_values_in_reports_and_tables_are_marked_as_manual(tmp_path: Path
     values = hand_values()
     report = build_session_report(store.session("session-7"), history=store.history("linden"), manual_values=values)
     said = words_of(write_session_report(report, tmp_path / "session.pdf"))
-    assert "Manual measurements, not made by Carpus" in said
+    assert "Measured manually, not by Carpus" in said
     assert "Wrist, flexion 47° active, 58° passive" in " ".join(said.split())
     assert "17.6" not in said, "of another day"
     mine = [one for one in current_values(values) if one.side in ("right", "")]

@@ -49,9 +49,9 @@ def test_comparison_headline_of_two_hands_names_the_hand_that_moves_less(
     assert words["Total arc"] == "23° less, beyond MDC (14°)"
     assert words["Extension"].endswith("beyond MDC (10°)")
     assert facts_words(both).startswith(
-        "Right: mean of 8 repetitions; number 7 excluded: pain; "
-        "number 10 excluded: cut off at the end of the recording; "
-        "Left: mean of 9 repetitions; number 10 excluded: cut off at the end of the recording. MDC"
+        "Right: mean of 8 repetitions; repetition 7 excluded: pain; "
+        "repetition 10 excluded: cut off at the end of the recording; "
+        "Left: mean of 9 repetitions; repetition 10 excluded: cut off at the end of the recording. Until the clinic"
     )
 
 
@@ -70,7 +70,7 @@ def test_comparison_not_comparable_states_the_reason_once_and_no_assessment(
     right: SessionResults, left: SessionResults
 ) -> None:
     both = compare_pair(right, replace(left, quality=replace(left.quality, distance_m=0.95)))
-    assert headline(both) == ("Shown side by side, without a comparison.", "")
+    assert headline(both) == ("The sessions are shown side by side, but not compared.", "")
     assert "the camera was at another distance" in warning_words(both)
     rows = lines_of(both)
     assert not any(one.is_beyond_error for one in both.ranges)

@@ -65,8 +65,7 @@ def test_delete_dialog_delete_button_needs_the_pseudonym_and_ignores_enter(
 def test_delete_dialog_states_what_is_deleted_kept_and_too_early(dialog: DeleteDialog) -> None:
     assert "38 MB, files: 4" in dialog.deleted_text.text()
     assert (
-        "Delete yourself: reports and exports saved elsewhere (1): /home/clinic/Reports/L.pdf"
-        in dialog.kept_text.text()
+        "Delete reports and exports saved elsewhere yourself (1): /home/clinic/Reports/L.pdf" in dialog.kept_text.text()
     )
     assert "The patient’s other sessions." in dialog.kept_text.text()
     assert "15 Nov" in dialog.kept_text.text()

@@ -172,7 +172,7 @@ def test_footnote_names_sd_that_is_printed() -> None:
     [
         ("nothing_seen", "the exercised joint was not visible"), ("too_short", "too short"),
         ("small_range", "less than 10° of movement"), ("no_return", "no complete movement cycle"),
-        ("too_quick", "each was shorter than 0.4 s"),
+        ("too_quick", "each movement was shorter than 0.4 s"),
     ],
 )  # fmt: skip
 def test_report_states_why_no_repetition_counted(uncounted: NoRepetitionReason, words: str) -> None:

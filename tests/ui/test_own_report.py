@@ -281,7 +281,7 @@ def test_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -
     print_pages(printer, pages)
     assert pages_of(tmp_path / "p.pdf") == 2
     assert reach_of(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
-    assert "as measured live" in words_of(tmp_path / "p.pdf")
+    assert "live values, not smoothed" in words_of(tmp_path / "p.pdf")
 
 
 def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured() -> None:

@@ -55,7 +55,7 @@ def test_values_on_page_are_those_of_session(report: Path) -> None:
     figures = figures_once(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
     for row in figures.wrist_ranges:
         assert f"{row.mean:.0f}° ± {max(1, round(row.sd))}°" in words
-    assert "mean of 8 repetitions; number 7 excluded: pain" in words
+    assert "mean of 8 repetitions; repetition 7 excluded: pain" in words
     assert "within MDC (14°)" in words
     assert "Linden 42" in words
     assert "20 Nov 2026, 11:36" in words
@@ -74,7 +74,7 @@ def test_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) -> N
     assert "ab12" not in foot, "digests are on the page for research"
     assert "revision 0123456" in research
     assert "recording ab12…cd34" in research
-    assert "as measured live" in foot, "the end of the line is on the page"
+    assert "live values, not smoothed" in foot, "the end of the line is on the page"
     (*_, end) = re.findall(r'xMax="([\d.]+)"[^>]*>live</word>', tool("pdftotext", "-bbox", "-l", "1", str(path), "-"))
     assert float(end) <= 595.0 - 42.0, "nothing leaves the margin on the right"
 
@@ -123,7 +123,7 @@ def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_noth
 def test_session_without_any_tracked_frame_still_gives_honest_page(tmp_path: Path) -> None:
     path = write_session_report(session(seconds=10.0, lost=[(0.0, 99.0)]), tmp_path / "x.pdf")
     words = words_of(path)
-    assert "No range could be measured." in words
+    assert "No range of motion could be measured." in words
     assert "0.0 % of" in words
     assert "of an angle is about" not in words, "nothing is known"
 

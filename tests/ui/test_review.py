@@ -78,7 +78,7 @@ def test_repetition_is_excluded_with_reason_stored_and_taken_back(
     screen.exclusion_dialog.reason_buttons[0].click()
     qtbot.waitUntil(lambda: "session-7" in store.kept)
     assert store.kept["session-7"].excluded == {3: "pain"}
-    assert "number 4 excluded: pain" in screen.card.count_text.text()
+    assert "repetition 4 excluded: pain" in screen.card.count_text.text()
     assert "mean of 8 repetitions" in screen.card.count_text.text()
     screen.select_repetition(3)
     qtbot.keyClick(screen, Qt.Key.Key_X)

@@ -166,10 +166,14 @@ def _limit_label() -> str:
 
 def _axis_caption(plot: AgreementPlot) -> str:
     if plot.view == "curves":
-        return tr("seconds after the first frame") if plot.is_time_series else tr("number of the reading")
+        return tr("seconds after the first frame") if plot.is_time_series else tr("reading number")
     if plot.is_time_series:
-        return tr("mean of both · one point every 0.2 s, {count} points").format(count=len(plot.point_rows))
-    return tr("mean of both · one point per reading, {count} readings").format(count=len(plot.point_rows))
+        return tr("mean of Carpus and reference · one point every 0.2 s, {count} points").format(
+            count=len(plot.point_rows)
+        )
+    return tr("mean of Carpus and reference · one point per reading, {count} readings").format(
+        count=len(plot.point_rows)
+    )
 
 
 def _tick_step(span: float) -> float:

@@ -207,9 +207,9 @@ class FingerCurves(Chart):
         wide_px = words.metrics.horizontalAdvance
         beside = numbers.format_sd(sd)
         if inferred and beside:
-            beside = self.tr("coupled to the PIP")
+            beside = self.tr("inferred from PIP")
             if wide_px(beside) > cell.right() - left:
-                beside = self.tr("coupled")
+                beside = self.tr("inferred")
         if name := angle_suffix(angle, value):
             both = f"{beside} {name}"
             # What an angle is goes before how sure it is.

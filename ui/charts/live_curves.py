@@ -77,7 +77,7 @@ class LiveCurves(Chart):
         self._values = []
         if self._is_showing_speeds:
             speeds = np.full(2, math.nan) if self._history.is_waiting else self._history.speeds
-            units = ((self.tr("Moving"), f"{numbers.NARROW_GAP}mm/s"), (self.tr("Turning"), "°/s"))
+            units = ((self.tr("Speed"), f"{numbers.NARROW_GAP}mm/s"), (self.tr("Rotation"), "°/s"))
             for speed, (name, unit) in zip(speeds.tolist(), units, strict=True):
                 words = f"{round_half_away(speed)}{unit}" if math.isfinite(speed) else numbers.UNKNOWN
                 self._values.append((name, words, ""))

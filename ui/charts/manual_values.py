@@ -98,7 +98,7 @@ class ManualValueChart(Chart):
     ) -> None:
         """Show manual values of all modes, and ``carpus_values`` (time, value) of the same quantity."""
         self.measure, self._values, self._carpus_values = measure, values, carpus_values
-        self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
+        self.setAccessibleName(self.tr("{name} over time").format(name=measure_name(measure)))
         self.refresh()
 
     def build(self) -> None:

@@ -127,6 +127,6 @@ def zyz_words(plots: Sequence[MotionCurves]) -> str:
     every = np.concatenate(known) if known else np.zeros(0, dtype=bool)
     share = f"{format_rounded(100.0 * float(every.mean()))}{numbers.NARROW_GAP}%" if len(every) else numbers.UNKNOWN
     return tr(
-        "α and γ are given where their sd stays below 30° ({share} of the time): near the neutral pose only β and "
-        "α + γ are known."
+        "α and γ are shown only where their SD is below 30° ({share} of the time). Near the neutral position, only β "
+        "and α + γ can be measured."
     ).format(share=share)

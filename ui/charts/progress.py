@@ -242,7 +242,7 @@ def error_bar_top(row: Measure) -> float:
 
 def legend_entries(progress: Progress) -> list[tuple[str, str, str]]:
     """Return symbol, text and colour of each legend entry."""
-    out = [("O", tr("mean, ± sd between repetitions"), "text"), ("o", tr("not compared"), "text2")]
+    out = [("O", tr("mean ± SD of the repetitions"), "text"), ("o", tr("not compared"), "text2")]
     out += [("t1", tr("≥: partly occluded"), "text2")] if progress.keys else []
     if any(select_manual_values(progress, key) for key in panel_keys(progress)):
         out.append(("s", tr("manual, active"), "text"))
@@ -466,7 +466,7 @@ class ProgressChart(ZoomChart):
         if sentence := correction_words(results):
             lines.append(sentence)
         lines += [f"“{text}”" for _, text in results.notes[:1]]
-        lines.append(self.tr("Click opens the session"))
+        lines.append(self.tr("Click to open the session"))
         return [line if len(line) <= MAX_LINE_LENGTH else f"{line[: MAX_LINE_LENGTH - 1].rstrip()}…" for line in lines]
 
     def _set_current_point(self, found: tuple[int, MeasureKey] | None) -> None:

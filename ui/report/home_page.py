@@ -155,11 +155,11 @@ def home_progress_words(progress: HomeProgress) -> str:
 def _head(home: HomeReport, number: str) -> QLayout:
     patient = f"{home.pseudonym}, {to_mid_sentence(terms.hand_name(home.side))}"
     day = numbers.format_long_date(home.day)
-    return page_head(day, number, tr("Your hand at home"), patient, home.printed_patient)
+    return page_head(day, number, tr("Hand exercises at home"), patient, home.printed_patient)
 
 
 def _page(home: HomeReport) -> QVBoxLayout:
-    tick = label(tr("Tick a box when all rounds of the day are done."), 8.5, REGULAR, "text2")
+    tick = label(tr("Tick the box of the day when you have done all its exercises."), 8.5, REGULAR, "text2")
     parts: list[Part] = [_task(home, task, place) for place, task in enumerate(home.tasks, 1)]
     parts.append((tick, 0, Qt.AlignmentFlag.AlignRight))
     if home.progress is not None:
@@ -174,7 +174,7 @@ def _page(home: HomeReport) -> QVBoxLayout:
 def _task(home: HomeReport, task: HomeTask, number: int) -> QLayout:
     words = translate_phrase(task.exercise.instruction)
     if task.exercise.angle == PRONOSUPINATION:  # at home nobody looks for markers
-        words = tr("Turn the palm up, then down. The elbow stays at your side.")
+        words = tr("Turn your palm up, then down. Keep your elbow at your side.")
     times = tr("once") if task.times == 1 else tr("{count} times").format(count=task.times)
     rounds = tr("once a day") if task.rounds == 1 else tr("{count} times a day").format(count=task.rounds)
     named = line(
@@ -233,7 +233,7 @@ def _appointment_box(home: HomeReport) -> QLayout:
         ]
     card = RoundedBox(*again, STRETCH, fill="soft")
     card.setFixedWidth(PAPER.px(PICTURE_PT))
-    notes = column(paragraph(tr("Notes, or what to ask next time"), 9.5, MEDIUM), gap=3.0)
+    notes = column(paragraph(tr("Notes and questions for your next appointment"), 9.5, MEDIUM), gap=3.0)
     if home.note:
         notes.addWidget(paragraph(home.note, 9.5))
     notes.addWidget(PaintedPart(_paint_lines, 57.0), 1)

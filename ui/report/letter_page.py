@@ -119,7 +119,7 @@ def _parts(letter: LetterReport, omitted: int) -> QVBoxLayout:
 def _result_table(report: SessionReport, *, has_comparison: bool) -> Item:
     rows = letter_rows(report)
     if not rows:
-        return paragraph(tr("No range could be measured."), SIZE_PT)
+        return paragraph(tr("No range of motion could be measured."), SIZE_PT)
     heads = ["", mean_head(tr("Today"), report.results.measures_in_group("range")), "", ""]
     if has_comparison and report.other_hand is not None:
         heads[2] = terms.hand_name(report.other_hand.side)

@@ -36,7 +36,9 @@ def motion_page(
         words = ";  ".join(f"{name}: {value}" for name, value in lines)
         parts.append(paragraph(words, 8.5))
     height = 118.0 if is_hand else 165.0
-    parts += _path_section(tr("Path of the wrist"), wrist_path(motion), height, tr("with the hand’s axes along it"))
+    parts += _path_section(
+        tr("Path of the wrist"), wrist_path(motion), height, tr("with the axes of the hand along the path")
+    )
     if is_hand:
         words = tr("joint centres; dashed: marker occluded")
         parts += _path_section(tr("Fingertip paths"), finger_paths(motion, 0), height, words)
@@ -50,7 +52,7 @@ def motion_page(
         return [section_title(heading, aside), session_chart_part(plot, least, 1.2 * least)]
 
     parts += curves_part("place", tr("Position, speed, rotation"), axes, 1.0)
-    parts += curves_part("zyz", tr("ZYZ angles"), tr("band: ± 1 sd; black: α + γ, with γ"), 0.75)
+    parts += curves_part("zyz", tr("ZYZ angles"), tr("band: ± 1 SD; black: α + γ"), 0.75)
     below = [paragraph(words, 8.0, token="text2") for words in (zyz_words([motion]), origin) if words]
     foot = column(*below, legal_line(), gap=3.0)
     return column(*parts, STRETCH, foot, gap=6.0)
@@ -66,7 +68,7 @@ def _task_measure_section(results: SessionResults, previous: SessionResults | No
         else ""
     )
     shown = table(columns, (), rows, size=8.5, pitch=1.5)
-    aside = tr("mean ± sd; at the right: {day}").format(day=day) if day else ""
+    aside = tr("mean ± SD; right column: {day}").format(day=day) if day else ""
     return [column(section_title(task_title(results), aside), shown, gap=2.0)]
 
 

@@ -127,9 +127,9 @@ def provenance_words(made_by: str, sessions: Sequence[SessionResults]) -> str:
     pattern = tr("1 session: {ids}") if len(sessions) == 1 else tr("{count} sessions: {ids}")
     return " · ".join(
         (
-            tr("Made by Carpus {version}").format(version=made_by),
+            tr("Made with Carpus {version}").format(version=made_by),
             pattern.format(count=len(sessions), ids=ids),
-            tr("measured by Carpus {versions}").format(versions=versions),
+            tr("measured with Carpus {versions}").format(versions=versions),
         )
     )
 

@@ -181,7 +181,7 @@ def _first_page(report: SessionReport) -> QVBoxLayout:
         )
     parts += [STRETCH, *_boxes(report)]
     if report.manual_values and form.includes("by_hand"):
-        words = tr("Manual measurements, not made by Carpus: {values}.").format(values=day_words(report.manual_values))
+        words = tr("Measured manually, not by Carpus: {values}.").format(values=day_words(report.manual_values))
         parts.append(paragraph(words, 8.5))
     if len(comment) > MAX_COMMENT_LINES:
         pages = math.ceil(len(comment) / LINES_ON_A_PAGE)
@@ -253,7 +253,7 @@ def _facts(report: SessionReport) -> list[Part]:
         *((words, SEMIBOLD, "warn") for words in warning_lines(results)),
     ]
     if corrected := correction_words(results):
-        is_kept = tr("Markers were corrected manually. The original result is kept.")
+        is_kept = tr("Marker labels were corrected manually. The original result is kept.")
         lines.append((f"{corrected} {is_kept}", MEDIUM, "text"))
     shown = [paragraph(words, 8.5, weight, token) for words, weight, token in lines if words]
     return [column(fact_row(pairs), *shown, gap=3.0), rule()]
@@ -294,7 +294,7 @@ def _active_passive(report: SessionReport) -> list[Part]:
 
 def _curves(report: SessionReport) -> list[Part]:
     results = report.results
-    aside = tr("grey: repetitions; band: ± 1 sd of the angle")
+    aside = tr("grey: repetitions; band: ± 1 SD of the angle")
     if any(math.isfinite(target) for target in results.targets_deg):
         aside += "; " + tr("dashed: goal")
     plot = SessionPlot(report.curves, results.exercise, results.repetitions, -1, *results.targets_deg)
@@ -332,8 +332,8 @@ def _foot(report: SessionReport) -> list[Part]:
     residual = results.quality.residual_mm
     parts = [tr("Session {id}").format(id=results.session_id[:8]), f"Carpus {results.software_version}"]
     if math.isfinite(residual):
-        parts.append(tr("calibrated to {size} mm").format(size=numbers.format_fixed(residual, 1)))
-    parts.append(tr("smoothed") if results.is_smoothed else tr("as measured live"))
+        parts.append(tr("marker positions within {size} mm").format(size=numbers.format_fixed(residual, 1)))
+    parts.append(tr("smoothed") if results.is_smoothed else tr("live values, not smoothed"))
     origin = paragraph(" · ".join(parts), 8.0, REGULAR, "text2")
     return [rule(), column(paragraph(how, 8.0, REGULAR, "text2"), legal_line(), origin, gap=3.0)]
 

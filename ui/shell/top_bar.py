@@ -185,7 +185,7 @@ class TopBar(Surface):
             (self.settings_button, self.tr("Settings (Ctrl+,)")),
         ):
             button.setEnabled(not is_locked)
-            button.setToolTip(self.tr("After the recording") if is_locked else words)
+            button.setToolTip(self.tr("Available after the recording") if is_locked else words)
 
 
 class NavigationButton(Button):

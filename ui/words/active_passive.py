@@ -46,11 +46,11 @@ def build_active_passive(results: SessionResults, manual_values: Sequence[Manual
     known = [column == 0 or any(row[column] for row in rows) for column in range(len(heads))]
     note = []
     if results.joint_ranges:
-        note.append(tr("Each joint at its largest flexion; ± is the SD between repetitions."))
+        note.append(tr("Largest flexion of each joint; ± is the SD between repetitions."))
     if any(LOWER_BOUND in cell for row in rows for cell in row):
         note.append(tr("{sign} = minimum: the end of this movement was occluded.").format(sign=LOWER_BOUND))
     if _has_manual_values(results, manual_values):
-        text = tr("{sign}: manual measurement of that day, active / passive; not combined with the other values.")
+        text = tr("{sign}: manual measurement of that day, active / passive. It is not combined with the other values.")
         note.append(text.format(sign=MANUAL_SIGN))
     shown = tuple(tuple(compress(row, known)) for row in rows if any(row[1:]))
     table = TableContent((TableColumn(),) * sum(known), tuple(compress(heads, known)), shown)

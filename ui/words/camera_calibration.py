@@ -34,19 +34,19 @@ def view_fault_words(lack: RejectReason) -> str:
     """Say what an image of the board lacks; empty if nothing."""
     return {
         "": "",
-        "dark": tr("More light: the image is too dark."),
-        "no_board": tr("Board not visible: show all of it, flat, in even light."),
-        "too_tilted": tr("Turn it less: it is nearly edge-on."),
+        "dark": tr("The image is too dark: add light."),
+        "no_board": tr("The board is not visible: show the whole board, flat, in even light."),
+        "too_tilted": tr("Tilt the board less: the camera sees it almost edge-on."),
         "moving": tr("Hold still."),
-        "blurred": tr("Not sharp: hold still, or give it more light."),
-        "known": tr("Image taken. Now another place."),
+        "blurred": tr("The image is blurred: hold the board still, or add light."),
+        "known": tr("Image taken. Move the board to another position."),
     }[lack]
 
 
 def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
     """Return state and text of places, tilts and distances."""
     missing = [side for side in TILT_SIDES if side not in judgement.sides]
-    places = tr("Places: {count} of {all} fields, {least} or more").format(
+    places = tr("Positions: {count} of {all} fields covered (at least {least} needed)").format(
         count=judgement.field_count, all=FIELDS[0] * FIELDS[1], least=MIN_FIELDS
     )
     tilts = (
@@ -74,7 +74,7 @@ def button_words(progress: BoardProgress | None) -> str:
     if left > 0:
         one = tr("Calculate · 1 more image") if left == 1 else tr("Calculate · {count} more images")
         return one.format(count=left)
-    return tr("Calculate · more places and tilts") if progress.judgement.missing_text else tr("Calculate")
+    return tr("Calculate · more positions and tilts") if progress.judgement.missing_text else tr("Calculate")
 
 
 def headline(calibration: CameraCalibration) -> tuple[str, str]:
@@ -89,7 +89,7 @@ def headline(calibration: CameraCalibration) -> tuple[str, str]:
     if calibration.depth is not None and not calibration.depth.is_registered:
         return (
             tr("Depth and colour are misaligned by {apart} px.").format(apart=_offset_px(calibration.depth)),
-            tr("Nothing was changed. Turn on depth registration in the camera: “carpus doctor” shows how."),
+            tr("Nothing was changed. Turn on depth registration in the camera settings."),
         )
     return (
         tr("The camera is calibrated. {depth}").format(depth=depth_words(calibration.depth)),
@@ -137,7 +137,7 @@ def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, s
         ),
     ]
     if depth is None:
-        return [*rows, ("warn", tr("Depth"), numbers.UNKNOWN, tr("too few images with depth on the board"))]
+        return [*rows, ("warn", tr("Depth"), numbers.UNKNOWN, tr("too few images with depth values of the board"))]
     scale = f"{numbers.format_signed(100 * (depth.scale - 1.0), 2)} ± {numbers.format_fixed(100 * depth.scale_sd, 2)} %"
     registered = tr("good: below {most} px").format(most=format_rounded(MAX_REGISTRATION_ERROR_PX))
     return [
@@ -145,9 +145,9 @@ def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, s
         ("good", tr("Depth scale"), scale, tr("corrected") if calibration.is_usable else ""),
         (
             "good" if depth.is_registered else "bad",
-            tr("Colour on depth"),
+            tr("Depth–colour alignment"),
             tr("{apart} px apart").format(apart=_offset_px(depth)),
-            registered if depth.is_registered else tr("registration is off"),
+            registered if depth.is_registered else tr("depth registration is off"),
         ),
     ]
 
@@ -158,10 +158,10 @@ def storage_words(result: BoardResult) -> str:
         return ""
     if not result.serial:
         return tr(
-            "This camera reports no serial number, so its calibration cannot be saved. “carpus calibrate-camera "
-            "--output” writes a camera file that the settings can name."
+            "This camera reports no serial number, so its calibration cannot be saved here. IT support can write it "
+            "to a camera file with “carpus calibrate-camera --output” and enter that file in the settings."
         )
-    words = tr("Saved for this camera, number {serial}. Earlier sessions keep their values.")
+    words = tr("Saved for the camera with serial number {serial}. Values of earlier sessions do not change.")
     return words.format(serial=result.serial)
 
 

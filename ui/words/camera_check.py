@@ -25,14 +25,14 @@ def check_words(status: CheckStatus) -> tuple[State, str]:
     day = numbers.format_date_time(datetime.fromisoformat(check.checked_at))
     words = tr("{verdict} Checked {day}.").format(verdict=translate_phrase(verdict_sentence(check.reading)), day=day)
     if status.is_recalibrated:
-        return "warn", f"{words} {tr('Check it again: it has been calibrated since.')}"
+        return "warn", f"{words} {tr('Check the camera again: it has been calibrated since the last check.')}"
     if status.is_out_of_tolerance:
         next_step = tr(
-            "Check once more, then calibrate the camera. If it is still out of tolerance, do not measure with it."
+            "Check the camera once more, then calibrate it. If it is still out of tolerance, do not measure with it."
         )
         return "bad", f"{words} {next_step}"
     if status.is_due:
-        return "warn", f"{words} {tr('Check it again: once a week.')}"
+        return "warn", f"{words} {tr('Check the camera again: a check is due once a week.')}"
     return "good", words
 
 

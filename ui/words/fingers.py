@@ -181,13 +181,13 @@ def total_words(results: SessionResults) -> list[str]:
     elif any(not row.count for row in totals):
         words.append(tr("It is missing for fingers whose joints were never all visible at once."))
     if any(row.is_inferred for row in totals):
-        words.append(tr("DIP not measured: TAM assumes two thirds of PIP."))
+        words.append(tr("DIP not measured: TAM uses two thirds of the PIP flexion."))
     norm = total_norm(2, results.exercise)
     if any(row.count for row in totals) and norm is not None:
         words.append(
             tr(
-                "Percentage of the other hand’s TAM, or of the reference value of 260° (thumb 140°) if that is not "
-                "known. ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor."
+                "Percentage of the other hand’s TAM or, if not known, of the reference value of 260° (thumb 140°). "
+                "ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor."
             )
         )
         words.append(translate_phrase(norm.sentence()))

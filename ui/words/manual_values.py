@@ -101,7 +101,9 @@ def entry_warning(measure: ManualMeasure, value: float) -> str:
     if entry_error(measure, value) or not is_unusual(measure, value):
         return ""
     low, high = (value_words(measure, end) for end in measure.usual_range)
-    return tr("{value}? Typical range: {low} to {high}").format(value=value_words(measure, value), low=low, high=high)
+    return tr("{value} is unusual. Typical range: {low} to {high}").format(
+        value=value_words(measure, value), low=low, high=high
+    )
 
 
 def history_words(values: Sequence[ManualValue], keys: Sequence[MeasureKey], day: date) -> str:

@@ -35,7 +35,7 @@ _UNCOUNTED: Mapping[NoRepetitionReason, Phrase] = {
     "small_range": phrase("less than 10° of movement"),
     "cut_by_gap": phrase("the hand left the camera’s view during the movement"),
     "no_return": phrase("no complete movement cycle"),
-    "too_quick": phrase("each was shorter than 0.4 s"),
+    "too_quick": phrase("each movement was shorter than 0.4 s"),
 }
 
 
@@ -103,7 +103,7 @@ def repetition_words(results: SessionResults) -> str:
         if not (repetition.is_counted or repetition.is_passive):
             text = "" if repetition.exclusion_reason == PASSIVE else repetition.exclusion_reason
             reason = text or translate_phrase(_UNMEASURED[repetition.unmeasured_reason])
-            parts.append(tr("number {number} excluded: {reason}").format(number=number, reason=reason))
+            parts.append(tr("repetition {number} excluded: {reason}").format(number=number, reason=reason))
     if results.exercise.has_repetitions and results.occluded_s >= 1.0:
         # Movements without a visible hand are not in the number of repetitions.
         parts.append(tr("{seconds} s occluded and not analysed").format(seconds=format_rounded(results.occluded_s)))
@@ -123,7 +123,7 @@ def mean_words(row: Measure) -> str:
 
 def mean_head(name: str, rows: Iterable[Measure]) -> str:
     """Return ``Today, mean ± sd`` over a column of means, the name alone over single values."""
-    return tr("{name}, mean ± sd").format(name=name) if any(has_sd(row) for row in rows) else name
+    return tr("{name}, mean ± SD").format(name=name) if any(has_sd(row) for row in rows) else name
 
 
 _SFTR_ENDS = (("F", "radial", "ulnar"), ("S", "extension", "flexion"), ("R", "supination", "pronation"))
@@ -205,7 +205,7 @@ def _line_of_range(
 def _line_of_still_angle(row: Measure, results: SessionResults, previous: SessionResults | None) -> TableRow:
     limit = results.exercise.trick_limit_deg
     before = previous.find(*row.key) if previous else None
-    change: str | Cell = tr("as intended: the hand stays in line")
+    change: str | Cell = tr("as intended: the hand stays straight")
     if row.mean > limit:
         change = Cell(tr("more than intended: check the exercise technique"), MEDIUM, VERDICT_TOKENS["warn"])
     return (

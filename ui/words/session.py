@@ -43,7 +43,11 @@ def wrist_summary(results: SessionResults, previous: SessionResults | None, firs
         for row in rows
     )
     if not today:
-        return tr("No range could be measured.") if not results.has_passive else tr("No active range was measured.")
+        return (
+            tr("No range of motion could be measured.")
+            if not results.has_passive
+            else tr("No active range of motion was measured.")
+        )
     parts = [f"{today[0].upper()}{today[1:]}."]
     return " ".join([*parts, *change_sentences(results, previous, first)])
 
@@ -135,9 +139,9 @@ def method_words(
     )
     given = terms.start_angle_words(results.start_angles_deg * math.pi / 180.0)
     zero = tr("0° = neutral position")
-    order = tr("Angles in the order deviation, flexion, pro/supination; {zero}.")
+    order = tr("Angles in the order deviation, flexion, pronation–supination; {zero}.")
     if results.angle_order == "isb":
-        order = tr("Angles in the order of the ISB: flexion, deviation, pro/supination; {zero}.")
+        order = tr("Angles in the order of the ISB: flexion, deviation, pronation–supination; {zero}.")
     if results.joint_ranges:
         order = tr("Fingers: 0° = straight; negative = hyperextension. Wrist: {zero}.")
     if any(is_total_active_motion(row.subject) for row in results.joint_ranges):
@@ -153,7 +157,7 @@ def method_words(
         ),
         order.format(zero=zero),
         zero_words(results, manual_values),
-        tr("The wrist’s angles are in the order of the ISB.")
+        tr("The wrist angles are in the order of the ISB (flexion first).")
         if results.joint_ranges and results.angle_order == "isb"
         else "",
         camera_words(results),
@@ -272,7 +276,7 @@ def research_lines(results: SessionResults) -> list[tuple[str, str]]:
     gap, quality, lines = numbers.NARROW_GAP, results.quality, []
     if speed is not None and speed.count:
         spread = f"{gap}±{gap}{format_rounded(speed.sd)}" if math.isfinite(speed.sd) else ""
-        lines.append((tr("Peak speed, mean ± sd"), f"{format_rounded(speed.mean)}{spread}°/s"))
+        lines.append((tr("Peak speed, mean ± SD"), f"{format_rounded(speed.mean)}{spread}°/s"))
     if smooth is not None and smooth.count:
         spread = f"{gap}±{gap}{numbers.format_fixed(smooth.sd, 1)}" if math.isfinite(smooth.sd) else ""
         value = numbers.format_fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
@@ -280,9 +284,9 @@ def research_lines(results: SessionResults) -> list[tuple[str, str]]:
     if pauses is not None and pause_time is not None and pauses.count:
         words = tr("{count} per movement, {seconds} s in total") if pauses.mean else tr("none")
         count, seconds = numbers.format_fixed(pauses.mean, 1), numbers.format_fixed(pause_time.mean, 1)
-        lines.append((tr("Pauses during the movement, mean"), words.format(count=count, seconds=seconds)))
+        lines.append((tr("Pauses during a movement, mean"), words.format(count=count, seconds=seconds)))
     if results.exercise.is_forearm_fixed and math.isfinite(quality.centre_residual_mm):
-        words = tr("{depth} below its marker (scatter {residual})").format(
+        words = tr("{depth} below the wrist marker (scatter {residual})").format(
             depth=numbers.format_millimetres(-quality.centre_mm[2]),
             residual=f"{numbers.format_fixed(quality.centre_residual_mm, 1)}{gap}mm",
         )

@@ -20,7 +20,7 @@ from carpus.ui.kit.translate import tr, translate_phrase
 _RETURN_STROKES = {"reach": "return", "thumb across": "thumb back"}
 _STROKE_NAMES = {
     "reach": phrase("{name}, outward"), "return": phrase("{name}, return"),
-    "thumb across": phrase("{name}, across"), "thumb back": phrase("{name}, return"),
+    "thumb across": phrase("{name}, across the palm"), "thumb back": phrase("{name}, return"),
 }  # fmt: skip
 _DIGITS = {
     "1": phrase("thumb"), "2": phrase("index"), "3": phrase("middle"), "4": phrase("ring"), "5": phrase("little"),

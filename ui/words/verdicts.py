@@ -63,13 +63,13 @@ def error_limit_words(study: RetestStudy | None = None) -> str:
     """Explain the measurement error; ``study`` is the clinic's own."""
     if study is not None:
         return tr(
-            "MDC95 (measurement error) was measured by this clinic on {date} with {count} people. "
-            "Otherwise it is the expert default of Carpus. It holds for the same markers, side and set-up."
+            "This clinic measured the MDC95 (measurement error) on {date} with {count} people. Where it was not "
+            "measured, Carpus uses an expert default. The MDC applies to the same markers, side and set-up."
         ).format(date=numbers.format_date(datetime.fromisoformat(study.made)), count=study.people)
     return tr(
-        "MDC (measurement error) is the expert default of Carpus, not a published value, until the clinic "
-        "has measured its own. For a total arc, which has two ends, it is √2 times as large. It holds for "
-        "the same markers, side and set-up."
+        "Until the clinic has measured its own MDC (measurement error), Carpus uses an expert default, not a "
+        "published value. For a total arc, which has two ends, the MDC is √2 times as large. It applies to the same "
+        "markers, side and set-up."
     )
 
 

@@ -101,7 +101,7 @@ class ViewCoverage:
         if not self.is_near_and_far:
             near = self.nearest_m <= NEAR_BOARD_M or self.nearest_m * MIN_DISTANCE_RATIO < FAR_BOARD_M
             return phrase("Move the board further away") if near else phrase("Move the board nearer")
-        return phrase("Show the board in other places, at other tilts") if self.missing_view_count else None
+        return phrase("Show the board in other positions and at other tilts") if self.missing_view_count else None
 
 
 def side_name(side: TiltSide) -> Phrase:

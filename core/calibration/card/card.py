@@ -219,18 +219,18 @@ def verdict_sentence(reading: CardReading) -> Phrase:
     }
     if reading.is_within_tolerance:
         return phrase(
-            "Camera within tolerance: at most {angle}° and {length} mm off (limits: {most_angle}° and "
-            "{most_length} mm).",
+            "Camera within tolerance: errors up to {angle}° and {length} mm (limits: {most_angle}° and {most_length} "
+            "mm).",
             angle=angle,
             length=length,
             **limits,
         )
-    angles = phrase("angles deviate by {angle}°", angle=angle)
+    angles = phrase("angles are wrong by {angle}°", angle=angle)
     share = 100.0 * (reading.scale - 1.0)
     off = {"share": format_rounded(abs(share), 1), "length": length}
-    lengths = phrase("all lengths are {share} % too short, at most by {length} mm", **off)
+    lengths = phrase("all lengths are {share} % too short, by up to {length} mm", **off)
     if share > 0:
-        lengths = phrase("all lengths are {share} % too long, at most by {length} mm", **off)
+        lengths = phrase("all lengths are {share} % too long, by up to {length} mm", **off)
     what = angles if reading.has_valid_lengths else lengths
     if not reading.has_valid_lengths and not reading.has_valid_angles:
         what = phrase("{one}; {other}", one=lengths, other=angles)

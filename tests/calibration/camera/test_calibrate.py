@@ -144,7 +144,7 @@ def test_next_instruction_names_what_is_missing(gathered: ViewCollector) -> None
     assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_instruction() == "Move the board nearer"
     assert (
         replace(whole, view_count=WANTED_VIEWS - 1).next_instruction()
-        == "Show the board in other places, at other tilts"
+        == "Show the board in other positions and at other tilts"
     )
     assert replace(whole, view_count=WANTED_VIEWS).next_instruction() is None
 

@@ -134,9 +134,9 @@ def test_card_sheets_fit_the_paper_and_fold(paper: Paper) -> None:
 
 def test_verdict_sentence_out_of_tolerance_names_the_error() -> None:
     said = verdict_sentence(check(0).reading)
-    assert said == "Camera within tolerance: at most 0.6° and 0.8 mm off (limits: 2.0° and 2.5 mm)."
+    assert said == "Camera within tolerance: errors up to 0.6° and 0.8 mm (limits: 2.0° and 2.5 mm)."
     assert "all lengths are 2.0 % too long" in verdict_sentence(check(0, length=2.4, scale=1.02).reading)
-    assert "angles deviate by 2.4°" in verdict_sentence(check(0, angle=2.4).reading)
+    assert "angles are wrong by 2.4°" in verdict_sentence(check(0, angle=2.4).reading)
 
 
 LINE_OF_0_2_0 = (

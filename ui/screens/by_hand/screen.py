@@ -242,7 +242,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self.measure_choice.set_choices([("", self.tr("Other measures…")), *fingers, *others])
 
     def _show_basis(self) -> None:
-        by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
+        by = self.tr("Entered by {initials}.").format(initials=self.record.initials) if self.record.initials else ""
         words = self.tr("Leave empty what was not measured. These entries do not change values measured by Carpus.")
         simulated = any(one.is_simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
         why = self.tr("The Carpus session of this day is simulated and not shown.") if simulated else ""
@@ -320,7 +320,7 @@ class ManualMeasurementsScreen(FittedWidget):
     def _fill_changes(self) -> None:
         body, theme = self._changes.body, self._theme
         clear_layout(body)
-        body.addWidget(Text(theme, self.tr("Manual and Carpus values stay separate"), 16, SEMIBOLD, wrap=True))
+        body.addWidget(Text(theme, self.tr("Manual and Carpus values are kept separate"), 16, SEMIBOLD, wrap=True))
         words = self.tr("They are neither averaged nor subtracted. Change is assessed within one method only.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         mine = [one for one in current_values(self.record.values) if one.side in (self.side, "")]
@@ -334,7 +334,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self.status_text.setText(
             problems[0] if problems
             else doubts[0] if doubts
-            else self.tr("Not saved yet, including values of the other hand or another day.") if elsewhere
+            else self.tr("Some values of this or another hand or day are not saved yet.") if elsewhere
             else self.tr("Values are saved with initials and time. Later changes stay visible.")
         )  # fmt: skip
         self.save_button.setEnabled(not problems and self.has_unsaved)

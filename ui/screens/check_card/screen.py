@@ -67,7 +67,7 @@ class CheckCardScreen(FittedWidget):
         fill(column, Text(theme, card, 14, REGULAR, "text2", wrap=True))
         fill(column, row_layout(self.paper, self.print_button, gap=12), self.calibrate_button, STRETCH)
         limits = self.tr(
-            "A check is valid for one week. If all lengths deviate by the same share, the depth or the print "
+            "A check is valid for one week. If all lengths are wrong by the same percentage, the depth or the print "
             "size is wrong."
         )
         fill(column, caption(theme, limits, wrap=True))

@@ -193,7 +193,7 @@ class ComparisonScreen(FittedWidget):
 
         def on_failed(fault: Exception) -> None:
             if asked == self._request_number:
-                self.answer.setText(self.tr("No comparison: one of the two sessions could not be read."))
+                self.answer.setText(self.tr("The sessions cannot be compared, because one of them could not be read."))
                 for view in self.frame_views:
                     view.clear()
                 self.fault_raised.emit(fault)

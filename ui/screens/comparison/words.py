@@ -72,7 +72,7 @@ def headline(pair: SessionPair) -> tuple[str, str]:
     """Return the result in one sentence, and the values behind it."""
     main = pair.main_comparison
     if not pair.is_comparable:
-        return tr("Shown side by side, without a comparison."), ""
+        return tr("The sessions are shown side by side, but not compared."), ""
     if main is None:
         return tr("Not compared: the two sessions share no movement."), ""
     if pair.relation == "dates":

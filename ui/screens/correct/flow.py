@@ -241,7 +241,7 @@ def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str
     sentences = []
     if lost_labels:
         names = ", ".join(marker_title(name) for name in lost_labels)
-        sentences.append(tr("Not kept: {names}. Also correct a later frame.").format(names=names))
+        sentences.append(tr("Correction not kept for {names}. Correct a later frame too.").format(names=names))
     if found.lost_markers:
         names = ", ".join(marker_title(name) for name in found.lost_markers)
         sentences.append(

@@ -42,7 +42,7 @@ class ResultsDialog(Dialog):
         self.bar.show_progress(percent, 100)
         self.words.setText(
             self.tr(
-                "You can continue working. The old result stays until you choose the new one. Stop keeps the old "
+                "You can continue working. The old result stays until you choose the new one. “Stop” keeps the old "
                 "result."
             )
         )

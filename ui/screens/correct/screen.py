@@ -281,7 +281,9 @@ class CorrectionScreen(FittedWidget):
         self.state.show_state("warn" if doubtful else "none", state.format(time=at))
         name = marker_title(self.current_marker) if self.current_marker else ""
         self.title.setText(
-            self.tr("Drag “{marker}” to its marker").format(marker=name) if name else self.tr("Which label is wrong?")
+            self.tr("Drag the label “{marker}” to its marker").format(marker=name)
+            if name
+            else self.tr("Which label is wrong?")
         )
         if self.frame_view.has_frame:
             self.hint.setText(self.tr("Drag a label in the frame, or select it below and click its marker."))
@@ -332,13 +334,14 @@ class CorrectionScreen(FittedWidget):
         if doubt.swapped is not None:
             one, other = (marker_title(name) for name in doubt.swapped)
             self.title.setText(self.tr("“{one}” and “{other}” appear swapped").format(one=one, other=other))
-            self.hint.setText(self.tr("The angles would be wrong from there on. Swap the two labels?"))
+            self.hint.setText(self.tr("All later angles would be wrong. Swap the two labels?"))
             self.primary_button.set_label(self.tr("Swap the labels"))
             return
         words = self.tr("“{marker}” cannot be there").format(marker=marker_title(doubt.misplaced))
         self.title.setText(words)
         far = self.tr(
-            "It is {size} mm from the position that fits the other markers. It may be another marker, or no marker."
+            "This spot is {size} mm from the position that fits the other markers. It may be another marker, or no "
+            "marker."
         )
         self.hint.setText(far.format(size=format_rounded(1000.0 * doubt.offset_m)))
         here = row == self.row

@@ -44,9 +44,9 @@ class HelpScreen(QWidget):
         self.start_folder = ""
         """Folder in which the save dialog starts."""
         self.back_button = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
-        self.cards_button = Button(theme, self.tr("Cards to print…"), icon="download")
+        self.cards_button = Button(theme, self.tr("Print cards…"), icon="download")
         self.cards_button.clicked.connect(self._choose_cards_file)
-        self.tour_button = Button(theme, self.tr("Show me around"), icon="arrow-right")
+        self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
         self.page_view = _PageView(theme)
         self.page_view.page_requested.connect(self.show_page)
         self.page_buttons: dict[str, Button] = {}

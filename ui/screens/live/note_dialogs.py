@@ -28,7 +28,7 @@ class NoteDialog(Dialog):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 720, is_low=True)
-        self.line = QLineEdit(placeholderText=self.tr("What happened? No names."))
+        self.line = QLineEdit(placeholderText=self.tr("What happened? Enter no names."))
         self.line.setAccessibleName(self.tr("Note"))
         keep = Button(theme, self.tr("Save note"), "primary", height_px=44)
         close = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"))
@@ -55,7 +55,7 @@ class NoteDialog(Dialog):
     def open_note(self, *, passive: bool = False) -> None:
         """Open empty; ``passive`` tells whether somebody else moves the hand now."""
         self._is_passive = passive
-        self.passive_button.set_label(self.tr("Active from here") if passive else self.tr("Passive from here"))
+        self.passive_button.set_label(self.tr("Active from here on") if passive else self.tr("Passive from here on"))
         self.line.clear()
         self.open(self.line)
 
@@ -86,7 +86,9 @@ class PainDialog(Dialog):
             self.buttons.append(button)
         self.card.body.addLayout(row)
         below = QHBoxLayout()
-        advice = self.tr("At 5 or more, or 2 more than before: stop the exercise. Keys: 0 to 9; 1 and 0 for 10.")
+        advice = self.tr(
+            "If pain is 5 or more, or has risen by 2, stop the exercise. Keys: 0 to 9. For 10, press 1, then 0."
+        )
         below.addWidget(Text(theme, advice, 14, token="text2", wrap=True), 1)
         close = Button(theme, self.tr("Close"), "quiet", height_px=36)
         close.clicked.connect(self.close_dialog)

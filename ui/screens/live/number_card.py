@@ -216,7 +216,7 @@ class NumberCard(QWidget):
             draw_hatching(painter, screen_style(theme), swatch)
             painter.setFont(font(28 * scale, SEMIBOLD))
             painter.setPen(theme.color("text2"))
-            words = self.tr("predicted") if reading.figure is None else self.tr("coupled to the PIP")
+            words = self.tr("predicted") if reading.figure is None else self.tr("inferred from PIP")
             painter.drawText(QPointF(swatch.right() + 10, baseline), words)
         else:
             painter.setFont(font(SPREAD_PX, MEDIUM))

@@ -354,7 +354,9 @@ class LiveScreen(FittedWidget):
         if doubt.state and lamp.rank in ("good", "warn"):
             return doubt
         if lamp.rank == "good" and recording.is_hand_resting():
-            return StatusLight("idle", self.tr("Movement is being drawn"), self.tr("Recording can start in a moment"))
+            return StatusLight(
+                "idle", self.tr("Preparing the simulated hand"), self.tr("Recording can start in a moment")
+            )
         if lamp.rank == "good" and recording.countdown_s:
             return StatusLight("good", self.tr("Starts in {seconds}").format(seconds=recording.countdown_s), "")
         if lamp.rank == "good" and recording.start_trigger.is_waiting and recording.state == "off":

@@ -60,7 +60,7 @@ def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_move
     if forearm_moved:
         return StatusLight("warn", tr("Forearm moved"), tr("Lay the forearm back where it was"))
     if not np.isfinite(frame.kinematics.angles_rad).any():
-        return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
+        return StatusLight("idle", tr("No angle yet"), tr("Hold the hand flat for a moment"))
     return StatusLight("good", tr("Hand tracked well"), tr("All {count} markers visible").format(count=len(markers)))
 
 
@@ -114,7 +114,7 @@ def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibi
     if not hidden and partly:
         return StatusLight("warn", _partly_words(partly), remedy_words(partly))
     if not hidden and not np.isfinite(frame.kinematics.joint_angles_rad).any():
-        return StatusLight("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
+        return StatusLight("idle", tr("No angle yet"), tr("Hold the hand flat for a moment"))
     if not hidden:
         count = len(visibility)
         return StatusLight("good", tr("Hand tracked well"), tr("All {count} markers visible").format(count=count))
@@ -152,8 +152,8 @@ def remedy_words(hidden: Sequence[str]) -> str:
 
 def _partly_words(poor: Sequence[str]) -> str:
     if len(poor) == 1:
-        return tr("{marker} visible only at times").format(marker=marker_title(poor[0]))
-    return tr("{count} markers visible only at times").format(count=len(poor))
+        return tr("{marker} often occluded").format(marker=marker_title(poor[0]))
+    return tr("{count} markers often occluded").format(count=len(poor))
 
 
 LAG_S, CAUGHT_UP_S = 1.0, 0.4

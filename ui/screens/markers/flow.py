@@ -50,7 +50,7 @@ class MarkersFlow(Flow):
         self.context.messages.show_question(
             MessageText(
                 self.tr("Leave this screen?"),
-                self.tr("The labels given on this image would be lost."),
+                self.tr("The labels on this image would be lost."),
                 self.tr("Stay here, or go back to the camera."),
             ),
             (
@@ -90,7 +90,7 @@ class MarkersFlow(Flow):
                 self.tr("Open it again with depth aligned to colour, then click the markers again."),
             ),
             (
-                Answer(self.tr("Leave it as it is"), lambda: None),
-                Answer(self.tr("Open it again"), open_again),
+                Answer(self.tr("Do not change it"), lambda: None),
+                Answer(self.tr("Open the recording again"), open_again),
             ),
         )

@@ -111,7 +111,11 @@ class GuidancePanel(QWidget):
             self.instruction_label.setText(self.tr("Hold the hand in this position until measuring begins."))
         self.hand_drawing.show_markers(labels.side, _hand_states(labels, ()))
         self.verdict_panel.hide()
-        left = self.tr("1 marker to go") if to_go == 1 else self.tr("{count} markers to go").format(count=to_go)
+        left = (
+            self.tr("1 marker left to click")
+            if to_go == 1
+            else self.tr("{count} markers left to click").format(count=to_go)
+        )
         words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers…")
         self.primary_button.setEnabled(False)
         self.primary_button.set_label(words, icon="", hint="")
@@ -207,7 +211,8 @@ def proposal_words(labels: LabelState) -> ProposalWords:
         todo = tr("Drag a label to another marker to change it.")
         if labels.protocol.has_fingers:
             todo = tr(
-                "Each finger’s line runs from the wrist to its tip. To change a label, drag it to another marker."
+                "The line of each finger should run from the wrist to the fingertip. To change a label, drag it to "
+                "another marker."
             )
         return ProposalWords("good", whole, tr("Are these labels correct?"), todo, primary)
     if doubtful:
@@ -287,7 +292,7 @@ class StraightFingers(QWidget):
         self._hint.setText(
             self.tr("Click a finger that cannot fully extend (keys 1 to 5).")
             if not bent
-            else self.tr("A bent finger is measured from its own resting position, with less certainty.")
+            else self.tr("A bent finger is measured from its own resting position, which is less accurate.")
         )
 
 

@@ -276,7 +276,7 @@ def remedy_face(remedy: Remedy) -> tuple[str, str]:
     """Return text and key of the primary button."""
     return {
         "swap": (tr("Swap the two"), ENTER_KEY),
-        "click_these": (tr("Click again"), "C"),
+        "click_these": (tr("Click the marker again"), "C"),
         "correct": (tr("Correct labels"), ""),
         "take_spot": (tr("Use that spot"), ""),
         "new_picture": (tr("New image"), "N"),

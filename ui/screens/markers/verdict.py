@@ -54,7 +54,7 @@ def verdict_rows(verdict: Verdict) -> list[VerdictRow]:
     marker_faults = [kinds[kind] for kind in MARKER_FINDINGS if kind in kinds]
     count = len(verdict.residual_mm)
     worst = float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan
-    markers = tr("{count} of {count}").format(count=count)
+    markers = tr("all {count} found").format(count=count)
     if kinds.keys() & set(LABEL_FINDINGS):
         markers = tr("labels wrong")
     elif kinds.keys() & set(DOUBT_FINDINGS):

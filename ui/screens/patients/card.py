@@ -54,7 +54,9 @@ class PatientCardView(Card):
         self._results = column_layout(gap=0)
         self._note_date = caption(theme)
         self._note = Text(theme, "", 14, wrap=True)
-        self.start_button = Button(theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=ENTER_KEY)
+        self.start_button = Button(
+            theme, self.tr("Start session with same set-up"), "primary", icon="play", hint=ENTER_KEY
+        )
         self.bubble = BubbleView(theme)
         self.edit_button = Button(theme, self.tr("&Edit…"), "quiet", height_px=32)
         self.change_button = Button(theme, self.tr("&Other exercise…"))
@@ -178,7 +180,7 @@ class PatientCardView(Card):
             return self.tr("Start practice")
         if not camera_ready:
             return self.tr("Start from a file · no camera")
-        return self.tr("Start session, same set-up") if same else self.tr("Start first session")
+        return self.tr("Start session with same set-up") if same else self.tr("Start first session")
 
     def _last_words(self, card: PatientCard, practice: bool) -> str:
         row = card.patient

@@ -49,7 +49,7 @@ class PatientForm(Dialog):
         self._taken_names: frozenset[str] = frozenset()
         self._save_words = ""
         self._title = Text(theme, "", 20, SEMIBOLD)
-        self.listed_tick = QCheckBox(self.tr("In the clinic’s &list"))
+        self.listed_tick = QCheckBox(self.tr("Save in diagnosis &list"))
         self.weeks_text = Text(theme, "", 14, token="text2")
         self._error_text = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.remove_button = Button(theme, self.tr("Archi&ve or delete…"), "quiet", icon="trash-2", height_px=40)
@@ -75,9 +75,9 @@ class PatientForm(Dialog):
         return [
             Field(
                 "pseudonym",
-                self.tr("&Name in Carpus"),
+                self.tr("Pseudo&nym"),
                 QLineEdit(),
-                limit_length(MAX_NAME_CHARACTERS, self.tr("Name: {count} characters too long")),
+                limit_length(MAX_NAME_CHARACTERS, self.tr("Pseudonym: {count} characters too long")),
                 (another,),
                 stretch=1,
             ),
@@ -149,8 +149,8 @@ class PatientForm(Dialog):
         cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
         cancel.clicked.connect(self.close_dialog)
         rule = self.tr(
-            "The name in Carpus is a pseudonym that can be spoken aloud: no real name, no initials, no birth "
-            "date. Real name, birth date, record number, sex and diagnosis are optional. They stay in this "
+            "The pseudonym is shown on all screens and can be spoken aloud: no real name, no initials, no birth "
+            "date. Real name, birth date, record number, sex and diagnosis are optional. They stay in the patient "
             "list and are never in a session file or an export."
         )
         self._form_page = QWidget()
@@ -270,9 +270,9 @@ class PatientForm(Dialog):
         name = values["pseudonym"]
         if not name or name.casefold() in self._taken_names:
             words = (
-                self.tr("Enter a name.")
+                self.tr("Enter a pseudonym.")
                 if not name
-                else self.tr("“{name}” is already in use. Choose another name.").format(name=name)
+                else self.tr("The pseudonym “{name}” is already in use. Choose another one.").format(name=name)
             )
             self._show_error("pseudonym", words)
             self.fields["pseudonym"].setFocus(Qt.FocusReason.OtherFocusReason)

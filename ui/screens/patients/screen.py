@@ -371,4 +371,4 @@ class _OfflineView(QWidget):
     def show_search(self, name: str) -> None:
         self.button.setEnabled(bool(name.strip()))
         words = self.tr("Measure “{name}”").format(name=name.strip().replace("&", "&&"))
-        self.button.set_label(words if name.strip() else self.tr("Measure without the list"))
+        self.button.set_label(words if name.strip() else self.tr("Measure without the patient list"))

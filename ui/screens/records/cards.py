@@ -48,7 +48,7 @@ class BackupCard(Card):
         self.note = Text(theme, "", 12, MEDIUM, "text2", wrap=True)
         self.now_button = Button(theme, self.tr("&Back up now"), icon="archive")
         self.restore_button = Button(theme, self.tr("&Restore…"), icon="rotate-ccw")
-        self.progress = caption(theme, self.tr("then verified"), wrap=True)
+        self.progress = caption(theme, self.tr("The backup is verified afterwards."), wrap=True)
         self.folder = Text(theme, "", 14, MEDIUM, wrap=True)
         self.folder_state = StateText(theme, 12, MEDIUM, 16)
         self.folder_button = Button(theme, self.tr("Change…"), height_px=36)
@@ -62,7 +62,7 @@ class BackupCard(Card):
     def _build_layout(self, theme: Theme) -> None:
         texts = column_layout(self.headline, self.detail, self.note, gap=2)
         self.state_card.body.addLayout(row_layout((self.state_sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=10))
-        shows = caption(theme, self.tr("shows the changes first"), wrap=True)
+        shows = caption(theme, self.tr("The changes are shown first."), wrap=True)
         acts = column_layout(self.now_button, self.progress, STRETCH, gap=4)
         again = column_layout(self.restore_button, shows, STRETCH, gap=4)
         keep = Text(theme, self.tr("the last 14, plus one per month for 2 years"), 14)
@@ -94,7 +94,9 @@ class BackupCard(Card):
         running = percent is not None
         self.now_button.setEnabled(not running)
         self.restore_button.setEnabled(not running)
-        words = self.tr("{percent} %").format(percent=percent) if running else self.tr("then verified")
+        words = (
+            self.tr("{percent} %").format(percent=percent) if running else self.tr("The backup is verified afterwards.")
+        )
         self.progress.setText(words)
 
 
@@ -156,7 +158,7 @@ class RecordsCard(Card):
         shown = sorted({*choices, years})
         options = [(one, names.get(one, self.tr("{n} years").format(n=one))) for one in shown]
         self.years = ChoiceRow(theme, options, years, wraps=True)
-        self.due_button = Button(theme, self.tr("Records past r&etention…"), height_px=40)
+        self.due_button = Button(theme, self.tr("Past r&etention period…"), height_px=40)
         self.archive_button = Button(theme, self.tr("&Archive…"), icon="archive", height_px=40)
         self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)
         fill(

@@ -218,7 +218,9 @@ class DeleteDialog(Dialog):
             fill(column, Separator(theme), _make_section(sign, Text(theme, title, 20, SEMIBOLD), words))
         column.addWidget(Separator(theme))
         milder = Card(theme, 0, "soft", "soft")
-        offered = Text(theme, self.tr("Removes it from all lists and results. Everything can be restored."), wrap=True)
+        offered = Text(
+            theme, self.tr("Archiving removes it from all lists and results. Everything can be restored."), wrap=True
+        )
         milder.body.setContentsMargins(0, 12, 12, 12)
         milder.body.addLayout(
             _make_section(_make_sign(theme, "archive"), Text(theme, self.tr("Archive instead"), 16, SEMIBOLD), offered)
@@ -281,8 +283,8 @@ class DeleteDialog(Dialog):
         else:
             parts.append(self.tr("Copies elsewhere."))
         for words, found in (
-            (self.tr("Delete yourself: reports and exports saved elsewhere ({n}): {path}."), plan.output_files),
-            (self.tr("Check yourself: files outside the patient’s folder ({n}): {path}."), plan.unassigned_files),
+            (self.tr("Delete reports and exports saved elsewhere yourself ({n}): {path}."), plan.output_files),
+            (self.tr("Check these files outside the patient’s folder yourself ({n}): {path}."), plan.unassigned_files),
         ):
             if found:
                 paths = ", ".join(map(str, found[:MAX_PATHS_SHOWN])) + (", …" if len(found) > MAX_PATHS_SHOWN else "")

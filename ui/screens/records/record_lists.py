@@ -109,7 +109,7 @@ class RecordListsController(QObject):
             for one in found
         ]
         self.records_dialog.show_records(
-            self.tr("Records past retention"), words.format(n=self.retention_years), listed
+            self.tr("Records past their retention period"), words.format(n=self.retention_years), listed
         )
 
     def show_archive(self, is_shown: Callable[[ArchivedItem], bool] | None = None) -> None:
@@ -279,7 +279,7 @@ class LogDialog(Dialog):
         super().__init__(host, theme, 1080)
         words = self.tr(
             "Entries are added and never changed. The log protects against mistakes, not against someone with full "
-            "access to this computer. It stores no names. They are shown from the patient list."
+            "access to this computer. It stores no names: those shown here come from the patient list."
         )
         self.add_heading(self.tr("Log"), words, gap=10)
         self.table = QTableWidget(0, 5)

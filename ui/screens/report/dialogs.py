@@ -95,8 +95,8 @@ class HomeDialog(Dialog):
         self.form = Form(
             theme,
             [
-                Field("times", self.tr("&Times"), number_field(theme, 50, minimum=1)),
-                Field("rounds", self.tr("&Rounds a day"), number_field(theme, 50, minimum=1), continues_row=True),
+                Field("times", self.tr("&Repetitions"), number_field(theme, 50, minimum=1)),
+                Field("rounds", self.tr("Times a &day"), number_field(theme, 50, minimum=1), continues_row=True),
                 Field(
                     "again",
                     self.tr("Ne&xt appointment"),
@@ -116,9 +116,9 @@ class HomeDialog(Dialog):
                 ),
                 Field(
                     "note",
-                    self.tr("A &line for the patient, no names"),
+                    self.tr("&Message to the patient (no names)"),
                     QLineEdit(),
-                    limit_length(MAX_NOTE_LENGTH, self.tr("Line: {count} characters too long")),
+                    limit_length(MAX_NOTE_LENGTH, self.tr("Message: {count} characters too long")),
                 ),
                 Field("language", self.tr("Language of the patient"), ChoiceRow(theme, list(LANGUAGES.items()))),
             ],

@@ -68,7 +68,7 @@ class ReportPanel(QWidget):
             self.section_checks[section.name] = tick = QCheckBox(translate_phrase(section.label))
             tick.toggled.connect(self._update_sections)
             column.addWidget(tick)
-        words = self.tr("Warnings, method and the legal sentence always stay.")
+        words = self.tr("Warnings, method and the legal notice are always printed.")
         column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.use_button = Button(theme, self.tr("Use these parts for all reports"), height_px=40)
         column.addWidget(self.use_button)
@@ -94,7 +94,7 @@ class ReportPanel(QWidget):
         if (line := box.lineEdit()) is not None:
             line.setPlaceholderText(self.tr("Type part of a sentence"))
         box.setToolTip(
-            self.tr("These placeholders take the session’s values: {places}").replace(
+            self.tr("Placeholders for the session’s values: {places}").replace(
                 "{places}", ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
             )
         )

@@ -143,9 +143,11 @@ class ReportScreen(QWidget):
         else:
             pages = self.tr("One page of A4") if count == 1 else self.tr("{count} pages of A4")
         pages = pages.format(count=count)
-        words = self.tr("{pages}, readable in grey. Contains the pseudonym, not the real name.")
+        words = self.tr("{pages}, readable in black and white. Contains the pseudonym, not the real name.")
         if report.printed_patient is not None and report.printed_patient.name:
-            words = self.tr("{pages}, readable in grey. Contains the patient’s real name: store it securely.")
+            words = self.tr(
+                "{pages}, readable in black and white. Contains the patient’s real name: store it securely."
+            )
         self.pages_text.setText(words.format(pages=pages))
 
     @property

@@ -83,7 +83,9 @@ class Player(Card):
         self.transport = PlaybackControls(theme, playing)
         self.hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play"))])
         self.repetition_button = Button(theme, self.tr("Repetition…"), "quiet", hint="X", height_px=40)
-        self.repetition_button.setToolTip(self.tr("Passive or excluded (X); [ and ] select another"))
+        self.repetition_button.setToolTip(
+            self.tr("Mark as passive or excluded (X). [ and ] select another repetition.")
+        )
         self.repetition_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.time = Text(theme, "", 14, MEDIUM)
         self.scrubber = TimeSlider(theme)

@@ -71,8 +71,8 @@ class ReviewFlow(Flow):
             if show_version(new):
                 text = MessageText(
                     self.tr("This result is used from now on."),
-                    self.tr("The others stay as they were."),
-                    self.tr("It was saved again as the newest."),
+                    self.tr("The other results were not changed."),
+                    self.tr("It was saved again as the newest result."),
                 )
                 self.context.messages.show_question(text, (Answer(self.tr("Continue"), lambda: None),), icon="good")
 
@@ -106,7 +106,7 @@ class ReviewFlow(Flow):
             frame = library.read_frame(head.session_id, hand_image.row)
             image = None if frame is None else draw_hand_image(self.context.theme, hand_image, frame)
             if image is None:
-                raise OutputNotWritable(target, self.tr("no frame of it was saved"))
+                raise OutputNotWritable(target, self.tr("no frame of this session was saved"))
 
             def save(part: Path) -> None:
                 if not image.save(str(part), "PNG"):  # type: ignore[call-overload]

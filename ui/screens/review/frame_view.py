@@ -133,7 +133,7 @@ class ReviewFrameView(SessionFrameView):
             return reviewed.angle_words(self.row) if reviewed.is_hand else ""
         if reviewed.session.status[self.row] != TrackStatus.TRACKED:
             return self.tr("Not measured here")
-        return self.tr("Towards the camera: measured, not drawn")
+        return self.tr("Moves towards the camera: not drawn")
 
     def _paint_labels(self, painter: QPainter, reviewed: ReviewedSession, angle_text: str) -> None:
         """Paint repetition and time at the left, the status at the right or below, then ``angle_text``."""

@@ -91,8 +91,8 @@ class HandImageDialog(Dialog):
         super().__init__(host, theme, 560)
         body = self.card.body
         words = self.tr(
-            "The hand alone, with its angle. Face and room are removed, and there is no name. If the movement is not "
-            "in the image plane, the angle is given in words only."
+            "The image shows only the hand and its angle. Face, room and name are removed. If the hand does not move "
+            "in the image plane, the angle is only written, not drawn."
         )
         self.add_heading(self.tr("Image of the hand"), words)
         words = self.tr("Carpus cannot protect the saved file: anyone who has it can open it. The export is logged.")

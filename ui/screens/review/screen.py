@@ -296,14 +296,14 @@ class ExclusionDialog(Dialog):
         body = self.card.body
         self.passive_button = Button(theme, self.tr("Passive"), "plain", height_px=40)
         self.passive_button.clicked.connect(lambda: self._accept(PASSIVE))
-        self.passive_onwards_button = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
+        self.passive_onwards_button = Button(theme, self.tr("Passive from here on"), "plain", height_px=40)
         self.passive_onwards_button.clicked.connect(lambda: self._accept(PASSIVE, and_after=True))
         body.addLayout(row_layout(self.passive_button, self.passive_onwards_button, STRETCH))
-        words = self.tr("Excluded from the results; still shown on the curves and mentioned in the report.")
+        words = self.tr("Excluded from the results, but still shown on the curves and mentioned in the report.")
         body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
         quick = QHBoxLayout()
         self.reason_buttons: list[Button] = []
-        for reason in (self.tr("pain"), self.tr("other movement"), self.tr("trial")):
+        for reason in (self.tr("pain"), self.tr("other movement"), self.tr("practice run")):
             button = Button(theme, reason, "plain", height_px=40)
             button.clicked.connect(lambda _=False, reason=reason: self._accept(reason))
             quick.addWidget(button)

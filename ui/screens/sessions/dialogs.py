@@ -25,12 +25,12 @@ class ExcludeDialog(Dialog):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 600)
         words = self.tr(
-            "It stays in the list and can be opened, but is excluded from analysis. You can include it again."
+            "The session stays in the list and can be opened, but is excluded from analysis. You can include it again."
         )
         self.add_heading(self.tr("Exclude this session?"), words)
         quick = QHBoxLayout()
         self.buttons: list[Button] = []
-        for reason in (self.tr("wrong exercise"), self.tr("trial"), self.tr("markers lost"), self.tr("pain")):
+        for reason in (self.tr("wrong exercise"), self.tr("practice run"), self.tr("markers lost"), self.tr("pain")):
             button = Button(theme, reason, "plain", height_px=40)
             button.clicked.connect(lambda _=False, reason=reason: self._accept(reason))
             quick.addWidget(button)

@@ -70,7 +70,7 @@ class SessionsScreen(QWidget):
         self.remark_text = Text(theme, "", 14, SEMIBOLD, "warn", wrap=True)
         self.open_button = Button(theme, self.tr("Open in review"), "primary", hint=ENTER_KEY)
         self.pair_button = Button(theme, "", height_px=40)
-        self.compare_button = Button(theme, self.tr("Compare in &progress"), height_px=40)
+        self.compare_button = Button(theme, self.tr("Show &progress"), height_px=40)
         self.exclude_button = Button(theme, "", height_px=40)
         self.move_button = Button(theme, self.tr("&Move to another patient…"), height_px=40)
         self.rename_button = Button(theme, self.tr("Change the &exercise…"), height_px=40)
@@ -219,8 +219,8 @@ class SessionsScreen(QWidget):
             line for line in self.list.session_model.lines if line.entry.session_id in self.list.session_model.ticked
         ]
         words = {
-            0: self.tr("Tick two to compare them"), 1: self.tr("Tick one more to compare"),
-            2: self.tr("Compare the 2 ticked"),
+            0: self.tr("Tick two sessions to compare"), 1: self.tr("Tick one more session to compare"),
+            2: self.tr("Compare the 2 ticked sessions"),
         }[len(lines)]  # fmt: skip
         self.pair_button.setEnabled(len(lines) == 2 and not any(line.is_damaged for line in lines))
         self.pair_button.set_label(words, hint=self._pair_key if len(lines) == 2 else "")
@@ -241,7 +241,7 @@ class SessionsScreen(QWidget):
         self._run_action(lambda line: self._store.exclude(line.entry.session_id, reason))
 
     def _choose_patient(self) -> None:
-        words = self.tr("It will move from {name}’s progress to the other patient’s.")
+        words = self.tr("The session will move from {name}’s progress to the other patient’s.")
         self.move_dialog.request_choice(
             self.tr("Which patient does this session belong to?"),
             words.format(name=self._pseudonym),

@@ -31,7 +31,7 @@ class PracticeSystemCard(Card):
         self._folders = [requests, results]
         self._texts = [Text(theme, "", 14, wrap=True) for _ in self._folders]
         self.folder_buttons = [Button(theme, self.tr("Change…"), height_px=40) for _ in self._folders]
-        self.clear_buttons = [Button(theme, self.tr("Do not use"), "quiet", height_px=40) for _ in self._folders]
+        self.clear_buttons = [Button(theme, self.tr("Turn off"), "quiet", height_px=40) for _ in self._folders]
         self.test_button = Button(theme, self.tr("Test the folders"), height_px=40)
         self.test_text = Text(theme, "", 14, SEMIBOLD, wrap=True)
         self.add_heading(self.tr("Practice system (GDT)"), words)
@@ -40,7 +40,7 @@ class PracticeSystemCard(Card):
             row = row_layout(self.folder_buttons[number], self.clear_buttons[number], STRETCH, gap=8)
             fill(self.body, 8, Text(theme, title, 14, SEMIBOLD, wrap=True), self._texts[number], row)
             self.folder_buttons[number].setAccessibleName(f"{title}: {self.tr('Change…')}")
-            self.clear_buttons[number].setAccessibleName(f"{title}: {self.tr('Do not use')}")
+            self.clear_buttons[number].setAccessibleName(f"{title}: {self.tr('Turn off')}")
             self.folder_buttons[number].clicked.connect(lambda _=False, number=number: self._choose(number))
             self.clear_buttons[number].clicked.connect(lambda _=False, number=number: self._set(number, ""))
         fill(self.body, 8, row_layout(self.test_button, (self.test_text, 1), gap=16))

@@ -62,7 +62,7 @@ class SettingsScreen(QWidget):
         computer = ("system", self.tr("Match system"))
         looks = ChoiceRow(theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), computer])
         sizes = ChoiceRow(theme, [(scale, f"{format_rounded(100 * scale)} %") for scale in TEXT_SCALES])
-        orders = [("zyx", self.tr("As in the papers: deviation first")), ("isb", self.tr("ISB: flexion first"))]
+        orders = [("zyx", self.tr("As published: deviation first")), ("isb", self.tr("ISB: flexion first"))]
         starts = [
             ("key", self.tr("On key press")), ("countdown", self.tr("3 s after key press")),
             ("still", self.tr("When the hand is still")),
@@ -81,8 +81,8 @@ class SettingsScreen(QWidget):
             (
                 "measuring", self.tr("The patient’s view"),
                 self.tr(
-                    "A second screen or window shows the patient what to do. Open it while measuring. Choose with "
-                    "the exercise whether it addresses a child or an adult."
+                    "A second screen or window shows the patient what to do. Open it while measuring. For each "
+                    "exercise, choose whether it speaks to a child or an adult."
                 ),
                 [Field("patient_sound", "", ChoiceRow(theme, sounds))],
             ),
@@ -97,16 +97,16 @@ class SettingsScreen(QWidget):
             (
                 "research", self.tr("Research"),
                 self.tr(
-                    "Shows path and axes, speeds, the movement page in reports, all export formats, angle order and "
-                    "streaming. It changes no values."
+                    "Shows path and axes, speeds, the motion page in reports, all export formats, angle order and "
+                    "streaming. Values do not change."
                 ),
                 [Field("research", "", QCheckBox(self.tr("For research")))],
             ),
             (
                 "research", self.tr("Angle order"),
                 self.tr(
-                    "Order of the wrist angles in review, progress and reports. Session files keep the order of the "
-                    "papers. Sessions with different orders are not compared."
+                    "Order of the wrist angles in review, progress and reports. Session files keep the published "
+                    "order. Sessions with different orders are not compared."
                 ),
                 [Field("angle_order", "", ChoiceRow(theme, orders))],
             ),
@@ -141,7 +141,7 @@ class SettingsScreen(QWidget):
         self._build_index()
         self._show_research_cards()
         self.show_page("looks")
-        self.demo_notice = Text(theme, self.tr("Demo: settings apply until it is closed."), 14, wrap=True)
+        self.demo_notice = Text(theme, self.tr("In the demo, settings apply until it is closed."), 14, wrap=True)
         self.demo_notice.hide()
         head = row_layout(
             (heading(theme, self.tr("Settings")), 1),

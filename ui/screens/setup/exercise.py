@@ -65,7 +65,7 @@ class ExerciseScreen(QWidget):
         self.proposal_label = Text(theme, "", 14, token="text2", wrap=True)
         self.proposal_button = Button(theme, self.tr("Use as goals"), "plain", height_px=36)
         self.disk_space_label = caption(theme, wrap=True)
-        self.primary_button = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=ENTER_KEY)
+        self.primary_button = Button(theme, self.tr("Next: camera"), "primary", icon="arrow-right", hint=ENTER_KEY)
         self.target_fields = tuple(
             DegreesField(theme, MAX_TARGET_DEG, self.tr("no goal"), direction) for direction in (1.0, -1.0)
         )
@@ -165,7 +165,7 @@ class ExerciseScreen(QWidget):
         ``mb_per_minute`` is the size of video, ``room_minutes`` the time for which the disk has space.
         """
         if math.isfinite(mb_per_minute):
-            pattern = self.tr("Needed to see and correct markers later: {size} MB per minute; space for {time}.")
+            pattern = self.tr("Needed to see and correct markers later. Uses {size} MB per minute; space for {time}.")
             self.disk_space_label.setText(
                 pattern.format(size=format_rounded(mb_per_minute), time=numbers.format_recording_time(room_minutes))
             )
@@ -298,7 +298,7 @@ class ExerciseScreen(QWidget):
         of_side = wrong is self.form["side"]
         self.problem_label.show_text("" if of_side else words)
         self.primary_button.setEnabled(not words)
-        self.primary_button.set_label(words if of_side else self.tr("Next: the camera"))
+        self.primary_button.set_label(words if of_side else self.tr("Next: camera"))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if not (is_enter_key(event) and press_default(self.primary_button)):
@@ -332,7 +332,7 @@ def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
     if not proposed:
         return ""
     parts = [
-        tr("{movement} {goal} (mean {mean}; detectable change from {limit})")
+        tr("{movement} {goal} (mean {mean}; beyond measurement error from {limit})")
         .format(
             movement=_movement_words(exercise, one),
             goal=numbers.format_signed_degrees(one.goal_deg),
@@ -343,7 +343,7 @@ def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
         for one in proposed
     ]
     sessions = max(one.sessions for one in proposed)
-    head = tr("Proposed from the last session:") if sessions == 1 else tr("Proposed from the last {count} sessions:")
+    head = tr("Suggested from the last session:") if sessions == 1 else tr("Suggested from the last {count} sessions:")
     return f"{head.format(count=sessions)} {', '.join(parts)}."
 
 

@@ -38,7 +38,7 @@ class BubbleView(QWidget):
         self.text = Text(theme, "", 14, MEDIUM, wrap=True)
         self.part_label = caption(theme)
         self.next_button = Button(theme, self.tr("&Next"), height_px=36)
-        self.leave_button = Button(theme, self.tr("Leave the guide"), "quiet", hint=self.tr("Esc"), height_px=36)
+        self.leave_button = Button(theme, self.tr("End the tour"), "quiet", hint=self.tr("Esc"), height_px=36)
         for button in (self.next_button, self.leave_button):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus if keys else Qt.FocusPolicy.NoFocus)
         foot = row_layout(gap=4)
