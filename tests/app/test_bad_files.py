@@ -26,7 +26,6 @@ from carpus.core.records import new_sessions, session_list
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.new_sessions import recover_sessions
-from carpus.core.records.session_list import read_file_states
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import opened as opened_store
@@ -85,17 +84,6 @@ def test_bad_files_do_not_keep_the_program_from_starting(tmp_path: Path, monkeyp
         assert path.exists() or path.with_name(f"{path.name.partition('.h5')[0]}.h5").exists()
         assert change not in ("group", "scalar") or named.count(path.name) == 1
     assert started(tmp_path) == (patients, []), "named once, and not opened again"
-
-
-def test_file_set_apart_is_read_again_when_it_has_changed(tmp_path: Path) -> None:
-    path = tmp_path / "sessions" / "s.h5"
-    good = stored(path).read_bytes()
-    path.write_bytes(good[:3000])
-    assert len(started(tmp_path)[1]) == 1
-    path.write_bytes(good)
-    assert started(tmp_path) == (["Linden 42"], [])
-    with opened_store(tmp_path) as house:
-        assert [one.reason for one in read_file_states(house.store).values()] == [""]
 
 
 def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

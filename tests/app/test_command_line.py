@@ -129,14 +129,6 @@ def test_reader_that_goes_away_is_no_trouble(asked: str, unbuffered: str, sessio
     assert (ended.returncode, ended.stderr) == (1, "")
 
 
-def test_stopped_while_rendering_leaves_nothing(tmp_path: Path) -> None:
-    folder = tmp_path / "rendered"
-    words = (*COMMAND, "simulate", "--output", folder, "--seconds", "60")
-    ended = signalled(words, lambda: any(folder.glob("rgb/*.png")), signal.SIGHUP)
-    assert ended == (1, "carpus: stopped.\n")
-    assert not folder.exists()
-
-
 def test_signal_ignored_by_parent_stays_ignored(tmp_path: Path) -> None:
     """A rendering in the background outlives the Ctrl+C meant for another job, and the end of its terminal."""
     folder = tmp_path / "rendered"

@@ -62,23 +62,6 @@ def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, libra
         assert list(spool_folder(tmp_path / "data").iterdir()) == []
 
 
-def test_session_that_is_being_published_is_not_brought_home_as_well(
-    library: DataFolder, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    key = library.patients.add(Patient("Linden 42", "left"))
-    found: list[object] = []
-    copy = new_sessions.copy_session
-
-    def copied(path: Path, folder: Path) -> Path:
-        found.append(recover_sessions(library))  # the server is back at this moment
-        return copy(path, folder)
-
-    monkeypatch.setattr(new_sessions, "copy_session", copied)
-    SessionIntake(library).register(set_up(key, "Linden 42"), recorded(library, key))
-    assert found == [([], [])]
-    assert len(library.sessions(key)) == 1
-
-
 def test_share_that_hangs_is_not_waited_for(library: DataFolder, monkeypatch: pytest.MonkeyPatch) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
@@ -151,19 +134,6 @@ def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: P
     with closing(DataFolder(data, sessions_folder=share)) as library:
         assert [type(fault) for fault in recover_sessions(library)[1]] == [SpooledSessionMoved]
         assert [one.path.parent for one in library.sessions(linden)] == [share / linden]
-
-
-def test_share_keeps_its_rights(tmp_path: Path) -> None:
-    """It may belong to another account, which alone may change them."""
-    share = tmp_path / "share"
-    share.mkdir(0o770)
-    share.chmod(0o770)
-    with closing(DataFolder(tmp_path / "data", sessions_folder=share)) as library:
-        assert share.stat().st_mode & 0o777 == 0o770
-        linden = library.patients.add(Patient("Linden 42", "left"))
-        SessionIntake(library).register(set_up(linden, "Linden 42"), recorded(library, linden))
-    assert share.stat().st_mode & 0o777 == 0o770
-    assert (share / linden).stat().st_mode & 0o777 == 0o700
 
 
 def test_pending_data_of_deleted_patient_is_deleted(tmp_path: Path) -> None:

@@ -14,7 +14,6 @@ from pathlib import Path
 import h5py
 import pytest
 
-import carpus
 from carpus.app.session_commands import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.model.errors import OutputNotWritable
@@ -137,24 +136,6 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
     assert counted("Linden 42") == expected
     assert command("progress", "all").code == 1
     assert library.sessions(heron) == []
-
-
-def test_programs_are_logged_as_commands_are(library: DataFolder, tmp_path: Path) -> None:
-    linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    session = store(library, set_up(linden, "Linden 42"))
-    path = library.entry(session).path
-    elsewhere = Path(shutil.copy(path, tmp_path / "mine.h5"))
-    before = len(deeds(library.folder))
-    carpus.open_session(elsewhere)
-    carpus.export(elsewhere, tmp_path / "mine", "json")
-    assert len(deeds(library.folder)) == before
-    carpus.open_session(path)
-    carpus.export(path, tmp_path / "out", "json")
-    carpus.export(path, tmp_path / "nobody", "json", deidentified=True)
-    did = [(did, by) for did, by, _ in deeds(library.folder)[before:]]
-    assert did == [("opened", "command"), ("exported", "command"), ("exported", "command")]
-    plan = RecordRetention(library).plan_session(session)
-    assert {path.parent for path in plan.output_files} == {tmp_path / "out"}, "what was made is named"
 
 
 def test_log_that_cannot_be_written_is_reported_and_stops_nothing_else(

@@ -6,8 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.model.errors import DiskFull
-from carpus.core.records import clinic_records
 from carpus.ui.shell.recent_locations import RecentLocations
 
 
@@ -28,12 +26,3 @@ def test_recent_locations_are_kept_per_kind_until_missing(tmp_path: Path, data: 
     assert again.folder("recordings") == str(tmp_path / "recordings")
     (tmp_path / "reports").rmdir()
     assert again.folder("reports") != str(tmp_path / "reports")
-
-
-def test_folder_that_cannot_be_written_is_no_fault(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> None:
-        raise DiskFull("disk")
-
-    monkeypatch.setattr(clinic_records, "replace_text", full)
-    RecentLocations(data).save_folder("reports", str(data))
-    assert Path(RecentLocations(data).folder("reports")).is_dir()

@@ -16,13 +16,11 @@ import pytest
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.records import session_records
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.retention import RecordRetention
-from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
+from carpus.core.records.session_setup import SessionSetup
 from carpus.core.records.values import Patient
-from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
@@ -69,19 +67,6 @@ def store(
     return SessionIntake(library).register(wanted, path)
 
 
-def test_practice_is_never_among_the_patients(library: DataFolder) -> None:
-    patients = PatientStore(library)
-    linden = library.patients.add(Patient("Linden 42", "right", "right"))
-    practice, measured = (
-        store(library, set_up(PRACTICE_PATIENT, "Practice patient")),
-        store(library, set_up(linden, "Linden 42")),
-    )
-    assert [row.pseudonym for row in patients.list_patients()] == ["Linden 42"]
-    assert [row.session_id for row in library.sessions(linden)] == [measured]
-    assert [row.session_id for row in library.sessions(PRACTICE_PATIENT)] == [practice]
-    assert len(library.session(practice)) == 40
-
-
 def test_length_of_hand_is_that_of_its_last_session_with_right_names(library: DataFolder) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
@@ -118,22 +103,6 @@ def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(li
     assert card.note_date == library.entry(real).created
     assert not any("imulated" in said for said in card.warnings)
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
-
-
-def test_choices_and_comments_are_kept_in_the_store(library: DataFolder) -> None:
-    session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
-    choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, is_session_excluded=True)
-    library.save_choices(session_id, choices)
-    for text in ("First.", "Second,\nwith a line.", "Second,\nwith a line.\n", ""):
-        library.save_comment(session_id, text)
-    assert [one.text for one in session_records.read_comments(library.store, session_id)] == [
-        "First.",
-        "Second,\nwith a line.",
-        "",
-    ]
-    assert library.comment(session_id) == ""
-    assert library.choices(session_id) == choices
-    assert not list(library.folder.rglob("*.json")), "nothing that is typed lies beside a session"
 
 
 def test_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: DataFolder) -> None:

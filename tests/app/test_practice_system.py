@@ -57,19 +57,6 @@ def test_request_in_the_folder_opens_a_new_patient(qtbot: QtBot, opened: Open, f
     assert shown.birth_day == date(1945, 10, 30)
 
 
-def test_request_of_a_known_number_opens_that_patient(
-    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
-) -> None:
-    desktop = opened()
-    known = desktop.library.patients.add(Patient("Heron 17", "left", name="J. Mustermann", record_number="12345"))
-    desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1"), "from the menu.txt"))
-
-    patient = desktop.library.patients.get(known)
-    assert (patient.pseudonym, patient.side, patient.name) == ("Heron 17", "left", "Jürg Mustermann")
-    assert selected(desktop) == known
-    assert len(desktop.library.patients.search()) == 1
-
-
 def test_request_while_another_is_searched_selects_the_one_sent(
     qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
 ) -> None:

@@ -84,16 +84,6 @@ def test_marker_at_click_of_any_colour_is_found(paper_to: str) -> None:
         assert np.linalg.norm(taken.pixel[0] - disc) < 1.0
 
 
-def test_marker_at_click_on_skin_is_none() -> None:
-    frame, camera, discs = detect_candidates(0)
-    middles = [(a + b) / 2 for i, a in enumerate(discs) for b in discs[:i]]
-    bare = [spot for spot in middles if np.linalg.norm(discs - spot, axis=1).min() > 4 * RADIUS_PX]
-    found = find_marker_candidates(frame, camera, SETTINGS)
-    bare = [spot for spot in bare if np.linalg.norm(found.pixel - spot, axis=1).min() > 4 * RADIUS_PX]
-    assert len(bare) >= 3
-    assert sum(len(find_marker_at_click(frame, spot, camera, SETTINGS)) for spot in bare) == 0
-
-
 def test_marker_candidates_without_hand_are_none() -> None:
     frame, camera, _ = detect_candidates(0)
     grey = Frame(0, 0.0, np.full_like(frame.color_rgb, 90), None, 1.0)

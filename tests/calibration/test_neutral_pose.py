@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
@@ -42,18 +41,6 @@ def angle_between(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.asarray(Rotation.from_matrix(a.T @ b).as_rotvec())
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_neutral_pose_from_bad_starts_is_exact(seed: int) -> None:
-    rotation, translation = true_pose(seed)
-    rng = np.random.default_rng(seed + 50)
-    axis = rng.normal(size=3)
-    off = Rotation.from_rotvec(axis / np.linalg.norm(axis) * np.radians(40.0)).as_matrix()
-    found = fit_pose(measure_markers(rotation, translation), rotation @ off, translation + rng.uniform(-0.15, 0.15, 3))
-    assert np.linalg.norm(angle_between(rotation, found[0])) < 1e-9
-    assert np.linalg.norm(found[1] - translation) < 1e-9
-    assert np.allclose(found[0] @ found[0].T, np.eye(3), atol=1e-12)
-
-
 def predicted_covariance(rotation: FloatArray, translation: FloatArray) -> FloatArray:
     """(H' W H)^-1 with H by finite differences of translation and turn."""
     columns = []
@@ -84,16 +71,6 @@ def test_neutral_pose_errors_match_the_predicted_covariance() -> None:
     assert chi2.ppf(1e-4, 1800) < squared.sum() < chi2.isf(1e-4, 1800)
     mean = error.mean(axis=0)
     assert mean @ np.linalg.solve(covariance / 300.0, mean) < chi2.isf(1e-4, 6)
-
-
-def test_neutral_pose_uses_pixels_of_markers_without_depth() -> None:
-    rotation, translation = true_pose(5)
-    values = measure_markers(rotation, translation)
-    values[[12, 14, 15]] = np.nan
-    off = Rotation.from_rotvec([0.2, -0.1, 0.3]).as_matrix()
-    found = fit_pose(values, rotation @ off, translation + 0.03)
-    assert np.linalg.norm(angle_between(rotation, found[0])) < 1e-9
-    assert np.linalg.norm(found[1] - translation) < 1e-9
 
 
 def test_neutral_pose_without_depth_is_determined() -> None:

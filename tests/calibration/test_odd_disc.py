@@ -52,13 +52,6 @@ def test_odd_marker_blue_spot_as_mcp3_is_found(side: Side) -> None:
     assert odd_kinds(calibrate_clicks(scene, clicked, false)) == ["spare_spot"]
 
 
-@pytest.mark.parametrize("side", SIDES)
-def test_odd_marker_of_a_right_palm_is_none(side: Side) -> None:
-    for size in (0.7, 1.15):
-        scene = Scene(side=side, size=size)
-        assert odd_kinds(calibrate_clicks(scene, scene.discs_px)) == []
-
-
 def test_odd_marker_spot_away_from_the_palm_is_ignored() -> None:
     scene = Scene()
     away = scene.discs_px.min(axis=0) + [-38.0, 60.0]
@@ -104,10 +97,3 @@ def test_odd_marker_of_varied_hands_is_none() -> None:
         plan = plan + rng.normal(0.0, 0.003, plan.shape)
         asked += find_odd_marker("right", plan, NO_SPOT) is not None
     assert asked <= 3
-
-
-def test_odd_marker_finger_markers_are_no_spare_spots() -> None:
-    palm = average_palm("right")
-    along = (palm[2:6] - palm[0]) / np.linalg.norm(palm[2:6] - palm[0], axis=1)[:, None]
-    fingers = np.concatenate([palm[2:6] + reach * along for reach in (0.045, 0.07, 0.09)])
-    assert find_odd_marker("right", palm, fingers) is None

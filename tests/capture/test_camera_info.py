@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
-import yaml
 
-from carpus.core.capture.camera_info import StoredCalibration, read_camera_info, rescale_camera, write_camera_info
-from carpus.core.model.camera import DEFAULT_CAMERA, Camera
+from carpus.core.capture.camera_info import StoredCalibration, read_camera_info, write_camera_info
+from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import D435, PRIMESENSE
 from carpus.core.model.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 
@@ -82,16 +80,6 @@ def test_camera_info_damaged_calibration_raises(tmp_path: Path) -> None:
             read_camera_info(path)
 
 
-def test_camera_info_written_file_has_ros_fields(tmp_path: Path) -> None:
-    path = tmp_path / "camera_info.yaml"
-    write_camera_info(path, CAMERA)
-    content = yaml.safe_load(path.read_text())
-    np.testing.assert_array_equal(np.reshape(content["camera_matrix"]["data"], (3, 3)), CAMERA.matrix)
-    assert content["distortion_model"] == "plumb_bob"
-    assert len(content["distortion_coefficients"]["data"]) == 5
-    assert np.reshape(content["projection_matrix"]["data"], (3, 4))[0].tolist() == [570.3, 0.0, 314.2, 0.0]
-
-
 def test_camera_info_ros_file_is_read(tmp_path: Path) -> None:
     path = tmp_path / "camera_info.yaml"
     path.write_text(ROS_FILE)
@@ -149,13 +137,3 @@ def test_camera_info_existing_file_is_kept(tmp_path: Path) -> None:
     assert path.read_text() == "mine"
     with pytest.raises(OutputNotWritable):
         write_camera_info(tmp_path / "nowhere" / "camera_info.yaml", CAMERA)
-
-
-def test_rescale_camera_keeps_field_of_view() -> None:
-    assert rescale_camera(DEFAULT_CAMERA, (640, 480)) == DEFAULT_CAMERA
-    half = rescale_camera(DEFAULT_CAMERA, (320, 240))
-    assert half is not None
-    corner = np.array([-0.5, -0.5])  # outer corner of the top left pixel, the same ray at every size
-    ray = DEFAULT_CAMERA.backproject(corner, np.array(1.0))
-    np.testing.assert_allclose(half.backproject(corner, np.array(1.0)), ray, atol=1e-12)
-    assert rescale_camera(DEFAULT_CAMERA, (1280, 720)) is None

@@ -20,7 +20,6 @@ from carpus.core.capture.frame_assembly import (
     FrameAssembler,
     StreamLayout,
     TimestampedImage,
-    camera_from_field_of_view,
 )
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.model.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
@@ -36,41 +35,6 @@ def paired(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) 
         out += (pairing.add_color if kind == "color" else pairing.add_depth)(TimestampedImage(time_us, 1, kind))
     out += pairing.finish()
     return [(color.timestamp_us, depth.timestamp_us if depth else None) for color, depth in out]
-
-
-PAIRED: dict[str, tuple[list[tuple[str, int]], list[tuple[int, int | None]]]] = {
-    "half a period apart": (
-        [event for i in range(5) for event in (("color", i * PERIOD_US), ("depth", i * PERIOD_US + 15_000))],
-        [(i * PERIOD_US, i * PERIOD_US + 15_000) for i in range(5)],
-    ),
-    "an early one waits for a nearer": (
-        [("depth", 82_000), ("color", 100_000), ("depth", 104_000)],
-        [(100_000, 104_000)],
-    ),
-    "a far one is none": (
-        [("color", 0), ("depth", PAIRING_TOLERANCE_US + 1), ("color", 90_000)],
-        [(0, None), (90_000, None)],
-    ),
-}
-
-
-@pytest.mark.parametrize("case", PAIRED)
-def test_synchronizer_pairs_nearest_in_time(case: str) -> None:
-    events, pairs = PAIRED[case]
-    assert paired(events) == pairs
-
-
-def test_synchronizer_near_depth_releases_at_once() -> None:
-    pairing = ApproximateTimeSynchronizer[str](PERIOD_US)
-    assert pairing.add_color(TimestampedImage(100_000, 1, "")) == []
-    assert len(pairing.add_depth(TimestampedImage(98_000, 1, ""))) == 1
-
-
-@pytest.mark.parametrize(("start_limit", "count", "shown"), [(0, 10, range(7)), (5, 20, range(5, 17))])
-def test_synchronizer_without_depth_waits_up_to_limit(start_limit: int, count: int, shown: range) -> None:
-    pairing = ApproximateTimeSynchronizer[str](PERIOD_US, limit=3, start_limit=start_limit)
-    out = [pair for i in range(count) for pair in pairing.add_color(TimestampedImage(i * PERIOD_US, i, ""))]
-    assert [color.number for color, _ in out] == list(shown)
 
 
 def test_synchronizer_skips_colour_without_depth_at_start_only() -> None:
@@ -116,13 +80,6 @@ def test_frame_assembler_counts_gaps_and_survives_clock_restart() -> None:
     assert [frame.dropped_before for frame in frames[3:]] == [29, 0]
 
 
-def test_frame_assembler_images_are_copies() -> None:
-    view = color_of(3)
-    (frame,) = FrameAssembler(StreamLayout((6, 4), None), PERIOD_US, 4).add_color(0, 1, view)
-    view[:] = 0
-    assert (frame.color_rgb == 3).all()
-
-
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_stream_layout_enlarges_depth_by_repetition(mirrored: bool) -> None:
     layout = StreamLayout((8, 6), (4, 3), False, mirrored)
@@ -139,16 +96,6 @@ def test_stream_layout_incompatible_sizes_are_described() -> None:
     assert StreamLayout((640, 480), (320, 200)).describe_size_mismatch() == "colour 640x480, depth 320x200"
     assert StreamLayout((160, 120), (640, 480)).describe_size_mismatch() != ""
     assert StreamLayout((640, 480), (640, 480)).describe_size_mismatch() == ""
-
-
-def test_camera_from_field_of_view_has_its_focal_length() -> None:
-    # the angles an Asus Xtion tells: f = 570.34 px
-    camera = camera_from_field_of_view((640, 480), (1.02260, 0.79662))
-    assert camera is not None
-    assert camera.fx_px == pytest.approx(570.34, abs=0.05)
-    assert camera.fy_px == pytest.approx(570.34, abs=0.05)
-    assert (camera.cx_px, camera.cy_px, camera.origin) == (319.5, 239.5, "driver")
-    assert camera_from_field_of_view((640, 400), None) is None
 
 
 MODE = VideoMode(PixelFormat.RGB888, 64, 48, 30)
@@ -204,12 +151,6 @@ def test_find_usb_cameras_reads_sysfs(tmp_path: Path) -> None:
     nodes = plugged_in(tmp_path, driver="usbfs")
     (camera,) = find_usb_cameras(MODELS, tmp_path / "sys", nodes)
     assert camera == UsbCamera("Asus Xtion Pro Live", "1d27", "0601", nodes / "001" / "007", 480, True, True)
-
-
-def test_find_usb_cameras_other_device_or_system_finds_none(tmp_path: Path) -> None:
-    nodes = plugged_in(tmp_path, product="9999")
-    assert find_usb_cameras(MODELS, tmp_path / "sys", nodes) == []
-    assert find_usb_cameras(MODELS, tmp_path / "nowhere", nodes) == []
 
 
 def seen(**changes: bool) -> UsbCamera:

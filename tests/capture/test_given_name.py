@@ -41,14 +41,6 @@ def test_given_name_applies_only_without_serial(tmp_path: Path) -> None:
     assert of_both == ["room 3", "room 3 (Carmine)"], "one would be seen through the other's calibration"
 
 
-@pytest.mark.parametrize("content", ["", '{"Xtion": 3}', '{"Xtion": "\\n"}', "[" * 100_000])
-def test_given_name_damaged_file_is_ignored(tmp_path: Path, content: str) -> None:
-    (tmp_path / "cameras").mkdir()
-    (tmp_path / "cameras" / "names.json").write_text(content)
-    plain = Camera("Xtion")
-    assert with_given_name(plain, tmp_path) is plain
-
-
 def test_given_name_unwritable_folder_raises(tmp_path: Path) -> None:
     (tmp_path / "cameras").write_text("a file")
     with pytest.raises(OutputNotWritable):

@@ -16,12 +16,10 @@ from carpus.core.capture.files.oni_source import OniSource
 from carpus.core.model.errors import (
     CameraFileUnreadable,
     CarpusFault,
-    DamagedFramesExcluded,
     DepthNotRegistered,
     FramesEnlarged,
     RecordingDamaged,
     RecordingUnsupported,
-    RegistrationAssumed,
 )
 from carpus.core.model.types import Frame
 from tests.capture.oni_samples import (
@@ -83,27 +81,9 @@ def test_oni_source_both_depth_codecs_are_lossless(tmp_path: Path, depth: str) -
     assert told == []
 
 
-def test_oni_source_without_depth_is_read(tmp_path: Path) -> None:
-    source = OniSource(write_sample(tmp_path / "a.oni", 3, depth=None))
-    assert not source.info.has_depth
-    assert [frame.depth_raw for frame in source.frames()] == [None, None, None]
-
-
 @pytest.mark.parametrize("name", ["poignet gauche – été.oni", "手首の記録.oni", "🤚.oni"])
 def test_oni_source_path_in_any_script_is_read(tmp_path: Path, name: str) -> None:
     assert_whole(play(write_sample(tmp_path / name, 3))[0], 3)
-
-
-def test_oni_source_states_source_info(tmp_path: Path) -> None:
-    path = write_sample(tmp_path / "a.oni", 5)
-    told: list[CarpusFault] = []
-    info = OniSource(path, notice=told.append).info
-    assert (info.name, info.frame_count, info.nominal_fps, info.has_depth) == ("a.oni", 5, 30.0, True)
-    assert info.camera.origin == "driver"
-    assert info.camera.fx_px == pytest.approx(CAMERA.fx_px)
-    assert (info.camera.cx_px, info.camera.cy_px) == (31.5, 23.5)
-    assert info.settings["registered"] == "assumed"
-    assert [type(fault) for fault in told] == [RegistrationAssumed]
 
 
 @pytest.mark.parametrize(("registered", "expected"), [(True, []), (False, [DepthNotRegistered])])
@@ -170,35 +150,10 @@ def damaged_payload(data: bytes, node: int, occurrence: int) -> bytes:
     return patched(data, payload.start, noise)
 
 
-@pytest.mark.parametrize("occurrence", [0, 2, 5])
-def test_oni_source_damaged_colour_is_skipped_and_counted(tmp_path: Path, occurrence: int) -> None:
-    frames, told = play(changed(tmp_path, 6, lambda data: damaged_payload(data, 2, occurrence), color="jpeg"))
-    assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
-    kept = [number for number in range(1, 7) if number != occurrence + 1]
-    assert [int(frame.depth_raw[0, 0]) - 5000 for frame in frames if frame.depth_raw is not None] == kept
-    assert sum(frame.dropped_before for frame in frames) == (1 if occurrence == 2 else 0)
-    assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 6 colour")]
-
-
 def test_oni_source_damaged_depth_leaves_frame_without_depth(tmp_path: Path) -> None:
     frames, told = play(changed(tmp_path, 6, lambda data: damaged_payload(data, 1, 3)))
     assert [frame.depth_raw is not None for frame in frames] == [True, True, True, False, True, True]
     assert [fault.detail for fault in told] == ["1 of 6 depth"]
-
-
-def test_oni_source_damaged_escape_affects_one_image(tmp_path: Path) -> None:
-    """The OpenNI2 library skips 65535 bytes from here, far beyond the picture, and dies."""
-
-    def skipping(data: bytes) -> bytes:
-        payload = find(data, RecordType.NEW_DATA, 4, 2).payload
-        return patched(data, (payload.start + payload.stop) // 2, b"\xff\xe0\xff\xff")
-
-    frames, _ = play(changed(tmp_path, 8, skipping, color="jpeg"))
-    seen = [int(frame.depth_raw[0, 0]) - 5000 for frame in frames if frame.depth_raw is not None]
-    assert [number for number in seen if number != 5] == [1, 2, 3, 4, 6, 7, 8]
-    for number, frame in zip(seen, frames, strict=True):
-        if number != 5:
-            assert np.abs(frame.color_rgb.astype(int) - color_picture(number).astype(int)).mean() < 2.5
 
 
 def test_oni_source_time_gaps_are_counted(tmp_path: Path) -> None:
@@ -230,16 +185,6 @@ def test_oni_source_truncated_while_playing_raises(tmp_path: Path) -> None:
     with pytest.raises(RecordingDamaged) as caught:
         list(frames)
     assert caught.value.detail == "the file changes while it is read"
-
-
-def test_oni_source_new_pass_ends_the_one_before(tmp_path: Path) -> None:
-    told: list[CarpusFault] = []
-    source = OniSource(write_sample(tmp_path / "a.oni", 30), registered=True, notice=told.append)
-    first = source.frames()
-    next(first)
-    assert_whole(list(source.frames()), 30)
-    assert len(list(first)) < 30
-    assert told == []
 
 
 def test_oni_source_sidecar_overrides_mirror_flag(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import signal
 import threading
@@ -72,27 +71,6 @@ def test_openni2_camera_yields_frames(camera: ProcessCamera, told: list[CarpusFa
             break
     assert_rising(frames)
     assert [type(fault) for fault in told] == [DepthNotRegistered, ExposureUnstable]
-
-
-def test_openni2_camera_states_its_settings(camera: ProcessCamera) -> None:
-    info = camera.info
-    assert (info.name, info.frame_count, info.nominal_fps, info.has_depth) == ("Dummy", None, 30.0, True)
-    assert info.camera.origin == "default"
-    assert (info.camera.width_px, info.camera.height_px, info.camera.fx_px) == (320, 240, 262.5)
-    assert info.settings["color_mode"] == "320x240 RGB888 30 fps"
-    assert info.settings["depth_mode"] == "320x240 DEPTH_1_MM 30 fps"
-    assert info.settings["registered"] == "no"
-    assert info.settings["library"].startswith("OpenNI2 2.")
-    assert camera._patience_s == math.inf, "the wait for a lost one has no end"
-
-
-def test_openni2_camera_can_be_reopened() -> None:
-    for _ in range(2):
-        source = KIND.open("Dummy")
-        assert_rising(list(islice(source.frames(), 3)))
-        source.close()
-        source.close()
-        assert list(source.frames()) == []
 
 
 def test_openni2_camera_slow_reader_counts_drops_until_closed(

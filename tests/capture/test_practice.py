@@ -35,18 +35,6 @@ def numbers(frames: list[Frame]) -> list[int]:
     return [int(frame.color_rgb[0, 0, 0]) for frame in frames]
 
 
-def test_practice_source_rests_until_movement_starts() -> None:
-    source = PracticeSource(Take(), still_s=0.55)
-    frames = source.frames()
-    before = list(islice(frames, 40))
-    assert set(numbers(before)) == set(range(STILL))
-    assert np.abs(np.diff(numbers(before))).max() == 1
-    source.start_movement()
-    moving = list(islice(frames, TOTAL - STILL))
-    assert numbers(moving) == list(range(STILL, TOTAL))
-    assert [frame.dropped_before for frame in moving] == [0, 0, 0, 0, 0, 0, 1, 0, 0]
-
-
 def test_practice_source_rests_after_movement_with_rising_times() -> None:
     source = PracticeSource(Take(), still_s=0.55)
     source.start_movement()

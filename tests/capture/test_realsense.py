@@ -18,7 +18,7 @@ import pytest
 import carpus
 from carpus.app.sources import open_recording
 from carpus.core.capture.devices import realsense
-from carpus.core.capture.devices.cameras import check_firmware_and_usb, open_camera
+from carpus.core.capture.devices.cameras import check_firmware_and_usb
 from carpus.core.capture.devices.capture_child import camera_open_error, camera_unlisted_error
 from carpus.core.capture.devices.color_lock import MAX_ROUNDS, ColorController, ColorStatistics
 from carpus.core.capture.devices.process_camera import ProcessCamera
@@ -36,7 +36,6 @@ from carpus.core.model.errors import (
     CameraReturned,
     CarpusFault,
     DriverFailed,
-    ExtraMissing,
     RecordingDamaged,
 )
 from carpus.core.model.fault_text import format_fault_line
@@ -185,20 +184,6 @@ def test_realsense_color_lock_keeps_colours(camera: ProcessCamera, told: list[Ca
         after = frame.color_rgb.mean(axis=(0, 1))
     assert told == []
     assert after == pytest.approx(before, rel=0.04)
-
-
-def test_realsense_missing_camera_raises(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "unplugged").touch()
-    with pytest.raises(CameraMissing):
-        replace(realsense.KIND, make_context=partial(realsense_stand_in.plugged_in, tmp_path)).open()
-
-    def missing(name: str) -> str:
-        raise PackageNotFoundError(name)
-
-    monkeypatch.setattr("importlib.metadata.version", missing)
-    with pytest.raises(ExtraMissing) as told:
-        open_camera("realsense:815412070123")
-    assert format_fault_line(told.value).endswith("-m pip install pyrealsense2”. (C-001)")
 
 
 @pytest.mark.parametrize(

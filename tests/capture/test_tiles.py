@@ -12,9 +12,7 @@ from carpus.core.capture.files.image_codec import (
     TILE_PX,
     TiledImage,
     decode_color,
-    decode_depth,
     encode_color,
-    encode_depth,
     pack_tiles,
 )
 from carpus.core.model.errors import RecordingUnreadable
@@ -39,13 +37,6 @@ def test_tiled_jpeg_equals_whole_jpeg() -> None:
     assert not back.flags.writeable
 
 
-def test_tiled_depth_is_lossless() -> None:
-    depth = np.random.default_rng(4).integers(0, 1 << 16, (HEIGHT, WIDTH), dtype=np.uint16)
-    np.testing.assert_array_equal(
-        TiledImage(Path("t"), pack_tiles(depth, encode_depth), DEPTH, decode_depth).decode(None), depth
-    )
-
-
 @pytest.mark.parametrize(
     "part",
     [
@@ -62,13 +53,6 @@ def test_tiled_image_decodes_only_the_region(part: Region) -> None:
     columns = min(part.right, WIDTH) // TILE_PX - max(part.left, 0) // TILE_PX + 1
     assert seen.any(axis=-1).sum() <= max(columns, 0) * TILE_PX * HEIGHT
     np.testing.assert_array_equal(tiled.decode(None), color)
-
-
-def test_pack_tiles_blank_tile_has_no_bytes() -> None:
-    color = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
-    assert len(pack_tiles(color, encode_color)) == 4 + 4 * 8
-    color[100, 200] = 9
-    np.testing.assert_array_equal(color_from(pack_tiles(color, encode_color)).decode(None)[:80], color[:80])
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -90,27 +89,6 @@ def test_tum_folder_images_are_read_exactly(take: Path, read_ahead: int) -> None
     source.close()
 
 
-def test_tum_folder_states_source_info(take: Path) -> None:
-    info = TumFolder(take).info
-    assert (info.name, info.frame_count, info.has_depth) == ("take", 5, True)
-    assert info.nominal_fps == pytest.approx(1 / 0.033, rel=1e-4)
-    assert info.camera.origin == "default"
-    assert info.camera.fx_px == pytest.approx(DEFAULT_CAMERA.fx_px * WIDTH / 640)
-
-
-def test_tum_folder_uses_camera_file(take: Path) -> None:
-    camera = Camera(52.0, 53.0, 31.0, 24.0, WIDTH, HEIGHT, (0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
-    write_camera_info(take / "camera_info.yaml", camera)
-    assert TumFolder(take).info.camera == camera
-
-
-def test_tum_folder_keeps_colour_without_depth(take: Path) -> None:
-    edit(take / "depth.txt", lambda lines: [*lines[:2], *lines[3:]])
-    frames = list(TumFolder(take).frames())
-    assert [frame.depth_raw is None for frame in frames] == [False, True, False, False, False]
-    np.testing.assert_array_equal(frames[2].depth_raw, depth_picture(2))
-
-
 def test_tum_folder_reads_windows_and_blank_lines(take: Path) -> None:
     for name in ("rgb.txt", "depth.txt"):
         text = (take / name).read_text()
@@ -123,14 +101,6 @@ def test_tum_folder_colour_only_is_read_without_requires_depth(take: Path) -> No
     source = TumFolder(take, requires_depth=False)
     assert not source.info.has_depth
     assert all(frame.depth_raw is None for frame in source.frames())
-
-
-def test_tum_folder_abandoned_read_ahead_leaves_no_thread(take: Path) -> None:
-    frames = TumFolder(take, read_ahead=2).frames()
-    next(frames)
-    assert any(thread.name.startswith("read-ahead") for thread in threading.enumerate())
-    frames.close()  # type: ignore[attr-defined]
-    assert not any(thread.name.startswith("read-ahead") for thread in threading.enumerate())
 
 
 Spoiler = Callable[[Path], object]
@@ -239,12 +209,6 @@ def test_tum_folder_missing_or_file_raises(tmp_path: Path) -> None:
         TumFolder(tmp_path / "file")
 
 
-def test_tum_folder_single_image_is_read(tmp_path: Path) -> None:
-    source = TumFolder(write_recording(tmp_path / "take", [12.5]))
-    assert source.info.nominal_fps > 0
-    assert [frame.dropped_before for frame in source.frames()] == [0]
-
-
 rising = st.lists(st.integers(0, 400), unique=True, max_size=12).map(lambda ms: np.array(sorted(ms)) * 1e-3)
 
 
@@ -319,14 +283,6 @@ def test_tum_folder_other_time_unit_is_notified(take: Path, unit: str, counts: f
     assert source.info.nominal_fps == pytest.approx(1.0 / 0.033, rel=0.01)
 
 
-@pytest.mark.parametrize("step_s", [0.2, 0.67, 1.5])
-def test_tum_folder_slow_recording_keeps_seconds(tmp_path: Path, step_s: float) -> None:
-    told: list[CarpusFault] = []
-    source = TumFolder(write_recording(tmp_path / "slow", [step_s * k for k in range(4)]), notice=told.append)
-    assert not told
-    assert source.stored_frames[3].timestamp_s == pytest.approx(3.0 * step_s)
-
-
 def test_tum_folder_duplicate_time_is_skipped_and_notified(take: Path) -> None:
     for name in ("rgb.txt", "depth.txt"):
         edit(take / name, lambda lines: [*lines[:-1], lines[-2], lines[-1], lines[-1]])
@@ -337,12 +293,6 @@ def test_tum_folder_duplicate_time_is_skipped_and_notified(take: Path) -> None:
         (RepeatedTimesExcluded, "2"),
         (RepeatedTimesExcluded, "2"),
     ]
-
-
-def test_tum_folder_reads_backslash_paths(take: Path) -> None:
-    for name in ("rgb.txt", "depth.txt"):
-        edit(take / name, lambda lines: [line.replace("/", "\\") for line in lines])
-    assert len(list(TumFolder(take).frames())) == len(TIMES_S)
 
 
 @pytest.mark.parametrize(("counts_per_m", "said"), [(5000, False), (1000, True)])

@@ -42,17 +42,6 @@ def test_coherence_of_a_thumb_that_moves_while_occluded_is_full() -> None:
     assert lost.jumps_m[0] == pytest.approx(0.03, abs=0.005), "told when it is seen again"
 
 
-def test_coherence_of_guess_impossible_pose_and_jump_is_low() -> None:
-    guess = compute_coherence(moving_angles(), sd_deg=16.0)
-    assert (guess.coherent_share, guess.known_share) == (1.0, 0.0)
-    bent_back = moving_angles()
-    bent_back[45:, 4] = np.radians(-60.0)
-    assert compute_coherence(bent_back).coherent_share == pytest.approx(0.5, abs=0.06)
-    flickering = moving_angles()
-    flickering[30:60:2, 2] += np.radians(40.0)
-    assert compute_coherence(flickering).coherent_share < 0.1
-
-
 def test_coherence_without_occlusion_or_tracking_is_unknown() -> None:
     seen = compute_coherence(moving_angles(), hidden=np.zeros(COUNT, dtype=bool))
     assert seen.occluded_share == 0.0

@@ -10,8 +10,6 @@ import pytest
 from carpus.core.measures.noise import Noise
 from carpus.core.measures.reach import WRIST_NOISE, find_reaches, measure_path
 from carpus.core.measures.signals import Signal, resample_evenly
-from carpus.core.measures.speed import count_speed_peaks
-from carpus.core.model.types import FloatArray
 from tests.measures.tracked import ONE_PROCESS, tracked
 from tests.suites import few
 
@@ -37,13 +35,6 @@ def test_path_of_a_straight_reach_is_straight() -> None:
     assert found.sparc == pytest.approx(-1.40, abs=0.05)
 
 
-def test_path_of_a_half_circle_is_longer_by_half_pi() -> None:
-    angle = np.linspace(0.0, math.pi, 61)
-    circle: FloatArray = np.column_stack((np.cos(angle), np.sin(angle), 0.0 * angle)) * 0.1
-    found = measure_path(resample_evenly(np.arange(61) / RATE, circle), 0.0, 2.0)
-    assert found.straightness == pytest.approx(math.pi / 2, rel=1e-3)
-
-
 def test_path_undefined_cases_are_nan() -> None:
     assert math.isnan(measure_path(make_reach(0.04), 1.0, 2.0).straightness)
     assert measure_path(make_reach(0.04), 1.0, 2.0).length_m == pytest.approx(0.04, abs=1e-9)
@@ -51,24 +42,6 @@ def test_path_undefined_cases_are_nan() -> None:
     signal.value[45:50] = np.nan
     assert math.isnan(measure_path(signal, 1.0, 2.0).length_m)
     assert math.isnan(measure_path(signal, 50.0, 60.0).length_m)
-
-
-def make_serial_reach(parts: int, noise_m_s: float = 0.0) -> FloatArray:
-    tau = np.arange(0.0, 1.0, 1.0 / RATE)
-    one = 0.3 * 30.0 * tau**2 * (1.0 - tau) ** 2
-    ripple = noise_m_s * np.sin(2.0 * math.pi * 4.1 * np.arange(parts * len(tau)) / RATE)
-    return np.concatenate([one] * parts) + ripple
-
-
-@pytest.mark.parametrize("parts", [1, 3])
-def test_path_peaks_noise_dip_splits_no_peak(parts: int) -> None:
-    wavy = make_serial_reach(parts, 0.004)
-    assert count_speed_peaks(wavy, RATE, 0.02, min_dip=0.016) == parts
-    # Nor does it take a long rise apart into steps that are too small to count.
-    slow = np.concatenate((np.linspace(0.0, 0.1, 75), np.linspace(0.1, 0.0, 75)))
-    stairs = slow + 0.004 * np.sin(2.0 * math.pi * 3.0 * np.arange(150) / RATE)
-    assert count_speed_peaks(stairs, RATE, 0.02) == 0
-    assert count_speed_peaks(stairs, RATE, 0.02, min_dip=0.016) == 1
 
 
 @pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])

@@ -89,36 +89,6 @@ def test_find_repetitions_are_contiguous_with_one_top_each() -> None:
     assert found.repetitions[2].end_s - found.repetitions[2].start_s == pytest.approx(2.0, abs=0.1)
 
 
-def test_find_repetitions_both_sides_are_cut_at_the_middle() -> None:
-    found = find_repetitions(make_signal(swing_to_both_sides(30.0, 0.5)))
-    for k, rep in enumerate(found.repetitions):
-        assert rep.start_s == pytest.approx(1.0 + 2.0 * k, abs=0.1)
-        assert rep.end_s == pytest.approx(3.0 + 2.0 * k, abs=0.1)
-
-
-def test_find_repetitions_last_swing_without_return_is_partial() -> None:
-    value = swing_to_one_side(60.0, 0.5)[: -(30 + 30)]
-    assert value[-1] == pytest.approx(60.0, abs=0.5)
-    assert len(find_repetitions(make_signal(value)).repetitions) == 5
-
-
-def test_find_repetitions_small_short_or_unseen_gives_none() -> None:
-    assert find_repetitions(make_signal(swing_to_both_sides(4.5, 0.5))).repetitions == ()
-    assert find_repetitions(make_signal(swing_to_both_sides(30.0, 0.5)[40:65])).repetitions == ()
-    assert find_repetitions(make_signal(np.full(200, np.nan))).repetitions == ()
-
-
-def test_find_repetitions_gap_lowers_valid_share() -> None:
-    value = swing_to_one_side(60.0, 0.5)
-    keep = np.ones(len(value), dtype=bool)
-    keep[30 + 2 * 60 + 22 : 30 + 2 * 60 + 38] = False
-    found = find_repetitions(make_signal(value, keep))
-    shares = [rep.valid_share for rep in found.repetitions]
-    assert len(shares) == 6
-    assert shares[2] == pytest.approx(1.0 - 16 / 60, abs=0.05)
-    assert shares[:2] + shares[3:] == [1.0] * 5
-
-
 @pytest.mark.parametrize(("share", "counted"), [(0.27, 6), (0.33, 8)])
 def test_find_repetitions_swing_below_three_tenths_is_none(share: float, counted: int) -> None:
     value = np.concatenate((swing_to_one_side(60.0, 0.5), swing_to_one_side(share * 60.0, 0.5, count=2)))

@@ -96,13 +96,6 @@ def test_stroke_mean_is_below_peak_and_pauses_within_movement(parts: list[Part],
         assert not stroke.sparc > -1.0
 
 
-def test_stroke_peaks_of_a_slow_movement_are_unknown() -> None:
-    for stroke in find_strokes(make_repetitions([(12.0, 8.0)], hold_s=2.0)):
-        assert math.degrees(stroke.arc_rad) == pytest.approx(12.0, abs=0.1)
-        assert math.degrees(stroke.peak_speed_rad_s) == pytest.approx(1.875 * 12.0 / 8.0, rel=0.03)
-        assert math.isnan(stroke.peaks)
-
-
 def test_stroke_creeping_in_the_turning_band_has_ended() -> None:
     settling = [(58.0, 1.0), (0.0, 0.5), (2.0, 1.5)]
     out, _ = find_strokes(make_repetitions(settling))

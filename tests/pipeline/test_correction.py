@@ -24,7 +24,6 @@ from carpus.core.pipeline.correction import (
     correct_in_process,
     find_lost_corrections,
     load_task,
-    with_added_detections,
 )
 from carpus.core.pipeline.track import (
     NeutralNoise,
@@ -38,7 +37,6 @@ from carpus.core.session.label_checks import (
     CORRECTED,
     Correction,
     find_label_doubt,
-    predict_marker_px,
     read_corrections,
     summarize_corrections,
 )
@@ -211,23 +209,6 @@ def test_correction_not_visible_takes_no_blob(stored: Stored, tmp_path: Path) ->
     assert not np.isfinite(session.markers.measured_px[WRONG_FROM, MCP3]).any()
     assert find_lost_corrections(session, read_detections(tmp_path / "new.h5"), [hidden]) == ()
     assert np.nanmin(np.linalg.norm(session.markers.measured_px[WRONG_FROM:] - stored.false_px, axis=-1)) > 20.0
-
-
-def test_correction_missing_marker_is_added_without_depth() -> None:
-    found = blobs(swing(1, 0.0, 1.0)(0.0), hidden=[MCP3])
-    place = CAMERA.project(discs_cam_m(swing(1, 0.0, 1.0)(0.0)))[MCP3]
-    more = with_added_detections(found, np.array([place, found.pixel[0] + 1.0]))
-    assert len(more) == len(found) + 1
-    assert more.pixel[-1] == pytest.approx(place)
-    assert np.isnan(more.depth_m[-1])
-
-
-def test_predict_marker_px_uses_other_markers(stored: Stored) -> None:
-    session = read_session(stored.path)
-    places = session.markers.measured_px[WRONG_FROM]
-    expected = predict_marker_px(session, WRONG_FROM, places, MCP3)
-    assert expected == pytest.approx(stored.disc_px, abs=4.0)
-    assert np.linalg.norm(places[MCP3] - expected) > 40.0
 
 
 def test_correct_in_process_stop_leaves_nothing_and_passes_faults(stored: Stored, tmp_path: Path) -> None:

@@ -28,35 +28,6 @@ def noisy(rng: np.random.Generator) -> Frame:
     return Frame(0, 0.0, color, depth, 0.001, 0)
 
 
-def test_hand_region_contains_markers_and_fingers() -> None:
-    frame = tracked()
-    area = compute_hand_region(frame, CAMERA, WRIST6)
-    assert area is not None
-    discs = frame.marker_measured_px
-    span = float(np.ptp(discs, axis=0).max())
-    for disc in discs:
-        assert area.left < disc[0] < area.right
-        assert area.top < disc[1] < area.bottom
-    assert discs[:, 1].min() - area.top >= min(1.4 * span, discs[:, 1].min()) - 1.0
-    assert area.left >= 0
-    assert area.bottom <= CAMERA.height_px
-
-
-def test_mask_outside_keeps_only_the_region() -> None:
-    frame, area = noisy(np.random.default_rng(1)), compute_hand_region(tracked(), CAMERA, WRIST6)
-    assert area is not None
-    kept = mask_outside(frame, area)
-    part = np.s_[area.top : area.bottom, area.left : area.right]
-    np.testing.assert_array_equal(kept.color_rgb[part], frame.color_rgb[part])
-    assert kept.depth_raw is not None
-    assert frame.depth_raw is not None
-    np.testing.assert_array_equal(kept.depth_raw[part], frame.depth_raw[part])
-    outside = np.ones((480, 640), dtype=bool)
-    outside[part] = False
-    assert not kept.color_rgb[outside].any()
-    assert not kept.depth_raw[outside].any()
-
-
 def test_hand_crop_lost_hand_keeps_whole_image() -> None:
     hand = HandRegions(CAMERA, WRIST6)
     assert hand.find_region(0.0) is None
@@ -66,13 +37,6 @@ def test_hand_crop_lost_hand_keeps_whole_image() -> None:
     assert hand.find_region(0.0) is None
     frame = noisy(np.random.default_rng(1))
     assert mask_outside(frame, None) is frame
-
-
-def test_hand_crop_stale_region_keeps_whole_image() -> None:
-    hand = HandRegions(CAMERA, WRIST6)
-    hand.update(tracked())
-    assert hand.find_region(0.1) is not None
-    assert hand.find_region(1.0) is None
 
 
 def test_hand_crop_waiting_frame_uses_region_of_its_time() -> None:

@@ -12,12 +12,10 @@ import pytest
 
 from carpus.core.model.errors import CameraLost, CameraReturned, DiskTooSlow, FrameDamaged, OutputExists
 from carpus.core.model.types import Frame, TrackedFrame
-from carpus.core.pipeline import backlog
-from carpus.core.pipeline.backlog import MAX_PREVIEW_WAITING
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
 from carpus.core.pipeline.queues import BoundedQueue, QueueFullError
-from tests.pipeline.live_fakes import ControlledSource, FakeSession, Gate, frame, gated_tracker, tracked, wait_until
+from tests.pipeline.live_fakes import ControlledSource, FakeSession, Gate, gated_tracker, tracked, wait_until
 
 OUT = Path("session.h5")
 
@@ -55,27 +53,6 @@ def test_live_session_previews_before_tracking() -> None:
     assert source.closed >= 1
 
 
-def test_live_session_tracks_from_next_frame() -> None:
-    source = ControlledSource()
-    with LiveSession(source) as live:
-        deliver(live, source, 5)
-        live.start_tracking(tracked)
-        deliver_tracked(live, source, 6)
-        view = live.current_view()
-        assert view.frame.index == view.tracked.index == 10
-        assert view.captured_at_s <= time.monotonic()
-        assert [row.index for row in live.frames_since(-1)] == [5, 6, 7, 8, 9, 10]
-        assert [row.index for row in live.frames_since(8)] == [9, 10]
-        live.end_tracking()
-        deliver(live, source, 3)
-        assert live.current_frame().index == 13
-        live.start_tracking(tracked)
-        assert live.frames_since(-1) == []
-        assert live.current_view() is None
-        deliver_tracked(live, source, 1)
-        assert [row.index for row in live.frames_since(-1)] == [14]
-
-
 def test_bounded_queue_full_raises_and_keeps_its_items() -> None:
     queue = BoundedQueue[int](2)
     queue.push(1)
@@ -103,92 +80,6 @@ def test_backlog_full_drops_and_counts_frames() -> None:
         assert live.stop_recording() == OUT
     assert [row.index for row in sink.rows] == [*range(9), 51, 52]
     assert [row.dropped_before for row in sink.rows] == [*[0] * 9, 42, 0]
-
-
-def test_backlog_little_memory_has_less_capacity(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(backlog, "read_free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
-    source, gate = ControlledSource(), Gate()
-
-    with LiveSession(source) as live:
-        deliver(live, source, 1)
-        live.start_tracking(gated_tracker(gate))
-        live.start_recording(lambda: FakeSession(OUT))
-        deliver(live, source, 1)
-        wait_until(lambda: gate.waiting)
-        deliver(live, source, 40)
-        assert live.counters().frames_waiting == 25
-        assert live.counters().dropped == 15
-        gate.open()
-
-
-def test_backlog_adds_drops_to_missing_frames() -> None:
-    source, gate, sink = ControlledSource(dropped_before=2), Gate(), FakeSession(OUT)
-
-    with LiveSession(source, LiveSettings(tracking_waiting=1)) as live:
-        live.start_tracking(gated_tracker(gate))
-        live.start_recording(lambda: sink)
-        deliver(live, source, 1)
-        wait_until(lambda: gate.waiting)
-        deliver(live, source, 4)
-        gate.open()
-        wait_until(lambda: live.counters().tracked == 2)
-        assert live.counters().missing == 10
-        deliver_tracked(live, source, 1)
-        live.stop_recording()
-    assert [row.dropped_before for row in sink.rows] == [2, 2, 3 * 3 + 2]
-
-
-def test_live_session_stop_waits_for_slow_tracker() -> None:
-    """A camera twice as fast as the tracker, for a minute: every picture is recorded, in order, at its own time."""
-    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
-    turns = threading.Semaphore(0)
-
-    def half_as_fast(picture: Frame) -> TrackedFrame:
-        gate.pass_through()
-        assert turns.acquire(timeout=60.0)
-        return tracked(picture)
-
-    with LiveSession(source) as live:
-        live.start_tracking(half_as_fast)
-        live.start_recording(lambda: sink)
-        gate.open()
-        for second in range(1, 61):
-            deliver(live, source, 30)
-            turns.release(15)
-            wait_until(lambda second=second: live.counters().tracked == 15 * second)
-        assert live.current_frame().index == 1799
-        assert live.counters().frames_waiting in (899, 900)
-        assert math.isfinite(live.counters().tracking_lag_s)
-        ended: list[Path] = []
-        stopper = threading.Thread(target=lambda: ended.append(live.stop_recording()))
-        stopper.start()
-        turns.release(100)
-        wait_until(lambda: live.counters().tracked == 1000)
-        deliver(live, source, 5)  # after the stop: neither recorded nor tracked meanwhile
-        assert live.is_recording
-        assert not ended
-        turns.release(2000)
-        stopper.join()
-        assert live.counters().dropped == 0
-        deliver_tracked(live, source, 1)
-    assert ended == [OUT]
-    assert [row.index for row in sink.rows] == list(range(1800))
-    assert [row.timestamp_s for row in sink.rows] == [100.0 + index / 30.0 for index in range(1800)]
-    assert not any(row.dropped_before for row in sink.rows)
-
-
-def test_live_session_stores_rows_while_frames_wait() -> None:
-    """What waits for the tracker holds up nothing that is done: a program that is killed loses only what waits."""
-    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
-
-    with LiveSession(source) as live:
-        live.start_tracking(gated_tracker(gate, since=10))
-        live.start_recording(lambda: sink)
-        deliver(live, source, 100)
-        wait_until(lambda: live.counters().rows_written == 10)
-        gate.open()
-        live.stop_recording()
-    assert len(sink.rows) == 100
 
 
 def test_backlog_preview_waits_half_a_second_at_most() -> None:
@@ -439,25 +330,6 @@ def test_live_session_listener_fault_removes_listener() -> None:
     assert live.drain_events() == []
 
 
-def test_live_session_stores_frames_before_tracking() -> None:
-    source, gate = ControlledSource(), Gate()
-    rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
-
-    with LiveSession(source, LiveSettings(tracking_waiting=16, pictures_waiting=100)) as live:
-        live.start_tracking(gated_tracker(gate))
-        live.start_recording(lambda: rows, lambda: pictures)
-        deliver(live, source, 60)
-        assert live.counters().dropped > 0
-        wait_until(lambda: live.counters().frames_written == 60)
-        assert live.counters().tracked == 0
-        gate.open()
-        live.stop_recording()
-    assert [f.index for f in pictures.pictures] == list(range(60))
-    assert pictures.ended == "closed"
-    assert pictures.threads == {"pictures"}
-    assert len(rows.rows) < 60
-
-
 def test_live_session_rows_and_frames_start_together() -> None:
     source, gate = ControlledSource(), Gate()
     rows, pictures = FakeSession(OUT), FakeSession(Path("raw"))
@@ -601,20 +473,3 @@ def test_live_session_stopped_file_ends_early() -> None:
         stored = [row.index for row in sink.rows]
         assert stored == list(range(len(stored)))
         assert live._capture_thread.is_alive()
-
-
-def test_backlog_stale_frames_are_skipped() -> None:
-    """The disk is full while the tracker is behind: it is at what is seen now again, and the next one has its room."""
-    source, gate = ControlledSource(), Gate()
-
-    with LiveSession(source) as live:
-        live.start_tracking(gated_tracker(gate, since=1))
-        live.start_recording(lambda: FakeSession(OUT, fault_at=0))
-        deliver(live, source, 200)
-        wait_until(lambda: "recording_failed" in kinds(live.drain_events()))
-        with pytest.raises(OSError, match="No space"):
-            live.stop_recording()
-        assert live.counters().frames_waiting > 0, "the end does not wait for the tracker"
-        gate.open()
-        wait_until(lambda: live.current_view() is not None and live.current_view().frame.index == 199)
-        assert live.counters().tracked == 2 + MAX_PREVIEW_WAITING

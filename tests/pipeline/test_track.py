@@ -26,7 +26,7 @@ from carpus.core.model.errors import (
     SessionUnreadable,
 )
 from carpus.core.model.types import FloatArray
-from carpus.core.pipeline.track import TrackReport, TrackSettings, restart_at_neutral, retrack_session, track_recording
+from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
 from carpus.core.platform.version import __version__
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import EncodedImages
@@ -208,19 +208,6 @@ def test_track_recording_stopped_or_full_disk_leaves_no_output(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_restart_at_neutral_once_after_still_frames() -> None:
-    """The still frames made the calibration; what they say must not be counted again."""
-    log: list[float | str] = []
-
-    class Begun:
-        def begin_at_neutral(self) -> None:
-            log.append("begun")
-
-    for time_s in restart_at_neutral([0.0, 0.1, 0.2, 0.3, 0.4], Begun(), 0.2, lambda time_s: time_s):  # type: ignore[arg-type]
-        log.append(time_s)
-    assert log == [0.0, 0.1, 0.2, "begun", 0.3, 0.4]
-
-
 def test_retrack_keeps_header_and_set_up(made: Made, tmp_path: Path) -> None:
     """Where the hand was at the start, what was aimed at, that it was simulated; and a poor verdict stops nothing."""
     aims, start = {"repetitions": 7, "targets_deg": [20.0, None]}, np.radians([0.0, 20.0, 0.0])
@@ -259,17 +246,6 @@ def keep_pictures(folder: Path, session: Path, output: Path) -> None:
         writer.append(replace(make_frame(frame.index), timestamp_s=frame.timestamp_s))
     writer.close()
     add_pictures(output, pictures, DEPTH_UNIT_M)
-
-
-def test_retrack_session_without_rows_works(made: Made, tmp_path: Path) -> None:
-    """A program that ended at once leaves one: there is nothing to look back at, and nothing to fail over."""
-    whole = read_session(made.session)
-    empty = tmp_path / "empty.h5"
-    with SessionWriter.create(empty, whole.header, whole.camera, whole.calibration):
-        pass
-    again = tmp_path / "again.h5"
-    retrack_session(empty, again, TrackSettings())
-    assert len(read_session(again)) == 0
 
 
 @pytest.mark.parametrize(

@@ -216,18 +216,6 @@ def test_verify_backup_flipped_bit_raises(
     assert len(list_backups(place)) == 2, "what could not be compared is no back-up"
 
 
-def test_create_backup_interrupted_is_not_listed(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def cut(*_: object) -> None:
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as broken:
-        broken.setattr(module, "_verify_file", cut)
-        with pytest.raises(KeyboardInterrupt):
-            backed_up(data, place)
-    assert list_backups(place) == []
-    assert backed_up(data, place).session_count == 2
-
-
 @pytest.mark.parametrize("where", [".", "sessions/backup", ".."])
 def test_create_backup_in_or_around_data_folder_is_refused(data: Path, where: str) -> None:
     with pytest.raises(BackupFolderUnsuited):
@@ -396,20 +384,6 @@ def test_prune_backups_deletes_leftovers_of_killed_backup(data: Path, tmp_path: 
     assert not any(path.exists() for path in left)
     for one in (made, again):
         verify_backup(place, one)
-
-
-def test_prune_backups_leaves_link_targets(data: Path, place: Path, tmp_path: Path) -> None:
-    mine = tmp_path / "mine"
-    kept_on(data, place, 0, 40)
-    mine.mkdir()
-    for name in ("thesis.txt", "0" * 64):
-        (mine / name).write_text("years of work")
-    (place / OBJECTS / "zz").symlink_to(mine)
-    (place / OBJECTS / "00").mkdir(exist_ok=True)
-    (place / OBJECTS / "00" / "note.txt").write_text("mine too")
-    assert prune_backups(place, 1, 0, NOW) == 1
-    assert sorted(path.name for path in mine.iterdir()) == ["0" * 64, "thesis.txt"]
-    assert (place / OBJECTS / "00" / "note.txt").exists()
 
 
 class Trouble:

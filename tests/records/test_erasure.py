@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import shutil
-import sqlite3
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -72,23 +70,6 @@ def test_erase_already_erased_elsewhere_succeeds(house: House) -> None:
     erasure.erase(house.store, erasure.plan_session(house.store, session), house.log)
     with pytest.raises(ConcurrentChange):  # the patient is still there
         erasure.erase(house.store, plan, house.log)
-
-
-def test_erase_session_deletes_files_and_rows_of_it_alone(folder: Path, house: House) -> None:
-    linden = house.patients.add(LINDEN)
-    first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=7))
-    path = house.index.get(second).path
-    kept = set(path.parent.glob(path.stem + ".*"))
-    plan = erasure.plan_session(house.store, first)
-    assert (plan.recording_count, len(plan.files), plan.pseudonym) == (1, 3, "Linden 42")
-    assert plan.size_bytes == sum(path.stat().st_size for path in plan.files)
-    assert erasure.erase(house.store, plan, house.log) == 3
-    assert [entry.session_id for entry in house.index.patient_sessions(linden)] == [second]
-    assert set(path.parent.iterdir()) == kept
-    assert deeds(house) == ["erase_begun", "erased"]
-    assert traces(folder, first) == []
-    assert house.patients.get(linden).session_count == 1
-    assert house.files.scan().session_count == 0
 
 
 def test_erase_session_deletes_all_results_and_copies(folder: Path, house: House) -> None:
@@ -373,21 +354,6 @@ def test_find_due_patients_uses_last_session(house: House) -> None:
     last_day = found[0].keep_until
     assert find_due_patients(house.store, 10, last_day) == []
     assert len(find_due_patients(house.store, 10, last_day + timedelta(days=1))) == 1
-
-
-def test_erase_with_open_reader_reports_log_as_left(
-    folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(database, "LOCK_WAIT_MS", 0)
-    linden = house.patients.add(LINDEN)
-    with contextlib.closing(sqlite3.connect(folder / database.STORE_FILE)) as reader:
-        reader.execute("BEGIN")
-        reader.execute("SELECT count(*) FROM patient").fetchall()
-        with pytest.raises(ErasureUnfinished, match="wal"):
-            erase_patient(house, linden)
-        reader.rollback()
-    erasure.resume_erasures(house.store, house.log)
-    assert traces(folder, *NAMES) == []
 
 
 def test_erase_on_full_disk_frees_reserve(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

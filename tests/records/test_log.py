@@ -8,35 +8,16 @@ import sqlite3
 from pathlib import Path
 
 import pytest
-from sqlalchemy import delete, insert, select, update
+from sqlalchemy import delete, insert
 from sqlalchemy.exc import DatabaseError
 
 from carpus.core.model.errors import LogProtectionRestored, OutputNotWritable
-from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import AuditLogWriter, read_log
 from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.store import Store
 from tests.commands import Command
 from tests.records.samples import LINDEN, T0, measure, opened, traces
-
-
-def test_log_entry_cannot_be_changed_or_deleted(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
-        house.log.get_initials = lambda: "AB"
-        house.log.write_entry("opened", "session", "0" * 32)
-        house.log.write_entry("erased", "patient", "1" * 32, files=3)
-        before = read_log(house.store)
-        mine = {"id": house.store.rows(select(AUDIT_LOG.c.id))[0].id, "at": "", "at_ns": 0, "facts": "{}"}
-        again = insert(AUDIT_LOG).prefix_with("OR REPLACE").values(mine)
-        for change in (update(AUDIT_LOG).values(who="XY"), delete(AUDIT_LOG), again):
-            with pytest.raises(DatabaseError, match="only added to"):
-                house.store.execute_local(change)
-        assert read_log(house.store) == before
-        assert [(one.number, one.initials, one.action, dict(one.facts)) for one in before] == [
-            (1, "AB", "opened", {}), (2, "AB", "erased", {"files": 3}),
-        ]  # fmt: skip
-        assert before[0].subject == fingerprint("0" * 32)
 
 
 def test_store_restores_and_reports_missing_log_trigger(tmp_path: Path) -> None:

@@ -198,15 +198,3 @@ def test_session_file_values_are_in_their_datasets(tmp_path: Path) -> None:
         assert file["/events/time"][()].tolist() == [time_of(3), time_of(9)]
         assert file["/events/kind"].asstr("utf-8")[()].tolist() == ["note", "repetition"]
         assert file["/events/text"].asstr("utf-8")[()].tolist() == ["Schmerz am Daumen: 3°", ""]
-
-
-def test_session_file_free_dip_has_own_angles(tmp_path: Path) -> None:
-    path = tmp_path / "s.h5"
-    with begun(path, make_header(HAND21, dip_free=True)) as writer:
-        writer.append(make_frame(0, HAND21, joints=21))
-    with h5py.File(path, "r") as file:
-        assert file["/joints/angles"].shape == (1, 21)
-        names = list(file["/joints/angles"].attrs["names"])
-    assert names[:5] == JOINTS[:5]
-    assert names[5:9] == ["MCP2_abduction", "MCP2_flexion", "PIP2_flexion", "DIP2_flexion"]
-    assert len(names) == 21

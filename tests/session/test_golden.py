@@ -28,12 +28,6 @@ def unpacked(name: str, folder: Path) -> Path:
     return path
 
 
-def test_golden_files_exist_for_every_version() -> None:
-    have = {path.name for path in GOLDEN.iterdir()}
-    for version in range(1, schema.FORMAT_VERSION + 1):
-        assert {f"v{version}-wrist6.h5.xz", f"v{version}-hand21.h5.xz"} <= have
-
-
 @pytest.mark.parametrize("version", range(1, schema.FORMAT_VERSION + 1))
 @pytest.mark.parametrize("protocol", [WRIST6, HAND21], ids=lambda protocol: protocol.name)
 def test_golden_old_session_is_read(tmp_path: Path, version: int, protocol: MarkerProtocol) -> None:

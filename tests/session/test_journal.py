@@ -66,14 +66,6 @@ def test_journal_truncated_keeps_rows_before(tmp_path: Path, end: str) -> None:
         check_prefix(path, sum(one <= length for one in ends))
 
 
-def test_journal_damaged_record_is_skipped(tmp_path: Path) -> None:
-    ends = in_batches(tmp_path / "s.journal")
-    data = bytearray((tmp_path / "s.journal").read_bytes())
-    data[ends[2] - 100] ^= 1
-    (tmp_path / "s.journal").write_bytes(data)
-    assert rows_stored(tmp_path / "s.journal") == BATCH * (BATCHES - 1)
-
-
 def test_journal_rows_are_synchronised_twice_a_second(tmp_path: Path) -> None:
     now_s = 100.0
     journal = journal_of(tmp_path / "s.journal", clock=lambda: now_s)

@@ -126,28 +126,6 @@ def test_reader_other_file_raises_session_unreadable(tmp_path: Path, case: str) 
     assert "\n" not in caught.value.detail
 
 
-def test_reader_minimal_file_is_read(tmp_path: Path) -> None:
-    """What Carpus stores beyond the contract is optional; other programs write sessions too."""
-    path = write(tmp_path / "s.h5")
-    extra = ("marker_covariance", "start_angles", "residual")
-    with h5py.File(path, "r+") as file:
-        for name in extra:
-            del file[f"/calibration/{name}"]
-        for name in list(file["/calibration"].attrs):
-            del file["/calibration"].attrs[name]
-        for name in ("/quality/nis_dof", "/detections/count", "/smoothed"):
-            del file[name]
-        del file["/camera"].attrs["origin"]
-        del file.attrs["origin"]
-        file["/more/to/come"] = np.zeros(3)
-    session = read_session(path)
-    assert len(session) == N
-    assert session.smoothed is None
-    assert np.isnan(session.calibration.marker_covariance_w0_m2).all()
-    assert np.isnan(session.calibration.verdict.tilt_deg)
-    assert (session.quality.nis_dof == -1).all()
-
-
 def test_session_header_without_zone_or_with_wrong_joints_raises() -> None:
     header = make_header()
     with pytest.raises(ValueError, match="zone"):

@@ -7,15 +7,14 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import h5py
-import pytest
 
 from carpus.core.model.dates import moment_from_timestamp, to_iso
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.records.values import Patient, select_latest_versions
-from carpus.core.session.reader import read_outline, read_session
+from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from tests.records.samples import opened
-from tests.session.samples import begun, time_of
+from tests.session.samples import begun
 
 MOVED = datetime(2023, 4, 5, 14, 30, tzinfo=UTC)
 TRACKED = datetime(2026, 11, 22, 9, 0, tzinfo=UTC)
@@ -46,27 +45,6 @@ def test_session_date_is_that_of_the_movement(tmp_path: Path) -> None:
         assert file.attrs["format_version"] == 2
         assert datetime.fromisoformat(file.attrs["recorded"]) == MOVED
         assert file.attrs["recording_id"] == recording
-
-
-def to_version_1(path: Path, origin: str = "", camera_clock: bool = False) -> Path:
-    with h5py.File(path, "r+") as file:
-        file.attrs.modify("format_version", 1)
-        del file.attrs["recorded"], file.attrs["recording_id"]
-        file.attrs.modify("origin", origin)
-        del file["/wrist/w0_turn"]
-        if camera_clock:
-            file["/frames/timestamp"][:] -= time_of(0) - 5.0
-    return path
-
-
-def test_session_version_1_date_comes_from_times(tmp_path: Path) -> None:
-    first = read_outline(to_version_1(write(tmp_path / "a.h5"))).header
-    assert first.recording_time.timestamp() == pytest.approx(time_of(0), abs=1.0), "its pictures' times count from 1970"
-    assert first.recording_id == first.session_id
-    again = read_outline(to_version_1(write(tmp_path / "b.h5"), origin=first.session_id)).header
-    assert again.recording_id == first.session_id
-    by_camera = read_outline(to_version_1(write(tmp_path / "c.h5"), camera_clock=True)).header
-    assert by_camera.recording_time == TRACKED
 
 
 def test_recording_date_ignores_camera_clock() -> None:

@@ -181,31 +181,6 @@ def test_recovery_old_part_file_is_finished(tmp_path: Path) -> None:
     assert verify(session.path).has_checksum
 
 
-@pytest.mark.parametrize("harm", ["end too early", "events broken", "rows missing"])
-def test_recovery_damaged_part_file_keeps_complete_rows(tmp_path: Path, harm: str) -> None:
-    part = old_part(tmp_path)
-    data = bytearray(part.read_bytes())
-    if harm == "end too early":
-        data[40:48] = (len(data) // 2).to_bytes(8, "little")
-        part.write_bytes(data)
-    else:
-        with h5py.File(part, "r+") as file:
-            if harm == "rows missing":
-                file["/wrist/angles"].resize(9, axis=0)
-            else:
-                place = file["/events/time"].id.get_chunk_info(0).byte_offset
-                file["/events/kind"].resize(0, axis=0)
-        if harm == "events broken":
-            data = bytearray(part.read_bytes())
-            data[place : place + 8] = b"\xff" * 8
-            part.write_bytes(data)
-    os.utime(part, (0, 0))
-    (target,) = recover_recordings(tmp_path).recovered
-    session = read_session(target)
-    assert len(session) == (9 if harm == "rows missing" else 12)
-    assert len(session.events) == (0 if harm == "events broken" else 1)
-
-
 def test_recovery_open_part_file_is_left_alone(tmp_path: Path) -> None:
     part = old_part(tmp_path)
     os.utime(part)

@@ -9,7 +9,6 @@ import sys
 from dataclasses import fields
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 
@@ -51,17 +50,6 @@ def test_session_writer_publishes_only_complete_file(
     assert target.read_text() == "mine"
     held = [os.path.realpath(descriptor) for descriptor in Path("/proc/self/fd").iterdir()]
     assert not [path for path in held if path.startswith(str(tmp_path))], "no file is left open"
-
-
-def test_session_writer_removes_leftovers_of_killed_one(tmp_path: Path) -> None:
-    left, busy, fresh = (tmp_path / f".s.h5.0123456{number}.tmp" for number in range(3))
-    for path in (left, busy, fresh):
-        path.write_bytes(b"")
-    with h5py.File(busy, "w"):
-        os.utime(busy, (0, 0))
-        os.utime(left, (0, 0))
-        begun(tmp_path / "s.h5", rows=1).close()
-    assert {path.name for path in tmp_path.iterdir()} == {"s.h5", busy.name, fresh.name}
 
 
 def test_session_writer_fault_leaves_nothing(tmp_path: Path) -> None:
@@ -165,11 +153,3 @@ def test_session_writer_without_fallocate_checks_free_space(tmp_path: Path, monk
     with pytest.raises(DiskFull):
         session.close()
     assert list(tmp_path.iterdir()) == []
-
-
-def test_session_writer_truncates_reserved_space(tmp_path: Path) -> None:
-    path = tmp_path / "s.h5"
-    begun(path, rows=1).close()
-    size = path.stat().st_size
-    with h5py.File(path, "r") as file:
-        assert file.id.get_filesize() == size < 10e6

@@ -26,7 +26,6 @@ from carpus.core.calibration.camera.printed_sheet import PAPER_MM, Paper, SheetB
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar, CarpusFault
 from carpus.core.model.types import FloatArray, Frame
-from carpus.core.simulation.sensor import depth_scale
 from tests.studio import (
     LENS,
     Studio,
@@ -53,17 +52,6 @@ def test_solve_intrinsics_is_within_three_permille(made: CameraCalibration) -> N
     check_lens(made, middle_px=0.003 * 640)
     assert made.intrinsics.reprojection_error_px < 0.3
     assert abs(made.intrinsics.camera.fx_px - LENS.fx_px) < 4.0 * made.intrinsics.focal_sd_px
-
-
-def test_check_depth_scale_is_within_two_permille(made: CameraCalibration, studio: Studio) -> None:
-    true = depth_scale(studio.spec)
-    assert abs(true - 1.0) > 0.004, "the simulated unit must be off, or nothing is found"
-    depth = made.depth
-    assert depth is not None
-    assert depth.scale == pytest.approx(true, abs=0.002)
-    assert abs(depth.scale - true) < 4.0 * depth.scale_sd
-    assert depth.is_registered
-    assert np.linalg.norm(depth.registration_error_px) < 0.5
 
 
 def test_check_depth_finds_registration_error_and_offset(made: CameraCalibration, gathered: ViewCollector) -> None:

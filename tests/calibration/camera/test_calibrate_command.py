@@ -13,8 +13,6 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
-from carpus.core.calibration.camera.calibrate import CameraCalibration
-from carpus.core.calibration.camera.storage import to_stored_calibration
 from carpus.core.capture.calibrated_source import (
     CalibratedSource,
     compute_correction_table,
@@ -23,7 +21,7 @@ from carpus.core.capture.calibrated_source import (
     new_calibration_path,
     with_stored_calibration,
 )
-from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info, write_camera_info
+from carpus.core.capture.camera_info import StoredCalibration, read_camera_info, write_camera_info
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
@@ -94,25 +92,6 @@ def test_calibrate_command_writes_a_file_that_is_used(
     assert open_recording(recording).info.camera.origin != "calibration"
 
 
-def test_save_calibration_twice_in_a_second_keeps_both(tmp_path: Path) -> None:
-    for scale in (1.01, 1.02, 1.03):
-        stored(tmp_path, "9", 3, scale)
-    kept = list_calibration_files(tmp_path, "9")
-    assert len(kept) == 3
-    newest = load_stored_calibration(tmp_path, "9")
-    assert newest is not None
-    assert newest.calibration is not None
-    assert newest.calibration.depth_scale == 1.03
-
-
-def test_stored_calibration_includes_earlier_correction(made: CameraCalibration) -> None:
-    assert made.depth is not None
-    settings = {"depth_scale_corrected": "1.01", "depth_offset_corrected_mm": "2.0"}
-    again = to_stored_calibration(made, SERIAL, datetime(2026, 11, 20, tzinfo=UTC), settings)
-    assert again.depth_scale == pytest.approx(1.01 * made.depth.scale)
-    assert again.depth_offset_m == pytest.approx(0.002 + 1.01 * made.depth.offset_m)
-
-
 def test_calibrate_command_existing_output_is_refused(recording: Path, tmp_path: Path) -> None:
     output = tmp_path / "camera_info.yaml"
     output.write_text("mine")
@@ -165,16 +144,6 @@ def test_calibrated_source_corrects_depth_to_a_tenth_mm() -> None:
     measured = np.round((1.02 * true_m + 0.004) * 1000).astype(int)
     np.testing.assert_allclose(table[measured] * 1e-4, true_m, atol=0.55e-3)
     assert table[0] == 0
-
-
-def test_session_stores_calibration_age(tmp_path: Path) -> None:
-    made = StoredCalibration(SERIAL, "2026-11-10T08:00:00+00:00", 1.0, 0.0, 0.2, 20)
-    source = ShownSheets(Studio(), [[]], SERIAL)
-    info = source.info
-    source.info = type(info)("x", info.camera, True, 1, 30.0, info.settings, recorded="2026-11-20T20:00:00+00:00")
-    seen = CalibratedSource(source, CameraInfo(DEFAULT_CAMERA, calibration=made))
-    assert seen.info.settings["calibration_age_days"] == "10.5"
-    assert seen.info.settings["calibrated"] == made.calibrated
 
 
 @pytest.mark.parametrize("line", ["depth_scale: 7.0", "depth_scale: many", "depth_offset_m: .nan"])
