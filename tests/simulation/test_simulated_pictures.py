@@ -9,10 +9,8 @@ import pytest
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.simulation.recording import SimulatedRecording
-from carpus.core.simulation.render import ambient_occlusion
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.sphere_tracing import Box, TracedSurface
 from tests.simulation.skin_shown import discs_found_on_the_surface, gaps_m
 from tests.suites import few
 
@@ -128,21 +126,6 @@ def test_rendered_false_blobs_are_blue_with_depth() -> None:
         assert 0.4 < spotted.depth_m[v, u] <= plain.depth_m[v, u] + 1e-3
 
 
-def test_rendered_sleeve_skin_tone_and_light_are_visible() -> None:
-    def arm_color(**options: object) -> FloatArray:
-        pictures = SimulatedRecording(RecordingSpec(seed=1, motion="rest", **options))  # type: ignore[arg-type]
-        color, _ = pictures.apply_sensor(0, pictures.render_clean(0))
-        place = pictures.scene.to_camera(np.array([-0.12, 0.0, -0.02]))
-        u, v = np.round(pictures.scene.camera.project(place)).astype(int)
-        return color[v - 3 : v + 4, u - 3 : u + 4].reshape(-1, 3).mean(axis=0)
-
-    blue, bare = arm_color(sleeve="blue", light="normal"), arm_color(sleeve="none", skin_tone=0, light="normal")
-    assert blue[2] > 1.3 * blue[0]
-    assert bare[0] > bare[2]
-    assert arm_color(sleeve="none", skin_tone=5, light="normal").mean() < 0.6 * bare.mean()
-    assert arm_color(sleeve="none", skin_tone=0, light="dim").mean() < 0.8 * bare.mean()
-
-
 def test_rendered_moving_hand_is_blurred_by_exposure() -> None:
     def sharpness(exposure_s: float) -> float:
         spec = RecordingSpec(seed=4, motion="fast_deviation", exposure_s=exposure_s, sensor_noise=False, seconds=2.0)
@@ -154,13 +137,3 @@ def test_rendered_moving_hand_is_blurred_by_exposure() -> None:
         return float(np.abs(np.diff(window, axis=1)).max())
 
     assert sharpness(0.016) < 0.7 * sharpness(0.0)
-
-
-def test_ambient_occlusion_of_one_column_works() -> None:
-    depth_m = np.full((40, 1), 0.7, dtype=np.float32)
-    sliver = TracedSurface(
-        Box(100, 140, 639, 640), depth_m, np.ones_like(depth_m), np.zeros((40, 1, 3)), np.zeros((40, 1))
-    )
-    light = ambient_occlusion(sliver, depth_m)
-    assert light.shape == (40, 1)
-    assert np.all(light == 1.0)

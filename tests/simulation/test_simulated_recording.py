@@ -8,15 +8,13 @@ import hashlib
 import json
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.model.errors import OutputExists
-from carpus.core.simulation.disturbances import sample_covered_markers, sample_false_blobs, sample_frame_times
+from carpus.core.simulation.disturbances import sample_false_blobs
 from carpus.core.simulation.recording import (
-    TRUTH_FILE,
     render_cached,
     sample_clicks,
     simulate,
@@ -80,38 +78,6 @@ def test_simulate_recording_reads_back_with_true_times(recording: Path) -> None:
     assert 0.001 < delay.mean() < 0.008
 
 
-def test_simulate_dropped_frames_keep_time() -> None:
-    whole, thinned = RecordingSpec(seed=1, seconds=20.0), RecordingSpec(seed=1, seconds=20.0, dropped_share=0.1)
-    all_times, times = sample_frame_times(whole), sample_frame_times(thinned)
-    assert set(times.color_s.tolist()) < set(all_times.color_s.tolist())
-    assert len(times.color_s) + times.dropped_before.sum() <= len(all_times.color_s)
-    assert 30 < times.dropped_before.sum() < 90
-    gaps = np.diff(times.color_s)
-    np.testing.assert_allclose(gaps, (1 + times.dropped_before[1:]) / 30.0, atol=0.0061)
-    assert times.color_s[0] == 0.0
-
-
-def test_truth_file_reads_as_a_session(recording: Path) -> None:
-    truth = truth_in(SPEC, recording)
-    with h5py.File(recording / TRUTH_FILE) as file:
-        assert file.attrs["format"] == "carpus-session"
-        assert bool(file.attrs["complete"])
-        assert RecordingSpec(**json.loads(file.attrs["parameters"])) == SPEC
-        np.testing.assert_array_equal(file["/frames/timestamp"][()], truth.timestamp_s)
-        np.testing.assert_allclose(file["/wrist/rotation"][()], truth.rotation_w2_w0)
-        np.testing.assert_allclose(file["/wrist/angles"][()], truth.angles_rad)
-        np.testing.assert_allclose(file["/wrist/position"][()], truth.position_m)
-        np.testing.assert_allclose(file["/wrist/angular_velocity"][()], truth.angular_velocity_rad_s)
-        np.testing.assert_allclose(file["/markers/position_camera"][()], truth.marker_position_cam_m)
-        np.testing.assert_allclose(file["/calibration/rotation"][()], truth.rotation_w0_cam)
-        measured = file["/markers/measured"][()]
-    hidden = truth.visible_share == 0.0
-    assert hidden.any()
-    assert np.isnan(measured[hidden]).all()
-    seen = truth.visible_share > 0.9
-    np.testing.assert_allclose(measured[seen], truth.marker_px[seen])
-
-
 def test_simulated_clicks_have_the_error_of_a_person(recording: Path) -> None:
     content = json.loads((recording / "calibration.json").read_text())
     truth = truth_in(SPEC, recording)
@@ -122,13 +88,6 @@ def test_simulated_clicks_have_the_error_of_a_person(recording: Path) -> None:
     assert 0.2 < off.max() < 5.0
     exact = compute_truth(Scene(dataclasses.replace(SPEC, click_error_px=0.0)))
     np.testing.assert_allclose(sample_clicks(exact).pixel, exact.marker_px[0], atol=0.051)
-
-
-def test_simulate_existing_recording_is_refused(recording: Path) -> None:
-    before = digests(recording)
-    with pytest.raises(OutputExists):
-        simulate(SPEC, recording)
-    assert digests(recording) == before
 
 
 def test_simulate_folder_of_other_files_is_refused(tmp_path: Path) -> None:
@@ -146,17 +105,6 @@ def test_render_cached_renders_once(tmp_path: Path) -> None:
     second = render_cached(spec, lambda done, _: calls.append(done), cache=tmp_path)
     assert calls == [1, 2, 3]
     assert first == second
-
-
-def test_covered_markers_have_the_wanted_share_after_the_start() -> None:
-    spec = RecordingSpec(seed=3, seconds=200.0, hidden_share=0.1, hidden_mean_s=0.4)
-    times = np.arange(0.0, 200.0, 1.0 / 30.0)
-    covered = sample_covered_markers(spec, times)
-    assert covered[times > 1.0].mean() == pytest.approx(0.1, abs=0.02)
-    assert not covered[times < 0.75].any()
-    changes = np.diff(covered.astype(int), axis=0)
-    lengths = covered.sum() / 30.0 / np.count_nonzero(changes == 1)
-    assert lengths == pytest.approx(0.4, abs=0.08)
 
 
 def test_false_blobs_have_the_wanted_number_clear_of_markers() -> None:
@@ -195,17 +143,3 @@ def test_simulated_measurements_are_truth_with_noise() -> None:
     assert 0.06 < hidden / frames / 6 < 0.16
     assert len(sequence.detections[0]) >= 6
     np.testing.assert_array_equal(truth.angles_rad, compute_truth(Scene(spec)).angles_rad)
-
-
-def test_simulated_measurements_repeat_and_can_be_noise_free() -> None:
-    spec = RecordingSpec(seed=6, motion="fist", protocol="hand21", seconds=3.0)
-    one, two = measurement_sequence(spec), measurement_sequence(spec)
-    for a, b in zip(one.detections, two.detections, strict=True):
-        np.testing.assert_array_equal(a.pixel, b.pixel)
-        np.testing.assert_array_equal(a.depth_m, b.depth_m)
-    clean = measurement_sequence(dataclasses.replace(spec, sensor_noise=False, depth_delay_s=0.0))
-    closing = np.flatnonzero(clean.truth.time_s > 2.0)[0]
-    assert len(clean.detections[0]) > 18
-    assert len(clean.detections[closing]) < len(clean.detections[0]) - 4  # the fist hides the finger ends
-    for blobs, marker, pixel in zip(clean.detections, clean.marker, clean.truth.marker_px, strict=True):
-        np.testing.assert_allclose(blobs.pixel, pixel[marker], atol=1e-9)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from carpus.core.model.camera import DEFAULT_CAMERA
-from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import SimulatedDepthSensor, StructuredLightSensor, create_depth_sensor
 from carpus.core.simulation.spec import RecordingSpec
@@ -109,17 +108,6 @@ def test_time_of_flight_dark_surfaces_are_noisier() -> None:
         assert noise[:, :320].clip(max=50.0).mean() > 1.3 * noise[:, 320:].clip(max=50.0).mean()
 
 
-def test_depth_steps_are_an_eighth_of_a_pixel() -> None:
-    wall = slope(0.8)
-    raw = StructuredLightSensor(RecordingSpec(seed=2, depth_scale_error=0.0), DEFAULT_CAMERA).measure(wall, 0) * UNIT_M
-    values = np.unique(raw[raw > 0.0])
-    step = 2.85e-3 * 0.8**2
-    assert np.median(np.diff(values)) == pytest.approx(step, abs=6e-4)
-    disparity = 8.0 * 575.0 * 0.075 / values
-    # Whole eighths, but for the rounding to millimetres.
-    assert np.abs(disparity - np.round(disparity)).max() < 0.5e-3 / step + 0.05
-
-
 def test_depth_edges_have_holes_and_a_shadow() -> None:
     raw = StructuredLightSensor(RecordingSpec(seed=3), DEFAULT_CAMERA).measure(block(), 0)[150:330] > 0
     holes = 1.0 - raw.mean(axis=0)
@@ -139,24 +127,3 @@ def test_sensor_noise_depends_on_seed_and_frame_only() -> None:
     first.measure(wall, 0)
     np.testing.assert_array_equal(first.measure(wall, 5), again.measure(wall, 5))
     assert np.any(first.measure(wall, 5) != first.measure(wall, 6))
-
-
-def test_color_neighbours_share_chroma() -> None:
-    pictures = SimulatedRecording(RecordingSpec(seed=2, light="normal", motion="rest"))
-    color, _ = pictures.apply_sensor(0, pictures.render_clean(0))
-    difference = color.astype(int)[..., 0] - color.astype(int)[..., 2]
-    pairs = np.abs(difference[:, 0::2] - difference[:, 1::2])
-    between = np.abs(difference[:, 1:-1:2] - difference[:, 2::2])
-    assert np.percentile(pairs, 99) <= 3
-    assert between.mean() > 3 * pairs.mean()
-
-
-def test_color_dim_light_is_noisier() -> None:
-    def noise(light: str) -> float:
-        pictures = SimulatedRecording(RecordingSpec(seed=2, light=light, motion="rest"))  # type: ignore[arg-type]
-        clean = pictures.render_clean(0)
-        stack = np.stack([pictures.apply_sensor(i, clean)[0][200:260, 20:120].astype(float) for i in range(3)])
-        return float(stack.std(axis=0).mean())
-
-    assert 0.5 < noise("bright") < 3.0
-    assert noise("dim") > 1.5 * noise("bright")

@@ -91,18 +91,6 @@ def test_person_has_last_word_and_active_again_ends_stretch() -> None:
     assert build_active_passive(everything, ()) is not None
 
 
-def test_table_has_active_passive_and_manually_in_one_row() -> None:
-    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    found = build_active_passive(figures, hand_values_today())
-    flexion = next(row for row in found.table.rows if row[0] == "Flexion")
-    assert flexion[4] == f"{MANUAL_SIGN} 48° / 60°"
-    assert f"{mean_of(figures):.0f}°" in flexion[1]
-    assert f"{mean_of(figures.passive_results()):.0f}°" in flexion[2]
-    assert "MDC" in flexion[3]
-    assert ", passive " in found.sentence
-    assert build_active_passive(figures_once(session()), ()) is None, "one way alone has no table"
-
-
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:
     figures = figures_once(FakeHandSessions().session("hand-7"))
     found = build_active_passive(figures, hand_values_today())
@@ -120,16 +108,6 @@ def test_report_prints_both_and_what_was_measured_manually(tmp_path: Path) -> No
     assert "Active and passive" in words
     assert f"{MANUAL_SIGN} 48° / 60°" in words
     assert "passive" in words
-
-
-def test_passive_repetition_that_was_hidden_says_that() -> None:
-    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
-    number = next(number for number, one in enumerate(figures.repetitions) if one.is_passive)
-    shown = list(figures.repetitions)
-    shown[number] = replace(shown[number], unmeasured_reason="hidden")
-    assert f"repetition {number + 1} excluded: not visible enough" in repetition_words(
-        replace(figures, repetitions=tuple(shown))
-    )
 
 
 def test_passive_range_below_active_is_reported_with_sign() -> None:

@@ -9,15 +9,6 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-CORE = ("capture", "detection", "tracking", "simulation", "pipeline.live", "pipeline.recorder", "session.reader",
-        "session.writer", "records.store", "calibration.calibrate")  # fmt: skip
-FORBIDDEN = ("h5py", "sqlite3", "sqlalchemy", "numba", *(f"carpus.core.{name}" for name in CORE))
-SHARED = {
-    "shell/flow.py", "shell/recent_locations.py", "shell/camera_state.py", "shell/camera_session.py",
-    "shell/messages.py", "screens/records/backup.py", "screens/records/deletion.py",
-    "screens/records/record_lists.py", "screens/records/lock.py",
-}  # fmt: skip
-"""What flows share; beside it the ``flow.py`` of each room, and what it reads from the disk, ``NAME_store.py``."""
 
 
 def loaded_by(modules: list[str]) -> set[str]:
@@ -25,16 +16,6 @@ def loaded_by(modules: list[str]) -> set[str]:
     program += "print('\\n'.join(sys.modules))"
     done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True)
     return set(done.stdout.split())
-
-
-def test_screens_load_no_device_filter_or_file_code() -> None:
-    paths = {path.relative_to(ROOT / "ui").as_posix() for path in (ROOT / "ui").rglob("*.py")}
-    assert paths >= SHARED
-    drawn = sorted(path for path in paths - SHARED if not path.endswith(("/flow.py", "_store.py")))
-    names = ["carpus.ui." + path.removesuffix(".py").replace("/", ".") for path in drawn]
-    loaded = loaded_by(names)
-    assert "carpus.ui.screens.live.screen" in loaded
-    assert not {name for name in loaded if any(name == part or name.startswith(part + ".") for part in FORBIDDEN)}
 
 
 PLOTTING = re.compile(r"^\s*(?:import|from)\s+pyqtgraph\b", re.MULTILINE)

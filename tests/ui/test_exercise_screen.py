@@ -52,15 +52,6 @@ def test_last_targets_come_back_and_never_those_of_another_patient(screen: Exerc
     assert all(math.isnan(field.value()) for field in screen.target_fields)
 
 
-def test_exercise_screen_of_both_hands_requires_choice(qtbot: QtBot, screen: ExerciseScreen) -> None:
-    screen.show_patient(Patient("Ash 7", "both", patient_id="ash"), None, None, False)
-    assert not screen.primary_button.isEnabled()
-    assert "hand" in screen.primary_button.text()
-    qtbot.mouseClick(screen.form["side"].buttons()[1], Qt.MouseButton.LeftButton)
-    assert screen.primary_button.isEnabled()
-    assert screen.set_up().side == "left"
-
-
 def test_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen) -> None:
     for typed, degrees in (("37,5", 37.5), ("37.5", 37.5), ("40", 40.0), ("40°", 40.0), (" ", math.nan)):
         screen.target_fields[0].clear()

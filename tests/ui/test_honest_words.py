@@ -26,21 +26,17 @@ from carpus.core.records.limits_file import LIMITS_FILE, save_limits
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.results.progress import compute_progress
 from carpus.core.results.session_results import SessionResults
-from carpus.core.results.valid_data import joint_curves, wrist_curves
 from carpus.ui.charts.history import History
 from carpus.ui.charts.progress import place_panels
-from carpus.ui.charts.session import HandPlot
 from carpus.ui.charts.style import screen_style
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.text import StateText, Text
 from carpus.ui.kit.theme import Theme
-from carpus.ui.report.builders import build_session_report
 from carpus.ui.screens.patients.card import PatientCardView
 from carpus.ui.screens.progress.screen import ProgressScreen
-from carpus.ui.screens.report.screen import default_file_name
 from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import PatientCard
-from carpus.ui.words.finger_angles import find_finger_angle, spread_labels
+from carpus.ui.words.finger_angles import find_finger_angle
 from carpus.ui.words.fingers import main_angles, main_result_words
 from carpus.ui.words.progress import value_pair
 from carpus.ui.words.ranges import repetition_words
@@ -107,12 +103,6 @@ def test_while_sessions_are_read_nothing_of_the_patient_before_is_shown_or_can_b
         assert not screen.progress.points
         assert not any(button.isEnabled() for button in acts)
     assert screen.answer_text.text() == "The sessions cannot be read."
-
-
-def test_earlier_results_that_were_read_are_counted_as_replaced() -> None:
-    newest = figures_once(session())
-    older = replace(newest, session_id="older", created=(newest.created or NOW) - timedelta(days=1))
-    assert compute_progress([newest, older]).earlier_results == 1
 
 
 # --- the forearm ------------------------------------------------------------------------------------------
@@ -226,19 +216,3 @@ def test_window_reads_them_from_data_folder_and_tells_damaged_file(tmp_path: Pat
         assert library.error_limits == ErrorLimits(), "the default limits hold"
         assert [type(fault) for fault in recover_sessions(library)[1]] == [SettingsInvalid]
     library.close()
-
-
-def test_middle_finger_spreads_radially_and_ulnarly() -> None:
-    assert [words for _, words in spread_labels(20.0, 3)] == ["Radial 20°", "0°", "Ulnar 20°"]
-    assert spread_labels(20.0, 2)[0][1] == "Abd. 20°"
-    made = hand_session()
-    figures = figures_once(made)
-    plot = HandPlot(wrist_curves(made), figures.exercise, (), joints=joint_curves(made), finger=3)
-    assert "Radial 20°" in [text for _, text in plot.panels(BOX, 8.0)[1][0].scale.labels]
-
-
-def test_sessions_of_same_day_have_distinct_names() -> None:
-    fist = build_session_report(hand_session())
-    wrist = replace(fist, results=replace(fist.results, exercise=get_exercise("WRIST_FE")))
-    later = replace(fist, results=replace(fist.results, when=fist.results.when + timedelta(hours=1)))
-    assert len({default_file_name(one) for one in (fist, wrist, later)}) == 3

@@ -20,11 +20,9 @@ from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import Detections, TrackedFrame, TrackStatus
 from carpus.core.pipeline.live_values import StartMode
-from carpus.ui.charts.history import BUFFER_S, History
-from carpus.ui.kit.theme import Theme
+from carpus.ui.charts.history import History
 from carpus.ui.screens.live import recording as live_recording
 from carpus.ui.screens.live.marker_doubt import find_doubt, make_doubt_light
-from carpus.ui.screens.live.number_card import NumberCard, Reading
 from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
 from carpus.ui.screens.live.repetition_counter import RepetitionCounter
 from carpus.ui.screens.live.status_light import StatusLight, SteadyLight, wrist_light
@@ -98,22 +96,6 @@ def test_repetitions_and_best_are_counted_from_recorded_frames_only(live: Live) 
     assert best_deg == pytest.approx((recorded_deg.max(), recorded_deg.min()))
 
 
-def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(live: Live) -> None:
-    tried = live(FakeFeed())
-    tried.feed.step(90)
-    tried.feed.first_recorded = 80
-    tried.record()
-    tried.screen.draw()
-    assert tried.screen.recording.duration_s == pytest.approx(10 / 30, abs=0.05)
-
-
-def test_lost_frames_show_no_number_and_a_red_light(live: Live) -> None:
-    tried = live(FakeFeed(lost=[(3.0, 20.0)]), 5.0)
-    assert math.isnan(tried.reading().value_deg)
-    assert tried.screen.controls.light_view.status_light.rank == "bad"
-    assert tried.screen.history.angle_series(1).gaps_s()
-
-
 def test_predicted_frames_are_marked_and_do_not_count_as_best(live: Live) -> None:
     tried = live(FakeFeed(hidden=[(2.0, 20.0, name) for name in MARKERS[:4]]), 3.0)
     tried.record()
@@ -170,14 +152,6 @@ def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Liv
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Escape)
     assert not screen.pain_dialog.isVisible()
     assert kept == [10, 7, 3, 0, 1]
-
-
-def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme) -> None:
-    card = NumberCard(theme)
-    qtbot.addWidget(card)
-    for value_deg, word in ((0.4, "Neutral"), (-0.4, "Neutral"), (0.6, "Flexion"), (-0.6, "Extension")):
-        card.show_reading(Reading(angle=1, value_deg=value_deg, sd_deg=1.0))
-        assert card.movement_name() == word
 
 
 @pytest.mark.parametrize("stored", [False, True])
@@ -254,17 +228,6 @@ def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Liv
     tried.run(0.5)
     screen._show_values()
     assert "late" not in screen.controls.light_view.status_light.state
-
-
-# --- pieces -----------------------------------------------------------------------------------------------
-def test_history_keeps_ten_seconds_whatever_comes() -> None:
-    feed = FakeFeed()
-    history = History(WRIST6)
-    history.append(feed.frames)
-    history.append(feed.frames)
-    series = history.angle_series(0)
-    assert series.time_s[-1] - series.time_s[0] <= BUFFER_S
-    assert np.all(np.diff(series.time_s) > 0)
 
 
 def test_arm_is_reported_to_have_moved_only_outside_ball() -> None:
@@ -440,18 +403,6 @@ def test_live_passive_movement_is_not_counted() -> None:
     running.set_passive(frames[-60].timestamp_s, passive=False)
     running.append(frames[-60:])
     assert running.best_positive_deg > 31.0, "by itself again"
-
-
-def test_frames_just_after_a_hand_came_back_give_no_best() -> None:
-    number = np.arange(90)
-    angle_deg = np.full(90, 20.0)
-    angle_deg[60:62] = 60.0  # found again in a wrong pose for two pictures
-    angle_deg[80] = 30.0
-    frames = bending(3.0 + number / RATE_HZ, angle_deg, (number < 40) | (number >= 60))
-    for shown, best_deg in ((frames, 30.0), (frames[:3], 20.0)):  # the first frames of a recording count
-        running = RepetitionCounter(get_exercise("WRIST_FE"))
-        running.append(shown)
-        assert abs(running.best_positive_deg - best_deg) < 1e-9
 
 
 def test_light_names_one_hidden_marker_and_its_remedy() -> None:

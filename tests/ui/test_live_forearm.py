@@ -27,11 +27,3 @@ def test_live_values_and_bests_of_the_forearm_count_from_thumb_up(side: str) -> 
     assert count.best_positive_deg == pytest.approx(stored_deg.max() - 90.0, abs=0.5)
     assert count.best_negative_deg == pytest.approx(stored_deg.min() - 90.0, abs=0.5)
     assert count.update_count() >= 2
-
-
-def test_beside_another_movement_the_live_rotation_counts_from_the_start() -> None:
-    frames = tracked_frames(simulated("palm_up", 2.0, 0.25, "right"))
-    history = History(WRIST6)
-    history.clear(WRIST6, get_exercise("WRIST_FE"), np.radians([0.0, 0.0, 20.0]))
-    history.append(frames)
-    assert history.angles_deg[2] == pytest.approx(np.degrees(frames[-1].kinematics.angles_rad[2]) - 20.0)

@@ -188,27 +188,6 @@ def test_light_cells_and_large_number_say_the_same_at_every_moment(live: Live) -
     assert ranks == {"good", "warn"}
 
 
-def test_predicted_frame_supports_no_joint() -> None:
-    frame = replace(feed_of().frames[20], status=TrackStatus.PREDICTED)
-    assert not estimate_finger_angles(HAND21, [frame])[3].any()
-
-
-def test_live_hand_with_free_dip_infers_nothing() -> None:
-    frame = feed_of().frames[10]
-    free = joint_angle_names(dip_free=True)
-    frame = with_moment(
-        frame,
-        joint_angles_rad=np.radians(np.arange(21.0)),
-        joint_angles_sd_rad=np.full(21, 0.1),
-        joint_velocity_rad_s=np.zeros(21),
-    )
-    history = History(HAND21)
-    history.append([frame])
-    end = FINGER_ANGLES.index(FingerAngle(4, "end"))
-    assert history.angle_value(end)[0] == pytest.approx(free.index("DIP4_flexion"))
-    assert not history.is_inferred(end)
-
-
 def test_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
     tried = live(feed_of(), CLOSED_S)
     feed, screen = tried.feed, tried.screen

@@ -208,17 +208,6 @@ def test_given_start_angle_reaches_calibration_with_its_sign(qtbot: QtBot, marki
     assert "Extension 20°" in screen.start_angle_button.text()
 
 
-# --- names proposed by the program ------------------------------------------------------------------------
-def test_enter_takes_all_proposed_names_and_enter_starts(marking: Marking) -> None:
-    calibrator = marking.propose()
-    assert not marking.screen.guidance.verdict_panel.isVisible(), "what is proposed is not said to be done"
-    assert not calibrator.judged
-    marking.press(Qt.Key.Key_Return)
-    np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
-    marking.enter()
-    assert marking.started
-
-
 def test_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
     calibrator = marking.propose(not_found=("TIP1",))
     assert "thumb tip" in marking.screen.guidance.title_label.text()

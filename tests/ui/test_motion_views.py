@@ -9,17 +9,12 @@ import numpy as np
 from PySide6.QtCore import QRectF
 
 from carpus.core.results.motion_curves import compute_motion_curves
-from carpus.core.results.session_results import SessionResults
-from carpus.core.results.valid_data import wrist_curves
-from carpus.ui.charts.motion import MotionPlot
 from carpus.ui.charts.paths import PathsChart, PlaneItem, finger_paths
-from carpus.ui.kit.cells import Cell
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.builders import write_session_report
-from carpus.ui.words.fingers import finger_table
 from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
-from tests.ui.fakes import NOW, figures_once, session
+from tests.ui.fakes import NOW, figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.printed import words_of
 
@@ -42,15 +37,6 @@ def test_thumb_side_is_on_its_side_of_panel_for_both_hands(theme: Theme) -> None
             float(np.nanmean(item._project_positions(item.plot.local_panel, way.position_mm)[0])) for way in plot.paths
         ]
         assert (x[0] < x[4]) is thumb_left
-
-
-# --- curves -----------------------------------------------------------------------------------------------
-def test_motion_curves_stay_within_their_axes() -> None:
-    made = session()
-    figures, motion = figures_once(made), compute_motion_curves(made)
-    plot = MotionPlot(wrist_curves(made), figures.exercise, figures.repetitions, motion=motion, kind="place")
-    for panel, key in plot.panels(BOX, 8.0):
-        assert np.nanmax(np.abs(plot.quantity(key))) <= panel.scale.high
 
 
 # --- review -----------------------------------------------------------------------------------------------
@@ -84,27 +70,6 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     assert task_summary(touched) == "The thumb touched 4 of 4 fingertips"
     assert task_summary(figures_once(hand_session())) == ""
-
-
-def shares_of(figures: SessionResults, other: SessionResults | None = None) -> list[Cell]:
-    cells = [row[6] for row in finger_table(figures, None, other).rows]
-    return [cell for cell in cells if isinstance(cell, Cell)]
-
-
-def test_totals_are_graded_beside_their_share() -> None:
-    whole = figures_once(hand_session(hides_beyond_deg=999.0))
-    assert finger_table(whole, None).heads[6] == "% of reference"
-    shares = shares_of(whole)
-    assert all(share.text.endswith("%") for share in shares)
-    index = whole.find("TAM2", "arc")
-    assert shares[1].text.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean / 260.0:.0f}"
-    assert shares[1].subtext in ("good", "fair")
-    hidden = shares_of(figures_once(hand_session()))
-    assert hidden[1].text.startswith("≥")
-    assert hidden[1].subtext == "not graded"
-    other = figures_once(hand_session(side="left", hides_beyond_deg=999.0))
-    assert finger_table(whole, None, other).heads[6] == "% of other hand"
-    assert shares_of(whole, other)[1].subtext in ("excellent", "good")
 
 
 # --- paper ------------------------------------------------------------------------------------------------

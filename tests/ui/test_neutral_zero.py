@@ -37,13 +37,5 @@ def test_neutral_zero_of_an_end_that_was_hidden_is_a_lower_bound() -> None:
     assert neutral_zero_words(replace(results, measures=hidden), 0).endswith("≥30")
 
 
-def test_neutral_zero_of_a_hidden_end_short_of_neutral_is_an_upper_bound() -> None:
-    results = results_with(("flexion", "extension", -20.0), ("flexion", "flexion", 52.0))
-    hidden = tuple(replace(row, is_lower_bound=row.quantity == "extension") for row in results.measures)
-
-    words = neutral_zero_words(replace(results, measures=hidden), 1)
-    assert words.replace("\N{NON-BREAKING HYPHEN}", "-") == "S 0-≤20-52"
-
-
 def test_neutral_zero_with_one_end_is_empty() -> None:
     assert neutral_zero_words(results_with(("pronosupination", "supination", 80.0)), 2) == ""

@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 import pytest
-from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.hand.exercises import EXERCISES, get_exercise
@@ -15,7 +14,6 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.hand_pose import build_pose, find_arc
 from carpus.ui.picture.movement_guide import LOST_AFTER_S, ExerciseGuide, ExerciseSnapshot, GuideScene
 from carpus.ui.screens.patient.view import PatientView
-from carpus.ui.screens.patient.view_controller import PatientWindow
 from carpus.ui.words.patient import patient_words
 from tests.ui.fakes import set_up
 
@@ -112,14 +110,3 @@ def test_patient_view_covers_every_exercise_and_mirrors_left(qtbot: QtBot, theme
             assert not build_pose(exercise, 25.0).hand.isEmpty()
             arc = find_arc(exercise)
             assert (arc.point(0.0) - arc.point(30.0)).manhattanLength() > 40.0
-
-
-def test_window_that_receives_nothing_more_shows_no_hand(qtbot: QtBot, theme: Theme) -> None:
-    window = PatientWindow(theme)
-    qtbot.addWidget(window)
-    assert window.windowFlags() & Qt.WindowType.WindowDoesNotAcceptFocus
-    window.view.show_set_up(set_up())
-    window.show_live_scene(GuideScene("out", 1, 30.0, 60.0))
-    assert window.view.words().task == "Bend your hand down"
-    qtbot.waitUntil(lambda: window.view.scene.phase == GuideScene().phase)
-    assert window.view.accessibleName() == "One moment."

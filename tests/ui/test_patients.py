@@ -282,19 +282,6 @@ def test_patient_form_invisible_character_is_reported_and_entries_stay(
     assert [one.diagnosis for one in given] == ["Radius fracture"]
 
 
-@pytest.mark.parametrize(
-    ("searched", "is_real"), [("Maier", True), ("Anna Maier", True), ("Heron 17", False), (" heron 17 ", False)]
-)
-def test_patient_form_searched_name_becomes_the_real_name(screen: PatientsScreen, searched: str, is_real: bool) -> None:
-    screen.new_patient(searched)
-    names = screen.form.fields["pseudonym"].text().strip(), screen.form.fields["name"].text().strip()
-    if is_real:
-        assert names[0] not in ("", searched)
-        assert names[1] == searched
-    else:
-        assert names == (searched.strip(), "")
-
-
 def test_patient_list_unknown_name_is_created_with_enter(
     qtbot: QtBot, screen: PatientsScreen, store: FakeStore
 ) -> None:
@@ -332,11 +319,3 @@ def test_patient_list_of_very_many_shows_the_first_and_finds_the_others(
     assert screen.list.patient_model.rowCount() == MAX_LISTED_PATIENTS + 1
     screen.search.setText(f"oak {MAX_LISTED_PATIENTS + 150}")
     assert [screen.list.patient_model.row(0).pseudonym] == [f"Oak {MAX_LISTED_PATIENTS + 150}"]
-
-
-def test_patient_form_both_hands_dominant_stays_when_edited(form: PatientForm, given: Given) -> None:
-    form.edit_patient(Patient("Fir 12", "left", "both"), frozenset())
-    assert form.save_button.isEnabled()
-    form.fields["note"].setPlainText("plate out")
-    form.save_button.click()
-    assert [(one.dominance, one.note) for one in given] == [("both", "plate out")]

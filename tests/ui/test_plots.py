@@ -17,22 +17,19 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.model.errors import OutputNotWritable
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.model.hand.protocols import HAND21, WRIST6, joint_angle_names
+from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import ByteImage, FloatArray
-from carpus.core.results.repetition_rows import RepetitionChoices, RepetitionResult
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.results.valid_data import WristCurves, joint_curves, wrist_curves
 from carpus.ui.charts.axes import Panel, Scale
 from carpus.ui.charts.history import History
 from carpus.ui.charts.live_curves import LiveCurves
-from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate, find_max_step_s
-from carpus.ui.charts.session import SessionChart, SessionPlot, move_edge
+from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate
+from carpus.ui.charts.session import SessionChart, SessionPlot
 from carpus.ui.charts.style import screen_style
 from carpus.ui.kit.numbers import format_with_sd
 from carpus.ui.kit.theme import Theme
-from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
-from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle
-from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
@@ -184,11 +181,6 @@ def test_chart_ignores_mouse_during_recording(qtbot: QtBot, theme: Theme) -> Non
     assert QApplication.activePopupWidget() is None
 
 
-# --- values no hand can have, which are never drawn ------------------------------------------------------
-NAMES = joint_angle_names()
-COLUMN = NAMES.index("PIP4_flexion")
-
-
 def test_angle_that_no_joint_can_have_is_gap_in_review_and_values() -> None:
     session = hand_session()
     angles = session.motion.joint_angles_rad.copy()
@@ -202,16 +194,6 @@ def test_angle_that_no_joint_can_have_is_gap_in_review_and_values() -> None:
     for row in (*figures.wrist_ranges, *figures.joint_ranges):
         for value in (row.mean, row.sd, row.best):
             assert not abs(value) > 400.0, row.key
-
-
-def test_angle_that_no_joint_can_have_takes_only_its_own_values_live() -> None:
-    frame = FakeFeed("fist", 3.0, protocol="hand21").frames[10]
-    angles = frame.kinematics.joint_angles_rad.copy()
-    angles[COLUMN] = np.radians(-3627.0)
-    _, value, _, measured, _ = estimate_finger_angles(HAND21, [with_moment(frame, joint_angles_rad=angles)])
-    gone = {FINGER_ANGLES[k] for k in np.flatnonzero(np.isnan(value[0]))}
-    assert gone == {FingerAngle(4, "middle"), FingerAngle(4, "end"), FingerAngle(4, "tam")}
-    assert not measured[0, [FINGER_ANGLES.index(figure) for figure in gone]].any()
 
 
 def test_thinning_keeps_extremes_gaps_and_ends() -> None:
@@ -234,14 +216,6 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
         value = 40.0 * np.sin(time_s)
         (gap,) = decimate(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
         assert gap == pytest.approx((50.0, 62.6), abs=1.0)
-
-
-def test_edge_moved_beyond_a_neighbour_stops_there() -> None:
-    three = [RepetitionResult(1.0, 4.0, ""), RepetitionResult(4.0, 7.0, ""), RepetitionResult(8.0, 9.0, "")]
-    assert move_edge(three, 1, "start", 2.0).start_s == 4.0
-    assert move_edge(three, 1, "end", 8.5).end_s == 8.0
-    assert move_edge(three, 1, "end", 1.0).end_s == pytest.approx(4.2)
-    assert move_edge(three, 2, "end", 20.0).end_s == 20.0
 
 
 def test_wheel_alone_is_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
@@ -315,13 +289,3 @@ def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None
     assert view._hover_label.isVisible()
     QApplication.sendEvent(view.mouse_target, QEvent(QEvent.Type.Leave))
     assert not view._hover_label.isVisible()
-
-
-@pytest.mark.parametrize("fps", [1.5, 5.0, 30.0])
-def test_recording_of_few_frames_second_is_drawn_and_its_gaps_stay(fps: float) -> None:
-    time_s = np.arange(40) / fps
-    whole = Series(time_s, np.zeros(40), None, np.zeros(40, bool), find_max_step_s(time_s))
-    assert whole.gaps_s() == []
-    value = np.zeros(40)
-    value[10 : 10 + round(0.4 * fps) + 1] = math.nan
-    assert len(replace(whole, value=value).gaps_s()) == 1

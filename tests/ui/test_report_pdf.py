@@ -15,9 +15,9 @@ import pytest
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.report.builders import build_session_report, write_progress_report, write_session_report
+from carpus.ui.report.builders import build_session_report, write_session_report
 from carpus.ui.words.terms import LEGAL_SENTENCE
-from tests.ui.fakes import FakeSessions, figures_once, session
+from tests.ui.fakes import FakeSessions, session
 from tests.ui.printed import overlapping_words, pages_of, reach_of, tool, words_of
 
 ROOT = Path(__file__).parents[2]
@@ -126,14 +126,6 @@ def test_session_without_any_tracked_frame_still_gives_honest_page(tmp_path: Pat
     assert "No range of motion could be measured." in words
     assert "0.0 % of" in words
     assert "of an angle is about" not in words, "nothing is known"
-
-
-def test_progress_report_gives_answer_and_names_what_was_excluded(tmp_path: Path) -> None:
-    path = write_progress_report(FakeSessions().history("linden"), tmp_path / "p.pdf")
-    words = words_of(path)
-    for said in ("The total arc has improved by", "camera 18 cm further away", LEGAL_SENTENCE):
-        assert said in words
-    assert pages_of(path) == 1
 
 
 def test_report_failure_leaves_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

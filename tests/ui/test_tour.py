@@ -54,27 +54,11 @@ def test_session_comes_by_bubbles_in_their_order() -> None:
 
 
 @given(MOMENTS, READ)
-def test_bubble_is_on_its_own_screen_and_not_read_yet(moment: TourState, read: frozenset[Bubble]) -> None:
-    bubble = find_bubble(moment, read)
-    if bubble is not None:
-        assert PLACES[bubble] == moment.place
-        assert bubble not in read
-        assert moment.is_wanted
-        assert not moment.is_covered
-        assert not moment.is_busy
-
-
-@given(MOMENTS, READ)
 def test_while_recording_nothing_speaks_of_beginning_one(moment: TourState, read: frozenset[Bubble]) -> None:
     recording = find_bubble(replace(moment, place="live", is_recording=True), read)
     waiting = find_bubble(replace(moment, place="live", is_recording=False), read)
     assert recording in ("stop", None)
     assert waiting in ("record", None)
-
-
-@given(MOMENTS)
-def test_tour_leaves_marker_faults_to_screen(moment: TourState) -> None:
-    assert find_bubble(replace(moment, place="markers", label_stage="doubtful")) is None
 
 
 def test_tour_buttons_stay_and_take_no_key_during_recording(theme: Theme) -> None:

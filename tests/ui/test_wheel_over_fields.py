@@ -7,10 +7,7 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.kit.field import Combo, number_field
-from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen
-from tests.ui.gallery import TODAY
+from carpus.ui.kit.field import Combo
 
 
 def turned(field: QWidget) -> bool:
@@ -31,15 +28,3 @@ def test_wheel_chooses_nothing_in_list_of_choices(qtbot: QtBot) -> None:
     choice.setFocus()
     assert not turned(choice)
     assert choice.currentIndex() == 0
-
-
-def test_wheel_changes_no_number_and_no_day(qtbot: QtBot, theme: Theme) -> None:
-    number, record = number_field(theme, 20), ManualMeasurementsScreen(theme, lambda: TODAY)
-    number.setValue(7)
-    for field in (number, record.day_field):
-        qtbot.addWidget(field)
-        field.show()
-        field.setFocus()
-        assert not turned(field)
-    assert number.value() == 7
-    assert record.day_field.date().toPython() == TODAY

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from carpus.core.model.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.research.agreement.agreement_files import format_comparison
 from carpus.core.research.agreement.compare import MIN_MATCH, _check_match, compare_session, comparison_remarks
-from carpus.core.research.agreement.reference import GoniometerReading, Reference, read_reference
+from carpus.core.research.agreement.reference import Reference, read_reference
 from carpus.core.research.agreement.time_alignment import AlignmentCurves, ClockShift, find_shift, with_residual_drift
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.values import Session
@@ -185,16 +184,6 @@ def test_compare_forearm_goniometer_counts_from_thumb_up(session: Session, tmp_p
     assert np.degrees(turned.reference_rad) == pytest.approx([0.0, 30.0, 60.0]), "a pair has the angle of the files"
 
 
-def test_compare_reading_without_time_uses_the_session_range(session: Session) -> None:
-    figures = compute_session_results(session)
-    row = figures.find("flexion", "flexion")
-    readings = tuple(
-        GoniometerReading("flexion", "flexion", math.radians(row.mean + d), math.nan) for d in (1.0, 2.0, 3.0)
-    )
-    found = compare_session(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
-    assert found.pairs[0].figures_deg.bias == pytest.approx(-2.0)
-
-
 @pytest.mark.filterwarnings("error")
 def test_compare_empty_reference_is_refused(session: Session) -> None:
     unknown = {"flexion": np.full(900, np.nan)}
@@ -265,11 +254,3 @@ def test_compare_opposed_curves_remark_a_larger_shift() -> None:
         "time shift is more than" in remark
         for remark in comparison_remarks((), replace(against, match=0.98, same_sign_shift=None))
     )
-
-
-@pytest.mark.parametrize(("match", "suits"), [(0.51, True), (-0.51, True), (0.49, False)])
-def test_compare_match_below_a_half_is_refused(match: float, suits: bool) -> None:
-    time_s = np.arange(0.0, 10.0, 0.1)
-    curves = AlignmentCurves(time_s, time_s[:, None], time_s, time_s[:, None], ignores_sign=True)
-    with nullcontext() if suits else pytest.raises(ReferenceUnsuited):
-        _check_match(Reference(Path("x.mot"), "angles"), curves, ClockShift(0.0, match))

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.formats.table_read import parse_number, read_table
+from carpus.core.formats.table_read import read_table
 from carpus.core.model.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.model.hand.protocols import PALM_MARKERS
 from carpus.core.model.types import FloatArray
@@ -64,14 +64,6 @@ def test_reference_table_encodings_are_read(encoding: str, tmp_path: Path) -> No
     assert np.degrees(found.angles_rad["flexion"]) == pytest.approx(FLEXION_DEG)
 
 
-def test_reference_non_numeric_cells_are_remarked(tmp_path: Path) -> None:
-    text = TABLES["plain"].splitlines()
-    text[3], text[5], text[7] = "0.0667,#DIV/0!", "0.1333,", "0.2000,fell"
-    found = read_text(tmp_path, "\n".join(text))
-    assert np.isnan(found.angles_rad["flexion"]).nonzero()[0].tolist() == [2, 4, 6]
-    assert found.remarks == ("flexion: cells that are not numbers were excluded (2), the first is “#DIV/0!” in line 4",)
-
-
 def test_reference_row_with_equal_time_is_excluded(tmp_path: Path) -> None:
     text = TABLES["plain"].splitlines()
     found = read_text(tmp_path, "\n".join([*text[:4], text[3], *text[4:]]))
@@ -90,12 +82,6 @@ def test_reference_row_with_equal_time_is_excluded(tmp_path: Path) -> None:
 def test_reference_ambiguous_names_are_listed(head: str, told: str, tmp_path: Path) -> None:
     with pytest.raises(ReferenceUnreadable, match=told.replace("(", r"\(").replace(")", r"\)")):
         read_text(tmp_path, head + "\n" + "0,1,2\n0.1,2,3\n")
-
-
-def test_reference_second_column_can_be_chosen(tmp_path: Path) -> None:
-    (tmp_path / "r.csv").write_text("time,flexion,flexion\n0,1,20\n0.1,2,30\n", encoding="utf-8")
-    found = read_reference(tmp_path / "r.csv", {"flexion": "-flexion #2"})
-    assert np.degrees(found.angles_rad["flexion"]) == pytest.approx([-20.0, -30.0])
 
 
 @pytest.mark.parametrize(
@@ -179,11 +165,6 @@ def test_compare_two_readings_print_pairs(tmp_path: Path) -> None:
 def test_reference_without_angles_lists_its_columns(tmp_path: Path) -> None:
     with pytest.raises(ReferenceUnsuited, match="only Knie, Hüfte"):
         compare_session(session(), read_text(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
-
-
-@pytest.mark.parametrize("text", ["", "a", "1.2.3", "1_000", "inf", "12:30", "=1+1"])
-def test_parse_number_non_numeric_is_nan(text: str) -> None:
-    assert np.isnan(parse_number(text))
 
 
 def test_reference_table_separators_are_read(tmp_path: Path) -> None:

@@ -18,13 +18,6 @@ def some_covariance(rng: np.random.Generator, n: int) -> FloatArray:
     return root @ root.T + 0.1 * np.eye(n)
 
 
-def test_update_without_measurement_changes_nothing() -> None:
-    ahead = predict_state(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SCALINGS[0])
-    after = update_state(ahead, predict_outputs(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
-    assert after.state is ahead.state
-    assert np.isnan(after.nis)
-
-
 def moved(state: FloatArray, noise: FloatArray) -> FloatArray:
     """A motion into which the noise does not enter as a sum."""
     x, y, heading = state[..., 0], state[..., 1], state[..., 2] + noise[..., 0]

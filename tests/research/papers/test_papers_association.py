@@ -31,16 +31,3 @@ def test_association_takes_largest_posterior_per_blob(seed: int, blobs: int, mar
     found = log_posteriors(pixel, predicted, covariance, clutter, RESOLUTION)
     assert found.shape == (blobs, 1 + markers)
     assert assign_blobs(found).tolist() == [wanted.get(j, (0.0, -1))[1] for j in range(markers)]
-
-
-def test_papers_association_treats_each_blob_alone() -> None:
-    """What tells the papers' way from a joint one: the second blob is not given the marker that it could have."""
-    predicted, covariance = np.array([[100.0, 100.0], [112.0, 100.0]]), np.broadcast_to(25.0 * np.eye(2), (2, 2, 2))
-    pixel = np.array([[101.0, 100.0], [104.0, 100.0]])
-    assert assign_blobs(log_posteriors(pixel, predicted, covariance, 0.1, RESOLUTION)).tolist() == [0, -1]
-
-
-def test_papers_association_far_blob_is_clutter() -> None:
-    posterior = log_posteriors(np.array([[500.0, 400.0]]), np.zeros((1, 2)), np.eye(2)[None], 0.1, RESOLUTION)
-    assert posterior[0].argmax() == 0
-    assert np.isclose(posterior[0, 0], np.log(0.1 / RESOLUTION))

@@ -10,7 +10,7 @@ from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.model.hand.kinematics import joint_centres
 from carpus.core.model.hand.protocols import HAND21, SITES
 from carpus.core.research.papers.hand_model import PaperSettings, calibrate_as_written, measure_hand, model_palm
-from carpus.core.research.papers.tracker import PaperMotion, body_rate_matrix, euler_from_rotation, rotation_from_euler
+from carpus.core.research.papers.tracker import PaperMotion, euler_from_rotation, rotation_from_euler
 from tests.research.papers.hands import MIDDLE_M, calibration, hand_calibration, straight_hand
 from tests.tracking.hands import CAMERA, FROM_ABOVE, RIGHT_PALM_M
 
@@ -101,22 +101,3 @@ def test_neutral_pose_is_least_squares_one_of_palm_as_modelled() -> None:
         again.marker_position_w0_m[[0, 3]], [[0.0, 0.0, 0.0], [np.linalg.norm(RIGHT_PALM_M[3]), 0.0, 0.0]]
     )
     assert np.allclose(again.marker_position_w0_m @ again.rotation_w0_cam.T + again.translation_w0_cam_m, point)
-
-
-def test_missing_pictures_add_as_much_noise_as_there_was_time() -> None:
-    """Four steps of a frame each, or one of four: the joints are as unsure."""
-    noise = np.eye(23)
-    once = PaperMotion(SETTINGS, 17).build_transition(DT_S)(np.zeros((23, 26)), noise)
-    four = PaperMotion(SETTINGS, 17).build_transition(4.0 * DT_S)(np.zeros((23, 26)), noise)
-    assert np.allclose(np.sum(four[:, 9:] ** 2, axis=0), 4.0 * np.sum(once[:, 9:] ** 2, axis=0))
-    still = PaperMotion(SETTINGS, 17).build_transition(0.0)(np.zeros((23, 26)), noise)
-    assert not still.any()
-
-
-def test_small_change_of_euler_angles_is_that_turn() -> None:
-    euler, step = np.array([0.5, -0.7, 0.4]), 1e-6
-    by_euler = body_rate_matrix(euler)
-    for axis in range(3):
-        moved = Rotation.from_euler("ZYX", euler + step * np.eye(3)[axis])
-        turn = (Rotation.from_euler("ZYX", euler).inv() * moved).as_rotvec() / step
-        assert np.allclose(turn, by_euler[:, axis], atol=1e-5)

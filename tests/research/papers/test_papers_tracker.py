@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.model.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
+from carpus.core.model.types import FloatArray, Side, TrackedFrame, TrackStatus
 from carpus.core.research.papers.tracker import PaperTracker
 from tests.research.papers.hands import (
     MEASURED,
@@ -48,13 +48,6 @@ def test_rigid_palm_without_clutter_is_followed_to_few_degrees(which: int, ampli
     sd = np.degrees([frame.kinematics.angles_sd_rad for frame in frames])
     assert np.mean(np.abs(error) < 2.0 * sd) > 0.8
     assert np.isnan(frames[-1].kinematics.angular_velocity_rad_s).all(), "white in the papers' model"
-
-
-def test_papers_tracker_ignores_depth() -> None:
-    seen = palm_blobs(swing(1, 30.0), 30)
-    wrong = [Detections(b.pixel, np.full(6, 0.2), np.full(6, 1e-6), b.area_px, b.similarity) for b in seen]
-    one, other = track_poses(wrist_tracker(), seen), track_poses(wrist_tracker(), wrong)
-    assert np.array_equal([f.kinematics.angles_rad for f in one], [f.kinematics.angles_rad for f in other])
 
 
 def test_papers_tracker_visible_hand_is_tracked() -> None:
