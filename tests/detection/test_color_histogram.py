@@ -19,22 +19,6 @@ def random_hsv(seed: int, hue: tuple[int, int] = (0, 180)) -> ByteImage:
     return hsv.astype(np.uint8)
 
 
-def test_histogram_counts_the_masked_pixels() -> None:
-    hsv = random_hsv(0)
-    mask = np.random.default_rng(1).random((20, 30)) < 0.4
-    found = ch.compute_histogram(hsv, mask)
-    counts = np.zeros((ch.BINS, ch.BINS))
-    for hue, saturation, _ in hsv[mask]:
-        counts[int(int(hue) * ch.BINS / 180), int(saturation) * ch.BINS // 256] += 1
-    assert np.allclose(found, counts / mask.sum())
-
-
-def test_histogram_empty_mask_is_zero() -> None:
-    assert np.array_equal(
-        ch.compute_histogram(random_hsv(0), np.zeros((20, 30), dtype=bool)), np.zeros((ch.BINS, ch.BINS))
-    )
-
-
 def test_histogram_smoothing_keeps_the_sum_and_wraps_hue() -> None:
     """Red lies at both ends of the hue circle: smoothed, one end reaches the other."""
     hsv = np.full((4, 4, 3), 128, dtype=np.uint8)

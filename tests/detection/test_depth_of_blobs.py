@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -77,13 +76,6 @@ def test_depth_of_blob_few_outliers_do_not_shift_it() -> None:
     assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
 
 
-def test_depth_of_blob_far_reading_is_excluded() -> None:
-    depth = depth_picture()
-    for u, v in np.rint(PALM_PX).astype(int):
-        depth[v + 1, u] += 0.4  # not the middle, where the disc's size is looked up
-    np.testing.assert_allclose(detect_blobs(depth).depth_m, DISTANCE_M, rtol=1e-9)
-
-
 def slope_depth(depth: FloatArray) -> None:
     rows, columns = on_disc()
     depth[rows, columns] += 0.0011 * (columns - PALM_PX[DISC, 0])
@@ -101,13 +93,3 @@ def test_depth_of_blob_on_a_slope_has_a_larger_sd(lies: Callable[[FloatArray], N
     flat, found = detect_blobs(depth_picture()), detect_blobs(depth)
     assert found.depth_m[DISC] == pytest.approx(DISTANCE_M, abs=1e-3)
     assert found.depth_sd_m[DISC] > times * flat.depth_sd_m[DISC]
-
-
-def test_depth_of_blob_is_in_metres_for_any_unit() -> None:
-    rng = np.random.default_rng(3)
-    shown = frame(picture(PALM_PX, Look(), rng), depth_picture())
-    assert shown.depth_raw is not None
-    looks, _ = learn_appearance(shown, PALM_PX, CAMERA, SETTINGS)
-    millimetres = replace(shown, depth_raw=(shown.depth_raw // 5).astype(np.uint16), depth_unit_m=1e-3)
-    found = Detector(looks, CAMERA, SETTINGS).detect(millimetres)
-    assert found.depth_m == pytest.approx(DISTANCE_M, abs=1e-3)

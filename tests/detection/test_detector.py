@@ -31,7 +31,6 @@ from tests.detection.pictures import (
     PAPERS,
     RADIUS_PX,
     SKIN,
-    TABLE,
     Extra,
     Look,
     depth_picture,
@@ -114,10 +113,6 @@ def test_detector_without_depth_gives_nan_depths() -> None:
     assert all_found(found, PALM_PX)
     assert np.isnan(found.depth_m).all()
     assert np.isnan(found.depth_sd_m).all()
-
-
-def test_detector_tilted_discs_are_found_at_their_centre() -> None:
-    assert all_found(build_detector().detect(seen(4, PALM_PX + 0.4, squeeze=0.5)), PALM_PX + 0.4, within_px=0.2)
 
 
 @pytest.mark.parametrize("light", [0.5, 1.2])
@@ -257,43 +252,11 @@ def test_detector_long_blob_is_separated(apart_radii: float, bar_radii: float, p
     assert len(taken_apart(is_blob, radius_px)) == parts
 
 
-@pytest.mark.parametrize(("discs", "parts"), [(4, 4), (7, 1)])
-def test_detector_blurred_row_of_small_discs_is_separated(discs: int, parts: int) -> None:
-    """Four knuckles of a small hand run together, larger than at their distance; a sleeve is longer."""
-    radius_px = 4.2
-    centre = np.array([[30.0 + 2.4 * radius_px * i, 40.0 - 2.0 * np.sin(i)] for i in range(discs)])
-    v, u = np.mgrid[:80, :160]
-    is_blob = (np.hypot(u[..., None] - centre[:, 0], v[..., None] - centre[:, 1]) <= 1.3 * radius_px).any(axis=-1)
-    found = taken_apart(is_blob, radius_px)
-    assert len(found) == parts
-    if parts > 1:
-        assert np.abs(found[np.argsort(found[:, 0])] - centre).max() < 0.3 * radius_px
-
-
 def test_detector_empty_image_gives_no_blobs() -> None:
     depth = depth_picture(np.random.default_rng(14))
     assert len(build_detector().detect(seen(14, np.empty((0, 2))))) == 0
     assert len(build_detector().detect(frame(np.zeros((240, 320, 3), dtype=np.uint8), depth))) == 0
     assert len(build_detector().detect(frame(np.full((240, 320, 3), 255, dtype=np.uint8), None))) == 0
-
-
-def test_detector_half_covered_discs_have_small_areas() -> None:
-    shown, half = seen(15, PALM_PX[1:]), PALM_PX[1]
-    shown.color_rgb[int(half[1]) - 8 : int(half[1]) + 9, int(half[0]) + 1 : int(half[0]) + 9] = TABLE
-    found = build_detector().detect(shown)
-    away = np.linalg.norm(found.pixel - PALM_PX[0], axis=1)
-    assert away.min() > 20.0, "no blob where the covered disc is"
-    near = np.linalg.norm(found.pixel - half, axis=1)
-    assert near.min() < 4.0
-    assert found.area_px[near.argmin()] < 0.8 * np.pi * RADIUS_PX**2
-
-
-def test_detector_disc_at_the_image_border_is_tolerated() -> None:
-    true = PALM_PX + [0.0, 48.5]  # the lowest is half outside
-    found = build_detector().detect(seen(16, true))
-    assert np.abs(match_blobs(found.pixel, true[1:])).max() < 0.3
-    assert (found.pixel >= -1.0).all()
-    assert (found.pixel[:, 1] < 240.0).all()
 
 
 @pytest.mark.parametrize("times", [3])
@@ -330,15 +293,6 @@ def test_learn_appearance_tolerates_clicks_beside_discs(click_error_px: float) -
     looks, centres = learn_appearance(first, clicks, CAMERA, SETTINGS)
     assert np.linalg.norm(centres - PALM_PX, axis=1).max() < 0.6
     assert all_found(Detector(looks, CAMERA, SETTINGS).detect(first), PALM_PX)
-
-
-def test_detector_keeps_no_memory() -> None:
-    detector, shown = build_detector(), seen(22)
-    first = detector.detect(shown)
-    detector.detect(replace(seen(22, PALM_PX + 20.0, Look(light=0.6)), depth_raw=None))
-    again = detector.detect(shown)
-    assert np.array_equal(first.pixel, again.pixel)
-    assert np.array_equal(first.depth_m, again.depth_m)
 
 
 def test_detection_settings_skin_share_limits_blobs() -> None:

@@ -134,19 +134,6 @@ def test_c3d_without_frames_is_written(tmp_path: Path) -> None:
     assert path.stat().st_size % 512 == 0
 
 
-def test_c3d_dropped_frame_keeps_times(tmp_path: Path) -> None:
-    take = wrist_take(tmp_path)
-    session = take.session
-    kept = np.delete(np.arange(len(session)), [10, 11])
-    dropped = np.zeros(len(kept), dtype=np.int64)
-    dropped[10] = 2
-    (path,) = c3d_write.write(replace(take, session=of_rows(session, kept, dropped)), tmp_path / "out")
-    _, points, rate = by_c3d(path)
-    assert (len(points), rate) == (len(session), 30.0)
-    assert (points[10:12, :, 3] == -1).all()
-    assert np.allclose(points[12, :, :3], 1e3 * session.markers.position_cam_m[12], atol=1e-3)
-
-
 def c3d_with(parameters: bytes) -> bytes:
     """A C3D whose section of parameters holds these bytes and no more."""
     blocks = -(-(4 + len(parameters)) // 512)

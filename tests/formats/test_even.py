@@ -10,15 +10,6 @@ from hypothesis import strategies as st
 from carpus.core.formats.export_item import uniform_times
 
 
-def test_uniform_times_of_even_stamps_are_rows() -> None:
-    times = 1305031102.175304 + np.arange(50) / 30.0
-    even = uniform_times(times, 30.0)
-    values = np.random.default_rng(1).normal(size=(50, 3))
-    assert np.array_equal(even.interpolate(values), values)
-    assert even.row_index.tolist() == list(range(50))
-    assert even.elapsed_s == pytest.approx(np.arange(50) / 30.0)
-
-
 @given(st.integers(0, 2**32 - 1), st.sets(st.integers(1, 58), min_size=1, max_size=8))
 def test_uniform_times_dropped_frames_empty_own_rows(seed: int, dropped: set[int]) -> None:
     kept = np.array([row for row in range(60) if row not in dropped])
@@ -29,20 +20,6 @@ def test_uniform_times_dropped_frames_empty_own_rows(seed: int, dropped: set[int
     wanted = 7.0 * (even.start_s + even.elapsed_s)
     assert np.nanmax(np.abs(out - wanted)) < 7.0 * 0.009, "no further off than two stamps waver"
     assert {even.row_index[row] for row in dropped} == {-1}
-
-
-def test_uniform_times_slow_camera_keeps_rate() -> None:
-    times = np.arange(300) / 29.5
-    even = uniform_times(times, 30.0)
-    assert even.elapsed_s[-1] == pytest.approx(times[-1], abs=0.5 / 30.0)
-    assert np.allclose(even.interpolate(times), even.start_s + even.elapsed_s, atol=1e-9)
-
-
-def test_interpolate_nan_does_not_spread() -> None:
-    times = np.arange(10) / 30.0
-    values = np.arange(10.0)
-    values[4] = np.nan
-    assert np.isnan(uniform_times(times, 30.0).interpolate(values)).tolist() == np.isnan(values).tolist()
 
 
 def test_interpolate_angles_take_shorter_way() -> None:

@@ -16,7 +16,7 @@ from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import SoftTissue
-from tests.rendered import LEFT_DEVIATION, Rendered
+from tests.rendered import LEFT_DEVIATION, WHOLE_HAND, Rendered
 
 # Discs that glide over the bones leave the axis of W2 by what they glided: only on stiff skin does the axis run through
 # them, which is what shows that it was stored in the axes that the file says.
@@ -30,14 +30,11 @@ STIFF = TrackSettings(
 )
 
 
-HAND = RecordingSpec(seed=11, protocol="hand21", motion="flexion", seconds=1.5, fps=15.0, speed_hz=0.7)
-
-
 @pytest.mark.parametrize(
     ("spec", "start_deg", "settings"),
     [
         (LEFT_DEVIATION, (4.0, -20.0, 8.0), STIFF),
-        (HAND, (0.0, 0.0, 0.0), STIFF),
+        (WHOLE_HAND, (0.0, 0.0, 0.0), STIFF),
         (LEFT_DEVIATION, (0.0, 0.0, 0.0), TrackSettings(smooth=False)),
     ],
     ids=["started bent", "hand", "soft"],
@@ -57,7 +54,7 @@ def test_stored_w0_pose_maps_wrist_to_its_marker(
         rotation = file["wrist/rotation"][()]
         discs = file["markers/position_camera"][()]
         at = list(file["markers"].attrs["names"]).index
-        joints = file["joints/position"][()] if spec is HAND else None
+        joints = file["joints/position"][()] if spec is WHOLE_HAND else None
     missed_m = np.linalg.norm(position @ to_cam.T + origin - discs[:, at("WRIST")], axis=1)
     assert missed_m.max() < 1e-6
     if settings is not STIFF:

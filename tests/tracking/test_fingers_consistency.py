@@ -16,7 +16,9 @@ FLEXION = ("MCP flexion", "PIP flexion", "DIP flexion")
 Tracked = tuple[HandScenario, list[HandRun]]
 
 
-@pytest.fixture(scope="module", params=["discs on the skin", "discs in the joints"])
+@pytest.fixture(
+    scope="module", params=["discs on the skin", pytest.param("discs in the joints", marks=pytest.mark.thorough)]
+)
 def tracked(request: pytest.FixtureRequest) -> Tracked:
     """A kind of chain, and several hands of it, a motion each."""
     row = next(row for row in ROWS if row.name == request.param)

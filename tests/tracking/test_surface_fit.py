@@ -29,6 +29,7 @@ from carpus.core.tracking.filter.surface_fit import (
     SurfaceMeasurement,
     SurfaceSettings,
     fit_surface,
+    surface_calibration_covariance,
 )
 from carpus.core.tracking.filter.unscented import UnscentedParameters
 from tests.suites import few
@@ -189,3 +190,20 @@ def test_update_palm_is_corrected_only_by_a_surface_that_can_be_this_one(surface
     assert is_used(samples, partial=None)
     assert not is_used(samples, far)
     assert not is_used(replace(samples, pixel=samples.pixel + 1e4))
+
+
+def fit_readings(surface: DorsalSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
+    """From a pose 3 degrees and a millimetre off."""
+    off = build_estimate(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
+    return measure_readings(surface, samples, settings, off)
+
+
+def test_surface_calibration_covariance_is_a_share_of_one_frames(surface: DorsalSurface) -> None:
+    settings = SurfaceSettings()
+    found = surface_calibration_covariance(surface, VIEW, settings)
+    one = fit_readings(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
+    ratio = np.diag(found) / (np.diag(one.covariance) / settings.goes_on)
+    assert (ratio < 2.0 * settings.stays**2).all()
+    assert (ratio > 0.5 * settings.stays**2).all()
+    further = replace(VIEW, translation_w0_cam_m=1.3 * MIDDLE_M)
+    assert (np.diag(surface_calibration_covariance(surface, further, settings)) > 2.0 * np.diag(found)).all()

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from carpus.core.model.hand.anatomy import anatomy_from_size, palm_axes
+from carpus.core.model.hand.anatomy import anatomy_from_size
 from carpus.core.model.hand.clinical_angles import wrist_axes
 from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
 
@@ -36,27 +36,6 @@ def test_palm_discs_define_the_wrist_frame_they_are_given_in(arch: float) -> Non
     assert np.allclose(wrist_axes(discs, np.array([0.0, 0.0, 1.0])), np.eye(3), atol=1e-12)
     assert np.allclose(discs[PALM_MARKERS.index("WRIST")], 0.0)
     assert np.allclose(discs[PALM_MARKERS.index("MCP3"), 1:], 0.0, atol=1e-12)
-
-
-def test_typical_arch_lies_below_the_plane_of_wrist_mcp2_mcp3() -> None:
-    wrist, cmc1, mcp2, mcp3, mcp4, mcp5 = anatomy_from_size(0.180).palm_disc_m * 1e3
-    normal = np.cross(mcp3 - wrist, mcp2 - wrist)
-    normal /= np.linalg.norm(normal)
-    heights = [float((disc - wrist) @ normal) for disc in (cmc1, mcp4, mcp5)]
-    assert heights == pytest.approx([-10.0, -2.0, -6.0], abs=0.05)
-
-
-def test_palm_axes_of_a_turned_left_hand() -> None:
-    mirrored = anatomy_from_size(0.175).palm_disc_m * [1.0, -1.0, 1.0]
-    turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
-    turn *= np.sign(np.linalg.det(turn))
-    assert np.allclose(palm_axes(mirrored @ turn.T + [0.1, 0.2, 0.7], "left"), turn, atol=1e-12)
-
-
-def test_nail_discs_shorten_only_the_last_segment() -> None:
-    whole, nail = anatomy_from_size(0.18), anatomy_from_size(0.18, nail_discs=True)
-    assert np.allclose(nail.finger_length_m / whole.finger_length_m, [[1.0, 1.0, 0.7]] * 4)
-    assert np.allclose(nail.thumb_length_m / whole.thumb_length_m, [1.0, 1.0, 0.8])
 
 
 def test_arrays_are_checked_copied_and_read_only() -> None:

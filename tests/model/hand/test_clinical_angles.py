@@ -101,21 +101,6 @@ def test_left_hand_is_right_one_in_mirror(deviation: float, flexion: float, supi
     assert np.allclose(right, Rotation.from_euler("ZYX", angles).as_matrix(), atol=1e-15)
 
 
-def test_angles_of_batches_match_single_ones() -> None:
-    rng = np.random.default_rng(0)
-    angles = rng.uniform(-1.0, 1.0, (5, 4, 3))
-    rotations = clinical_angles.rotation_from_angles(angles, "left")
-    assert rotations.shape == (5, 4, 3, 3)
-    assert np.allclose(clinical_angles.angles_from_rotation(rotations, "left"), angles)
-    assert np.allclose(
-        clinical_angles.angle_rates_matrix(rotations, "left")[3, 1],
-        clinical_angles.angle_rates_matrix(rotations[3, 1], "left"),
-    )
-    assert np.allclose(
-        clinical_angles.zyz_from_rotation(rotations)[2, 2], clinical_angles.zyz_from_rotation(rotations[2, 2])
-    )
-
-
 @settings(deadline=None)
 @given(
     st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.sampled_from(SIDES), st.integers(0, 2)

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from carpus.core.model.hand.clinical_angles import angles_from_rotation, side_sign, wrist_axes
-from carpus.core.model.hand.exercises import EXERCISES, get_exercise
+from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.forearm_rotation import (
     from_clinical_targets_deg,
-    is_counted_from_thumb_up,
     pronosupination_from_palm_down,
     supination_from_thumb_up,
     to_clinical_targets_deg,
@@ -72,8 +71,3 @@ def test_targets_of_an_older_version_are_converted_and_those_of_other_exercises_
     assert to_clinical_targets_deg((60.0, -20.0), bend) == (60.0, -20.0)
     assert from_clinical_targets_deg(to_clinical_targets_deg((60.0, math.nan), turn), turn)[0] == 60.0
     assert math.isnan(to_clinical_targets_deg((60.0, math.nan), turn)[1])
-
-
-def test_pronation_is_read_where_it_is_trained_or_nothing_in_particular_is() -> None:
-    read = {one.id for one in EXERCISES if is_counted_from_thumb_up(one)}
-    assert read == {"FOREARM_PS", "REACH_GRASP", "FREE_HAND", "FREE"}
