@@ -43,24 +43,24 @@ def write(path: Path) -> Path:
     return path
 
 
-def test_session_is_reported_in_plain_lines(tmp_path: Path) -> None:
+def test_session_summary_has_plain_lines(tmp_path: Path) -> None:
     path = write(tmp_path / "s.h5")
     lines = session_summary(read_session(path))
-    told = values(lines)
-    assert told["Session"] == str(path)
-    assert told["Patient"] == "Linden 42, left hand"
-    assert told["Complete"] == "yes"
-    assert told["Frames"] == "6 in 00:00.2, 30.0 a second"
-    assert told["Gaps"] == "2 frames missing in 1 place"
-    assert told["Tracking"] == "tracked 50.0 %, predicted 33.3 %, lost 16.7 %"
-    assert told["Events"] == "2 note"
-    assert told["Smoothed"] == "yes"
-    assert told["Video"] == "not saved"
-    assert "--json" in told["Settings"]
+    facts = values(lines)
+    assert facts["Session"] == str(path)
+    assert facts["Patient"] == "Linden 42, left hand"
+    assert facts["Complete"] == "yes"
+    assert facts["Frames"] == "6 in 00:00.2, 30.0 a second"
+    assert facts["Gaps"] == "2 frames missing in 1 place"
+    assert facts["Tracking"] == "tracked 50.0 %, predicted 33.3 %, lost 16.7 %"
+    assert facts["Events"] == "2 note"
+    assert facts["Smoothed"] == "yes"
+    assert facts["Video"] == "not saved"
+    assert "--json" in facts["Settings"]
     assert not any(line.startswith("{") or " {" in line for line in lines)
-    assert told["Origin"] == "tracked again from earlier.h5"
-    assert "hand 183 mm, 0.70 m from the camera, tilted 13°" in told["Calibration"]
-    assert "fx 570.25" in told["Camera"]
+    assert facts["Origin"] == "tracked again from earlier.h5"
+    assert "hand 183 mm, 0.70 m from the camera, tilted 13°" in facts["Calibration"]
+    assert "fx 570.25" in facts["Camera"]
     assert sum(line.endswith("not measured") for line in lines) == 3, "three frames are no range"
     text = "\n".join(lines)
     assert "Index and middle finger MCP look swapped; swap the two labels" in text
@@ -69,7 +69,7 @@ def test_session_is_reported_in_plain_lines(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("exercise", ["WRIST_FE", "FREE"])
-def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
+def test_session_summary_ranges_equal_the_report(exercise: str) -> None:
     made = fakes.session(seconds=20.0, exercise=exercise)
     figures = compute_session_results(made)
     lines = {line.split()[0]: line for line in range_lines(made, figures)}
@@ -98,16 +98,16 @@ def test_summary_gives_each_joint_its_visible_range(tmp_path: Path) -> None:
     assert "end joint not measured" in lines["TAM3"]
 
 
-def test_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:
+def test_session_summary_states_simulated_or_doubtful(tmp_path: Path) -> None:
     stored = read_session(write(tmp_path / "s.h5"))
     assert "Source" not in values(session_summary(stored))
     assert any(line.startswith("  doubtful: The hand is tilted 22°") for line in session_summary(stored))
     header = dataclasses.replace(stored.header, parameters='{"source": {"simulated": "yes"}}')
-    told = values(session_summary(dataclasses.replace(stored, header=header)))
-    assert told["Source"] == "simulated: nobody's movement was measured"
+    facts = values(session_summary(dataclasses.replace(stored, header=header)))
+    assert facts["Source"] == "simulated: nobody's movement was measured"
 
 
-def test_forearm_is_reported_from_thumb_up_also_where_it_started_elsewhere() -> None:
+def test_session_summary_forearm_counts_from_thumb_up() -> None:
     made = fakes.session(seconds=20.0, exercise="FOREARM_PS", motion="palm_up")
     (line,) = (one for one in range_lines(made, compute_session_results(made)) if "forearm, thumb up" in one)
     assert re.search(r"from 9\d\.\d° pronation to [34]\d\.\d° pronation", line)

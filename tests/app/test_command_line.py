@@ -118,7 +118,7 @@ def test_full_disk_under_output_is_reported(asked: str, session: Path) -> None:
 
 
 @pytest.mark.parametrize(("asked", "unbuffered"), [("info SESSION", "1"), ("track --help", "")])
-def test_reader_that_goes_away_is_no_trouble(asked: str, unbuffered: str, session: Path) -> None:
+def test_output_closed_by_its_reader_ends_quietly(asked: str, unbuffered: str, session: Path) -> None:
     """As `carpus info FILE | head -1`, with a head that has gone before the first line comes."""
     reading, writing = os.pipe()
     os.close(reading)
@@ -153,7 +153,7 @@ def test_stopped_while_tracking_leaves_no_part(recording: Path, tmp_path: Path) 
     assert not list(tmp_path.glob(".*.tmp"))
 
 
-def test_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path: Path, command: Command) -> None:
+def test_damaged_raw_recording_is_reported(recording: Path, tmp_path: Path, command: Command) -> None:
     path = tmp_path / "r.carpusraw"
     assert command("record", "--from", recording, "--output", path).code == 0
     data = path.read_bytes()
@@ -175,7 +175,7 @@ def test_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path
     assert (code, "damaged" in longer) == (1, True)
 
 
-def test_damaged_pictures_are_a_fault_or_left_out_and_told(recording: Path, tmp_path: Path, command: Command) -> None:
+def test_damaged_frames_raise_or_are_skipped_and_reported(recording: Path, tmp_path: Path, command: Command) -> None:
     copy, output = tmp_path / "copy", tmp_path / "session.h5"
     shutil.copytree(recording, copy)
     color = sorted((copy / "rgb").iterdir())

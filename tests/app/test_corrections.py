@@ -48,7 +48,7 @@ from carpus.ui.shell.current_selection import CurrentSelection
 from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.shell.main_window import MainWindow
 from tests.pipeline.test_correction import Stored, put_right, wrongly_tracked
-from tests.ui.contexts import Told, a_context
+from tests.ui.contexts import RecordingMessages, make_context
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +110,7 @@ def kept(tmp_path: Path, stored: Stored, corrected: Path) -> Iterator[Kept]:
         yield entered(library, stored, corrected)
 
 
-Correcting = Callable[[Told], tuple[CorrectionFlow, ScreenContext]]
+Correcting = Callable[[RecordingMessages], tuple[CorrectionFlow, ScreenContext]]
 
 
 @pytest.fixture
@@ -118,14 +118,14 @@ def correcting(qtbot: QtBot, kept: Kept) -> Iterator[Correcting]:
     """Puts the flow together with a window around it, and closes it."""
     made: list[CorrectionFlow] = []
 
-    def put_together(told: Told) -> tuple[CorrectionFlow, ScreenContext]:
+    def put_together(messages: RecordingMessages) -> tuple[CorrectionFlow, ScreenContext]:
         theme = Theme("light")
         shell = MainWindow(theme)
         qtbot.addWidget(shell)
         shell.resize(1280, 744)
         shell.show()
         now = CurrentSelection(session_id=kept.session_id)
-        context = a_context(theme, shell, told, Background(), library=kept.library, current=now)
+        context = make_context(theme, shell, messages, Background(), library=kept.library, current=now)
         made.append(CorrectionFlow(context))
         return made[-1], context
 
@@ -165,7 +165,7 @@ def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Path, "replace", replaced)
 
 
-def test_trial_is_in_no_list_and_waits_until_it_is_wanted(kept: Kept) -> None:
+def test_pending_result_is_unlisted_until_accepted(kept: Kept) -> None:
     corrections, trial = kept.corrections, kept.trial()
     recover_sessions(kept.library)
     assert kept.listed == [kept.session_id]
@@ -212,7 +212,7 @@ def test_pending_results_are_deleted_with_their_session(kept: Kept, kind: str, i
     assert nobodys.exists()
 
 
-def test_pending_result_opens_nothing_and_keys_decide_nothing(
+def test_pending_result_is_decided_by_its_buttons_only(
     qtbot: QtBot, kept: Kept, stored: Stored, correcting: Correcting, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def beside(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
@@ -225,8 +225,8 @@ def test_pending_result_opens_nothing_and_keys_decide_nothing(
 
     again: list[str] = []
     monkeypatch.setattr("carpus.ui.screens.correct.flow.correct_in_process", beside)
-    told = Told("settings", behind="correct")  # what comes of it comes behind them
-    flow, context = correcting(told)
+    messages = RecordingMessages("settings", behind="correct")  # what comes of it comes behind them
+    flow, context = correcting(messages)
     sheet, said = flow.dialog, list[tuple[int, int]]()
     flow.progress_changed.connect(lambda percent, count: said.append((percent, count)))
     flow.start(kept.session_id, (put_right(stored),))
@@ -243,14 +243,14 @@ def test_pending_result_opens_nothing_and_keys_decide_nothing(
     qtbot.waitUntil(lambda: sheet.use_button.isVisible())
     assert "Not held" not in sheet.words.text()
     sheet.use_button.click()
-    qtbot.waitUntil(lambda: bool(told.shown))
+    qtbot.waitUntil(lambda: bool(messages.shown))
     (new,) = kept.counting
-    assert told.shown == [("review", new)]
+    assert messages.shown == [("review", new)]
     assert said[-1] == (-1, 0)
     line = SessionStore(kept.library).with_figures(SessionStore(kept.library).list_sessions(kept.patient)[0])
     assert line.correction.startswith("Corrected on ")
     assert line.correction.endswith(", from 00:02.0, by MK.")
-    assert not told.faults
+    assert not messages.faults
     flow.start(new, (put_right(stored),))
     flow.open_dialog()
     assert sheet.stop_button.isVisible()
@@ -260,7 +260,7 @@ def test_pending_result_opens_nothing_and_keys_decide_nothing(
     assert flow.pending == []
 
 
-def test_wanted_result_counts_and_old_one_stays(kept: Kept) -> None:
+def test_accepted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
     library, session_id, old = kept.library, kept.session_id, kept.path
     old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
     library.save_choices(
@@ -280,7 +280,7 @@ def test_wanted_result_counts_and_old_one_stays(kept: Kept) -> None:
 @pytest.mark.parametrize(
     ("step", "is_listed"), [("core.records.store.Store.apply", False), ("core.records.corrections.publish", True)]
 )
-def test_kill_leaves_older_result_or_new_one_with_what_was_excluded(
+def test_killed_accept_leaves_the_old_or_the_new_result(
     kept: Kept, monkeypatch: pytest.MonkeyPatch, step: str, is_listed: bool
 ) -> None:
     library, session_id = kept.library, kept.session_id
@@ -306,7 +306,7 @@ def test_kill_leaves_older_result_or_new_one_with_what_was_excluded(
     assert len(list(library.folder.rglob("*.h5"))) == 2
 
 
-def test_older_result_counts_again_with_its_choices_until_other_one_does(kept: Kept) -> None:
+def test_restored_version_counts_with_its_choices(kept: Kept) -> None:
     library, old, corrections = kept.library, kept.session_id, kept.corrections
     new = corrections.accept(old, kept.trial())
     said = RepetitionChoices({0: "pain"}, {1: (1.0, 2.0)})
@@ -321,7 +321,7 @@ def test_older_result_counts_again_with_its_choices_until_other_one_does(kept: K
     assert kept.counting == [last]
 
 
-def test_new_result_goes_to_share_on_another_disk(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_accepted_result_is_moved_to_another_disk(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     library, trial = kept.library, kept.trial()
     on_another_disk(monkeypatch)
     new = kept.corrections.accept(kept.session_id, trial)
@@ -336,9 +336,7 @@ def test_new_result_goes_to_share_on_another_disk(kept: Kept, monkeypatch: pytes
 
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
-def test_result_that_did_not_get_its_name_is_in_no_list_and_waits(
-    kept: Kept, monkeypatch: pytest.MonkeyPatch, number: int
-) -> None:
+def test_failed_accept_leaves_the_result_pending(kept: Kept, monkeypatch: pytest.MonkeyPatch, number: int) -> None:
     library, session_id, corrections = kept.library, kept.session_id, kept.corrections
     library.save_choices(session_id, RepetitionChoices({0: "pain"}))
     kept.path.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
@@ -364,7 +362,7 @@ def test_result_that_did_not_get_its_name_is_in_no_list_and_waits(
     assert len(library.session(new)) == len(library.session(session_id))
 
 
-def test_listed_result_is_never_deleted_nor_hides_pending(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_listed_result_is_never_discarded(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     corrections, trial, other = kept.corrections, kept.trial(), kept.trial()
 
     def full(*_: object) -> None:
@@ -391,8 +389,8 @@ def test_listed_result_is_never_deleted_nor_hides_pending(kept: Kept, monkeypatc
 
 
 def test_result_decided_during_search_is_not_pending(qtbot: QtBot, kept: Kept, correcting: Correcting) -> None:
-    trials, told = [kept.trial() for _ in range(2)], Told("settings", behind="review")
-    flow, context = correcting(told)
+    trials, messages = [kept.trial() for _ in range(2)], RecordingMessages("settings", behind="review")
+    flow, context = correcting(messages)
     for trial, decided in zip(trials, (flow.dialog.keep_button, flow.dialog.use_button), strict=True):
         flow.pending = [PendingResult(kept.session_id, trial)]
         flow.open_dialog()
@@ -401,17 +399,15 @@ def test_result_decided_during_search_is_not_pending(qtbot: QtBot, kept: Kept, c
         qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.is_busy)  # type: ignore[misc]
         assert trial not in [one.path for one in flow.pending]
     assert flow.pending == []
-    ((_, new),) = told.shown
+    ((_, new),) = messages.shown
     context.current.session_id = str(new)
     ReviewFlow(context)._restore_version(str(new))
-    qtbot.waitUntil(lambda: len(told.shown) == 2)
-    assert [one.session_id for one in kept.library.result_versions(str(new))][1:] == [new, told.shown[1][1]]
-    assert told.asked == ["This result is used from now on."]
+    qtbot.waitUntil(lambda: len(messages.shown) == 2)
+    assert [one.session_id for one in kept.library.result_versions(str(new))][1:] == [new, messages.shown[1][1]]
+    assert messages.asked == ["This result is used from now on."]
 
 
-def test_copy_that_counts_again_is_newest_by_any_clock_and_says_no_other_origin(
-    kept: Kept, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_restored_version_is_newest_by_any_clock(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     library, session_id, corrections = kept.library, kept.session_id, kept.corrections
     ahead = kept.trial(created=(datetime.now().astimezone() + timedelta(hours=3)).isoformat())
     fast = corrections.accept(session_id, ahead)
@@ -452,16 +448,14 @@ def test_match_exclusions_finds_repetitions_of_the_same_moments(
     assert set(match_exclusions(dict.fromkeys(range(len(before)), "pain"), rows(before), rows(after))) == left_out
 
 
-def test_file_that_took_name_in_the_meantime_is_kept_and_result_has_another_one(
-    kept: Kept, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_accepted_result_never_replaces_another_file(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     library, trial = kept.library, kept.trial()
     real, taken = library.session_list.add, list[Path]()
 
-    def enter(path: Path, *told: object) -> object:
+    def enter(path: Path, *messages: object) -> object:
         path.write_bytes(b"another one's")
         taken.append(path)
-        return real(path, *told)  # type: ignore[arg-type]
+        return real(path, *messages)  # type: ignore[arg-type]
 
     with monkeypatch.context() as patched:
         patched.setattr(library.session_list, "add", enter)
@@ -473,7 +467,7 @@ def test_file_that_took_name_in_the_meantime_is_kept_and_result_has_another_one(
     assert len(list(taken[0].parent.iterdir())) == 3
 
 
-def test_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_result_accepted_during_a_search_is_stored_once(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     """A look for what waits meets one that is just being taken."""
     library, trial = kept.library, kept.trial()
 

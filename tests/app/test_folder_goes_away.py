@@ -41,7 +41,7 @@ def library(tmp_path: Path) -> Iterator[DataFolder]:
         yield opened
 
 
-def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, library: DataFolder) -> None:
+def test_session_without_its_folder_is_published_when_it_is_back(tmp_path: Path, library: DataFolder) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.on_fault = told.append
@@ -62,7 +62,7 @@ def test_session_whose_folder_is_gone_waits_and_comes_home(tmp_path: Path, libra
         assert list(spool_folder(tmp_path / "data").iterdir()) == []
 
 
-def test_share_that_hangs_is_not_waited_for(library: DataFolder, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hanging_share_does_not_block(library: DataFolder, monkeypatch: pytest.MonkeyPatch) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.on_fault = told.append
@@ -87,7 +87,7 @@ def test_share_that_hangs_is_not_waited_for(library: DataFolder, monkeypatch: py
     assert not path.exists()
 
 
-def test_full_data_folder_keeps_the_session_here_until_there_is_room(
+def test_full_data_folder_keeps_the_session_local_until_there_is_room(
     library: DataFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(_: Path, folder: Path) -> Path:
@@ -104,7 +104,7 @@ def test_full_data_folder_keeps_the_session_here_until_there_is_room(
     assert len(library.sessions(key)) == 1
 
 
-def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(library: DataFolder) -> None:
+def test_killed_recording_is_recovered_at_the_next_start(library: DataFolder) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     path = SessionIntake(library).new_path(set_up(key, "Linden 42"))
     stored_journal(path.with_suffix(".journal"), 40)
@@ -116,7 +116,7 @@ def test_killed_recording_is_found_at_the_next_start_and_one_of_nothing_is_told(
     assert recover_sessions(library) == ([], [])
 
 
-def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: Path) -> None:
+def test_missing_share_does_not_prevent_measuring(tmp_path: Path) -> None:
     """Nothing is made where the share belongs, which would hide under it once it is mounted."""
     data, share = tmp_path / "data", tmp_path / "share"
     with closing(DataFolder(data, sessions_folder=share)) as library:
@@ -156,7 +156,7 @@ def test_pending_data_of_deleted_patient_is_deleted(tmp_path: Path) -> None:
         assert len(library.sessions(heron)) == 1
 
 
-def test_empty_place_of_share_is_not_taken_for_share(tmp_path: Path) -> None:
+def test_empty_mount_point_is_not_used_as_share(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     share.mkdir()
     with closing(DataFolder(data, sessions_folder=share)) as library:

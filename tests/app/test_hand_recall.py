@@ -18,7 +18,7 @@ from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions
 
 
-def test_card_of_hand_has_every_fingers_total_with_its_change_and_at_least() -> None:
+def test_patient_card_has_finger_totals_changes_and_lower_bounds() -> None:
     sessions = FakeHandSessions(pictures=False)
     first, last = (compute_session_results(sessions.session(key)) for key in ("hand-3", "hand-7"))
     lines = _compare_results(first, last)
@@ -28,7 +28,7 @@ def test_card_of_hand_has_every_fingers_total_with_its_change_and_at_least() -> 
     assert any(change.verdict == "improved" for _, change in lines)
 
 
-def test_markers_shown_are_those_of_same_hand_with_same_markers(tmp_path: Path) -> None:
+def test_last_marker_positions_are_of_the_same_hand_and_protocol(tmp_path: Path) -> None:
     library = DataFolder(tmp_path / "data")
     try:
         linden = library.patients.add(Patient("Linden 42", "right", "right"))

@@ -105,7 +105,7 @@ def test_commands_are_logged_where_the_session_is_kept(library: DataFolder, tmp_
     assert command("erase", elsewhere).code == 1
 
 
-def test_progress_is_of_whom_the_list_says_without_the_archive(
+def test_progress_of_a_listed_patient_excludes_the_archive(
     library: DataFolder, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     linden, heron = (library.patients.add(Patient(name, "right", "right")) for name in ("Linden 42", "Heron 17"))
@@ -153,7 +153,7 @@ def test_log_that_cannot_be_written_is_reported_and_stops_nothing_else(
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
 
 
-def test_backup_by_command_comes_back_elsewhere(library: DataFolder, tmp_path: Path, command: Command) -> None:
+def test_backup_by_command_is_restored_elsewhere(library: DataFolder, tmp_path: Path, command: Command) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     store(library, set_up(linden, "Linden 42"))
     place, new = tmp_path / "disk", tmp_path / "new"
@@ -175,7 +175,7 @@ def test_backup_by_command_comes_back_elsewhere(library: DataFolder, tmp_path: P
         assert restored.patients.search() == []
 
 
-def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
+def test_commands_find_the_records_of_a_file_on_the_share(
     tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     data, share = tmp_path / "data", tmp_path / "share"

@@ -67,7 +67,7 @@ def store(
     return SessionIntake(library).register(wanted, path)
 
 
-def test_length_of_hand_is_that_of_its_last_session_with_right_names(library: DataFolder) -> None:
+def test_hand_length_is_of_the_last_session_with_right_labels(library: DataFolder) -> None:
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
     places = SessionIntake(library)
@@ -87,7 +87,7 @@ def test_length_of_hand_is_that_of_its_last_session_with_right_names(library: Da
     assert places.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
 
 
-def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(library: DataFolder) -> None:
+def test_simulated_session_is_excluded_and_hides_no_result(library: DataFolder) -> None:
     patients = PatientStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     wanted, simulated = set_up(linden, "Linden 42"), json.dumps({"source": {"simulated": "yes"}})
@@ -105,7 +105,7 @@ def test_simulated_session_of_patient_counts_nowhere_and_hides_no_real_result(li
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
 
 
-def test_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: DataFolder) -> None:
+def test_session_is_moved_renamed_excluded_and_deleted_with_its_files(library: DataFolder) -> None:
     stored = SessionStore(library)
     linden = library.patients.add(Patient("Linden 42", "right", "right"))
     heron = library.patients.add(Patient("Heron 17", "right", "right"))

@@ -122,7 +122,7 @@ def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(whole: Session, tmp_pat
     assert ratio.max() < 1.25, "less known, and so stated"
 
 
-def test_session_whose_looking_back_is_killed_is_whole_as_tracked(
+def test_killed_smoothing_leaves_the_tracked_session_complete(
     whole: Session, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     def kill(looker: SmoothingProcess, row: int) -> None:
@@ -151,7 +151,7 @@ def test_session_without_frame_is_none(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_note_from_before_first_frame_is_kept_with_first_row(tmp_path: Path) -> None:
+def test_note_before_the_first_frame_is_stored_with_the_first_row(tmp_path: Path) -> None:
     pipeline, session = live_pipeline(), open_session(tmp_path / "early.h5", None)
     session.add_event(float("nan"), "note", "strap loose")
     rows = [pipeline(frame) for frame in list(frames())[:3]]

@@ -54,7 +54,7 @@ class Drawn:
         return Take(), 0.55
 
 
-def test_movement_is_played_as_soon_as_it_is_drawn_and_next_one_after_it() -> None:
+def test_practice_movement_is_played_once_rendered_and_then_the_next() -> None:
     drawn = Drawn()
     assert not drawn.patient.can_move
     drawn.go_on.release()
@@ -66,7 +66,7 @@ def test_movement_is_played_as_soon_as_it_is_drawn_and_next_one_after_it() -> No
     assert drawn.asked == ["WRIST_FE", "WRIST_RU"]
 
 
-def test_drawing_ends_when_no_one_looks_any_more() -> None:
+def test_rendering_stops_when_its_source_is_closed() -> None:
     drawn = Drawn()
     drawn.patient.close()
     drawn.go_on.release()
@@ -75,7 +75,7 @@ def test_drawing_ends_when_no_one_looks_any_more() -> None:
     assert drawn.asked == ["WRIST_FE"]
 
 
-def test_beginning_is_what_whole_take_begins_with_and_dozen_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_opening_frames_equal_the_first_of_the_recording(monkeypatch: pytest.MonkeyPatch) -> None:
     """A second of drawing, not a minute: the first live picture waits for nothing else."""
     whole = SimulatedRecording(practice_spec(FIRST))
     begun = render_practice_start(FIRST)

@@ -150,7 +150,7 @@ for umask in ("000", "022", "277"):
 """
 
 
-def test_whatever_the_umask_files_are_for_their_owner(tmp_path: Path) -> None:
+def test_files_are_private_with_any_umask(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-c", WRITES, str(tmp_path)], cwd=ROOT, check=True, capture_output=True)
     for umask in ("000", "022", "277"):
         written = [path for path in (tmp_path / umask).rglob("*") if path.is_file()]
@@ -180,7 +180,7 @@ def test_list_of_frames_stays_in_its_folder(tmp_path: Path, name: str) -> None:
         "\udcff",
     ],
 )
-def test_settings_that_make_no_sense_are_told_and_left_out(tmp_path: Path, text: str) -> None:
+def test_settings_invalid_are_reported_and_ignored(tmp_path: Path, text: str) -> None:
     (tmp_path / "settings.toml").write_bytes(text.encode("utf-8", "surrogateescape"))
     (tmp_path / "preferences.toml").write_text('[report]\ntherapist = "AB"\n')
     settings, faults = load_valid_settings(tmp_path)

@@ -114,7 +114,7 @@ def test_non_path_argument_is_refused() -> None:
                 refused(function, {name: [value] if name == "sessions" else value}, ", a path expected")
 
 
-def test_listing_its_functions_loads_nothing_and_opening_a_session_nothing_of_the_window(folder: Path) -> None:
+def test_python_api_loads_modules_only_when_used(folder: Path) -> None:
     script = "import sys, carpus; print(*dir(carpus)); print('numpy' in sys.modules)\n"
     script += "session = carpus.open_session(sys.argv[1])\n"
     script += "print(len(session), session.header.hand, 'PySide6' in sys.modules)\n"
@@ -142,7 +142,7 @@ def test_listing_its_functions_loads_nothing_and_opening_a_session_nothing_of_th
     assert (costly, processes) == ("set()", "[]"), "the first session opens in half a second"
 
 
-def test_papers_filter_in_python_is_that_of_command(rendered: Rendered, tmp_path: Path) -> None:
+def test_papers_filter_in_python_equals_the_command(rendered: Rendered, tmp_path: Path) -> None:
     folder = rendered(FLEXION)
     frames = list(carpus.track(folder, folder / "calibration.json", filter="paper"))
     session = carpus.write_session(folder, folder / "calibration.json", tmp_path / "paper.h5", filter="paper")
@@ -202,7 +202,7 @@ def test_tables_measures_and_provenance_of_a_session(folder: Path) -> None:
     assert session.provenance()["of"]["recording_id"] == session.header.recording_id
 
 
-def test_session_is_shown_in_ten_lines_and_with_a_picture(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_session_repr_has_ten_lines_and_a_picture(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     session = carpus.open_session(folder / "truth.h5")
     assert len(repr(session).splitlines()) <= 10
     assert "wrist6" in repr(session)
@@ -238,7 +238,7 @@ def test_plot_has_a_line_and_a_band_for_each_angle(folder: Path) -> None:
         session.plot(["flexoin"])
 
 
-def test_study_is_one_tidy_table_and_unreadable_file_is_warned_of(folder: Path, tmp_path: Path) -> None:
+def test_study_is_one_table_and_warns_of_an_unreadable_file(folder: Path, tmp_path: Path) -> None:
     (tmp_path / "good.h5").write_bytes((folder / "truth.h5").read_bytes())
     (tmp_path / "bad.h5").write_bytes(b"no session")
     with pytest.warns(UserWarning, match="bad.h5"):
@@ -252,7 +252,7 @@ def test_study_is_one_tidy_table_and_unreadable_file_is_warned_of(folder: Path, 
     assert str(study["recorded"].dt.tz) == "UTC"
 
 
-def test_missing_pandas_is_said_in_a_sentence(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_pandas_is_reported_in_a_sentence(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ExtraMissing) as raised:
         carpus.open_session(folder / "truth.h5").tables()

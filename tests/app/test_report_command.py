@@ -88,7 +88,7 @@ def test_sessions_make_a_report_of_a_session_or_of_progress(
     assert "Session report" in words(tmp_path / "twice.pdf")
 
 
-def test_comment_is_on_it_and_paper_and_language_are_chosen(
+def test_report_has_the_comment_and_chosen_paper_and_language(
     sessions: list[Path], tmp_path: Path, command: Command
 ) -> None:
     path, out = tmp_path / "data" / "sessions" / "day.h5", tmp_path / "de.pdf"
@@ -154,7 +154,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path / "sessions"
 
 
-def test_figures_are_written_as_csv_parquet_and_pdf(folder: Path, tmp_path: Path, command: Command) -> None:
+def test_measures_are_written_as_csv_parquet_and_pdf(folder: Path, tmp_path: Path, command: Command) -> None:
     out = [tmp_path / f"progress.{kind}" for kind in ("csv", "parquet", "pdf")]
     asked = ("progress", "Linden 42", "--sessions", folder)
     assert command(*asked, *(word for path in out for word in ("--output", path))).code == 0

@@ -44,7 +44,7 @@ def said_of(settings: TrackSettings) -> str:
     ("options", "dip", "on_skin"),
     [((), "free", False), (("--dip", "coupled"), "coupled", False), (("--discs", "on-skin"), "free", True)],
 )
-def test_session_tracked_again_keeps_its_dip_joints_and_its_markers_unless_reported(
+def test_retracked_session_keeps_its_joints_and_markers(
     options: tuple[str, ...], dip: str, on_skin: bool, tmp_path: Path, command: Command
 ) -> None:
     settings = TrackSettings(tracker=TrackerSettings(dip="free", fingers=FingerSettings(skin_offsets=False)))
@@ -56,7 +56,7 @@ def test_session_tracked_again_keeps_its_dip_joints_and_its_markers_unless_repor
     assert ("DIP3_flexion" in again.joint_names) == (dip == "free")
 
 
-def test_session_is_tracked_again_as_it_was_and_what_differs_is_reported(tmp_path: Path, command: Command) -> None:
+def test_retracked_session_keeps_settings_and_reports_differences(tmp_path: Path, command: Command) -> None:
     tracker = TrackerSettings(profile="slow", mode_scales=(1.0,), use_depth=False)
     before = TrackSettings(tracker=tracker, detection=DetectionSettings(least_area=0.2), smooth=False)
     session = stored(tmp_path / "session.h5", parameters=said_of(before))

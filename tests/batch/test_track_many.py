@@ -38,7 +38,7 @@ def rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_faults_are_gathered_and_what_is_done_is_left(made: Path, tmp_path: Path, command: Command) -> None:
+def test_batch_faults_are_collected_and_results_kept(made: Path, tmp_path: Path, command: Command) -> None:
     recordings = Path(shutil.copytree(made, tmp_path / "in"))
     out, table, other_table = tmp_path / "out", tmp_path / "all.parquet", tmp_path / "all.csv"
     words = ("track", recordings, "--output", out, "--exercise", "WRIST_RU", "--jobs", "2", "--no-smooth", "--table")
@@ -112,7 +112,7 @@ def test_many_into_one_file_is_refused(made: Path, tmp_path: Path, command: Comm
     assert command("track", one, "--calibration", one / CLICKS_FILE, "--output", output, "--jobs", "2").code == 2
 
 
-def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, command: Command) -> None:
+def test_batch_foreign_table_is_not_replaced(made: Path, tmp_path: Path, command: Command) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / MEASURES_FILE).write_text("mine\n1\n")

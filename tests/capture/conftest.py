@@ -8,7 +8,7 @@ from carpus.core.model.errors import CarpusFault
 
 
 @pytest.fixture
-def told() -> list[CarpusFault]:
+def notices() -> list[CarpusFault]:
     """What a camera says of itself while it runs."""
     return []
 

@@ -40,11 +40,11 @@ from tests.capture.oni_samples import (
 
 
 def play(path: Path) -> tuple[list[Frame], list[CarpusFault]]:
-    told: list[CarpusFault] = []
-    source = OniSource(path, registered=True, notice=told.append)
+    notices: list[CarpusFault] = []
+    source = OniSource(path, registered=True, notice=notices.append)
     frames = list(source.frames())
     source.close()
-    return frames, told
+    return frames, notices
 
 
 def changed(folder: Path, count: int, change: Callable[[bytes], bytes], **how: Any) -> Path:
@@ -76,9 +76,9 @@ def test_oni_source_frames_can_be_repeated(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("depth", ["raw", "table"])
 def test_oni_source_both_depth_codecs_are_lossless(tmp_path: Path, depth: str) -> None:
-    frames, told = play(write_sample(tmp_path / "a.oni", 4, depth=depth))  # type: ignore[arg-type]
+    frames, notices = play(write_sample(tmp_path / "a.oni", 4, depth=depth))  # type: ignore[arg-type]
     assert_whole(frames, 4)
-    assert told == []
+    assert notices == []
 
 
 @pytest.mark.parametrize("name", ["poignet gauche – été.oni", "手首の記録.oni", "🤚.oni"])
@@ -90,9 +90,9 @@ def test_oni_source_path_in_any_script_is_read(tmp_path: Path, name: str) -> Non
 def test_oni_source_uses_sidecar(tmp_path: Path, registered: bool, expected: list[type[CarpusFault]]) -> None:
     path = write_sample(tmp_path / "a.oni", 2)
     write_camera_info(sidecar_path(path), CAMERA, registered=registered)
-    told: list[CarpusFault] = []
-    source = OniSource(path, registered=not registered, notice=told.append)
-    assert [type(fault) for fault in told] == expected
+    notices: list[CarpusFault] = []
+    source = OniSource(path, registered=not registered, notice=notices.append)
+    assert [type(fault) for fault in notices] == expected
     assert source.info.settings["registered"] == ("yes" if registered else "no")
     assert source.info.camera.origin == "file"
     assert all(frame.depth_raw is not None for frame in source.frames())
@@ -117,9 +117,9 @@ def test_oni_source_small_colour_is_enlarged(tmp_path: Path) -> None:
     path = changed(tmp_path, 3, with_small_color)
     small = CAMERA.__class__(26.25, 26.25, 15.5, 11.5, WIDTH // 2, HEIGHT // 2)
     write_camera_info(sidecar_path(path), small, registered=True)
-    told: list[CarpusFault] = []
-    source = OniSource(path, notice=told.append)
-    assert [type(fault) for fault in told] == [FramesEnlarged]
+    notices: list[CarpusFault] = []
+    source = OniSource(path, notice=notices.append)
+    assert [type(fault) for fault in notices] == [FramesEnlarged]
     assert source.info.camera == CAMERA.__class__(52.5, 52.5, 31.5, 23.5, WIDTH, HEIGHT, origin="file")
     frames = list(source.frames())
     assert len(frames) == 3
@@ -151,9 +151,9 @@ def damaged_payload(data: bytes, node: int, occurrence: int) -> bytes:
 
 
 def test_oni_source_damaged_depth_leaves_frame_without_depth(tmp_path: Path) -> None:
-    frames, told = play(changed(tmp_path, 6, lambda data: damaged_payload(data, 1, 3)))
+    frames, notices = play(changed(tmp_path, 6, lambda data: damaged_payload(data, 1, 3)))
     assert [frame.depth_raw is not None for frame in frames] == [True, True, True, False, True, True]
-    assert [fault.detail for fault in told] == ["1 of 6 depth"]
+    assert [fault.detail for fault in notices] == ["1 of 6 depth"]
 
 
 def test_oni_source_time_gaps_are_counted(tmp_path: Path) -> None:

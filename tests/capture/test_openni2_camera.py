@@ -32,8 +32,8 @@ PERIOD_S = 0.033
 
 
 @pytest.fixture
-def camera(told: list[CarpusFault]) -> Iterator[ProcessCamera]:
-    source = KIND.open("Dummy", notice=told.append)
+def camera(notices: list[CarpusFault]) -> Iterator[ProcessCamera]:
+    source = KIND.open("Dummy", notice=notices.append)
     yield source
     source.close()
 
@@ -48,7 +48,7 @@ def assert_rising(frames: list[Frame]) -> None:
     assert all(later.timestamp_s > earlier.timestamp_s for earlier, later in pairwise(frames))
 
 
-def test_openni2_camera_yields_frames(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_openni2_camera_yields_frames(camera: ProcessCamera, notices: list[CarpusFault]) -> None:
     frames = list(islice(camera.frames(), 20))
     for frame in frames:
         assert frame.color_rgb.shape == (240, 320, 3)
@@ -61,16 +61,16 @@ def test_openni2_camera_yields_frames(camera: ProcessCamera, told: list[CarpusFa
         # in the device's own time, whatever the computer was busy with
         missing = later.dropped_before
         assert later.timestamp_s - earlier.timestamp_s == pytest.approx((missing + 1) * PERIOD_S, abs=1e-6)
-    assert [type(fault) for fault in told] == [DepthNotRegistered]
+    assert [type(fault) for fault in notices] == [DepthNotRegistered]
     again = camera.frames()
     frames += islice(again, 3)
     camera.lock_exposure()
     for frame in islice(again, 10):
         frames.append(frame)
-        if isinstance(told[-1], ExposureUnstable):
+        if isinstance(notices[-1], ExposureUnstable):
             break
     assert_rising(frames)
-    assert [type(fault) for fault in told] == [DepthNotRegistered, ExposureUnstable]
+    assert [type(fault) for fault in notices] == [DepthNotRegistered, ExposureUnstable]
 
 
 def test_openni2_camera_slow_reader_counts_drops_until_closed(
@@ -101,7 +101,7 @@ def test_openni2_camera_slow_reader_counts_drops_until_closed(
 
 @pytest.mark.parametrize("how", [signal.SIGSEGV, signal.SIGSTOP])
 def test_openni2_camera_lost_reconnects(
-    camera: ProcessCamera, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, notices: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("carpus.core.capture.devices.process_camera.REPORT_TIMEOUT_S", 2.0)
     frames = []
@@ -109,11 +109,11 @@ def test_openni2_camera_lost_reconnects(
         frames.append(frame)
         if len(frames) == 5:
             blow(camera, how)
-        if len(frames) == 30 and CameraReturned in map(type, told):
+        if len(frames) == 30 and CameraReturned in map(type, notices):
             break
     assert_rising(frames[:30])
-    assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
-    assert "SIGSEGV" in told[1].detail or "no answer" in told[1].detail
+    assert [type(fault) for fault in notices] == [DepthNotRegistered, CameraLost, CameraReturned]
+    assert "SIGSEGV" in notices[1].detail or "no answer" in notices[1].detail
     steps_s = [later.timestamp_s - earlier.timestamp_s for earlier, later in pairwise(frames)]
     away = max(range(len(steps_s)), key=steps_s.__getitem__)
     # the gap is the time that really passed, and the frames missing in it are counted
@@ -121,14 +121,14 @@ def test_openni2_camera_lost_reconnects(
     assert frames[away + 1].dropped_before == round(steps_s[away] / (1 / 30)) - 1
 
 
-def test_openni2_camera_lost_before_reading_reconnects(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_openni2_camera_lost_before_reading_reconnects(camera: ProcessCamera, notices: list[CarpusFault]) -> None:
     blow(camera, signal.SIGKILL)
     assert_rising(list(islice(camera.frames(), 3)))
-    assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
+    assert [type(fault) for fault in notices] == [DepthNotRegistered, CameraLost, CameraReturned]
 
 
 @pytest.mark.usefixtures("short_retry")
-def test_openni2_camera_absent_too_long_raises(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_openni2_camera_absent_too_long_raises(camera: ProcessCamera, notices: list[CarpusFault]) -> None:
     camera._patience_s = 0.1
     frames = camera.frames()
     next(frames)
@@ -136,7 +136,7 @@ def test_openni2_camera_absent_too_long_raises(camera: ProcessCamera, told: list
     blow(camera, signal.SIGKILL)
     with pytest.raises(CameraLost):
         list(frames)
-    assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost]
+    assert [type(fault) for fault in notices] == [DepthNotRegistered, CameraLost]
 
 
 def test_openni2_camera_repeated_crash_or_missing_driver_raises(
@@ -175,7 +175,7 @@ def test_openni2_camera_missing_raises() -> None:
         KIND.open()
 
 
-def test_openni2_camera_uses_measured_intrinsics(told: list[CarpusFault]) -> None:
+def test_openni2_camera_uses_measured_intrinsics(notices: list[CarpusFault]) -> None:
     measured = Camera(530.0, 531.0, 318.0, 241.0, distortion=(0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
     source = KIND.open("Dummy", camera=measured)
     found = source.info.camera

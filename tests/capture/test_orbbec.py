@@ -38,32 +38,32 @@ from carpus.core.model.errors import (
 )
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.installation import Finding
-from tests.capture import orbbec_stand_in
-from tests.capture.lost_and_back import assert_comes_back
-from tests.capture.orbbec_stand_in import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, StandInList
+from tests.capture import fake_orbbec
+from tests.capture.fake_orbbec import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, FakeDeviceList
+from tests.capture.reconnection import assert_reconnects
 
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("orbbec") / "plane.bag"
-    orbbec_stand_in.record(path)
+    fake_orbbec.record(path)
     return path
 
 
 @pytest.fixture
 def camera(
-    tmp_path: Path, bag: Path, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, bag: Path, notices: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[ProcessCamera]:
     monkeypatch.chdir(tmp_path)
-    context = partial(orbbec_stand_in.plugged_in, tmp_path, bag)
-    source = replace(orbbec.KIND, make_context=context).open(notice=told.append)
+    context = partial(fake_orbbec.plugged_in, tmp_path, bag)
+    source = replace(orbbec.KIND, make_context=context).open(notice=notices.append)
     yield source
     source.close()
     assert not (tmp_path / "Log").exists(), "the library keeps logs where the program was started"
 
 
 @pytest.mark.usefixtures("short_retry")
-def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path) -> None:
+def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, notices: list[CarpusFault], tmp_path: Path) -> None:
     info = camera.info
     lens = info.camera
     assert (info.name, info.settings["serial"]) == ("Orbbec Femto Bolt(Playback)", SERIAL)
@@ -88,8 +88,8 @@ def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusF
         for row in (90, 240, 400):
             seen = lens.undistort(np.array([[np.argmax(frame.depth_raw[row] > 0) - 0.5, row]]))
             assert lens.backproject(seen, np.array([depth_m]))[0, 0] == pytest.approx(edge_m, abs=2 * depth_m / 525.0)
-    assert_comes_back(camera, frames, first, told, tmp_path / "unplugged")
-    assert told[0].detail == "unplugged"
+    assert_reconnects(camera, frames, first, notices, tmp_path / "unplugged")
+    assert notices[0].detail == "unplugged"
 
 
 def found_driver() -> Finding:
@@ -110,14 +110,14 @@ def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr("importlib.metadata.version", missing)
     assert check_driver(is_needed=False) is None
     assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
-    with pytest.raises(ExtraMissing) as told:
+    with pytest.raises(ExtraMissing) as notices:
         open_camera(f"orbbec:{SERIAL}")
-    assert format_fault_line(told.value).endswith("-m pip install --no-deps pyorbbecsdk2”. (C-001)")
+    assert format_fault_line(notices.value).endswith("-m pip install --no-deps pyorbbecsdk2”. (C-001)")
 
 
 def test_orbbec_stand_ins_match_library() -> None:
     ob = import_sdk()
-    for stand_in, real in ((StandInList, ob.DeviceList), (orbbec_stand_in.StandInContext, ob.Context)):
+    for stand_in, real in ((FakeDeviceList, ob.DeviceList), (fake_orbbec.FakeContext, ob.Context)):
         names = [name for name in vars(stand_in) if not name.startswith("_")]
         assert [name for name in names if not hasattr(real, name)] == []
     assert ob.Context().query_devices().get_count() == 0
@@ -128,7 +128,7 @@ def test_orbbec_find_device_by_serial() -> None:
     free, held = state.OB_DEVICE_ACCESS_STATE_AVAILABLE, state.OB_DEVICE_ACCESS_STATE_EXCLUSIVE
 
     def found(serials: str, wanted: str, as_it_is: Any = free) -> Any:
-        listed = StandInList({each: each for each in serials}, as_it_is)
+        listed = FakeDeviceList({each: each for each in serials}, as_it_is)
         return find_device(ob, SimpleNamespace(query_devices=lambda: listed), CameraConfig(wanted))
 
     assert found("ab", "") == "a"

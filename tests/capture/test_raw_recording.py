@@ -156,9 +156,9 @@ def records(data: bytes) -> list[bytes]:
 
 def read_back(path: Path, parts: list[bytes]) -> tuple[RawRecording, list[Frame], list[CarpusFault]]:
     path.write_bytes(b"".join(parts))
-    told: list[CarpusFault] = []
-    recording = RawRecording(path, notice=told.append)
-    return recording, list(recording.frames()), told
+    notices: list[CarpusFault] = []
+    recording = RawRecording(path, notice=notices.append)
+    return recording, list(recording.frames()), notices
 
 
 LETTERS, NUMBER, COLOR_SIZE, DEPTH_SIZE = 0, 20, 24, 28
@@ -173,13 +173,13 @@ def test_raw_recording_one_damaged_byte_loses_one_frame(tmp_path: Path, place: i
     for number in (0, 4, 7):
         damaged = bytearray(parts[2 + number])
         damaged[place] ^= 1 << 7
-        recording, back, told = read_back(path, [*parts[: 2 + number], bytes(damaged), *parts[3 + number :]])
+        recording, back, notices = read_back(path, [*parts[: 2 + number], bytes(damaged), *parts[3 + number :]])
         assert recording.is_complete
         others = [frame for frame in frames(8) if frame.index != number]
         for read, written in zip(back, others, strict=True):
             assert_same(read, written)
             assert read.dropped_before == written.dropped_before + (written.index == number + 1)
-        assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, "1 of 8 frames")]
+        assert [(type(fault), fault.detail) for fault in notices] == [(DamagedFramesExcluded, "1 of 8 frames")]
 
 
 @pytest.mark.parametrize(("gone", "given"), [((4,), 7), ((0,), 7), ((7,), 7), ((3, 4, 6), 5)])
@@ -188,29 +188,29 @@ def test_raw_recording_missing_frames_are_counted_and_notified(
 ) -> None:
     path = write(tmp_path / "take.carpusraw", 8)
     parts = records(path.read_bytes())
-    _, back, told = read_back(path, [part for at, part in enumerate(parts) if at - 2 not in gone])
+    _, back, notices = read_back(path, [part for at, part in enumerate(parts) if at - 2 not in gone])
     assert len(back) == given
     own = sum(frame.dropped_before for frame in frames(8) if frame.index not in gone)
     assert sum(frame.dropped_before for frame in back) == own + sum(number < 7 for number in gone)
-    assert [(type(fault), fault.detail) for fault in told] == [(DamagedFramesExcluded, f"{len(gone)} of 8 frames")]
+    assert [(type(fault), fault.detail) for fault in notices] == [(DamagedFramesExcluded, f"{len(gone)} of 8 frames")]
 
 
 def test_raw_recording_duplicate_frame_is_notified(tmp_path: Path) -> None:
     path = write(tmp_path / "take.carpusraw", 6)
     parts = records(path.read_bytes())
-    _, back, told = read_back(path, [*parts[:5], parts[4], *parts[5:]])
+    _, back, notices = read_back(path, [*parts[:5], parts[4], *parts[5:]])
     assert [frame.dropped_before for frame in back] == [frame.dropped_before for frame in frames(6)]
-    assert [fault.detail for fault in told] == ["1 of 6 frames"]
+    assert [fault.detail for fault in notices] == ["1 of 6 frames"]
 
 
 def test_raw_recording_data_after_end_are_notified(tmp_path: Path) -> None:
     path = write(tmp_path / "take.carpusraw", 3)
     parts = records(path.read_bytes())
     for surplus in (b"hello", b"".join(parts)):
-        recording, back, told = read_back(path, [*parts, surplus])
+        recording, back, notices = read_back(path, [*parts, surplus])
         assert (recording.is_complete, len(back)) == (True, 3)
-        assert [type(fault) for fault in told] == [RecordingDamaged]
-        assert str(len(surplus)) in told[0].detail
+        assert [type(fault) for fault in notices] == [RecordingDamaged]
+        assert str(len(surplus)) in notices[0].detail
 
 
 @pytest.mark.parametrize("place", [0, 4, NUMBER])
@@ -219,8 +219,8 @@ def test_raw_recording_damaged_end_is_ignored(tmp_path: Path, place: int) -> Non
     parts = records(path.read_bytes())
     end = bytearray(parts[-1])
     end[place] ^= 1
-    recording, back, told = read_back(path, [*parts[:-1], bytes(end)])
-    assert (recording.is_complete, len(back), told) == (False, 3, [])
+    recording, back, notices = read_back(path, [*parts[:-1], bytes(end)])
+    assert (recording.is_complete, len(back), notices) == (False, 3, [])
 
 
 @pytest.mark.parametrize("place", [12, 16, 12 + COLOR_SIZE, 12 + COLOR_SIZE + 2, 60])

@@ -39,9 +39,9 @@ from carpus.core.model.errors import (
     RecordingDamaged,
 )
 from carpus.core.model.fault_text import format_fault_line
-from tests.capture import realsense_stand_in
-from tests.capture.lost_and_back import assert_comes_back
-from tests.capture.realsense_stand_in import DEPTH_FX, EDGE_PX, FX, HEIGHT, NEAR_MM, SHIFT_M, WIDTH
+from tests.capture import fake_realsense
+from tests.capture.fake_realsense import DEPTH_FX, EDGE_PX, FX, HEIGHT, NEAR_MM, SHIFT_M, WIDTH
+from tests.capture.reconnection import assert_reconnects
 from tests.rendered import FLEXION, Rendered
 
 FRAMES = 24
@@ -51,7 +51,7 @@ EDGE_X = (EDGE_PX - 0.5 - (WIDTH - 1) / 2) / DEPTH_FX
 
 def record_take(take: Path, path: Path) -> None:
     source = TumFolder(take)
-    realsense_stand_in.record(path, islice(source.frames(), FRAMES), source.info.camera.fx_px)
+    fake_realsense.record(path, islice(source.frames(), FRAMES), source.info.camera.fx_px)
     source.close()
 
 
@@ -108,15 +108,15 @@ def test_realsense_recording_truncated_raises(take: Path, tmp_path: Path) -> Non
 
 
 @pytest.fixture
-def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[ProcessCamera]:
-    context = partial(realsense_stand_in.plugged_in, tmp_path)
-    source = replace(realsense.KIND, make_context=context).open(notice=told.append)
+def camera(tmp_path: Path, notices: list[CarpusFault]) -> Iterator[ProcessCamera]:
+    context = partial(fake_realsense.plugged_in, tmp_path)
+    source = replace(realsense.KIND, make_context=context).open(notice=notices.append)
     yield source
     source.close()
 
 
 @pytest.mark.usefixtures("short_retry")
-def test_realsense_camera_lost_reconnects(camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path) -> None:
+def test_realsense_camera_lost_reconnects(camera: ProcessCamera, notices: list[CarpusFault], tmp_path: Path) -> None:
     info = camera.info
     assert (info.name, info.settings["preset"], info.settings["emitter"]) == (
         "Intel RealSense D435", "high accuracy", "on",
@@ -132,12 +132,12 @@ def test_realsense_camera_lost_reconnects(camera: ProcessCamera, told: list[Carp
         edge_px = np.argmax(frame.depth_raw[HEIGHT // 2] > 0)
         assert edge_px == pytest.approx((WIDTH - 1) / 2 + FX * (EDGE_X + SHIFT_M / (NEAR_MM / 1000.0)), abs=1.0)
         assert frame.depth_unit_m == 1e-3
-    assert_comes_back(camera, frames, first, told, tmp_path / "unplugged", tmp_path / "crash")
+    assert_reconnects(camera, frames, first, notices, tmp_path / "unplugged", tmp_path / "crash")
 
 
 @pytest.mark.usefixtures("short_retry")
 def test_realsense_camera_mismatch_is_notified_and_waits(
-    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
+    camera: ProcessCamera, notices: list[CarpusFault], tmp_path: Path
 ) -> None:
     frames = camera.frames()
     next(frames)
@@ -145,16 +145,16 @@ def test_realsense_camera_mismatch_is_notified_and_waits(
     (tmp_path / "crash").touch()
 
     def put_back(fault: CarpusFault) -> None:
-        told.append(fault)
+        notices.append(fault)
         if isinstance(fault, CameraMismatch):
             (tmp_path / "other").unlink()
 
     camera._notice = put_back
     for _ in frames:  # the crash takes a moment; pictures of before may still come
-        if told and isinstance(told[-1], CameraReturned):
+        if notices and isinstance(notices[-1], CameraReturned):
             break
-    assert [type(fault) for fault in told] == [CameraLost, CameraMismatch, CameraReturned]
-    assert format_fault_line(told[1]).startswith(
+    assert [type(fault) for fault in notices] == [CameraLost, CameraMismatch, CameraReturned]
+    assert format_fault_line(notices[1]).startswith(
         "A different camera is connected (Intel RealSense D435 815412070124). "
         "Carpus expects Intel RealSense D435 815412070123."
     )
@@ -175,14 +175,14 @@ def test_realsense_open_by_serial_tells_the_cause() -> None:
     assert type(camera_open_error("hwmon command timed out", [seen("D435", is_claimed=True)])) is DriverFailed
 
 
-def test_realsense_color_lock_keeps_colours(camera: ProcessCamera, told: list[CarpusFault]) -> None:
+def test_realsense_color_lock_keeps_colours(camera: ProcessCamera, notices: list[CarpusFault]) -> None:
     frames = camera.frames()
     before = next(frames).color_rgb.mean(axis=(0, 1))
     camera.lock_exposure()
     after = before * 0.0
     for frame in islice(frames, 60):
         after = frame.color_rgb.mean(axis=(0, 1))
-    assert told == []
+    assert notices == []
     assert after == pytest.approx(before, rel=0.04)
 
 
@@ -206,7 +206,7 @@ def test_color_controller_finds_matching_settings(true: tuple[float, float], slo
 
 
 def test_realsense_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    context = partial(realsense_stand_in.plugged_in, tmp_path)
+    context = partial(fake_realsense.plugged_in, tmp_path)
     monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, make_context=context))
     findings = {each.name: each for each in check_open_camera("realsense", 0.5)}
     assert list(findings) == ["Frames", "Depth registration", "Mirror", "Clock", "Firmware", "USB"]
@@ -231,6 +231,6 @@ def test_realsense_doctor_checks_driver_and_settings(monkeypatch: pytest.MonkeyP
 
     monkeypatch.setattr("importlib.metadata.version", missing)
     assert check_driver(is_needed=False) is None, "no obstacle, and nothing to tick"
-    told = check_driver(is_needed=True)
-    assert told is not None
-    assert (told.state, told.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")
+    notices = check_driver(is_needed=True)
+    assert notices is not None
+    assert (notices.state, notices.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")

@@ -243,8 +243,8 @@ def test_tum_folder_skip_damaged_notifies(take: Path) -> None:
     color[1].write_text("no picture")
     color[3].unlink()
     depth[2].write_bytes(b"")
-    told: list[CarpusFault] = []
-    source = TumFolder(take, read_ahead=3, skip_damaged=True, notice=told.append)
+    notices: list[CarpusFault] = []
+    source = TumFolder(take, read_ahead=3, skip_damaged=True, notice=notices.append)
     frames = list(source.frames())
     assert [frame.index for frame in frames] == [0, 1, 2]
     assert [frame.timestamp_s for frame in frames] == [round(TIMES_S[k], 6) for k in (0, 2, 4)]
@@ -252,15 +252,15 @@ def test_tum_folder_skip_damaged_notifies(take: Path) -> None:
         np.testing.assert_array_equal(frame.color_rgb, color_picture(number))
     assert frames[1].depth_raw is None
     assert frames[1].dropped_before == 1, "the damaged one"
-    assert all(isinstance(fault, DamagedFramesExcluded) for fault in told)
-    assert [fault.detail for fault in told] == ["1 colour missing", "1 colour and 1 depth damaged"]
+    assert all(isinstance(fault, DamagedFramesExcluded) for fault in notices)
+    assert [fault.detail for fault in notices] == ["1 colour missing", "1 colour and 1 depth damaged"]
 
 
 def test_tum_folder_damaged_first_image_raises(tmp_path: Path) -> None:
     for spoil in (lambda path: path.write_text("no picture"), Path.unlink):
         folder = write_recording(tmp_path / f"take {spoil}")
         spoil(sorted((folder / "rgb").iterdir())[0])
-        for leave_out in (False, True):  # and nobody is told to go on without it
+        for leave_out in (False, True):  # and nobody is notices to go on without it
             with pytest.raises(InitialFrameDamaged):
                 TumFolder(folder, skip_damaged=leave_out)
 
@@ -274,10 +274,10 @@ def test_tum_folder_other_time_unit_is_notified(take: Path, unit: str, counts: f
         lines = [line.split() for line in (take / name).read_text().splitlines() if line[0] != "#"]
         later = [(f"{(first_s + float(time_s) - TIMES_S[0]) * counts:.3f}", path) for time_s, path in lines]
         (take / name).write_text("".join(f"{time} {path}\n" for time, path in later))
-    told: list[CarpusFault] = []
-    source = TumFolder(take, notice=told.append)
-    assert [type(fault) for fault in told] == [UnitAssumed, UnitAssumed]
-    assert unit in told[0].detail
+    notices: list[CarpusFault] = []
+    source = TumFolder(take, notice=notices.append)
+    assert [type(fault) for fault in notices] == [UnitAssumed, UnitAssumed]
+    assert unit in notices[0].detail
     stamps = np.array([frame.timestamp_s for frame in source.frames()])
     assert stamps == pytest.approx(first_s + np.array(TIMES_S) - TIMES_S[0], abs=1e-5)
     assert source.info.nominal_fps == pytest.approx(1.0 / 0.033, rel=0.01)
@@ -286,10 +286,10 @@ def test_tum_folder_other_time_unit_is_notified(take: Path, unit: str, counts: f
 def test_tum_folder_duplicate_time_is_skipped_and_notified(take: Path) -> None:
     for name in ("rgb.txt", "depth.txt"):
         edit(take / name, lambda lines: [*lines[:-1], lines[-2], lines[-1], lines[-1]])
-    told: list[CarpusFault] = []
-    frames = list(TumFolder(take, notice=told.append).frames())
+    notices: list[CarpusFault] = []
+    frames = list(TumFolder(take, notice=notices.append).frames())
     assert [frame.timestamp_s for frame in frames] == [round(time_s, 6) for time_s in TIMES_S]
-    assert [(type(fault), fault.detail) for fault in told] == [
+    assert [(type(fault), fault.detail) for fault in notices] == [
         (RepeatedTimesExcluded, "2"),
         (RepeatedTimesExcluded, "2"),
     ]
@@ -301,17 +301,17 @@ def test_tum_folder_millimetre_depth_is_notified(take: Path, counts_per_m: int, 
         picture = np.full((HEIGHT, WIDTH), round(0.72 * counts_per_m), np.uint16)
         picture[:10] = 0
         cv2.imwrite(str(path), picture)
-    told: list[CarpusFault] = []
-    frame = next(TumFolder(take, notice=told.append).frames())
+    notices: list[CarpusFault] = []
+    frame = next(TumFolder(take, notice=notices.append).frames())
     assert frame.depth_raw is not None
     assert frame.depth_raw[20, 20] * frame.depth_unit_m == pytest.approx(0.72)
-    assert [type(fault) for fault in told] == [UnitAssumed] * said
+    assert [type(fault) for fault in notices] == [UnitAssumed] * said
 
 
 @pytest.mark.parametrize("unit_m", ["0.001", "1e-3", "0.0002"])
 def test_tum_folder_uses_depth_unit_of_camera_file(take: Path, unit_m: str) -> None:
     write_camera_info(take / "camera_info.yaml", OWN_CAMERA)
     edit(take / "camera_info.yaml", lambda lines: [*lines, f"depth_unit_m: {unit_m}"])
-    told: list[CarpusFault] = []
-    assert next(TumFolder(take, notice=told.append).frames()).depth_unit_m == float(unit_m)
-    assert not told
+    notices: list[CarpusFault] = []
+    assert next(TumFolder(take, notice=notices.append).frames()).depth_unit_m == float(unit_m)
+    assert not notices

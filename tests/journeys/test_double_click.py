@@ -23,7 +23,7 @@ def session(tmp_path: Path) -> Path:
     return path
 
 
-def test_session_of_no_one_here_is_shown_once_someone_has_pin_and_stays_where_it_is(
+def test_opened_file_of_an_unknown_patient_is_shown_after_the_pin(
     qtbot: QtBot, open_desktop: Open, session: Path, data: Path, tmp_path: Path
 ) -> None:
     before = session.read_bytes()
@@ -54,7 +54,9 @@ def test_session_of_no_one_here_is_shown_once_someone_has_pin_and_stays_where_it
     assert [path.name for path in session.parent.iterdir()] == [session.name]
 
 
-def test_file_alone_is_as_good_as_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_double_clicked_file_opens_like_the_command(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert command_line.main(["not there.h5"]) == 1
     assert "not there.h5" in capsys.readouterr().err
     opened: list[Path] = []

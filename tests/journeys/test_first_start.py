@@ -20,9 +20,7 @@ def shown(desktop: Desktop, bubble: str) -> bool:
     return desktop.tour.bubble == bubble
 
 
-def test_first_session_is_led_from_control_to_control(
-    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path
-) -> None:
+def test_first_session_is_guided_by_the_tour(qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path) -> None:
     desktop = open_desktop()
     journey, tour, panel = desktop.controller, desktop.tour, desktop.welcome.panel
     qtbot.waitUntil(panel.isVisible)
@@ -59,9 +57,7 @@ def test_first_session_is_led_from_control_to_control(
     assert load_settings(tmp_path / "settings").first_start.answered
 
 
-def test_escape_leaves_the_guide_and_not_the_screen_and_it_is_for_the_practice_patient_unless_it_was_asked_for(
-    qtbot: QtBot, open_desktop: Open
-) -> None:
+def test_tour_escape_ends_the_tour_only(qtbot: QtBot, open_desktop: Open) -> None:
     desktop = open_desktop()
     journey, tour = desktop.controller, desktop.tour
     desktop.shell.key_pressed.emit("help")
@@ -101,9 +97,7 @@ def _somebody() -> Patient:
     return Patient("Heron 17", "right", "right")
 
 
-def test_look_opens_nothing_makes_no_folder_and_calls_no_drivers_own_code_in_windows_process(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_start_makes_no_folder_and_loads_no_driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """OpenNI2 ends the process of a second thread that calls it."""
 
     class Library:

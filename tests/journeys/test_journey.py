@@ -219,7 +219,7 @@ def test_recording_is_measured_from_its_first_frame_to_its_last_in_real_time(
     assert (times[0], times[-1]) == (pytest.approx(stored[0]), pytest.approx(stored[-1]))
 
 
-def test_full_disk_begins_no_recording_and_one_that_is_being_stored_is_not_stopped_again_by_closing(
+def test_full_disk_prevents_recording_and_closing_keeps_storing(
     qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
@@ -264,7 +264,7 @@ def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, MainCo
     return desktop, desktop.controller
 
 
-def test_question_during_recording_loses_nothing_and_second_set_keeps_markers(
+def test_question_during_recording_loses_no_frame(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
@@ -347,7 +347,7 @@ def cut_short(data_folder: Path) -> None:
     journal_of(folder / "cut.journal", 60).abandon()
 
 
-def test_simulated_camera_is_practice_patient_s_and_no_one_else_s(
+def test_simulated_camera_is_for_the_practice_patient_only(
     qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(MaintenanceCameras, "name", lambda _: None)

@@ -32,9 +32,7 @@ print(instance.acquire(), instance.notify_running_instance(Path(sys.argv[2]) if 
 
 
 @pytest.mark.parametrize("handed", [(), ("/tmp/Grüße in einem/langen Ordner/сессия.h5",)], ids=["alone", "a file"])
-def test_second_carpus_does_not_get_folder_and_calls_first(
-    qtbot: QtBot, tmp_path: Path, handed: tuple[str, ...]
-) -> None:
+def test_second_instance_raises_the_first(qtbot: QtBot, tmp_path: Path, handed: tuple[str, ...]) -> None:
     first = SingleInstance(tmp_path)
     assert first.acquire()
     called: list[Path | None] = []
@@ -79,7 +77,7 @@ def test_window_opens_on_folder_that_was_chosen_instead(
 
 
 @pytest.mark.usefixtures("quiet")
-def test_window_that_is_closed_while_it_comes_up_ends_in_peace(
+def test_window_closed_while_starting_ends_cleanly(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(QApplication, "exec", lambda *_: pytest.fail("a closed window waits for nobody"))

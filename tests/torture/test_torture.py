@@ -51,7 +51,7 @@ def test_killed_change_of_store_is_there_whole_or_not_at_all(tmp_path: Path, kin
 
 
 @pytest.mark.parametrize("kind", mutations.KINDS)
-def test_damaged_files_are_told(tmp_path: Path, kind: str) -> None:
+def test_damaged_files_are_reported(tmp_path: Path, kind: str) -> None:
     """No traceback, no reader that dies or stays, no gigabyte. Recordings of one file are damaged hundreds of times in
     ``tests/capture``."""
     outcomes = read_files(kind, 8 * TIMES, tmp_path)

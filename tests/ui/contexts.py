@@ -15,7 +15,7 @@ from carpus.ui.shell.flow import ScreenContext
 from tests.ui.fakes import NOW
 
 
-class Told:
+class RecordingMessages:
     """Messages, and a way, that take down what a person would see; ``answer`` is the number of the one given."""
 
     is_busy = False
@@ -53,14 +53,16 @@ class Told:
         self.faults.append(fault)
 
 
-def a_context(theme: Theme, window: QWidget, told: Told, background: Background, **given: object) -> ScreenContext:
-    """A context of ``told`` for way and messages; what else a flow needs is ``given`` by its name there."""
+def make_context(
+    theme: Theme, window: QWidget, messages: RecordingMessages, background: Background, **given: object
+) -> ScreenContext:
+    """A context of ``messages`` for way and messages; what else a flow needs is ``given`` by its name there."""
     usual = {
         "window": window,
         "theme": theme,
         "background": background,
-        "messages": told,
-        "navigator": told,
+        "messages": messages,
+        "navigator": messages,
         "current": CurrentSelection(source_choice=SourceChoice("camera")),
         "report_settings": ReportSettings("MK"),
         "today": NOW.date,

@@ -91,7 +91,7 @@ def test_person_has_last_word_and_active_again_ends_stretch() -> None:
     assert build_active_passive(everything, ()) is not None
 
 
-def test_beside_at_least_stands_what_the_goniometer_said() -> None:
+def test_table_lower_bound_shows_the_manual_value() -> None:
     figures = figures_once(FakeHandSessions().session("hand-7"))
     found = build_active_passive(figures, hand_values_today())
     ring = next(row for row in found.table.rows if row[0] == "Ring")

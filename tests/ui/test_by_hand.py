@@ -34,7 +34,7 @@ from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRec
 from carpus.ui.screens.progress.flow import write_tables
 from carpus.ui.shell.main_window import MainWindow
 from tests.ui.conftest import Show
-from tests.ui.contexts import Told, a_context
+from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import NOW, FakeSessions, figures_once, hand_values
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.printed import words_of
@@ -234,10 +234,10 @@ def test_manual_form_saved_values_are_stored_and_logged(
     theme: Theme, host: QWidget, library: DataFolder, background: Background, qtbot: QtBot
 ) -> None:
     patient = library.patients.add(Patient("Linden 42", "left"))
-    told = Told("progress", answer=0)
+    told = RecordingMessages("progress", answer=0)
     closed: list[str] = []
     shell = SimpleNamespace(close_without_prompt=lambda: closed.append("closed"))
-    context = a_context(theme, host, told, background, library=library)
+    context = make_context(theme, host, told, background, library=library)
     now = context.current
     now.patient = Patient("Linden 42", "left", patient_id=patient)
     flow = ManualMeasurementsFlow(context)

@@ -25,7 +25,7 @@ def screen(show: Show[ExerciseScreen]) -> ExerciseScreen:
     return show(screen)
 
 
-def test_target_that_cannot_be_stays_is_marked_and_stops_way(qtbot: QtBot, screen: ExerciseScreen) -> None:
+def test_target_invalid_is_marked_and_prevents_continuing(qtbot: QtBot, screen: ExerciseScreen) -> None:
     sent: list[object] = []
     screen.set_up_chosen.connect(sent.append)
     for typed in ("-200", "200", "0", "abc", "4o", "1e3", "nan"):
@@ -44,7 +44,7 @@ def test_target_that_cannot_be_stays_is_marked_and_stops_way(qtbot: QtBot, scree
     assert sent
 
 
-def test_last_targets_come_back_and_never_those_of_another_patient(screen: ExerciseScreen) -> None:
+def test_targets_are_recalled_for_the_same_patient_only(screen: ExerciseScreen) -> None:
     last = replace(set_up(), target_positive_deg=37.5, target_negative_deg=-20.0)
     screen.show_patient(LINDEN, last, "right", False)
     assert [field.value() for field in screen.target_fields] == [37.5, -20.0]

@@ -27,7 +27,7 @@ from carpus.ui.picture.movement_guide import ExerciseSnapshot, GuideScene
 from carpus.ui.screens.live.course import STOP_DELAY_S, CourseRunner
 from carpus.ui.screens.live.screen import LiveScreen
 from carpus.ui.screens.patient.view_controller import PatientViewController
-from tests.ui.contexts import Told, a_context
+from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 
 PARTS = (SetPart(get_exercise("WRIST_FE"), 2, 0, 20), SetPart(get_exercise("FREE"), 0, 8, 0))
@@ -86,7 +86,7 @@ def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> N
     live = LiveScreen(theme, Background())
     qtbot.addWidget(live)
     patient = PatientViewController(
-        a_context(theme, live, Told(), Background(), patient_sound=False), live.set_patient_view
+        make_context(theme, live, RecordingMessages(), Background(), patient_sound=False), live.set_patient_view
     )
     live.patient_view_requested.connect(patient.toggle)
     live.snapshot_taken.connect(patient.update)
@@ -122,14 +122,14 @@ def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> N
     assert not run.advance(), "nothing comes after the last part"
     now.set_up = None
     patient.start_exercise(set_up())
-    told = ExerciseSnapshot(9.2, 10.0, True, True, (0.0, 5.0, 0.0), state="recording")
-    live.snapshot_taken.emit(told)
+    messages = ExerciseSnapshot(9.2, 10.0, True, True, (0.0, 5.0, 0.0), state="recording")
+    live.snapshot_taken.emit(messages)
     assert patient.window.view.scene.phase != GuideScene().phase
     patient.hide_content()
-    live.snapshot_taken.emit(told)
+    live.snapshot_taken.emit(messages)
     assert patient.window.view.scene.phase == GuideScene().phase, "the program is locked"
     patient.show_content()
-    live.snapshot_taken.emit(told)
+    live.snapshot_taken.emit(messages)
     assert patient.window.view.scene.phase != GuideScene().phase
     patient.close()
 

@@ -17,13 +17,13 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.export.flow import ExportController
 from carpus.ui.shell.recent_locations import RecentLocations
-from tests.ui.contexts import Told, a_context
+from tests.ui.contexts import RecordingMessages, make_context
 
-Parts = tuple[ExportController, "Stored", Told]
+Parts = tuple[ExportController, "Stored", RecordingMessages]
 
 
 class Stored:
-    """Writes nothing, and waits where it is told to until it is stopped."""
+    """Writes nothing, and waits where it is messages to until it is stopped."""
 
     def __init__(self) -> None:
         self.calls: list[tuple[Sequence[str], bool]] = []
@@ -49,16 +49,16 @@ class Stored:
 def parts(
     theme: Theme, host: QWidget, background: Background, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Parts:
-    stored, told = Stored(), Told()
+    stored, messages = Stored(), RecordingMessages()
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
     exporting = ExportController(
-        a_context(theme, host, told, background, library=stored, recent_locations=RecentLocations(tmp_path))
+        make_context(theme, host, messages, background, library=stored, recent_locations=RecentLocations(tmp_path))
     )
-    return exporting, stored, told
+    return exporting, stored, messages
 
 
 def test_export_dialog_offers_every_format_and_exports_the_ticked(qtbot: QtBot, parts: Parts) -> None:
-    exporting, stored, told = parts
+    exporting, stored, messages = parts
     exporting.choose_formats("s1")
     assert set(exporting.dialog.format_ticks) == set(FORMATS)
     assert exporting.dialog.formats == ["csv"]
@@ -67,14 +67,14 @@ def test_export_dialog_offers_every_format_and_exports_the_ticked(qtbot: QtBot, 
     exporting.dialog.format_ticks["c3d"].click()
     exporting.dialog.deidentify_tick.click()
     exporting.dialog.folder_button.click()
-    qtbot.waitUntil(lambda: bool(told.asked))
+    qtbot.waitUntil(lambda: bool(messages.asked))
     assert stored.calls == [(["c3d"], True)]
     assert not exporting.dialog.isVisible()
-    assert not told.faults
+    assert not messages.faults
 
 
 def test_export_dialog_running_shows_progress_and_stops(qtbot: QtBot, parts: Parts, background: Background) -> None:
-    exporting, stored, told = parts
+    exporting, stored, messages = parts
     stored.waits.clear()
     exporting.choose_formats("s1")
     exporting.dialog.folder_button.click()
@@ -84,4 +84,4 @@ def test_export_dialog_running_shows_progress_and_stops(qtbot: QtBot, parts: Par
     qtbot.keyClick(exporting.dialog, Qt.Key.Key_Escape)
     qtbot.waitUntil(lambda: not exporting.dialog.isVisible())
     assert background.join()
-    assert not told.asked, "nothing was written, so nothing is said to be"
+    assert not messages.asked, "nothing was written, so nothing is said to be"

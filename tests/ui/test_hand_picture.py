@@ -27,7 +27,7 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.review.flow import ReviewFlow
 from carpus.ui.screens.review.hand_image import HandImage, build_hand_image
 from tests.ui.conftest import Reviewing
-from tests.ui.contexts import Told, a_context
+from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import FakeSessions, session
 
 ROWS = range(30, 90)
@@ -117,22 +117,22 @@ def test_saved_frame_shows_hand_alone_is_reported_and_noted(
 
     asked: list[tuple[object, ...]] = []
     places = SimpleNamespace(choose_save_path=lambda *given: asked.append(given) or tmp_path / "x")
-    told = Told()
-    flow = ReviewFlow(a_context(theme, host, told, background, library=Pictures(), recent_locations=places))
+    messages = RecordingMessages()
+    flow = ReviewFlow(make_context(theme, host, messages, background, library=Pictures(), recent_locations=places))
     qtbot.addWidget(flow.screen)
     flow.save_hand_image(HandImage(side, ROWS[0], get_exercise("WRIST_RU"), "24°"))
     qtbot.waitUntil(lambda: bool(made))
     assert re.search(r"_\d{4}-\d\d-\d\d_\d\d-\d\d_wrist-ru_right_30.png$", str(asked[0][2]))
     assert made == [(str(tmp_path / "x.png"), [side.header.session_id])]
-    assert told.asked
+    assert messages.asked
     picture = cv2.imread(str(tmp_path / "x.png"))
     assert (picture == BACKGROUND_GREY).all(axis=2).mean() > 0.2, "room is cut away"
     assert max(picture.shape) > 320, "a small hand is shown larger"
     assert (tmp_path / "x.png").stat().st_mode & 0o077 == 0
     (tmp_path / "x.png").unlink()
     flow.save_hand_image(HandImage(side, ROWS[1], get_exercise("WRIST_RU"), ""))
-    qtbot.waitUntil(lambda: bool(told.faults))
-    assert isinstance(told.faults[0], OutputNotWritable)
+    qtbot.waitUntil(lambda: bool(messages.faults))
+    assert isinstance(messages.faults[0], OutputNotWritable)
     assert not list(tmp_path.iterdir())
 
 

@@ -69,7 +69,7 @@ def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: obje
 # --- a recording counts once ------------------------------------------------------------------------------
 
 
-def test_while_sessions_are_read_nothing_of_the_patient_before_is_shown_or_can_be_made(
+def test_progress_while_reading_hides_the_previous_patient(
     theme: Theme, background: Background, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     store = FakeSessions()
@@ -119,7 +119,7 @@ def turning(frames: list[TrackedFrame], moved_mm: float) -> list[TrackedFrame]:
 
 
 @pytest.mark.parametrize("moved_mm", [0.0, 22.0])
-def test_lamp_judges_forearm_by_point_that_wrist_turns_about(moved_mm: float) -> None:
+def test_forearm_lamp_uses_the_wrist_centre(moved_mm: float) -> None:
     history, seen = History(WRIST6), []
     for frame in turning(FakeFeed(seconds=20.0).frames[:500], moved_mm):
         history.append([frame])
@@ -131,7 +131,7 @@ def test_lamp_judges_forearm_by_point_that_wrist_turns_about(moved_mm: float) ->
 
 
 # --- what lacks -------------------------------------------------------------------------------------------
-def test_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme: Theme) -> None:
+def test_unreached_side_is_a_deficit_everywhere(theme: Theme) -> None:
     before = not_reaching((30.0, 60.0), when=NOW - timedelta(days=20), session_id="before")
     course = compute_progress([before, not_reaching((10.0, 60.0), session_id="after")])
     item = next(item for item in course.comparisons if item.after.quantity == "extension")
@@ -187,7 +187,7 @@ def test_change_text_never_claims_no_change() -> None:
     assert all("no change beyond m" in words.casefold() for words in claims), claims
 
 
-def test_list_s_value_is_of_joint_that_is_trained_and_says_at_least() -> None:
+def test_session_list_value_is_of_the_trained_joint() -> None:
     figures = figures_once(hand_session())
     trained = find_finger_angle(figures.exercise.joint).finger
     rows = {figure.finger: figures.find(figure.joint, "arc") for figure in main_angles(figures)}

@@ -106,7 +106,7 @@ def test_predicted_frames_are_marked_and_do_not_count_as_best(live: Live) -> Non
     assert tried.screen.controls.light_view.status_light.rank == "warn"
 
 
-def test_lost_camera_leaves_no_old_frame_and_no_old_number_and_nothing_offers_to_continue(live: Live) -> None:
+def test_live_lost_camera_clears_frame_and_values(live: Live) -> None:
     tried = live(FakeFeed(), 2.0)
     tried.record()
     screen = tried.screen
@@ -123,7 +123,7 @@ def test_lost_camera_leaves_no_old_frame_and_no_old_number_and_nothing_offers_to
     assert screen.controls.pause_button.isEnabled()
 
 
-def test_new_frame_is_drawn_at_once_but_drawing_never_takes_all_time(live: Live) -> None:
+def test_live_drawing_leaves_time_for_input(live: Live) -> None:
     tried = live(FakeFeed(), 0.5)
     for since_s, drawing_ms, drawn in (
         (math.inf, 5.0, True),
@@ -179,7 +179,7 @@ def test_live_start_stop_key_works_and_early_stop_asks(
     assert asked == [True]
 
 
-def test_blob_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden() -> None:
+def test_live_free_blob_is_offered_for_an_occluded_marker() -> None:
     feed = FakeFeed()
     frame, camera = feed.frames[30], feed.pictures.truth.camera
     measured = frame.marker_measured_px.copy()
@@ -199,7 +199,7 @@ def test_blob_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden()
     assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", False, False)
 
 
-def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Live) -> None:
+def test_live_lag_shows_the_newest_frame_and_the_delay(live: Live) -> None:
     tried = live(LateFeed(), 1.0)
     tried.record()
     feed, screen = tried.feed, tried.screen
@@ -230,7 +230,7 @@ def test_busy_computer_shows_newest_frame_and_says_how_late_values_are(live: Liv
     assert "late" not in screen.controls.light_view.status_light.state
 
 
-def test_arm_is_reported_to_have_moved_only_outside_ball() -> None:
+def test_live_arm_movement_is_reported_beyond_its_limit() -> None:
     feed = FakeFeed()
     frames = [with_moment(frame, position_m=np.zeros(3)) for frame in feed.frames[:30]]
     history = History(WRIST6)
@@ -242,7 +242,7 @@ def test_arm_is_reported_to_have_moved_only_outside_ball() -> None:
         assert history.has_forearm_moved() is moved
 
 
-def test_light_changes_only_after_its_delay_no_flicker_reaches_it_and_red_does_at_once() -> None:
+def test_status_light_delays_all_but_red() -> None:
     good, warn = StatusLight("good", "a", ""), StatusLight("warn", "b", "")
     for before, wanted, delay_s in ((good, warn, 0.3), (warn, good, 0.5)):
         light = SteadyLight()
@@ -270,7 +270,7 @@ def begun(beginning: StartTrigger, angle_deg, until_s: float, from_s: float = 0.
     return math.nan
 
 
-def test_hand_begins_only_once_it_lies_still_and_is_counted_down() -> None:
+def test_live_start_waits_for_a_still_hand_and_counts_down() -> None:
     beginning = StartTrigger()
     assert math.isnan(begun(beginning, lambda _: 0.0, 60.0)), "nobody asked for it"
     noise = np.random.default_rng(7).normal(0.0, 0.5, 2000)
@@ -281,7 +281,7 @@ def test_hand_begins_only_once_it_lies_still_and_is_counted_down() -> None:
 
 
 @pytest.mark.parametrize("what", ["moves", "lost"])
-def test_hand_that_moves_or_goes_while_it_is_counted_waits_again(what: str) -> None:
+def test_live_countdown_restarts_when_the_hand_moves(what: str) -> None:
     beginning = StartTrigger()
     beginning.start_waiting()
     assert math.isnan(begun(beginning, lambda _: 0.0, STILL_S + 1.0))
@@ -299,7 +299,7 @@ def waiting(live: Live, mode: StartMode) -> TriedLive:
     return tried
 
 
-def test_key_and_pedal_count_down_and_take_back(qtbot: QtBot, live: Live) -> None:
+def test_live_key_and_pedal_start_and_cancel_the_countdown(qtbot: QtBot, live: Live) -> None:
     tried = waiting(live, "countdown")
     screen, feed = tried.screen, tried.feed
     tried.run(1.0)
@@ -319,7 +319,7 @@ def test_key_and_pedal_count_down_and_take_back(qtbot: QtBot, live: Live) -> Non
     qtbot.waitUntil(lambda: feed.is_recording)
 
 
-def test_over_a_still_hand_a_recording_begins_by_itself_but_in_no_rest(qtbot: QtBot, live: Live) -> None:
+def test_live_still_hand_starts_the_recording_except_at_rest(qtbot: QtBot, live: Live) -> None:
     tried = waiting(live, "still")
     screen, feed = tried.screen, tried.feed
     screen.recording.set_resting(resting=True)
@@ -366,7 +366,7 @@ def bending(time_s: np.ndarray, flexion_deg: np.ndarray, seen: np.ndarray | None
     hidden=st.lists(st.integers(0, 600), max_size=4),
     seed=st.integers(0, 1000),
 )
-def test_counted_piece_by_piece_is_counted_as_a_whole(
+def test_live_count_in_pieces_equals_the_whole(
     amplitude_deg: float, frequency_hz: float, offset_deg: float, lengths: list[int], hidden: list[int], seed: int
 ) -> None:
     random = np.random.default_rng(seed)
@@ -414,7 +414,7 @@ def test_light_names_one_hidden_marker_and_its_remedy() -> None:
     assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Forearm moved"
 
 
-def test_after_the_key_it_is_counted_whatever_the_hand_does() -> None:
+def test_live_countdown_after_the_key_ignores_the_hand() -> None:
     beginning = StartTrigger()
     beginning.start_countdown(5.0)
     assert [beginning.remaining_s(time_s) for time_s in (5.0, 6.5, 7.9)] == [3, 2, 1]

@@ -108,7 +108,7 @@ def test_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s: 
     assert len(history.angle_block().series(0).gaps_s()) == 1
 
 
-def test_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: Live) -> None:
+def test_live_hand_occluded_trained_joint_has_no_value(live: Live) -> None:
     tried = live(feed_of([(1.0, 9.0, "PIP3"), (1.0, 9.0, "DIP3")]))
     tried.record()
     tried.run(0.8)
@@ -146,7 +146,7 @@ def test_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
         (("WRIST", "CMC1", "MCP2", "MCP3"), "Too few markers visible", "Turn the back of the hand to the camera"),
     ],
 )
-def test_light_names_what_is_hidden_and_what_to_do(hidden: tuple[str, ...], state: str, remedy: str) -> None:
+def test_status_light_names_the_occluded_marker_and_remedy(hidden: tuple[str, ...], state: str, remedy: str) -> None:
     frame = feed_of([(0.0, 9.0, name) for name in hidden]).frames[20]
     lamp = hand_light(frame, {name: "hidden" if name in hidden else "seen" for name in MARKERS})
     assert (lamp.state, lamp.remedy) == (state, remedy)
@@ -166,7 +166,7 @@ def test_live_count_matches_review_with_occlusion(exercise: str) -> None:
     assert count.is_best_lower_bound == row.is_lower_bound
 
 
-def test_light_cells_and_large_number_say_the_same_at_every_moment(live: Live) -> None:
+def test_live_hand_light_cells_and_number_agree(live: Live) -> None:
     tried = live(feed_of([(0.5, 0.6, "PIP4"), (1.0, 2.0, "TIP2"), (1.5, 3.0, "PIP3"), (2.2, 2.5, "MCP1")]))
     screen = tried.screen
     screen.show_angle(Reading(figure=FingerAngle(3, "knuckle")))

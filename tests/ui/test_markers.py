@@ -262,7 +262,7 @@ def test_markers_alternative_blob_is_shown_and_accepted(qtbot: QtBot, marking: M
     assert screen.picture.questioned_blobs == []
 
 
-def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_right_labels_lead_to_measuring(qtbot: QtBot, marking: Marking) -> None:
     calibrator = marking.propose("wrist6")
     marking.enter()
     qtbot.waitUntil(lambda: marking.started == [True])
@@ -274,7 +274,7 @@ def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot
     assert marking.started == [True], "what is doubtful is looked at first"
 
 
-def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_fingers_are_straight_unless_chosen(qtbot: QtBot, marking: Marking) -> None:
     calibrator, screen = marking.propose(), marking.screen
     straight = screen.guidance.straight_fingers
     assert not straight.isVisible()
@@ -292,7 +292,7 @@ def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, marking: Ma
     assert marking.started
 
 
-def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: Marking) -> None:
+def test_markers_shifted_labels_must_be_clicked_again(marking: Marking) -> None:
     marking.begin(CalibrationFinding("shifted", WRIST6.markers))
     marking.judge_all()
     screen = marking.screen
@@ -305,7 +305,7 @@ def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: M
     assert marking.clicking.missing == WRIST6.markers
 
 
-def test_undo_walks_back_through_any_order() -> None:
+def test_markers_undo_reverses_any_order() -> None:
     clicking = LabelState(WRIST6, "right")
     for name in ("MCP4", "WRIST", "MCP2"):
         clicking.current = name
@@ -313,7 +313,7 @@ def test_undo_walks_back_through_any_order() -> None:
     assert [clicking.undo() for _ in range(4)] == ["MCP2", "WRIST", "MCP4", ""]
 
 
-def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking) -> None:
+def test_markers_labels_are_placed_undone_and_dragged(marking: Marking) -> None:
     discs_px = marking.begin().disc_px
     marking.click(*discs_px[:3])
     assert marking.clicking.current == WRIST6.markers[3]
@@ -343,7 +343,7 @@ def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking
         assert marking.screen.picture.no_marker_words == "Already the wrist"
 
 
-def test_label_grabbed_by_its_words_follows_the_mouse_and_moves_to_the_marker(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_label_dragged_by_its_text_moves(qtbot: QtBot, marking: Marking) -> None:
     discs_px, picture = marking.begin().disc_px, marking.screen.picture
     marking.click(*discs_px[:3])
     picture.grab()
@@ -372,7 +372,7 @@ def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, mar
     assert not following.judged
 
 
-def test_click_next_to_every_marker_sets_nothing_and_says_so(qtbot: QtBot, marking: Marking) -> None:
+def test_markers_click_beside_all_blobs_is_reported(qtbot: QtBot, marking: Marking) -> None:
     marking.begin()
     screen = marking.screen
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))
@@ -386,7 +386,7 @@ def test_click_next_to_every_marker_sets_nothing_and_says_so(qtbot: QtBot, marki
     assert all(loupe.translated(shift).contains(one.box) for one in told), "within the loupe"
 
 
-def test_bad_frame_is_taken_again_by_enter_and_wrong_names_are_not(marking: Marking) -> None:
+def test_markers_enter_retakes_a_bad_frame_only(marking: Marking) -> None:
     calibrator, screen = marking.begin(TILT, is_live=True), marking.screen
     marking.press(Qt.Key.Key_Space)
     marking.judge_all()

@@ -167,7 +167,7 @@ def test_report_invalid_logo_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("language", "hand"), [("en", False), ("de", False), ("de", True)])
-def test_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, tmp_path: Path) -> None:
+def test_letter_of_any_length_is_one_page(language: str, hand: bool, tmp_path: Path) -> None:
     store = FakeHandSessions() if hand else FakeSessions()
     stored = store.session("hand-7" if hand else "session-7")
     head = Letterhead("W" * 60, ("Y" * 80,) * 4, logo_png(picture(tmp_path / "logo.png")))
@@ -219,7 +219,7 @@ def test_dialog_for_home_is_one_page_in_patients_language(
     assert "<image" not in drawn
 
 
-def test_dialog_for_home_has_no_bad_news() -> None:
+def test_home_dialog_shows_no_deterioration() -> None:
     store = FakeSessions()
     history, goals = store.history("linden"), {("WRIST_FE", "right"): (60.0, -50.0)}
     last = next(one for one in history if one.session_id == "session-7")
@@ -271,7 +271,7 @@ def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("printed", PAPERS)
-def test_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path) -> None:
+def test_report_printed_on_other_paper_is_not_cut(printed: Paper, tmp_path: Path) -> None:
     made = report(form=ReportForm(paper="a4"), comment="Splint.")
     pages = pages_of_report(made)
     printer = make_printer(made, len(pages))
@@ -294,7 +294,7 @@ def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured
     assert fill_sentence("{change}", replace(made, previous=None)) == "Not measured."
 
 
-def test_report_of_older_result_says_that_newer_one_counts() -> None:
+def test_report_of_an_older_result_names_the_newer_one() -> None:
     store = FakeSessions()
     session = store.session("session-7")
     made = build_session_report(session).results

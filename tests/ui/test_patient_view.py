@@ -49,7 +49,7 @@ def phases(scenes: list[GuideScene]) -> list[tuple[str, int]]:
     return found
 
 
-def test_goal_reached_is_held_then_comes_way_back_and_other_side() -> None:
+def test_guidance_of_a_reached_goal_holds_and_then_returns() -> None:
     guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, -40.0)
     scenes = walk(guide, [*[0.0] * 4, *ramp(0, 62), *[62.0] * 14, *ramp(62, -42), *[-42.0] * 14, *ramp(-42, 30)])
     assert phases(scenes) == [
@@ -58,7 +58,7 @@ def test_goal_reached_is_held_then_comes_way_back_and_other_side() -> None:
     assert guide.goals_reached == 2
 
 
-def test_missed_goal_is_not_said_and_way_just_empties() -> None:
+def test_guidance_of_a_missed_goal_says_nothing() -> None:
     guide = ExerciseGuide(get_exercise("FIST_COMPOSITE"), 80.0, NONE)
     scenes = walk(guide, [*[5.0] * 4, *ramp(5, 60, 5, 50)])
     assert phases(scenes)[1:] == [("out", 1), ("back", 1), ("out", 1)]
@@ -68,7 +68,7 @@ def test_missed_goal_is_not_said_and_way_just_empties() -> None:
 
 
 @pytest.mark.parametrize("sure", [True, False])
-def test_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
+def test_uncertain_hand_fades_and_comes_back(sure: bool) -> None:
     guide = ExerciseGuide(get_exercise("WRIST_FE"), 60.0, NONE)
     walk(guide, [20.0] * 5)
     value = NONE if sure else 20.0
@@ -79,7 +79,7 @@ def test_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> None:
     assert walk(guide, [22.0] * 5, from_s=1.4)[-1].phase == "out"
 
 
-def test_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:
+def test_fist_occluded_at_its_end_is_not_lost() -> None:
     guide = ExerciseGuide(get_exercise("FIST_COMPOSITE"), 80.0, NONE)
     walk(guide, [*[5.0] * 4, *ramp(5, 60)])
     hidden = walk(guide, [66.0] * 12, sure=False, seen=True, from_s=3.0)

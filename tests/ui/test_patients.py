@@ -90,7 +90,7 @@ ROSA = {"name": "Rosa Muster", "birth_day": date(1981, 3, 12), "record_number": 
         ("fracture 12.3.81", "born 12 Mar 1981", "found by birth date"),
     ],
 )
-def test_patient_search_says_what_it_found_by_and_hides_names(
+def test_patient_search_states_the_matching_field_only(
     qtbot: QtBot,
     screen: PatientsScreen,
     store: FakeStore,

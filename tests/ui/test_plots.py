@@ -80,7 +80,7 @@ def wheel(
     return event.isAccepted()
 
 
-def test_zoomed_in_a_drag_moves_along_and_all_panels_go_together(qtbot: QtBot, view: SessionChart) -> None:
+def test_chart_drag_when_zoomed_moves_all_panels(qtbot: QtBot, view: SessionChart) -> None:
     view.show_window((20.0, 30.0))
     view.set_time(28.0)
     box = view.panels()[0][0].box
@@ -218,7 +218,7 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
         assert gap == pytest.approx((50.0, 62.6), abs=1.0)
 
 
-def test_wheel_alone_is_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: SessionChart) -> None:
+def test_chart_wheel_scrolls_pans_or_zooms(view: SessionChart) -> None:
     assert not wheel(view.mouse_target, center(view), 120), "the page that it lies on scrolls"
     assert view.zoom_range is None
     assert wheel(view.mouse_target, center(view), 120, Qt.KeyboardModifier.ControlModifier)
@@ -260,7 +260,7 @@ def test_session_chart_zoomed_to_repetitions_greys_what_lies_before_and_after(vi
     assert [one.token for one in view._plot.visible_curves(1, 600)] == ["flexion"]
 
 
-def test_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtBot, view: SessionChart) -> None:
+def test_chart_cursor_can_be_dragged(qtbot: QtBot, view: SessionChart) -> None:
     panel = view.panels()[0][0]
     view.set_time(8.0)
     moved: list[float] = []
@@ -276,7 +276,7 @@ def test_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot: QtB
     assert view.zoom_range == (5.0, 15.0)
 
 
-def test_under_the_mouse_stand_time_value_and_spread(view: SessionChart) -> None:
+def test_chart_point_shows_time_value_and_spread(view: SessionChart) -> None:
     panel, column = view.panels()[0]
     plot = view._plot
     at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))

@@ -55,9 +55,7 @@ def test_keys_and_mouse_go_to_pictures_and_repetitions(qtbot: QtBot, screen: Rev
     assert screen.current == 1
 
 
-def test_session_that_cannot_be_read_is_reported_to_be_so_and_another_one_can_be(
-    qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
-) -> None:
+def test_review_unreadable_session_is_reported(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
     gone = store.sessions.pop("session-6")
     with qtbot.waitSignal(screen.fault_raised) as told:
         screen.load_session("linden", "session-6")
@@ -69,9 +67,7 @@ def test_session_that_cannot_be_read_is_reported_to_be_so_and_another_one_can_be
     qtbot.waitUntil(lambda: screen.is_loaded and screen.frame_view.image is not None)
 
 
-def test_repetition_is_excluded_with_reason_stored_and_taken_back(
-    qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
-) -> None:
+def test_review_repetition_is_excluded_and_included(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
     screen.select_repetition(3)
     qtbot.keyClick(screen, Qt.Key.Key_X)
     assert screen.exclusion_dialog.isVisible()

@@ -13,8 +13,8 @@ from carpus.core.model.errors import CameraLost, CameraReturned, CarpusFault
 from carpus.core.model.types import Frame
 
 
-def assert_comes_back(
-    camera: ProcessCamera, frames: Iterator[Frame], first: list[Frame], told: list[CarpusFault], *signs: Path
+def assert_reconnects(
+    camera: ProcessCamera, frames: Iterator[Frame], first: list[Frame], notices: list[CarpusFault], *signs: Path
 ) -> None:
     """``first`` of its ``frames`` are there; the files ``signs`` have its stand-in go, and its loss being told, return.
 
@@ -27,16 +27,16 @@ def assert_comes_back(
         sign.touch()
 
     def plug_in_again(fault: CarpusFault) -> None:
-        told.append(fault)
+        notices.append(fault)
         signs[0].unlink(missing_ok=True)
 
     camera._notice = plug_in_again
     rest = []
     for frame in frames:
         rest.append(frame)
-        if told and isinstance(told[-1], CameraReturned):
+        if notices and isinstance(notices[-1], CameraReturned):
             break
-    assert [type(fault) for fault in told] == [CameraLost, CameraReturned]
+    assert [type(fault) for fault in notices] == [CameraLost, CameraReturned]
     times_s = [frame.timestamp_s for frame in [*first, *rest]]
     assert all(later > earlier for earlier, later in pairwise(times_s))
     assert sum(frame.dropped_before for frame in rest) > 0

@@ -29,7 +29,7 @@ AUTO_EXPOSURE, AUTO_KELVIN = 220.0, 5200.0
 """What its automatics have chosen, which nobody can read."""
 
 
-class StandIn:
+class FakeCamera:
     """One software device with a colour and a depth sensor."""
 
     def __init__(self, fx: float = 525.0, depth_fx: float = 525.0, shift_m: float = 0.0, serial: str = SERIAL) -> None:
@@ -95,7 +95,7 @@ def plugged_in(folder: Path) -> Any:
     context = rs.context()
     if (folder / "unplugged").exists():
         return context
-    camera = StandIn(FX, DEPTH_FX, SHIFT_M, OTHER_SERIAL if (folder / "other").exists() else SERIAL)
+    camera = FakeCamera(FX, DEPTH_FX, SHIFT_M, OTHER_SERIAL if (folder / "other").exists() else SERIAL)
     found: list[Any] = []
     context.set_devices_changed_callback(lambda change: found.append(change.get_new_devices()))
     camera.device.add_to(context)
@@ -106,7 +106,7 @@ def plugged_in(folder: Path) -> Any:
     return context
 
 
-def _send_all(camera: StandIn, folder: Path, _held: object) -> None:
+def _send_all(camera: FakeCamera, folder: Path, _held: object) -> None:
     color = np.tile(np.linspace(40, 120, WIDTH)[None, :, None], (HEIGHT, 1, 3))
     depth = np.full((HEIGHT, WIDTH), NEAR_MM, np.uint16)
     depth[:, :EDGE_PX] = 0
@@ -128,7 +128,7 @@ def _numbers() -> Iterator[int]:
 
 def record(path: Path, frames: Iterator[Any], fx: float = 525.0) -> None:
     """Store frames as the maker's library does."""
-    camera = StandIn(fx, fx)
+    camera = FakeCamera(fx, fx)
     recorder = rs.recorder(str(path), camera.device)
     for sensor in recorder.query_sensors():
         sensor.open(sensor.get_stream_profiles()[0])

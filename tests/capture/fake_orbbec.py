@@ -121,7 +121,7 @@ def record(path: Path) -> None:
     bag.save(path)
 
 
-class StandInList:
+class FakeDeviceList:
     """The library's list of devices; every method is one of its own."""
 
     def __init__(self, devices: Mapping[str, Any], state: Any = None) -> None:
@@ -143,14 +143,14 @@ class StandInList:
         return self._devices[index][1]
 
 
-class StandInContext:
+class FakeContext:
     """The library's context; every method is one of its own."""
 
     def __init__(self, devices: Mapping[str, Any], folder: Path) -> None:
         self._devices, self._folder = devices, folder
 
-    def query_devices(self) -> StandInList:
-        return StandInList(self._devices)
+    def query_devices(self) -> FakeDeviceList:
+        return FakeDeviceList(self._devices)
 
     def set_device_changed_callback(self, changed: Callable[[Any, Any], None]) -> None:
         threading.Thread(target=self._watch, args=(changed,), daemon=True).start()
@@ -161,14 +161,14 @@ class StandInContext:
                 (self._folder / "crash").unlink()
                 os.abort()
             time.sleep(0.01)
-        changed(StandInList(self._devices), StandInList({}))
+        changed(FakeDeviceList(self._devices), FakeDeviceList({}))
 
 
-def plugged_in(folder: Path, bag: Path) -> StandInContext:
+def plugged_in(folder: Path, bag: Path) -> FakeContext:
     """A context with the camera, unless it is unplugged."""
     ob = import_sdk()
     devices = {} if (folder / "unplugged").exists() else {SERIAL: ob.PlaybackDevice(str(bag))}
-    return StandInContext(devices, folder)
+    return FakeContext(devices, folder)
 
 
 def _image(at_us: int, number: int, encoding: str, size_px: tuple[int, int], data: bytes) -> bytes:

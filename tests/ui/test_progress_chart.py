@@ -42,7 +42,7 @@ def place(chart: ProgressChart, number: int) -> QPointF:
     return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean)))
 
 
-def test_point_under_mouse_says_date_value_set_up_and_remarks(chart: ProgressChart) -> None:
+def test_progress_chart_point_has_date_value_and_remarks(chart: ProgressChart) -> None:
     for number in range(7):
         move(chart.mouse_target, QPointF(place(chart, number).toPoint()))
         assert chart.current_session == number
@@ -58,14 +58,14 @@ def test_point_under_mouse_says_date_value_set_up_and_remarks(chart: ProgressCha
     assert chart.current_session == -1
 
 
-def test_panels_include_a_range_that_the_newest_session_lacks() -> None:
+def test_progress_chart_panels_include_older_ranges() -> None:
     older, newest = figures_once(session(session_id="older")), figures_once(session(session_id="newest"))
     fewer = replace(newest, measures=tuple(row for row in newest.measures if row.quantity != "extension"))
     progress = Progress((ProgressPoint(older, ()), ProgressPoint(fewer, ())), (), None)
     assert [key[1] for key in panel_keys(progress)] == ["arc", "flexion", "extension"]
 
 
-def test_arrows_point_at_one_session_after_the_other_and_enter_opens_it(qtbot: QtBot, chart: ProgressChart) -> None:
+def test_progress_chart_arrows_choose_and_enter_opens(qtbot: QtBot, chart: ProgressChart) -> None:
     chart.step(1)
     assert chart.current_session == 0
     for _ in range(9):

@@ -9,14 +9,14 @@ from carpus.ui.screens.live.status_light import TrackingLag, lag_light
 from tests.ui.fakes import FakeFeed, FakeSessions
 
 
-def test_number_of_session_counts_sessions_of_its_hand() -> None:
+def test_session_number_counts_the_same_hand() -> None:
     store = FakeSessions()
     report = build_session_report(store.session("session-7"), history=store.history("linden"))
     assert {one.side for one in store.history("linden")} == {"left", "right"}
     assert report.session_number == 7
 
 
-def test_report_of_progress_shows_other_hand_that_screen_shows() -> None:
+def test_progress_report_shows_the_other_hand() -> None:
     history = FakeSessions().history("linden")
     right, (left,) = [one for one in history if one.side == "right"], [one for one in history if one.side == "left"]
     assert build_progress_report(right).progress.other_hand is None
@@ -24,7 +24,7 @@ def test_report_of_progress_shows_other_hand_that_screen_shows() -> None:
     assert build_progress_report(history).progress.other_hand is left
 
 
-def test_pictures_that_never_came_are_not_told_as_kept() -> None:
+def test_lag_light_counts_missing_frames() -> None:
     counters, behind = FakeFeed().counters(), TrackingLag()
     behind.lag_s = 4.0
     behind.count_missing(replace(counters, missing=380))
