@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from carpus.core.platform.provenance import source_revision
-from tests.accuracy import badly, hand21_table, papers, readings_table, second
+from tests.accuracy import badly, hand21_table, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.pages import marked, ruled
@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
     parser.add_argument(
         "--group",
-        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second", "badly"),
+        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "second", "badly"),
         default="all",
         help="which rows; second: the patient that is for judging only, by rendered pictures alone; "
         "badly: hands calibrated badly",
@@ -56,7 +56,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     seeds, pictures = (SEEDS, 0) if options.quick else (options.seeds, options.pictures)
     wrist, hand = (_named(rows, options.group, options.only) for rows in (WRIST_ROWS, HAND_ROWS))
     judged = second.rows_named(options.only) if options.group in ("all", "second") and pictures else []
-    if not wrist and not hand and not judged and options.group not in ("papers", "badly"):
+    if not wrist and not hand and not judged and options.group != "badly":
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2
     begin = time.monotonic()
@@ -70,8 +70,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         read += hand21_table.read_rows(hands, hand)
         kept = map(str, hand21_table.hand_verdicts(hands, hand))
         print("", *_hand_tables(hands, hand), *kept, sep="\n", flush=True)
-    if options.group == "papers":
-        print("", papers.report(options.only, seeds, options.processes), sep="\n")
     if options.group in ("all", "badly") and pictures and not options.only:
         print("", marked("badly", badly.report(pictures)), sep="\n", flush=True)
     if judged:

@@ -17,7 +17,7 @@ from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui.report.builders import build_session_report, write_session_report
 from carpus.ui.words.terms import LEGAL_SENTENCE
-from tests.ui.fakes import FakeSessions, session
+from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.printed import overlapping_words, pages_of, reach_of, tool, words_of
 
 ROOT = Path(__file__).parents[2]
