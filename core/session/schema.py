@@ -24,44 +24,47 @@ ZYZ_ANGLES = ("alpha", "beta", "gamma")
 
 ROOT_ATTRIBUTES = {
     "format": f"always {FORMAT}",
-    "format_version": f"{FORMAT_VERSION}; {LENS_VERSION} with the distortion model inverse_brown_conrady",
+    "format_version": f"{FORMAT_VERSION}, or {LENS_VERSION} with the distortion model inverse_brown_conrady",
     "session_id": "UUID of this session",
-    "recording_id": "UUID of the recording, the same for every result of it; since version 2",
+    "recording_id": "UUID of the recording; all results of one recording have the same; since version 2",
     "subject_id": "pseudonym of the patient",
-    "recorded": "when the hand moved, ISO 8601 with zone, empty where nobody knows; since version 2",
-    "created": "when this file was made, ISO 8601 with zone",
+    "recorded": "when the hand moved, ISO 8601 with time zone; empty if unknown; since version 2",
+    "created": "when this file was made, ISO 8601 with time zone",
     "hand": "right or left",
     "protocol": " or ".join(protocol_names()),
-    "exercise": "what was trained",
-    "software_version": "of the Carpus that wrote the file",
-    "parameters": "JSON of all settings; `set_up` has repetitions and targets (pronosupination from palm down) and, "
-    "within a set of exercises, `set`: `run` (the same for all its sessions), `part`, `of`, `seconds`",
-    "complete": "always true; false in a part file of Carpus 0.2.0",
-    "origin": "session_id of the session this one was tracked again from, else empty",
+    "exercise": "id of the exercise, such as WRIST_FE",
+    "software_version": "version of Carpus that wrote the file",
+    "parameters": "all settings as JSON; `set_up` has the number of repetitions and the goals (pronosupination counted "
+    "from palm down). Within a set of exercises, its `set` has `run` (the same for all sessions of the set), `part`, "
+    "`of` and `seconds`",
+    "complete": "true; false only in an unfinished file of Carpus 0.2.0",
+    "origin": "session_id of the session that was tracked again to make this one; else empty",
 }
 RECOVERED = "recovered"
 """Root attribute of an interrupted session that was finished later: when, ISO 8601."""
 
 CAMERA_ATTRIBUTES = {
-    "fx": "px",
-    "fy": "px",
-    "cx": "px",
-    "cy": "px",
-    "width": "px",
-    "height": "px",
-    "distortion": "k1 k2 p1 p2 k3, of rational_polynomial also k4 k5 k6",
-    "origin": "file, calibration, factory, driver or default",
-    "depth_sensor": "JSON: the depth sensor whose noise was reckoned with, `origin` assumed where no source said; "
-    "without this attribute PrimeSense",
-    "distortion_model": "plumb_bob, rational_polynomial or inverse_brown_conrady (RealSense); without it plumb_bob",
+    "fx": "focal length in x, px",
+    "fy": "focal length in y, px",
+    "cx": "principal point in x, px",
+    "cy": "principal point in y, px",
+    "width": "width of an image, px",
+    "height": "height of an image, px",
+    "distortion": "k1 k2 p1 p2 k3; with rational_polynomial also k4 k5 k6",
+    "origin": "where these values come from: file, calibration, factory, driver or default",
+    "depth_sensor": "the depth sensor whose noise model was used, as JSON; its `origin` is `assumed` if the source "
+    "did not name one. Without this attribute: PrimeSense",
+    "distortion_model": "plumb_bob, rational_polynomial or inverse_brown_conrady (RealSense). Without this "
+    "attribute: plumb_bob",
 }
 VERDICT_ATTRIBUTES = {
-    "hand_length_m": "estimated from the palm",
-    "tilt_rad": "of the palm to the camera's axis",
-    "distance_m": "of WRIST from the camera",
-    "frames_used": "still frames averaged",
-    "findings": "JSON, what was not as it should be",
-    "straight_fingers": "thumb to little, 1 where a person said it lay straight at the neutral pose; empty: not said",
+    "hand_length_m": "length of the hand, estimated from the palm",
+    "tilt_rad": "angle between the normal of the palm and the camera's axis",
+    "distance_m": "distance of WRIST from the camera",
+    "frames_used": "number of still frames that were averaged",
+    "findings": "what the calibration check found to be wrong, as JSON",
+    "straight_fingers": "thumb to little finger, 1 if a person marked it as straight in the neutral pose; empty if "
+    "nobody was asked",
 }
 
 NAMED_AXES = {"M": "markers", "J": "joint angles", "A": "wrist angles", "Z": "ZYZ angles", "Q": "joint or wrist angles"}
@@ -161,120 +164,124 @@ class TableLayout:
 # fmt: off
 CALIBRATION_FIELDS = (
     Field("/calibration/clicks", "clicks_px", "f8", ("M", 2), "px",
-          "first-frame clicks as clicked, u right, v down"),
+          "clicks on the markers of the first frame, u to the right, v down"),
     Field("/calibration/marker_position", "marker_position_w0_m", "f8", ("M", 3), "m",
-          "disc centres at the neutral pose in W0"),
+          "marker centres in the neutral pose, in W0"),
     Field("/calibration/rotation", "rotation_w0_cam", "f8", (3, 3), "1",
-          "rotation of g_w0c: vectors of W0 to the colour camera"),
+          "rotation of vectors from W0 to the colour camera"),
     Field("/calibration/translation", "translation_w0_cam_m", "f8", (3,), "m",
-          "translation of g_w0c: origin of W0 in the colour camera"),
+          "origin of W0 in the colour camera"),
     Field("/calibration/marker_covariance", "marker_covariance_w0_m2", "f8", ("M", 3, 3), "m^2",
-          "how well the place of each disc is known, covariance in W0", optional=True),
+          "covariance of each marker centre, in W0", optional=True),
     Field("/calibration/start_angles", "start_angles_rad", "f8", ("A",), "rad",
-          "angles of the neutral pose as the therapist gave them, zero when none were; pronosupination from the palm "
-          "down", optional=True),
+          "angles of the neutral pose as entered by the therapist, else zero; pronosupination counted from palm down",
+          optional=True),
     Field("/calibration/residual", "residual_m", "f8", ("M",), "m",
-          "distance of each disc from its fitted place", optional=True),
+          "distance of each marker from its place in the fitted hand", optional=True),
     Field("/calibration/surface", "surface", "f8", (TABLE_ROWS, 5), "m",
-          "back of the hand over its fixed unit in W0, NaN below its end: origin x, y, step, rows, columns of a grid;"
-          " its middle; then every node as row, column, height, slopes", optional=True),
+          "measured surface of the back of the hand, in W0: first row origin x, y, step, rows and columns of a grid; "
+          "second row its middle; then each node as row, column, height and two slopes; NaN below the last",
+          optional=True),
 )
 
 MOTION_FIELDS = (
-    Field("/wrist/position", "position_m", "f8", ("N", 3), "m", "T: origin of W2 in W0"),
+    Field("/wrist/position", "position_m", "f8", ("N", 3), "m", "position of the wrist: origin of W2 in W0"),
     Field("/wrist/velocity", "velocity_m_s", "f8", ("N", 3), "m/s",
-          "v: velocity of the origin of W2 in W0"),
+          "velocity of that origin in W0"),
     Field("/wrist/w0_turn", "w0_turn_rad", "f8", ("N", 3), "rad",
-          "rotation vector: W0 as refined by this frame, in whose axes rotation and angles are read, to W0 of "
-          "/calibration, in whose axes all places are; W2 to the camera: calibration rotation, this, R",
+          "rotation vector from W0 as refined up to this frame (used for rotation and angles) to W0 of /calibration "
+          "(used for all positions); W2 to camera is calibration rotation times this rotation times /wrist/rotation",
           optional=True, since=2),
     Field("/wrist/rotation", "rotation_w2_w0", "f8", ("N", 3, 3), "1",
-          "R: rotation of W2 in W0, not mirrored for a left hand"),
+          "rotation matrix from W2 to W0, not mirrored for a left hand"),
     Field("/wrist/angular_velocity", "angular_velocity_rad_s", "f8", ("N", 3), "rad/s",
-          "angular velocity in W2, a state of the filter"),
+          "angular velocity in W2, as estimated by the filter"),
     Field("/wrist/angles", "angles_rad", "f8", ("N", "A"), "rad",
-          "clinical angles: + radial, + flexion, + supination on both hands; pronosupination from the palm down, "
-          "so that thumb up is + 90 degrees"),
+          "clinical angles, + is radial, flexion, supination on both hands; pronosupination is counted from palm down, "
+          "so thumb up is +90 degrees"),
     Field("/wrist/angles_sd", "angles_sd_rad", "f8", ("N", "A"), "rad",
-          "standard deviation of the clinical angles, calibration included"),
+          "standard deviation of the clinical angles, error of the calibration included"),
     Field("/wrist/angles_zyz", "angles_zyz_rad", "f8", ("N", "Z"), "rad",
-          "ZYZ angles of R; NaN where beta is below 3 degrees"),
+          "ZYZ angles of /wrist/rotation; NaN where beta is below 3 degrees"),
     Field("/joints/angles", "joint_angles_rad", "f8", ("N", "J"), "rad",
-          "joint angles, zero = straight finger", fingers_only=True),
+          "joint angles, 0 is a straight finger", fingers_only=True),
     Field("/joints/angles_sd", "joint_angles_sd_rad", "f8", ("N", "J"), "rad",
           "standard deviation of the joint angles", fingers_only=True),
     Field("/joints/velocity", "joint_velocity_rad_s", "f8", ("N", "J"), "rad/s",
-          "rate of the joint angles", fingers_only=True),
+          "angular velocity of the joints", fingers_only=True),
     Field("/joints/position", "joint_position_m", "f8", ("N", "M", 3), "m",
-          "joint centres and fingertips in W0; a coupled end joint bends by two thirds of the middle one",
+          "joint centres and fingertips in W0; a coupled DIP joint flexes by two thirds of the PIP joint",
           fingers_only=True),
 )
 """Written from a frame's moment and, under ``/smoothed``, from the smoother's."""
 
 FRAME_FIELDS = (
     Field("/frames/timestamp", "timestamp_s", "f8", ("N",), "s",
-          "time of the colour picture as in the recording, strictly rising"),
-    Field("/frames/status", "status", "u1", ("N",), "1", "0 tracked, 1 predicted, 2 lost,"
-          " 3 doubtful: measured, but what is seen contradicts what is stated", fill=2),
+          "time of the colour image as in the recording, strictly increasing"),
+    Field("/frames/status", "status", "u1", ("N",), "1", "0 tracked, 1 predicted, 2 lost, "
+          "3 doubtful: measured, but what the camera sees contradicts the estimate", fill=2),
     *MOTION_FIELDS,
     Field("/markers/position_camera", "marker_position_cam_m", "f8", ("N", "M", 3), "m",
-          "centres of the discs as the model has them, in camera axes; finite for hidden ones too"),
+          "estimated marker centres in the axes of the colour camera, also of occluded markers"),
     Field("/markers/measured", "marker_measured_px", "f8", ("N", "M", 2), "px",
-          "the blob taken for the marker; NaN when none"),
+          "blob that was assigned to the marker; NaN if none"),
     Field("/markers/measured_depth", "marker_measured_depth_m", "f8", ("N", "M"), "m",
-          "depth of that blob along the camera's z; NaN when none"),
+          "depth of that blob along the camera's z axis; NaN if none"),
     Field("/markers/doubted", "doubted", "u1", ("N", "M"), "1",
-          "1 where what is seen contradicts what is stated of the marker", optional=True, fill=0),
+          "1 where what the camera sees contradicts the estimate of the marker", optional=True, fill=0),
     Field("/quality/dropped_frames", "dropped_before", "i4", ("N",), "1",
-          "frames missing before this one", fill=-1),
+          "number of frames that are missing before this one", fill=-1),
     Field("/quality/measured_share", "measured_share", "f8", ("N", "Q"), "1",
-          "share of direct measurements in the last second"),
-    Field("/quality/nis", "nis", "f8", ("N",), "1", "normalised innovation squared"),
+          "share of direct measurements in the last second, for each angle"),
+    Field("/quality/nis", "nis", "f8", ("N",), "1", "normalised innovation squared of the filter"),
     Field("/quality/nis_dof", "nis_dof", "i4", ("N",), "1",
           "degrees of freedom of nis", optional=True, fill=-1),
 )
 
-DETECTION_FRAME = Field("/detections/frame", "frame", "i8", ("D",), "1", "row of the frame in /frames, rising", fill=-1)
+DETECTION_FRAME = Field("/detections/frame", "frame", "i8", ("D",), "1",
+                        "row of the frame in /frames, increasing", fill=-1)
 DETECTION_FIELDS = (
     Field("/detections/pixel", "pixel", "f8", ("D", 2), "px",
-          "centre of the blob, u right, v down"),
+          "centre of the blob, u to the right, v down"),
     Field("/detections/depth", "depth_m", "f8", ("D",), "m",
-          "depth of the blob along the camera's z; NaN when unknown"),
-    Field("/detections/depth_sd", "depth_sd_m", "f8", ("D",), "m", "standard deviation of depth"),
+          "depth of the blob along the camera's z axis; NaN if unknown"),
+    Field("/detections/depth_sd", "depth_sd_m", "f8", ("D",), "m", "standard deviation of the depth"),
     Field("/detections/area", "area_px", "f8", ("D",), "px^2", "area of the blob"),
     Field("/detections/similarity", "similarity", "f8", ("D",), "1",
-          "Bhattacharyya coefficient to the reference colour"),
+          "similarity to the colour of the markers (Bhattacharyya coefficient)"),
 )
 DETECTION_COUNT = Field("/detections/count", "count", "i4", ("N",), "1",
-                        "blobs of this frame", optional=True, fill=-1)
+                        "number of blobs in this frame", optional=True, fill=-1)
 
 SURFACE_FIELDS = (
     Field("/surface/pixel", "pixel", "u2", ("N", MAX_SURFACE_READINGS, 2), "px",
-          "where the depth of the back of the hand was read, u right, v down; 65535 for none",
+          "pixels at which the depth of the back of the hand was read, u to the right, v down; 65535 if none",
           optional=True, fill=65535),
     Field("/surface/depth", "depth_m", "f4", ("N", MAX_SURFACE_READINGS), "m",
-          "depth read there along the camera's z; NaN for none", optional=True),
+          "depth at these pixels along the camera's z axis; NaN if none", optional=True),
 )
 FINGER_FIELDS = (
     Field("/surface/finger_pixel", "pixel", "u2", ("N", MAX_FINGER_READINGS, 2), "px",
-          "where the depth about the fingers was read, u right, v down; 65535 for none",
+          "pixels at which the depth around the fingers was read, u to the right, v down; 65535 if none",
           optional=True, fingers_only=True, fill=65535),
     Field("/surface/finger_depth", "depth_m", "f4", ("N", MAX_FINGER_READINGS), "m",
-          "depth read there along the camera's z; NaN for none", optional=True, fingers_only=True),
+          "depth at these pixels along the camera's z axis; NaN if none", optional=True, fingers_only=True),
 )
 """Depth samples that tracking again needs."""
 
 RAW_STREAMS = (
     Field("/raw/color", "color", "u1", ("C",), "1",
-          "colour pictures as files (JPEG or PNG), one after the other", optional=True, fill=0),
+          "colour images as files (JPEG or PNG), one after the other", optional=True, fill=0),
     Field("/raw/depth", "depth", "u1", ("B",), "1",
-          "depth pictures as 16-bit PNG files, one after the other", optional=True, fill=0),
+          "depth images as 16-bit PNG files, one after the other", optional=True, fill=0),
 )
 RAW_ENDS = (
     Field("/raw/color_end", "color", "i8", ("N",), "1",
-          "where this frame's picture ends in /raw/color; it begins where the one before ends", optional=True, fill=-1),
+          "byte of /raw/color at which the image of this frame ends; it begins at the end of the one before",
+          optional=True, fill=-1),
     Field("/raw/depth_end", "depth", "i8", ("N",), "1",
-          "where this frame's picture ends in /raw/depth; the same as before: no picture", optional=True, fill=-1),
+          "byte of /raw/depth at which the image of this frame ends; equal to the one before if there is no image",
+          optional=True, fill=-1),
 )
 RAW_DEPTH_UNIT = "depth_unit_m"
 """Attribute of ``/raw``: metres per count of the depth images."""
@@ -283,33 +290,33 @@ EVENT_FIELDS = (
     Field("/events/time", "time_s", "f8", ("E",), "s",
           "time of the event, on the clock of /frames/timestamp"),
     Field("/events/kind", "kind", "text", ("E",), "", "note, pain, pause, camera_lost, ..."),
-    Field("/events/text", "text", "text", ("E",), "", "words that go with it"),
+    Field("/events/text", "text", "text", ("E",), "", "text of the event"),
 )
 REPETITION_COLUMNS = (
-    Column("start", "start_s", "f8", "s", "when it left its first turning place, or passed the middle "
-           "of a motion to both sides, on the clock of /frames/timestamp"),
-    Column("peak", "peak_s", "f8", "s", "when it was furthest on its way there, the middle of a hold"),
-    Column("end", "end_s", "f8", "s", "when it reached its last turning place, or passed that middle again"),
-    Column("angle", "angle_rad", "f8", "rad", "at the peak, counted as in /wrist/angles"),
-    Column("arc", "arc_rad", "f8", "rad", "from its smallest angle to its largest, without what noise adds"),
-    Column("arc_sd", "arc_sd_rad", "f8", "rad", "standard deviation of the arc by the tracker"),
-    Column("peak_speed", "peak_speed_rad_s", "f8", "rad/s", "of its quickest stroke"),
-    Column("peak_speed_sd", "peak_speed_sd_rad_s", "f8", "rad/s", "what noise leaves in the peak speed"),
-    Column("movement_time", "movement_time_s", "f8", "s", "on its way, each stroke from 5 % to 5 % of its peak speed, "
-           "pauses included, holds in the turning places not; not known where that of one stroke is not"),
-    Column("sparc", "sparc", "f8", "1", "smoothness, mean of its strokes, pauses included; "
-           "not of half a one from rest"),
-    Column("movement_units", "movement_units", "f8", "1", "peaks of speed of all its strokes"),
-    Column("pauses", "pauses", "f8", "1", "how often it stood still within a stroke"),
-    Column("pause_time", "pause_s", "f8", "s", "for how long in all"),
-    Column("at_least", "at_least", "u1", "1", "1 where the arc is a lower bound: the angle may have gone further while "
-           "it was hidden; else 0"),
-    Column("counted", "counted", "u1", "1", "1 where it counts, else 0"),
-    Column("reason", "reason", "S64", "", "why it does not count: hidden, not seen well enough; cut_by_start, "
-           "cut_by_gap, cut_by_end, when the recording began or ended in it or the hand was gone; empty where it does"),
+    Column("start", "start_s", "f8", "s", "when the repetition began, on the clock of /frames/timestamp: it left its "
+           "first turning point, or passed the middle of a movement to both sides"),
+    Column("peak", "peak_s", "f8", "s", "when the angle was at its extreme; the middle of a hold"),
+    Column("end", "end_s", "f8", "s", "when it reached its last turning point, or passed that middle again"),
+    Column("angle", "angle_rad", "f8", "rad", "angle at the peak, counted as in /wrist/angles"),
+    Column("arc", "arc_rad", "f8", "rad", "from the smallest angle to the largest, corrected for what noise adds"),
+    Column("arc_sd", "arc_sd_rad", "f8", "rad", "standard deviation of the arc, from the tracker's uncertainty"),
+    Column("peak_speed", "peak_speed_rad_s", "f8", "rad/s", "peak speed of the fastest stroke"),
+    Column("peak_speed_sd", "peak_speed_sd_rad_s", "f8", "rad/s", "standard deviation of the peak speed, from noise"),
+    Column("movement_time", "movement_time_s", "f8", "s", "time of its strokes, each from 5 % to 5 % of its peak "
+           "speed; pauses count, holds at the turning points do not; NaN if one stroke has none"),
+    Column("sparc", "sparc", "f8", "1", "smoothness (spectral arc length), mean of its strokes with their pauses; "
+           "NaN for half a repetition from rest"),
+    Column("movement_units", "movement_units", "f8", "1", "number of speed peaks in all its strokes"),
+    Column("pauses", "pauses", "f8", "1", "number of pauses within strokes"),
+    Column("pause_time", "pause_s", "f8", "s", "total duration of these pauses"),
+    Column("at_least", "at_least", "u1", "1", "1 if the arc is a lower bound, because the angle may have gone further "
+           "while it was occluded; else 0"),
+    Column("counted", "counted", "u1", "1", "1 if the repetition is included, else 0"),
+    Column("reason", "reason", "S64", "", "why it is excluded: hidden (not visible well enough), or cut_by_start, "
+           "cut_by_gap, cut_by_end (the recording began or ended within it, or the hand was lost); empty if included"),
 )
 REPETITIONS = Field("/repetitions", "repetitions", "rows", ("P",), "of each column",
-                    "repetitions of the trained angle as counted when the session was finished", optional=True)
+                    "repetitions of the trained angle, as counted when the session was finished", optional=True)
 REPETITION_ANGLE = "angle"
 """Attribute of ``/repetitions``: name of the exercised angle, empty if there is none."""
 REPETITION_DTYPE = np.dtype([(column.name, column.dtype) for column in REPETITION_COLUMNS])

@@ -9,24 +9,50 @@ from carpus.core.session.schema import Field
 _HEAD = f"""\
 # Session file
 
-HDF5, format `{schema.FORMAT}` version {schema.FORMAT_VERSION}. Metres, radians, seconds, pixels; a value that is not \
-known is NaN, never 0. Every dataset has the attributes `unit` and `description`; one with an axis of markers, joints \
-or angles has `names` for it. This page is made from `core/session/schema.py`.
+A session is one HDF5 file (format `{schema.FORMAT}`, version {schema.FORMAT_VERSION}). This page lists everything in \
+it, and is made from `core/session/schema.py`.
 
-Axes: {{axes}}.
+## How to read it
 
-While a session runs, what is measured goes to a recording journal on the computer's own disk \
-(`core/session/journal.py`), synchronised twice a second. The file is made from it at the end, under a hidden name \
-(`.NAME.h5.xxxxxxxx.tmp`), read back, sealed and renamed. `carpus recover FOLDER` does the same for what was cut \
-short; the attribute `{schema.RECOVERED}` then says when. It also finishes the part files \
-(`NAME.h5.xxxxxxxx.part`) of Carpus 0.2.0.
+In Python `carpus.open_session` gives arrays and tables ([Python](api.md)). Any other program with HDF5 reads it too:
 
-Datasets that have a row for each frame, blob or event are packed (gzip and shuffle, which any HDF5 library unpacks). \
-Every chunk has a Fletcher32 check sum, which any HDF5 library checks when it reads. A finished session has the \
-attribute `{CHECKSUM_ATTRIBUTE}`: SHA-256 over all datasets, attributes and names but itself; \
-`carpus verify FILE` compares it. It has no key: it shows changes by accident, not who made them. Only \
-hard links and plain chunked or contiguous storage inside the file \
-are read, packed by nothing else.
+```python
+import h5py
+
+with h5py.File("session.h5") as file:
+    names = list(file["/wrist/angles"].attrs["names"])  # deviation, flexion, pronosupination
+    flexion_rad = file["/wrist/angles"][:, names.index("flexion")]
+    time_s = file["/frames/timestamp"][:]
+    notes = file["/events/text"].asstr("utf-8")[:]
+```
+
+```matlab
+angles = h5read('session.h5', '/wrist/angles');        % MATLAB, dimensions reversed; Octave: load('session.h5')
+```
+
+- **Units** are metres, radians, seconds and pixels. Every dataset has the attributes `unit` and `description`. One \
+with an axis of markers, joints or angles has their `names`.
+- **An unknown value is NaN**, never 0.
+- **W0** is the frame of the hand in the neutral pose, **W2** that of the moving hand. Origin: WRIST marker; \
+x: to the MCP3 marker; z: out of the back of the hand; y = z × x.
+- **Texts** are UTF-8. They lack HDF5's mark for it, because HDF5 converts no texts between marks and Octave could \
+then not load the file. In h5py, read them with `asstr("utf-8")`.
+- **Axes** in the tables below: {{axes}}.
+"""
+_SAFETY = f"""\
+## How it is written and checked
+
+While a session runs, the measurements go to a journal on the computer's own disk, which is synchronised twice a \
+second. At the end Carpus makes the file from it under a hidden name (`.NAME.h5.xxxxxxxx.tmp`), reads it back, adds \
+the checksum and renames it. `carpus recover FOLDER` does the same for an interrupted session; its attribute \
+`{schema.RECOVERED}` then says when. It also finishes the unfinished files (`NAME.h5.xxxxxxxx.part`) of Carpus 0.2.0.
+
+Datasets with a row for each frame, blob or event are compressed (gzip and shuffle, which every HDF5 library reads). \
+Every chunk has a Fletcher32 checksum, which every HDF5 library checks. The attribute `{CHECKSUM_ATTRIBUTE}` is the \
+SHA-256 of all datasets, attributes and names except itself, and `carpus verify FILE` compares it. It has no key: it \
+shows accidental changes, not who made them.
+
+Carpus reads only plain files: hard links, chunked or contiguous storage inside the file, and no other compression.
 """
 
 
@@ -48,17 +74,18 @@ def format_page() -> str:
         + "".join(f"| `{c.name}` | {c.dtype} | {c.unit} | {c.description} |\n" for c in schema.REPETITION_COLUMNS)
     )
     parts.append(
-        f"`/repetitions` has the attributes `{schema.REPETITION_ANGLE}`, the angle that was trained (empty: none), "
-        "`column_units` and `column_descriptions`. A session that Carpus 0.2.0 recovered is without. "
-        "What a person leaves out or moves "
-        "later is not in the file.\n"
-        "A longer text than fits goes on in the next rows of `/events`, which have the same time and kind. Texts are "
-        'UTF-8 without HDF5\'s mark of it, so that Octave loads the file: h5py reads them with `asstr("utf-8")`.\n'
-        "`/smoothed/wrist` and `/smoothed/joints` hold what `/wrist` and `/joints` hold, by the smoother; "
-        "whole or not there.\n"
-        "The event `not_looked_back` says why a live session is without.\n"
-        "`/raw` has the attribute `depth_unit_m`: metres per count of the depth pictures.\n"
+        f"`/repetitions` has the attributes `{schema.REPETITION_ANGLE}` (the trained angle, empty if none), "
+        "`column_units` and `column_descriptions`. A session that Carpus 0.2.0 recovered has no `/repetitions`. "
+        "Repetitions that a person excludes or moves later are not stored in this file.\n\n"
+        "## Further remarks\n\n"
+        "- `/smoothed/wrist` and `/smoothed/joints` have the same datasets as `/wrist` and `/joints`, estimated by the "
+        "smoother, which also uses later frames. They are there completely or not at all. If the smoother failed in a "
+        "live session, the event `not_looked_back` says why.\n"
+        "- A text that is too long for one row of `/events` continues in the next rows, which have the same time and "
+        "kind.\n"
+        "- `/raw` has the attribute `depth_unit_m`: metres per count of the depth images.\n"
     )
+    parts.append(_SAFETY)
     return "\n".join(parts)
 
 
