@@ -50,12 +50,12 @@ def build_parser(asked: Sequence[str]) -> CommandParser:
         prog="carpus",
         description="Carpus tracks blue paper markers on a hand with a depth camera, for hand rehabilitation.\n\n"
         + "\n".join(f"  {word:<9} {meaning}" for word, meaning in PURPOSE)
-        + "\n\nWithout a command the desktop opens, which does all of it.",
+        + "\n\nWithout a command, Carpus opens its window.",
         epilog="For research and education. Not a medical device.",
     )
     out.add_argument("--version", action="version", version=f"carpus {__version__}")
     out.add_argument(
-        "--gdt", metavar="FILE", type=Path, help="open the desktop with the patient of a practice system's GDT file"
+        "--gdt", metavar="FILE", type=Path, help="open the window with the patient of a practice system's GDT file"
     )
     subparsers = out.add_subparsers(dest="command", metavar="COMMAND")
     for name, words in COMMANDS.items():
@@ -138,14 +138,14 @@ def _describe_failure(cause: Exception) -> str | None:
             return _describe_failure(DiskFull(cause.filename or "", cause.strerror or ""))
         subject = "" if cause.filename is None else f" {cause.filename}"
         reason = cause.strerror or cause
-        return f"the system refuses{subject} ({reason}); check the file and the room on its disk."
+        return f"no access to{subject or ' a file'} ({reason}). Check the file and the free space on its disk."
     # A fault of the program itself: still one line, with what a developer needs to find it.
     where = cause.__traceback__
     while where is not None and where.tb_next is not None:
         where = where.tb_next
     place = f"{Path(where.tb_frame.f_code.co_filename).name}:{where.tb_lineno}" if where else "unknown place"
     return (
-        f"something unforeseen happened ({type(cause).__name__}: {cause}, {place}). "
+        f"an unexpected error occurred ({type(cause).__name__}: {cause}, {place}). "
         "Please report it; CARPUS_DEBUG=1 shows more."
     )
 

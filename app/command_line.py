@@ -183,8 +183,8 @@ def add_region_option(parser: argparse.ArgumentParser) -> None:
         dest="form",
         default=MACHINE_DIALECT,
         metavar="REGION",
-        help="tables for a spreadsheet of this region, as de_DE, it_IT or en_GB: its separator and decimal sign, UTF-8 "
-        "with a mark; else for programs, with comma and point",
+        help="write tables for a spreadsheet of this region, for example de_DE, it_IT or en_GB, with its separator and "
+        "decimal sign (default: commas and decimal points, for other programs)",
     )
 
 
@@ -257,4 +257,4 @@ def describe_camera_kinds() -> str:
     """Return what the address of a live camera is made of."""
     from carpus.core.capture.devices.cameras import CAMERAS
 
-    return f"KIND is {', '.join(CAMERAS)}; WHICH its serial number, or OpenNI2's address"
+    return f"KIND is {', '.join(CAMERAS)}; WHICH is the serial number, or the OpenNI2 address"

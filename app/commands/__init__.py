@@ -7,9 +7,9 @@ the command is requested: tracking a file needs no window, and a help text no tr
 from __future__ import annotations
 
 COMMANDS = {
-    "demo": "The desktop application on a simulated camera and patient: no hardware.",
-    "review": "Open one session file in the desktop application.",
-    "track": "Analyse a saved recording without a screen, or re-analyse a session.",
+    "demo": "Open the window with a simulated camera and patient, without hardware.",
+    "review": "Open one session file in the window.",
+    "track": "Track saved recordings without the window, or re-analyse a session.",
     "record": "Record raw colour and depth from the camera.",
     "simulate": "Make a synthetic recording with ground truth.",
     "info": "Show the details of a recording or session.",
@@ -24,7 +24,7 @@ COMMANDS = {
     "restore": "Restore a backup into a new data folder, as on a new computer.",
     "compare": "Compare a session with a reference measurement.",
     "retest": "Compute the clinic's own measurement error from people who were measured twice.",
-    "recover": "Finish the interrupted sessions of a folder.",
+    "recover": "Complete the interrupted sessions of a folder.",
     "calibrate-camera": "Print the calibration board, and calibrate a camera with it.",
     "check-card": "Print the check card, and check a camera with it.",
     "doctor": "Check driver, camera, window libraries, fonts, disk and data folder.",

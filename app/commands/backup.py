@@ -18,8 +18,12 @@ carpus backup /media/backup --list"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("place", type=Path, metavar="FOLDER", help="for backups, on another disk; created if missing")
-    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
+    parser.add_argument(
+        "place", type=Path, metavar="FOLDER", help="folder for the backups, on another disk; created if missing"
+    )
+    parser.add_argument(
+        "--data-folder", type=Path, metavar="FOLDER", help="data folder with patients and sessions (default: your own)"
+    )
     parser.add_argument("--list", action="store_true", help="only list the backups")
     parser.add_argument("--compare", action="store_true", help="only verify the newest backup")
 

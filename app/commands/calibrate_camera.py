@@ -34,20 +34,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         nargs="?",
         metavar="RECORDING",
-        help="of the board held in many places (TUM folder, raw, .oni); without it, the live camera",
+        help="recording of the board in many positions (TUM folder, raw or .oni) (default: the live camera)",
     )
-    parser.add_argument("--board", type=Path, metavar="BOARD.pdf", help="write the board to print, and do nothing else")
-    parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the board to print")
+    parser.add_argument("--board", type=Path, metavar="BOARD.pdf", help="only write the board to print to this file")
+    parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="paper size of the printed board")
     parser.add_argument(
         "--square-mm",
         type=number_type(*SQUARES_MM, "mm"),
         metavar="MM",
-        help="measured side of a square, where a print is not at 100 %%",
+        help="measured side of a square, if the board was not printed at 100 %%",
     )
     parser.add_argument(
-        "--output", type=output_type(".yaml", ".yml"), metavar="CAMERA.yaml", help="write the camera file here too"
+        "--output",
+        type=output_type(".yaml", ".yml"),
+        metavar="CAMERA.yaml",
+        help="also write the camera file to this file",
     )
-    parser.add_argument("--serial", metavar="SERIAL", help="which camera it was, where the recording does not say")
+    parser.add_argument(
+        "--serial", metavar="SERIAL", help="serial number of the camera, if the recording does not contain it"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

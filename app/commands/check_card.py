@@ -27,11 +27,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         nargs="?",
         metavar="RECORDING",
-        help="of the card lying still (TUM folder, raw, .oni); without it, the live camera",
+        help="recording of the card lying still (TUM folder, raw or .oni) (default: the live camera)",
     )
-    parser.add_argument("--card", type=Path, metavar="CARD.pdf", help="write the card to print, and do nothing else")
-    parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the card to print")
-    parser.add_argument("--serial", metavar="SERIAL", help="which camera it was, where the recording does not say")
+    parser.add_argument("--card", type=Path, metavar="CARD.pdf", help="only write the card to print to this file")
+    parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="paper size of the printed card")
+    parser.add_argument(
+        "--serial", metavar="SERIAL", help="serial number of the camera, if the recording does not contain it"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

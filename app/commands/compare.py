@@ -43,50 +43,61 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         nargs="?",
         metavar="REFERENCE",
-        help="C3D, TRC, MOT, CSV table, CSV list of readings (angle or movement, reading_deg, time_s), or session",
+        help="reference measurement: C3D, TRC, MOT, a CSV table of angles, a CSV list of goniometer readings "
+        "(columns angle or movement, reading_deg, time_s), or another session",
     )
     parser.add_argument(
         "--study", type=Path, metavar="TABLE.csv",
-        help="many people and sessions at once: a table with the columns person, session, reference, and where they "
-        "are needed columns, markers, unit, lag_s, drift_percent",
+        help="compare several people and sessions: a table with the columns person, session and reference, and if "
+             "needed columns, markers, unit, lag_s and drift_percent",
     )  # fmt: skip
-    parser.add_argument("--output", type=Path, metavar="FOLDER", help="tables and plots; nothing in it is overwritten")
-    parser.add_argument("--json", action="store_true", help="print the figures of one session as JSON, for programs")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="FOLDER",
+        help="folder for tables and plots; existing files are never overwritten",
+    )
+    parser.add_argument("--json", action="store_true", help="print the values of one session as JSON")
     add_region_option(parser)
     parser.add_argument(
         "--columns",
         type=parse_mapping,
         default={},
         metavar="ANGLE=COLUMN,...",
-        help="which column is which angle (deviation, flexion, pronosupination, joints) or time; -COLUMN: other sign",
+        help="columns of the reference for the angles (deviation, flexion, pronosupination, joints) and the time; "
+        "-COLUMN reverses the sign",
     )
     parser.add_argument(
         "--markers",
         type=parse_marker_mapping,
         default={},
         metavar="MARKER=NAME,...",
-        help="names of the markers in the reference",
+        help="names of the Carpus markers in the reference",
     )
-    parser.add_argument("--unit", choices=("deg", "rad"), help="of the reference's angles, where it does not say")
-    parser.add_argument("--smoothed", action="store_true", help="compare the smoother's results, not the filter's")
+    parser.add_argument(
+        "--unit", choices=("deg", "rad"), help="unit of the reference's angles, if the file does not state it"
+    )
+    parser.add_argument(
+        "--smoothed", action="store_true", help="compare the smoothed results instead of the live results"
+    )
     parser.add_argument(
         "--max-shift", type=number_type(0.0, MAX_SHIFT_S, "seconds"), default=DEFAULT_MAX_SHIFT_S, metavar="SECONDS",
-        help="furthest that the clocks are apart",
+        help="largest time shift between the two clocks to search for",
     )  # fmt: skip
     parser.add_argument(
         "--lag",
         type=number_type(-MAX_SHIFT_S, MAX_SHIFT_S, "seconds"),
         default=math.nan,
         metavar="SECONDS",
-        help="how much later things happen on the reference's clock, where it is known: no shift is looked for",
+        help="known time shift: how much later the same event has on the reference's clock. No shift is searched for",
     )
     parser.add_argument(
         "--drift", type=number_type(-MAX_DRIFT_PERCENT, MAX_DRIFT_PERCENT, "percent"), default=0.0,
-        metavar="PERCENT", help="by how much the reference's clock runs fast, to be taken out",
+        metavar="PERCENT", help="how much faster the reference's clock runs; the comparison corrects for it",
     )  # fmt: skip
     parser.add_argument(
         "--limit", type=number_type(0.0, MAX_LIMIT_DEG, "degrees"), default=0.0, metavar="DEGREES",
-        help="acceptable difference, set before comparing: each angle is assessed against it, and the plots show it",
+        help="acceptable difference, set before comparing. Each angle is assessed against it, and the plots show it",
     )  # fmt: skip
 
 

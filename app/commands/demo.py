@@ -14,9 +14,9 @@ EXAMPLE = "carpus demo --data-folder out/practice"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the user's own")
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="data folder to use (default: your own)")
     parser.add_argument(
-        "--unattended", action="store_true", help="walk the whole way without a window, as where there is no display"
+        "--unattended", action="store_true", help="run through all screens automatically, without a display"
     )
 
 

@@ -20,15 +20,19 @@ _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the one in the settings")
+    parser.add_argument(
+        "--data-folder", type=Path, metavar="FOLDER", help="data folder to check (default: from the settings)"
+    )
     parser.add_argument(
         "--camera",
         type=parse_camera_address,
         metavar="KIND[:WHICH]",
-        help=f"the one to open: {describe_camera_kinds()}; else the first that is plugged in",
+        help=f"camera to check: {describe_camera_kinds()} (default: the first that is plugged in)",
     )
     parser.add_argument(
-        "--for-support", action="store_true", help="to send away: folders are left out; no patient is in it either way"
+        "--for-support",
+        action="store_true",
+        help="leave out folder names, to send the result to support. Patient data are never included",
     )
 
 

@@ -23,9 +23,15 @@ carpus erase "Fern 12" --for-good "Fern 12\""""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("what", metavar="SESSION.h5|PSEUDONYM", help="a session of a data folder, or a whole patient")
-    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="of a patient (default: your own)")
-    parser.add_argument("--for-good", metavar="PSEUDONYM", help="do it: the patient's pseudonym, typed once more")
+    parser.add_argument(
+        "what", metavar="SESSION.h5|PSEUDONYM", help="session file in a data folder, or pseudonym of a patient"
+    )
+    parser.add_argument(
+        "--data-folder", type=Path, metavar="FOLDER", help="data folder of the patient (default: your own)"
+    )
+    parser.add_argument(
+        "--for-good", metavar="PSEUDONYM", help="delete permanently: confirm with the patient's pseudonym"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

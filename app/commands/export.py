@@ -24,7 +24,9 @@ def parse_formats(text: str) -> tuple[str, ...]:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5", help="or a folder of them")
+    parser.add_argument(
+        "sessions", type=Path, nargs="+", metavar="SESSION.h5", help="session files, or folders with sessions"
+    )
     parser.add_argument(
         "--format",
         type=parse_formats,
@@ -32,12 +34,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FORMAT,...",
         help="; ".join(f"{name}: {kind.description}" for name, kind in FORMATS.items()) + f"; {ALL} of them",
     )
-    parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="files in it are not overwritten")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        required=True,
+        metavar="FOLDER",
+        help="folder for the exported files; existing files are never overwritten",
+    )
     add_region_option(parser)
     parser.add_argument(
         "--deidentified",
         action="store_true",
-        help="new random names, days counted from each patient's first session, no texts, nothing of the device",
+        help="use new random names, count days from each patient's first session, and leave out all texts and the "
+        "camera details",
     )
 
 

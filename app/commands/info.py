@@ -17,9 +17,9 @@ EXAMPLE = "carpus info session.h5"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "file", type=Path, metavar="FILE", help="session (.h5), TUM folder, .oni file, RealSense or raw recording"
+        "file", type=Path, metavar="FILE", help="session (.h5) or recording (TUM folder, .oni, RealSense or raw)"
     )
-    parser.add_argument("--json", action="store_true", help="of a session only its settings, as JSON")
+    parser.add_argument("--json", action="store_true", help="print only the settings of a session, as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -15,8 +15,15 @@ HEAD = ("number", "when", "who", "by", "did", "kind", "subject", "facts")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
-    parser.add_argument("--output", type=output_type(".csv"), metavar="TABLE.csv", help="as a table, never overwritten")
+    parser.add_argument(
+        "--data-folder", type=Path, metavar="FOLDER", help="data folder with patients and sessions (default: your own)"
+    )
+    parser.add_argument(
+        "--output",
+        type=output_type(".csv"),
+        metavar="TABLE.csv",
+        help="write the log to this table; an existing file is never overwritten",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

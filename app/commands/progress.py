@@ -26,13 +26,15 @@ ALL_PATIENTS = "all"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("subject", metavar="PSEUDONYM", help="the patient's pseudonym; all: of everybody, as a table")
+    parser.add_argument(
+        "subject", metavar="PSEUDONYM", help="the patient's pseudonym, or “all” for a table of all patients"
+    )
     parser.add_argument(
         "--sessions",
         type=Path,
         nargs="+",
         metavar="SESSION.h5",
-        help="sessions, or folders of them; else the data folder's",
+        help="session files, or folders with sessions (default: those of the data folder)",
     )
     parser.add_argument(
         "--output",
@@ -40,9 +42,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="FILE",
-        help=".csv or .parquet: the table; .pdf: the progress report; may be given more than once; else CSV on stdout",
+        help=".csv or .parquet for the table, .pdf for the progress report; may be given more than once (default: "
+        "print CSV)",
     )
-    parser.add_argument("--json", action="store_true", help="print the table as JSON, not as CSV")
+    parser.add_argument("--json", action="store_true", help="print the table as JSON instead of CSV")
     add_region_option(parser)
 
 

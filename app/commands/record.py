@@ -37,26 +37,31 @@ MAX_WAITING_FRAMES = 90
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--output", type=Path, required=True, metavar="RECORDING", help="file (raw) or folder (tum)")
+    parser.add_argument(
+        "--output", type=Path, required=True, metavar="RECORDING", help="new file (raw) or folder (tum)"
+    )
     parser.add_argument(
         "--seconds",
         type=number_type(0.1, MAX_RECORDING_S),
         metavar="SECONDS",
-        help="stop after this long; else with Ctrl+C",
-    )
-    parser.add_argument("--format", choices=("raw", "tum"), default="raw", help="default: raw")
-    parser.add_argument(
-        "--lossless", action="store_true", help="colour without loss too (raw only; three times the size)"
+        help="stop after this time (default: when you press Ctrl+C)",
     )
     parser.add_argument(
-        "--from", dest="origin", type=Path, metavar="RECORDING", help="play this recording as if it were the camera"
+        "--format", choices=("raw", "tum"), default="raw", help="format of the recording (default: raw)"
+    )
+    parser.add_argument(
+        "--lossless",
+        action="store_true",
+        help="also store colour without loss (raw only; files are three times as large)",
+    )
+    parser.add_argument(
+        "--from", dest="origin", type=Path, metavar="RECORDING", help="play this recording in place of the camera"
     )
     parser.add_argument(
         "--camera",
         type=parse_camera_address,
         metavar="KIND[:WHICH]",
-        help=f"one of several cameras: {describe_camera_kinds()}; else that of the settings, or the first that is "
-        "plugged in",
+        help=f"camera to use: {describe_camera_kinds()} (default: from the settings, or the first that is plugged in)",
     )
 
 

@@ -16,7 +16,10 @@ EXAMPLE = "carpus recover sessions"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "folder", type=Path, metavar="FOLDER", help="data folder, or a folder with sessions; no session is deleted"
+        "folder",
+        type=Path,
+        metavar="FOLDER",
+        help="data folder, or another folder with sessions; no session is deleted",
     )
 
 

@@ -22,15 +22,22 @@ EXAMPLE = "carpus report session.h5 --output report.pdf --language de"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5")
     parser.add_argument(
-        "--output", type=output_type(".pdf"), required=True, metavar="REPORT.pdf", help="never overwritten"
+        "--output",
+        type=output_type(".pdf"),
+        required=True,
+        metavar="REPORT.pdf",
+        help="PDF file to write; an existing file is never overwritten",
     )
     parser.add_argument(
         "--angle-order",
         choices=ANGLE_ORDERS,
-        help="order of the wrist's angles: the papers' zyx, or isb (flexion first); as in the settings without it",
+        help="order of the wrist angles: zyx (as published, deviation first) or isb (flexion first) (default: from "
+        "the settings)",
     )
-    parser.add_argument("--paper", choices=PAPERS, help="as chosen in the window without it")
-    parser.add_argument("--language", choices=tuple(LANGUAGES), default="", help="of the report; English without it")
+    parser.add_argument("--paper", choices=PAPERS, help="paper size (default: from the settings)")
+    parser.add_argument(
+        "--language", choices=tuple(LANGUAGES), default="", help="language of the report (default: English)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

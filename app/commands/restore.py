@@ -25,8 +25,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--name", metavar="BACKUP", help="which backup, as listed by “carpus backup --list” (default: the newest)"
     )
-    parser.add_argument("--into", type=Path, metavar="FOLDER", help="a data folder that is not there yet")
-    parser.add_argument("--against", type=Path, metavar="FOLDER", help="only say what would differ from a data folder")
+    parser.add_argument("--into", type=Path, metavar="FOLDER", help="new data folder; it must not exist yet")
+    parser.add_argument(
+        "--against", type=Path, metavar="FOLDER", help="do not restore; only show the differences from this data folder"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -22,14 +22,16 @@ HEAD = ("Session", "Patient", "Date", "Exercise", "Hand", "n", "Arc", "mean", "s
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5", help="sessions, or folders of them")
+    parser.add_argument(
+        "sessions", type=Path, nargs="+", metavar="SESSION.h5", help="session files, or folders with sessions"
+    )
     parser.add_argument(
         "--output",
         type=output_type(".csv", ".parquet"),
         metavar="TABLE.csv",
-        help="one row for each session and measure, as .csv or .parquet; never overwritten",
+        help="table with one row per session and measure, as .csv or .parquet; an existing file is never overwritten",
     )
-    parser.add_argument("--json", action="store_true", help="print the same rows as JSON, for programs")
+    parser.add_argument("--json", action="store_true", help="print the same rows as JSON")
     add_region_option(parser)
 
 

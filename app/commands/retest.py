@@ -38,20 +38,27 @@ _REASONS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "sessions", type=Path, nargs="+", metavar="SESSION.h5",
-        help="sessions, or folders of them: each person (pseudonym) twice or more, markers replaced in between",
+        help="session files, or folders with sessions. Each person (pseudonym) is measured at least twice, with the "
+             "markers replaced in between",
     )  # fmt: skip
     parser.add_argument(
-        "--raters", type=Path, metavar="TABLE.csv", help="who placed the markers: columns session (file name) and rater"
+        "--raters",
+        type=Path,
+        metavar="TABLE.csv",
+        help="table of who placed the markers, with the columns session (file name) and rater",
     )
     parser.add_argument(
-        "--output", type=output_type(".csv"), metavar="TABLE.csv", help="all values as a table, never overwritten"
+        "--output",
+        type=output_type(".csv"),
+        metavar="TABLE.csv",
+        help="table of all values; an existing file is never overwritten",
     )
     parser.add_argument(
         "--store",
         action="store_true",
-        help="put the limits into force in progress and reports of the data folder, with today's date",
+        help="use these MDC values from today in progress and reports of the data folder",
     )
-    parser.add_argument("--json", action="store_true", help="print the figures as JSON, for programs")
+    parser.add_argument("--json", action="store_true", help="print the values as JSON")
     add_region_option(parser)
 
 

@@ -12,8 +12,8 @@ EXAMPLE = "carpus review session.h5"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("session", type=Path, metavar="SESSION.h5", help="a session of Carpus")
-    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="instead of the user's own")
+    parser.add_argument("session", type=Path, metavar="SESSION.h5", help="session file")
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="data folder to use (default: your own)")
 
 
 def run(arguments: argparse.Namespace) -> int:

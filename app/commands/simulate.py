@@ -46,65 +46,108 @@ whole_number = count_type(-(2**31), 2**31 - 1)
 EXAMPLE = "carpus simulate --output out/demo --protocol wrist6"
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
-    ("protocol", {"choices": protocol_names(), "help": "6 markers on the palm or 21 on the hand"}),
-    ("motion", {"choices": tuple(sorted(MOTIONS)), "help": "the exercise"}),
-    ("hand", {"choices": ("right", "left"), "help": "which hand"}),
-    ("seed", {"type": whole_number, "help": "another seed is another patient, room and day"}),
-    ("seconds", {"type": number_type(), "metavar": "SECONDS", "help": "how long"}),
+    (
+        "protocol",
+        {"choices": protocol_names(), "help": "marker set: 6 markers on the back of the hand, or 21 on the whole hand"},
+    ),
+    ("motion", {"choices": tuple(sorted(MOTIONS)), "help": "exercise that the hand does"}),
+    ("hand", {"choices": ("right", "left"), "help": "right or left hand"}),
+    ("seed", {"type": whole_number, "help": "random seed; each seed gives another patient, room and day"}),
+    ("seconds", {"type": number_type(), "metavar": "SECONDS", "help": "length of the recording"}),
     ("fps", {"type": number_type(), "help": "frames per second"}),
-    ("speed-hz", {"type": number_type(), "help": "repetitions a second"}),
-    ("range-share", {"type": number_type(), "help": "share of the exercise's full range"}),
-    ("repetitions", {"type": whole_number, "help": "stop moving after so many"}),
-    ("tremor-deg", {"type": number_type(), "help": "how far the hand trembles"}),
-    ("dip", {"choices": ("coupled", "free"), "help": "DIP joints coupled to the PIP joints, or free"}),
-    ("hand-length-mm", {"type": number_type(), "help": "130 a child, 200 a tall man"}),
+    ("speed-hz", {"type": number_type(), "help": "repetitions per second"}),
+    ("range-share", {"type": number_type(), "help": "fraction of the full range of motion"}),
+    ("repetitions", {"type": whole_number, "help": "number of repetitions, after which the hand stays still"}),
+    ("tremor-deg", {"type": number_type(), "help": "amplitude of the tremor"}),
+    (
+        "dip",
+        {"choices": ("coupled", "free"), "help": "DIP flexion follows PIP flexion (coupled), or is independent (free)"},
+    ),
+    (
+        "hand-length-mm",
+        {"type": number_type(), "help": "length of the hand, for example 130 for a child and 200 for a tall man"},
+    ),
     (
         "skin-glide-mm",
-        {"type": parse_number_or_drawn, "help": "how far skin glides over a knuckle bent by 90, or drawn"},
+        {
+            "type": parse_number_or_drawn,
+            "help": "how far the skin slides over an MCP joint flexed by 90 degrees; drawn: random",
+        },
     ),
     (
         "cupping",
-        {"type": parse_number_or_drawn, "help": "how far ring and little metacarpal flex in a grip, 0 to 1, or drawn"},
+        {
+            "type": parse_number_or_drawn,
+            "help": "how much the ring and little metacarpals flex in a grip, 0 to 1; drawn: random",
+        },
     ),
     (
         "habit",
-        {"type": names_type((NONE, *HABITS)), "metavar": "HABIT+...", "help": f"with + between: {', '.join(HABITS)}"},
+        {
+            "type": names_type((NONE, *HABITS)),
+            "metavar": "HABIT+...",
+            "help": f"habits of the patient, joined by +: {', '.join(HABITS)}",
+        },
     ),
-    ("anatomy", {"choices": ("usual", "wide"), "help": "wide: other marker heights and palms, markers placed off"}),
+    (
+        "anatomy",
+        {
+            "choices": ("usual", "wide"),
+            "help": "wide: more variation in palm shape, marker height and marker placement",
+        },
+    ),
     (
         "worn",
         {
             "type": names_type((NONE, *ACCESSORIES)),
             "metavar": "WORN+...",
-            "help": f"with + between: {', '.join(ACCESSORIES)}",
+            "help": f"what the hand wears, joined by +: {', '.join(ACCESSORIES)}",
         },
     ),
-    ("pen-marks", {"type": whole_number, "help": "blue dots of a pen on the skin"}),
-    ("skin-tone", {"type": whole_number, "help": "0 light to 5 dark"}),
-    ("light", {"choices": ("drawn", "bright", "normal", "dim"), "help": "of the room"}),
-    ("sleeve", {"choices": ("drawn", "none", "grey", "white", "blue", "jeans"), "help": "of the clothes"}),
-    ("distance-m", {"type": number_type(), "help": "camera to hand"}),
-    ("yaw-deg", {"type": number_type(), "help": "how far the hand is turned in the frame"}),
-    ("tilt-deg", {"type": number_type(), "help": "how far the hand is tilted to the camera"}),
-    ("tilt-heading-deg", {"type": number_type(), "help": "0: a side of the hand nearer, -90: its tips"}),
-    ("false-blobs", {"type": number_type(), "help": "false blue blobs in each frame, on average"}),
-    ("hidden-share", {"type": number_type(), "help": "share of the time each marker is covered"}),
-    ("dropped-share", {"type": number_type(), "help": "share of the frames that is missing"}),
-    ("click-error-px", {"type": number_type(), "help": "how far clicks are off their markers"}),
-    ("sensor", {"choices": tuple(SENSORS), "help": "whose depth it is"}),
-    ("depth-scale-error", {"type": number_type(), "help": "largest scale error of the depth"}),
+    ("pen-marks", {"type": whole_number, "help": "number of blue pen marks on the skin"}),
+    ("skin-tone", {"type": whole_number, "help": "skin tone, 0 (light) to 5 (dark)"}),
+    ("light", {"choices": ("drawn", "bright", "normal", "dim"), "help": "light in the room; drawn: random"}),
+    (
+        "sleeve",
+        {
+            "choices": ("drawn", "none", "grey", "white", "blue", "jeans"),
+            "help": "sleeve of the patient; drawn: random",
+        },
+    ),
+    ("distance-m", {"type": number_type(), "help": "distance from camera to hand"}),
+    ("yaw-deg", {"type": number_type(), "help": "rotation of the hand in the image plane"}),
+    ("tilt-deg", {"type": number_type(), "help": "tilt of the hand towards the camera"}),
+    (
+        "tilt-heading-deg",
+        {
+            "type": number_type(),
+            "help": "direction of the tilt: 0 moves a side of the hand nearer to the camera, -90 the fingertips",
+        },
+    ),
+    ("false-blobs", {"type": number_type(), "help": "average number of false blue spots per frame"}),
+    ("hidden-share", {"type": number_type(), "help": "fraction of the time in which each marker is covered, 0 to 1"}),
+    ("dropped-share", {"type": number_type(), "help": "fraction of the frames that are missing, 0 to 1"}),
+    ("click-error-px", {"type": number_type(), "help": "error of the clicks on the markers"}),
+    ("sensor", {"choices": tuple(SENSORS), "help": "depth camera to simulate"}),
+    ("depth-scale-error", {"type": number_type(), "help": "largest scale error of the depth, as a fraction"}),
 )
 _SWITCHES = {
-    "pain-limited": "movements stop short",
-    "object-passes": "something passes between hand and camera",
+    "pain-limited": "the hand does not reach its full range of motion",
+    "object-passes": "an object passes between hand and camera",
     "leaves-picture": "the hand leaves the view and returns",
-    "no-skin-offsets": "joint centres in the markers, as the papers assume",
+    "no-skin-offsets": "place the joint centres in the markers, as the published method assumes",
 }
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     defaults = {field.name: field.default for field in fields(RecordingSpec)}
-    parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="made new, never overwritten")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        required=True,
+        metavar="FOLDER",
+        help="new folder for the recording; an existing folder is never overwritten",
+    )
     for name, options in _OPTIONS:
         default = defaults[name.replace("-", "_")]
         words = options.get("help", "")

@@ -44,29 +44,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         nargs="*",
         metavar="RECORDING",
-        help="TUM folder, .oni, RealSense or raw recording, or a session (.h5); several, or a folder that is searched "
-        "for recordings, are tracked side by side into the folder --output, what is there already left as it is",
+        help="a recording (TUM folder, .oni, RealSense or raw) or a session (.h5). Several recordings, or a folder "
+        "with recordings, are tracked in parallel into the folder --output. Sessions that exist there are kept "
+        "and not tracked again",
     )
     parser.add_argument(
         "--calibration",
         type=Path,
         metavar="CLICKS.json",
-        help="first-frame clicks (not for a session); without it, and of many recordings, calibration.json in each "
-        "one's folder, or NAME.calibration.json beside its file",
+        help="file with the markers clicked in the first frame (not for a session). Default, and for several "
+        "recordings: calibration.json in the folder of each recording, or NAME.calibration.json next to its file",
     )
     parser.add_argument(
         "--output",
         type=Path,
         required=True,
         metavar="SESSION.h5",
-        help="the file to write, never overwritten; of many recordings the folder for their sessions and tables",
+        help="session file to write; an existing file is never overwritten. For several recordings: the folder for "
+        "their sessions and tables",
     )
     _add_batch_options(parser)
     _add_method_options(parser)
     _add_recording_options(parser)
     parser.epilog = (
-        "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml,\n"
-        "unless an option says otherwise."
+        "A session is tracked with its previous settings, a recording with those of settings.toml,\n"
+        "unless an option changes them."
     )
 
 
@@ -75,9 +77,9 @@ def _add_batch_options(parser: argparse.ArgumentParser) -> None:
         "--manifest",
         type=Path,
         metavar="STUDY.csv",
-        help="the recordings of a study, instead of RECORDING: columns recording, subject, hand, exercise, clicks, "
-        "label (all but the first may be missing) and any further ones, which the table of measures repeats; all "
-        "lines are checked before the first recording is tracked",
+        help="table of the recordings of a study, instead of RECORDING. Columns: recording, and optionally subject, "
+        "hand, exercise, clicks and label. Other columns are copied into the table of measures. All lines are "
+        "checked before tracking starts",
     )
     parser.add_argument(
         "--jobs",
@@ -89,20 +91,21 @@ def _add_batch_options(parser: argparse.ArgumentParser) -> None:
         "--table",
         type=output_type(".csv", ".parquet"),
         metavar="TABLE.csv",
-        help="of many recordings: the measures of all sessions also as this .csv or .parquet, written as they "
-        "come; only the table of an earlier run is replaced (Parquet needs pyarrow)",
+        help="for several recordings: also write the measures of all sessions to this .csv or .parquet file, as soon "
+        "as each is ready. Only the table of an earlier run is replaced. Parquet needs the Python package "
+        "pyarrow",
     )
     parser.add_argument(
         "--time-limit",
         type=number_type(0.1, 45000.0, "minutes"),
         metavar="MINUTES",
-        help="of many recordings: one that takes longer is abandoned and reported (default: 120)",
+        help="for several recordings: stop tracking a recording after this time, and report it (default: 120)",
     )
     parser.add_argument(
         "--scheduler",
         metavar="ADDRESS",
-        help="of many recordings: track them on the workers of this Dask scheduler, as tcp://host:8786, which see the "
-        "same folders (needs the Python package distributed)",
+        help="for several recordings: track them on the workers of this Dask scheduler, for example tcp://host:8786. "
+        "The workers need access to the same folders. Needs the Python package distributed",
     )
 
 
@@ -110,38 +113,41 @@ def _add_method_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--filter",
         choices=("default", "paper"),
-        help="the default filter, or both papers' method as written, by colour alone and without looking back, with "
-        "the hand paper's order of angles (ZYX) for both, as the wrist paper's ZYZ has no value at the neutral pose; "
-        "a session's own unless given",
+        help="default: the Carpus filter; paper: the published method, with colour only and without smoothing. Paper "
+        "uses the angle order ZYX, because ZYZ is undefined in the neutral position. A session keeps its own "
+        "filter unless this is given",
     )
     parser.add_argument(
         "--depth",
         action=argparse.BooleanOptionalAction,
-        help="use each marker's depth (default) or colour only",
+        help="use depth and colour (default), or colour only",
     )
     parser.add_argument(
         "--dip",
         choices=("coupled", "free"),
-        help="DIP joints at two thirds of the PIP joints (default), or free; a session's own unless given",
+        help="coupled: DIP flexion is two thirds of PIP flexion (default); free: DIP is measured. A session keeps "
+        "its own setting unless this is given",
     )
     parser.add_argument(
         "--discs",
         choices=("on-skin", "in-joints"),
-        help="where the finger markers are: on the skin over the joints (default), or in the joints, the papers' "
-        "chain; a session's own unless given",
+        help="where the finger markers are assumed to be: on the skin over the joints (default), or in the joint "
+        "centres, as in the published method. A session keeps its own setting unless this is given",
     )
     parser.add_argument(
         "--leave-out-damaged",
         action="store_true",
-        help="treat missing and damaged images of a folder as lost frames (otherwise they are a fault)",
+        help="continue without missing or damaged frames of a folder (otherwise tracking stops there)",
     )
     parser.add_argument(
-        "--profile", choices=("slow", "standard", "brisk"), help="how lively the hand is (default: standard)"
+        "--profile",
+        choices=("slow", "standard", "brisk"),
+        help="how fast the hand is expected to move (default: standard)",
     )
     parser.add_argument(
         "--smooth",
         action=argparse.BooleanOptionalAction,
-        help="also write smoothed results, /smoothed (RTS smoother; default), or not",
+        help="also write smoothed results to /smoothed (RTS smoother; on by default)",
     )
 
 
@@ -151,31 +157,35 @@ def _add_recording_options(parser: argparse.ArgumentParser) -> None:
         type=number_type(-MAX_START_DEG, MAX_START_DEG, "degrees"),
         nargs=3,
         metavar=("DEVIATION", "FLEXION", "PRONOSUPINATION"),
-        help="degrees at the first frame, for a hand that cannot lie neutral, the third from palm "
-        "down (thumb up is + 90); added to all angles and marked as given",
+        help="wrist angles in degrees in the first frame, for a hand that cannot lie in neutral. "
+        "Pronation-supination is counted from palm down (thumb up is 90). They are added to all angles, and the "
+        "session says so",
     )
     parser.add_argument(
-        "--subject", type=parse_pseudonym, metavar="PSEUDONYM", help="stored in the session; never a name"
+        "--subject",
+        type=parse_pseudonym,
+        metavar="PSEUDONYM",
+        help="pseudonym to store in the session; never use a real name",
     )
     parser.add_argument(
         "--exercise",
         choices=EXERCISE_NAMES,
         default="",
         metavar="EXERCISE",
-        help="whose repetitions are counted, stored in the session; that of the file of clicks without it; one of "
-        + ", ".join(EXERCISE_NAMES),
+        help="exercise to store in the session; its repetitions are counted (default: from the clicks file). "
+        "One of " + ", ".join(EXERCISE_NAMES),
     )
     parser.add_argument(
         "--recorded",
         type=parse_moment,
         metavar="DATE",
-        help="when the hand moved, as 2023-04-05 or 2023-04-05T14:30, for a recording that does not say",
+        help="date of the recording, if the recording does not contain it: 2023-04-05 or 2023-04-05T14:30",
     )
     parser.add_argument(
         "--stream",
         action="store_true",
-        help="play one recording in its own time and send what is tracked over Lab Streaming Layer, as in the window; "
-        "waits up to 20 s for a listener (needs the Python package pylsl)",
+        help="play one recording in real time and stream its angles over Lab Streaming Layer, as the window does. "
+        "Waits up to 20 s for a receiver. Needs the Python package pylsl",
     )
 
 

@@ -15,7 +15,10 @@ EXAMPLE = "carpus verify session.h5"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "file", type=Path, metavar="FILE", help="session (.h5), TUM folder, .oni, RealSense, raw recording; only read"
+        "file",
+        type=Path,
+        metavar="FILE",
+        help="session (.h5) or recording (TUM folder, .oni, RealSense or raw); the file is not changed",
     )
 
 
