@@ -3920,16 +3920,8 @@
         <translation>Das Programmpaket enthält {packages} nicht. Ein aus dem Quelltext installiertes Carpus kann es verwenden.</translation>
     </message>
     <message>
-        <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
-        <translation>Referenz: {source}; {ages}, {sexes}; nicht für Kinder und alte Menschen.</translation>
-    </message>
-    <message>
         <source>a study&apos;s table has the columns person, session and reference</source>
         <translation>die Tabelle einer Studie hat die Spalten person, session und reference</translation>
-    </message>
-    <message>
-        <source>adults, ages not given</source>
-        <translation>Erwachsene, Alter nicht angegeben</translation>
     </message>
     <message>
         <source>not readable as a table: {why}</source>
@@ -6395,6 +6387,48 @@
         <source>Check the camera again: it has been calibrated since the last check.</source>
         <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
     </message>
+    <message>
+        <source>Tip to
+palm, cm</source>
+        <translation>FKHA
+cm</translation>
+    </message>
+    <message>
+        <source>{hand}, %</source>
+        <translation>{hand}, %</translation>
+    </message>
+    <message>
+        <source>Reference (age group)</source>
+        <translation>Referenz (Altersgruppe)</translation>
+    </message>
+    <message>
+        <source>65 to 85 years</source>
+        <translation>65 bis 85 Jahre</translation>
+    </message>
+    <message>
+        <source>Boone and Azen 1979, 109 men (active, goniometer)</source>
+        <translation>Boone und Azen 1979, 109 Männer (aktiv, Goniometer)</translation>
+    </message>
+    <message>
+        <source>Reference: {source}; {ages}, {sexes}.</source>
+        <translation>Referenz: {source}; {ages}, {sexes}.</translation>
+    </message>
+    <message>
+        <source>Walker 1984, 60 people (active, goniometer)</source>
+        <translation>Walker 1984, 60 Personen (aktiv, Goniometer)</translation>
+    </message>
+    <message>
+        <source>adults, ages not given; not for children or old age</source>
+        <translation>Erwachsene ohne Altersangabe; nicht für Kinder und hohes Alter</translation>
+    </message>
+    <message>
+        <source>men</source>
+        <translation>Männer</translation>
+    </message>
+    <message>
+        <source>to 54 years</source>
+        <translation>bis 54 Jahre</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7634,20 +7668,6 @@
 <context>
     <name>FingerGrid</name>
     <message>
-        <source>ext.</source>
-        <translation>Ext.</translation>
-    </message>
-    <message>
-        <source>flex.</source>
-        <translation>Flex.</translation>
-    </message>
-    <message>
-        <source>Tip to
-palm, cm</source>
-        <translation>FKHA
-cm</translation>
-    </message>
-    <message>
         <source>Finger joints, goniometer</source>
         <translation>Fingergelenke, Goniometer</translation>
     </message>
@@ -8344,6 +8364,10 @@ von oben</translation>
     <message>
         <source>Entered by {initials}.</source>
         <translation>Eingetragen von {initials}.</translation>
+    </message>
+    <message>
+        <source>Grip of this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
+        <translation>Griffkraft nach Alter und Geschlecht: {mean} ± {sd} kg ({source}, Smedley-Dynamometer).</translation>
     </message>
 </context>
 <context>

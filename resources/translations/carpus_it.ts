@@ -3920,16 +3920,8 @@
         <translation>Il pacchetto del programma non include {packages}. Carpus installato dai sorgenti può usarlo.</translation>
     </message>
     <message>
-        <source>Reference: {source}; {ages}, {sexes}; not for children or old age.</source>
-        <translation>Riferimento: {source}; {ages}, {sexes}; non per bambini o anziani.</translation>
-    </message>
-    <message>
         <source>a study&apos;s table has the columns person, session and reference</source>
         <translation>la tabella di uno studio ha le colonne person, session e reference</translation>
-    </message>
-    <message>
-        <source>adults, ages not given</source>
-        <translation>adulti, età non indicata</translation>
     </message>
     <message>
         <source>not readable as a table: {why}</source>
@@ -6395,6 +6387,48 @@
         <source>Check the camera again: it has been calibrated since the last check.</source>
         <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
     </message>
+    <message>
+        <source>Tip to
+palm, cm</source>
+        <translation>polpa–palmo
+cm</translation>
+    </message>
+    <message>
+        <source>{hand}, %</source>
+        <translation>{hand}, %</translation>
+    </message>
+    <message>
+        <source>Reference (age group)</source>
+        <translation>Riferimento (fascia d’età)</translation>
+    </message>
+    <message>
+        <source>65 to 85 years</source>
+        <translation>da 65 a 85 anni</translation>
+    </message>
+    <message>
+        <source>Boone and Azen 1979, 109 men (active, goniometer)</source>
+        <translation>Boone e Azen 1979, 109 uomini (attivo, goniometro)</translation>
+    </message>
+    <message>
+        <source>Reference: {source}; {ages}, {sexes}.</source>
+        <translation>Riferimento: {source}; {ages}, {sexes}.</translation>
+    </message>
+    <message>
+        <source>Walker 1984, 60 people (active, goniometer)</source>
+        <translation>Walker 1984, 60 persone (attivo, goniometro)</translation>
+    </message>
+    <message>
+        <source>adults, ages not given; not for children or old age</source>
+        <translation>adulti, età non indicata; non per bambini e anziani</translation>
+    </message>
+    <message>
+        <source>men</source>
+        <translation>uomini</translation>
+    </message>
+    <message>
+        <source>to 54 years</source>
+        <translation>fino a 54 anni</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7634,20 +7668,6 @@
 <context>
     <name>FingerGrid</name>
     <message>
-        <source>ext.</source>
-        <translation>est.</translation>
-    </message>
-    <message>
-        <source>flex.</source>
-        <translation>fless.</translation>
-    </message>
-    <message>
-        <source>Tip to
-palm, cm</source>
-        <translation>polpa–palmo
-cm</translation>
-    </message>
-    <message>
         <source>Finger joints, goniometer</source>
         <translation>Articolazioni delle dita, goniometro</translation>
     </message>
@@ -8344,6 +8364,10 @@ dall’alto</translation>
     <message>
         <source>Entered by {initials}.</source>
         <translation>Inseriti da {initials}.</translation>
+    </message>
+    <message>
+        <source>Grip of this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
+        <translation>Forza di presa per età e sesso: {mean} ± {sd} kg ({source}, dinamometro Smedley).</translation>
     </message>
 </context>
 <context>

@@ -8,9 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.results.measure import Measure, summarise_values
 from carpus.core.results.measures_table import build_measure_rows
-from carpus.core.results.norms import SHARE_OF_OTHER, compute_total_shares, grade_share
+from carpus.core.results.norms import (
+    SHARE_OF_OTHER,
+    Person,
+    compute_total_shares,
+    grade_share,
+    grip_norm_kg,
+    wrist_norm,
+)
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.task_measures import _thumb_distance_sd_m, find_session_reaches
 from carpus.ui.kit.cells import cell_text
@@ -215,3 +223,37 @@ def test_span_uses_seen_tips_only() -> None:
         name = "hand span" if of == "TIP1-TIP5" else "tip span"
         span = named(figures_once(made), name, of).mean
         assert named(figures_once(guessed), name, of).mean == pytest.approx(span, abs=2.0)
+
+
+def test_wrist_norm_of_a_person_replaces_the_one_for_adults_where_a_source_has_it() -> None:
+    exercise = get_exercise("WRIST_FE")
+    adults = wrist_norm("flexion", 1, exercise)
+    for person in (None, Person("female", 40), Person("male", 60), Person("male", 90), Person("", 12)):
+        assert wrist_norm("flexion", 1, exercise, person) == adults, person
+    for person in (Person("male", 18), Person("female", 65), Person("", 85)):
+        own = [wrist_norm(movement, 1, exercise, person) for movement in ("flexion", "extension", "arc")]
+        assert own[2].low_deg == own[0].low_deg + own[1].low_deg
+        assert own[0] != adults
+    assert wrist_norm("radial", 1, get_exercise("WRIST_RU"), Person("male", 30)) is None, "not the trained angle"
+
+
+def test_grip_norm_is_by_sex_and_falls_after_middle_age() -> None:
+    for age in range(17, 91):
+        women, men = (grip_norm_kg(Person(sex, age)) for sex in ("female", "male"))
+        assert men[0] > women[0] > 20.0
+    means = [grip_norm_kg(Person("male", age))[0] for age in (42, 60, 75, 90)]
+    assert means == sorted(means, reverse=True)
+    assert [grip_norm_kg(one) for one in (None, Person("diverse", 40), Person("male", 91))] == [None] * 3
+
+
+def test_range_table_gives_the_share_of_the_other_hand() -> None:
+    made = figures_once(session())
+    half = replace(made, measures=tuple(replace(one, mean=one.mean / 2.0) for one in made.measures), side="left")
+    hidden = replace(made, measures=tuple(replace(one, is_lower_bound=True) for one in made.measures))
+
+    def shares(today: SessionResults, other: SessionResults) -> set[str]:
+        return {cell_text(line[3]).partition("(")[2] for line in range_table(today, None, other).rows if line[3]}
+
+    assert shares(half, made) == {"50\N{NO-BREAK SPACE}%)"}
+    assert {one[:1] for one in shares(hidden, half)} == {"≥"}
+    assert shares(half, hidden) == {""}, "of a range that was not seen whole"

@@ -612,7 +612,16 @@ class Gallery(GalleryWindow):
         screen = self.show(ManualMeasurementsScreen(self.theme, lambda: TODAY), tab=2, camera="")
         seen = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
         figures = [replace(seen, when=NOW, side="right", is_simulated=False)]
-        screen.show_record(ManualRecord("Linden 42", "right", tuple(hand_values_today()), tuple(figures), "MK"))
+        screen.show_record(
+            ManualRecord(
+                "Linden 42",
+                "right",
+                tuple(hand_values_today()),
+                tuple(figures),
+                "MK",
+                Patient("Linden 42", "right", sex="female", birth_day=date(1981, 3, 12)),
+            )
+        )
         screen.measure_choice.choose("QUICK_DASH")
         screen.measure_choice.activated.emit(screen.measure_choice.currentIndex())
         screen.form.rows["QUICK_DASH"].answers_field.setText("1234-")

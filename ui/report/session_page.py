@@ -46,6 +46,7 @@ from carpus.ui.report.page import (
 from carpus.ui.words import terms
 from carpus.ui.words.active_passive import build_active_passive
 from carpus.ui.words.fingers import find_main_ranges
+from carpus.ui.words.identity import to_person
 from carpus.ui.words.manual_values import day_words
 from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import range_table, reference_words, repetition_words
@@ -272,11 +273,12 @@ def _diagnosis_words(report: SessionReport) -> str:
 
 def _range_table(report: SessionReport) -> list[Part]:
     results = report.results
-    found = range_table(results, report.previous, report.other_hand, on_paper=True)
+    person = to_person(report.printed_patient, results.when.date())
+    found = range_table(results, report.previous, report.other_hand, on_paper=True, person=person)
     if not found.rows and results.has_passive:
         return []  # the table of what was passive says all there is
     shown = table(*found)
-    source = reference_words(results)
+    source = reference_words(results, person)
     below = [paragraph(source, 7.5, REGULAR, "text2")] if source else []
     return [column(section_title(tr("Range of motion"), repetition_words(results)), shown, *below, gap=2.0)]
 

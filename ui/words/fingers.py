@@ -25,13 +25,11 @@ from carpus.ui.words.finger_angles import (
     format_spread,
 )
 from carpus.ui.words.marker_words import finger_name
-from carpus.ui.words.ranges import is_deficit, mean_words
+from carpus.ui.words.ranges import LOWER_BOUND, is_deficit, mean_words
 from carpus.ui.words.task_measures import short_task_summary
 from carpus.ui.words.verdicts import reason_words, short_change_words
 
 COLUMNS: tuple[AngleKind, ...] = ("knuckle", "middle", "end", "spread", "tam")
-# Before a range that an occluded joint may have exceeded; always explained beside the table.
-LOWER_BOUND = "≥"
 
 
 _GRADES = {

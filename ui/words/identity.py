@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from datetime import date
+
 from carpus.core.records.values import Patient
+from carpus.core.results.norms import Person
 from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr
 
@@ -10,6 +13,14 @@ from carpus.ui.kit.translate import tr
 def birth_words(patient: Patient) -> str:
     """Return ``born 12 Mar 1981``; empty if unknown."""
     return tr("born {day}").format(day=numbers.format_date(patient.birth_day)) if patient.birth_day else ""
+
+
+def to_person(patient: Patient | None, day: date) -> Person | None:
+    """Return sex and age on a day, None if the age is not known."""
+    if patient is None or patient.birth_day is None:
+        return None
+    born = patient.birth_day
+    return Person(patient.sex, day.year - born.year - ((day.month, day.day) < (born.month, born.day)))
 
 
 def record_number_words(patient: Patient) -> str:

@@ -11,7 +11,7 @@ from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.rounding import format_rounded
 from carpus.core.results.measure import Measure, negate_measure
-from carpus.core.results.norms import wrist_norm
+from carpus.core.results.norms import Norm, Person, wrist_norm
 from carpus.core.results.progress import Comparison, compare_ranges
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.results.session_results import SessionResults
@@ -39,6 +39,8 @@ _UNCOUNTED: Mapping[NoRepetitionReason, Phrase] = {
 }
 
 
+# Before a range that an occluded joint may have exceeded; always explained beside the table.
+LOWER_BOUND = "≥"
 _VALUE, _CHANGE = TableColumn(is_right_aligned=True, is_wrapped=False), TableColumn(MEDIUM, "text2", min_letters=15)
 # Movement, today, best, other hand, reference, last time, change.
 RANGE_COLUMNS = (
@@ -53,20 +55,23 @@ def range_table(
     other_hand: SessionResults | None,
     *,
     on_paper: bool = False,
+    person: Person | None = None,
 ) -> TableContent:
     """Return arc, both ends, and angles that should stay still.
 
-    ``on_paper`` omits still angles and unknown values, which another part of the page has, and uses shorter texts.
+    The other hand's value has today's share of it behind. ``person`` chooses the reference. ``on_paper`` omits still
+    angles and unknown values, which another part of the page has, and uses shorter texts.
     """
     day = numbers.format_time_or_day(previous.when, results.when) if previous else ""
     heads = (
         tr("Movement"), mean_head(tr("Today"), results.wrist_ranges), tr("Best"),
-        terms.hand_name(other_hand.side) if other_hand else "",
-        tr("Reference (adults)"), day, tr("Change since {day}").format(day=day) if day else "",
+        tr("{hand}, %").format(hand=terms.hand_name(other_hand.side)) if other_hand else "",
+        tr("Reference (adults)") if _find_norm(results) == _find_norm(results, person) else tr("Reference (age group)"),
+        day, tr("Change since {day}").format(day=day) if day else "",
     )  # fmt: skip
     changes = {item.key: item for item in compare_ranges(previous, results)} if previous else {}
     rows = [
-        _line_of_range(row, results, previous, other_hand, changes.get(row.key), on_paper)
+        _line_of_range(row, results, previous, other_hand, changes.get(row.key), on_paper, person)
         for row in results.wrist_ranges
     ]
     if not on_paper:
@@ -74,10 +79,16 @@ def range_table(
     return TableContent(RANGE_COLUMNS, heads, tuple(rows))
 
 
-def reference_words(results: SessionResults) -> str:
+def reference_words(results: SessionResults, person: Person | None = None) -> str:
     """Return the source of the reference values and whom they cover; empty if none is shown."""
-    norms = [wrist_norm(row.quantity, row.wrist_angle, results.exercise) for row in results.wrist_ranges]
-    return next((translate_phrase(norm.sentence()) for norm in norms if norm is not None), "")
+    norm = _find_norm(results, person)
+    return "" if norm is None else translate_phrase(norm.sentence())
+
+
+def _find_norm(results: SessionResults, person: Person | None = None) -> Norm | None:
+    """Return the first reference range that is shown."""
+    norms = (wrist_norm(row.quantity, row.wrist_angle, results.exercise, person) for row in results.wrist_ranges)
+    return next((norm for norm in norms if norm is not None), None)
 
 
 def repetition_words(results: SessionResults) -> str:
@@ -172,7 +183,7 @@ def is_deficit(row: Measure) -> bool:
 
 def _line_of_range(
     row: Measure, results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None,
-    change: Comparison | None, is_short: bool,
+    change: Comparison | None, is_short: bool, person: Person | None,
 ) -> TableRow:  # fmt: skip
     name = terms.movement_name(row.quantity)
     if is_deficit(row):
@@ -188,18 +199,26 @@ def _line_of_range(
         text = text or tr("not assessed: {why}").format(why=reason_words(change.reasons))
     limited = tr("partly occluded") if row.is_lower_bound else ""
     words, verdict = "; ".join(filter(None, (text, limited))), change.verdict if change else ""
-    norm = wrist_norm(row.quantity, row.wrist_angle, results.exercise)
+    norm = wrist_norm(row.quantity, row.wrist_angle, results.exercise, person)
     if row.quantity == "arc" and (neutral_zero := neutral_zero_words(results, row.wrist_angle)):
         name = f"{name}, {neutral_zero}"
     return (
         name if row.quantity == "arc" else Cell(name, MEDIUM, mark_token=CURVE_TOKENS[row.wrist_angle]),
         mean_words(row),
         terms.end_words(row.best, row.quantity),
-        terms.end_words(beside.mean, row.quantity) if beside else "",
+        f"{terms.end_words(beside.mean, row.quantity)}{_share_words(row, beside)}" if beside else "",
         numbers.UNKNOWN if norm is None else numbers.format_degree_range(norm.low_deg, norm.high_deg),
         terms.end_words(before.mean, row.quantity) if before else "",
         Cell(words, MEDIUM, VERDICT_TOKENS[verdict]) if verdict in VERDICT_TOKENS else words,
     )
+
+
+def _share_words(row: Measure, other: Measure) -> str:
+    """Return `` (92 %)`` of the other hand's range; empty if either is not known or lacks degrees to neutral."""
+    if other.is_lower_bound or not (row.mean > 0.0 and other.mean > 0.0):
+        return ""
+    at_least = f"{LOWER_BOUND}{numbers.NARROW_GAP}" if row.is_lower_bound else ""
+    return f" ({at_least}{format_rounded(100.0 * row.mean / other.mean)}{numbers.NARROW_GAP}%)"
 
 
 def _line_of_still_angle(row: Measure, results: SessionResults, previous: SessionResults | None) -> TableRow:

@@ -18,7 +18,6 @@ from carpus.ui.words import terms
 from carpus.ui.words.fault_words import finding_words
 from carpus.ui.words.finger_angles import FingerAngle
 from carpus.ui.words.fingers import (
-    LOWER_BOUND,
     find_main_ranges,
     is_joint_exercise,
     is_thumb_exercise,
@@ -27,7 +26,7 @@ from carpus.ui.words.fingers import (
     range_words,
 )
 from carpus.ui.words.marker_words import finger_name
-from carpus.ui.words.ranges import has_sd, is_deficit
+from carpus.ui.words.ranges import LOWER_BOUND, has_sd, is_deficit
 from carpus.ui.words.task_measures import task_summary
 from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, reason_words
 

@@ -40,9 +40,9 @@ from carpus.ui.kit.field import parse_number
 from carpus.ui.kit.text import REGULAR, SEMIBOLD
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
-from carpus.ui.words.fingers import LOWER_BOUND
 from carpus.ui.words.manual_values import entry_error, entry_warning, full_name, history_words, mode_name, value_words
 from carpus.ui.words.marker_words import finger_name
+from carpus.ui.words.ranges import LOWER_BOUND
 
 ROW_PX, HEAD_PX = 30, 46
 JOINT_COLUMNS = ("MCP", "PIP", "DIP")
@@ -135,11 +135,7 @@ class FingerGrid(QTableWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__(len(BOTH_MODES) * len(FINGER_JOINTS), PALM_COLUMN + 1)
         self._theme = theme
-        ends = (self.tr("ext."), self.tr("flex."))
-        joints = (tr("MCP"), tr("PIP"), f"{tr('DIP')} ({tr('IP')})")
-        self.setHorizontalHeaderLabels(
-            [*(f"{joint}\n{end}" for joint in joints for end in ends), "TAM\nTPM", self.tr("Tip to\npalm, cm")]
-        )
+        self.setHorizontalHeaderLabels(_column_heads())
         self.setVerticalHeaderLabels(
             [f"{finger_name(str(finger))}, {mode_name(mode)}" for mode in BOTH_MODES for finger in FINGER_JOINTS]
         )
@@ -289,6 +285,12 @@ class FingerGrid(QTableWidget):
             event.ignore()  # the screen saves with Ctrl+Enter
         else:
             super().keyPressEvent(event)
+
+
+def _column_heads() -> list[str]:
+    joints = (tr("MCP"), tr("PIP"), f"{tr('DIP')} ({tr('IP')})")
+    ends = [f"{joint}\n{end}" for joint in joints for end in (tr("ext."), tr("flex."))]
+    return [*ends, "TAM\nTPM", tr("Tip to\npalm, cm")]
 
 
 def _degrees(value_deg: float, is_lower_bound: bool) -> str:

@@ -85,7 +85,7 @@ class ManualMeasurementsFlow(Flow):
         def read() -> ManualRecord:
             figures = sorted(library.history(patient_id), key=lambda one: one.when)
             return ManualRecord(
-                patient_id, side, tuple(library.manual_measurements(patient_id)), tuple(figures), initials
+                patient_id, side, tuple(library.manual_measurements(patient_id)), tuple(figures), initials, patient
             )
 
         def on_loaded(record: ManualRecord) -> None:

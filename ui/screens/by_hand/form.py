@@ -36,7 +36,6 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.by_hand.finger_grid import FingerGrid
 from carpus.ui.words import terms
-from carpus.ui.words.fingers import LOWER_BOUND
 from carpus.ui.words.manual_values import (
     direction_words,
     entry_error,
@@ -49,6 +48,7 @@ from carpus.ui.words.manual_values import (
     unit_name,
     value_words,
 )
+from carpus.ui.words.ranges import LOWER_BOUND
 
 FIELD_PX = {"angle": 84, "force": 84, "size": 104, "score": 104}
 CARPUS_COLUMN, OTHER_HAND_COLUMN, LAST_COLUMN = 4, 5, 6

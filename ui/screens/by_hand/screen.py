@@ -20,8 +20,10 @@ from carpus.core.measures.manual_measurements import (
     find_manual_measure,
 )
 from carpus.core.model.types import Side
+from carpus.core.records.values import Patient
 from carpus.core.results.manual_proposals import CellKey, find_measured_cells, propose_kapandji
 from carpus.core.results.measure import Measure
+from carpus.core.results.norms import GRIP_SOURCE, grip_norm_kg
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.manual_values import ManualValueChart
 from carpus.ui.kit import numbers
@@ -43,6 +45,7 @@ from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.screens.by_hand.change_rows import add_change_rows
 from carpus.ui.screens.by_hand.form import KapandjiChoice, ManualForm
 from carpus.ui.words import terms
+from carpus.ui.words.identity import to_person
 from carpus.ui.words.manual_values import find_changes, group_names, measure_name
 
 FINGER_MEASURES = {one.id for one in MEASURES if one.kind == "finger"}
@@ -59,6 +62,7 @@ class ManualRecord:
     values: tuple[ManualValue, ...]
     figures: tuple[SessionResults, ...]
     initials: str
+    patient: Patient | None = None
 
 
 class ManualMeasurementsScreen(FittedWidget):
@@ -247,7 +251,12 @@ class ManualMeasurementsScreen(FittedWidget):
         simulated = any(one.is_simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
         why = self.tr("The Carpus session of this day is simulated and not shown.") if simulated else ""
         zero = terms.thumb_up_words() if {"PRONATION", "SUPINATION"} & set(self.form.rows) else ""
-        self.basis_text.setText(" ".join(filter(None, (by, words, zero, why))))
+        grip, norm = "", grip_norm_kg(to_person(self.record.patient, self.current_day))
+        if norm is not None:
+            grip = self.tr("Grip of this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).")
+            mean, sd = (numbers.format_fixed(value, 1) for value in norm)
+            grip = grip.format(mean=mean, sd=sd, source=GRIP_SOURCE)
+        self.basis_text.setText(" ".join(filter(None, (by, words, zero, why, grip))))
 
     def _add_measure(self, _number: int) -> None:
         name = str(self.measure_choice.currentData())

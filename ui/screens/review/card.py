@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QBoxLayout, QLayout, QWidget
 
-from carpus.core.records.values import SessionEntry
+from carpus.core.records.values import Patient, SessionEntry
 from carpus.core.results.progress import find_other_hand, find_previous
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import find_partner
@@ -32,8 +32,9 @@ from carpus.ui.screens.review.reviewed_session import ReviewedSession
 from carpus.ui.words import terms
 from carpus.ui.words.active_passive import build_active_passive
 from carpus.ui.words.fingers import finger_table, limitation_words, main_result_words
+from carpus.ui.words.identity import to_person
 from carpus.ui.words.progress import correction_words
-from carpus.ui.words.ranges import range_table, repetition_words
+from carpus.ui.words.ranges import range_table, reference_words, repetition_words
 from carpus.ui.words.task_measures import task_table, task_title
 
 # The head of the table and two rows.
@@ -152,6 +153,8 @@ class ResultTables(ScrollArea):
     def __init__(self, theme: Theme) -> None:
         column = ScrolledColumn()
         super().__init__(column)
+        self.patient: Patient | None = None
+        """Whose age and sex choose the reference range."""
         self.range_table = Table(theme)
         self.hand_table = Table(theme, gap=10, pitch=1)
         self.task_title = Text(theme, "", 14, SEMIBOLD)
@@ -201,7 +204,9 @@ class ResultTables(ScrollArea):
             self.hand_table.show_rows(*finger_table(results, previous, other))
             self.limitations.setText(limitation_words(results))
         else:
-            self.range_table.show_rows(*range_table(results, previous, other))
+            person = to_person(self.patient, results.when.date())
+            self.range_table.show_rows(*range_table(results, previous, other, person=person))
+            self.range_table.setToolTip(reference_words(results, person))
         self.range_table.setVisible(not reviewed.is_hand and bool(self.range_table.rows))
         self._show_active_passive(reviewed)
         self._show_task_measures(results, previous, is_hand=reviewed.is_hand)

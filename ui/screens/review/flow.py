@@ -53,6 +53,7 @@ class ReviewFlow(Flow):
         may_repeat = now.source is None or not now.source.measuring.is_playback
         may_repeat &= bool(now.patient.patient_id)  # a file of nobody here has nobody to measure
         protocol = get_exercise(library.entry(session_id).exercise).protocol
+        self.screen.card.tables.patient = now.patient
         self.screen.load_session(
             now.patient.patient_id, session_id, may_repeat=may_repeat, whole_hand=protocol.has_fingers
         )
